@@ -41,7 +41,7 @@ from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
-    from assur import balance, events, examples, flywheel, importers, laws, metric
+    from assur import balance, events, examples, files, flywheel, importers, laws, metric
     from assur.dynamics.friction import JointFriction, SlideFriction
     from assur.dynamics.loads import (
         Body,
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
     from assur.dynamics.run import Run
     from assur.dynamics.steady import SteadyState
+    from assur.files.contents import load
     from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
@@ -120,9 +121,11 @@ __all__ = [
     "crank_rocker",
     "events",
     "examples",
+    "files",
     "flywheel",
     "importers",
     "laws",
+    "load",
     "metric",
     "slider_crank",
     "sweep",
@@ -132,7 +135,7 @@ __version__ = version()
 
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
-    "assur": ("balance", "events", "examples", "flywheel", "importers", "laws", "metric"),
+    "assur": ("balance", "events", "examples", "files", "flywheel", "importers", "laws", "metric"),
     "assur.dynamics.friction": ("JointFriction", "SlideFriction"),
     "assur.dynamics.loads": (
         "Body",
@@ -149,6 +152,7 @@ _LATER = {
     "assur.dynamics.motors": ("ConstantTorque", "InductionMotor", "LinearMotor"),
     "assur.dynamics.run": ("Run",),
     "assur.dynamics.steady": ("SteadyState",),
+    "assur.files.contents": ("load",),
     "assur.kinematics.curve.design_defects": ("Defect",),
     "assur.kinematics.loci.maps": ("DesignMap",),
     "assur.kinematics.loci.singular": ("SingularLocus", "Workspace"),

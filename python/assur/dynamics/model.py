@@ -20,6 +20,7 @@ from assur.flywheel.sizing import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from os import PathLike
 
     import numpy.typing as npt
     from typing_extensions import Self
@@ -177,6 +178,38 @@ class MachineModel:
             x, columns["moment"], columns["inertia"], spline, bool(periodic), *motors
         )
         return self
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the machine with its mechanism to a TOML file.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that exists is replaced. docs/files.md describes the format.
+
+        Raises
+        ------
+        InputError
+            A load or motor that is a function, a machine of a table, a file that cannot be written
+            (`assur.files.FileError`).
+
+        See Also
+        --------
+        assur.load : returns the machine, to the last bit.
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "press.toml"
+        >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> press.save(path)
+        >>> assur.load(path)
+        <assur.Machine I(crank) → II(rod, piston), 1 body, 0 loads>
+        """
+        import assur
+
+        # Through the package: files are a floor above.
+        assur.files.save(self, path)
 
     def __setattr__(self, name: str, value: object) -> None:
         # The core has copied everything: a change here would have no effect.

@@ -29,6 +29,7 @@ from assur.kinematics.pose import redrive
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
+    from os import PathLike
 
     from assur._core import Mechanism as Core
     from assur.description.encode import Description, DriverLike
@@ -1009,6 +1010,38 @@ class Mechanism:
         from assur.kinematics.loci.maps import design_map
 
         return design_map(self, of, dimensions, q)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the mechanism, or all designs of a batch, to a TOML file.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that exists is replaced. docs/files.md describes the format.
+
+        Raises
+        ------
+        InputError
+            A file that cannot be written (`assur.files.FileError`), a batch without designs, or
+            with more than a file holds.
+
+        See Also
+        --------
+        assur.load : returns the mechanism, to the last bit.
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "linkage.toml"
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"rocker.length": [2.4, 2.5]})
+        >>> m.save(path)
+        >>> assur.load(path) == m
+        True
+        """
+        import assur
+
+        # Through the package: files are a floor above.
+        assur.files.save(self, path)
 
     def plot(self, q: float | None = None, ax: Any = None, assembly: Assembly | None = None) -> Any:
         """Draw the mechanism at one position (needs matplotlib).

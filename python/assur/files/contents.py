@@ -1,0 +1,166 @@
+"""What a file holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from assur.errors import InputError
+from assur.files.node import Node
+from assur.files.read_machine import SECTIONS, read_machine
+from assur.files.read_mechanism import read_mechanism
+from assur.files.source import Source
+from assur.files.wanted import WANTED, read_wanted
+from assur.kinematics.solve import in_radians
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from os import PathLike
+
+    from assur.dynamics.machine import Machine
+    from assur.files.wanted import Result
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Contents", "load", "read"]
+
+FORMAT = 1
+KEYS = (
+    *("format", "driver", "joints", "links", "slides", "assembly", "dimensions", "drawn"),
+    *SECTIONS,
+    *WANTED,
+)
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a file holds.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The mechanism, or a batch of designs.
+    machine : Machine or None
+        The machine, if the file has bodies, loads, a motor or friction.
+    wanted : mapping of str to mapping
+        Results that the file asks for, by the name of the method (``"solve"``, ``"reactions"``,
+        ``"run"``, ``"steady_state"``, ``"flywheel"``): its arguments.
+    """
+
+    mechanism: Mechanism
+    machine: Machine | None = None
+    wanted: Mapping[str, Mapping[str, Any]] = field(default_factory=lambda: MappingProxyType({}))
+    _nodes: Mapping[str, Node] = field(
+        default_factory=lambda: MappingProxyType({}), repr=False, compare=False
+    )
+
+    def result(self, name: str) -> Any:
+        """Return a result that the file asks for.
+
+        Parameters
+        ----------
+        name : str
+            The name of the method, one of `wanted`.
+
+        Returns
+        -------
+        Motion, Reactions, Run, SteadyState or Flywheel
+            What the method returns.
+
+        Raises
+        ------
+        FileError
+            Arguments that the method refuses, at their section.
+        PositionError, MotionError
+            As the method does.
+        InputError
+            A result that the file does not ask for.
+        """
+        if name not in self.wanted:
+            known = ", ".join(self.wanted) or "none"
+            message = f"the file does not ask for {name!r}; it asks for: {known}"
+            raise InputError(message)
+        arguments = dict(self.wanted[name])
+        if name not in self._nodes:
+            return self._called(name, arguments)
+        with self._nodes[name].refusing():
+            return self._called(name, arguments)
+
+    def _called(self, name: str, arguments: dict[str, Any]) -> Any:
+        if "deg" in arguments and name != "solve":
+            arguments["q"] = in_radians(self.mechanism, None, arguments.pop("deg"))
+        return getattr(self.mechanism if name == "solve" else self.machine, name)(**arguments)
+
+
+def read(path: str | PathLike[str]) -> Contents:
+    """Return all that a file holds: mechanism, machine, and the results that it asks for.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file (docs/files.md).
+
+    Returns
+    -------
+    Contents
+
+    Raises
+    ------
+    FileError
+        A file that cannot be read, is not TOML, or does not describe a mechanism: with line,
+        column and key.
+    """
+    source = Source(path)
+    root = Node(source, (), source.data)
+    if "format" not in source.data:
+        raise root.missing("format", f": write format = {FORMAT} in the first line")
+    entries = root.keys(KEYS)
+    if entries["format"].whole() != FORMAT:
+        message = f"is {entries['format'].value}: this version of assur reads format {FORMAT}"
+        raise entries["format"].error(message)
+    mechanism = read_mechanism(root)
+    machine = read_machine(root, mechanism)
+    found: Mapping[str, Result] = read_wanted(root, mechanism, machine is not None)
+    return Contents(
+        mechanism,
+        machine,
+        MappingProxyType({name: one.arguments for name, one in found.items()}),
+        MappingProxyType({name: one.node for name, one in found.items()}),
+    )
+
+
+def load(path: str | PathLike[str]) -> Any:
+    """Return the mechanism of a file, or its machine if it has one.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file (docs/files.md), such as `Mechanism.save` and `Machine.save` write.
+
+    Returns
+    -------
+    Mechanism or Machine
+        The machine if the file has bodies, loads, a motor or friction; its ``.mechanism`` is the
+        mechanism. Everything has the same bits as what was saved.
+
+    Raises
+    ------
+    FileError
+        A file that cannot be read, is not TOML, or does not describe a mechanism: with line,
+        column and key. It is an `InputError`.
+
+    See Also
+    --------
+    assur.files.read : mechanism, machine, and the results that a file asks for.
+
+    Examples
+    --------
+    >>> import assur, pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "engine.toml"
+    >>> engine = assur.SliderCrank(crank=0.05, rod=0.2)
+    >>> engine.save(path)
+    >>> assur.load(path) == engine
+    True
+    """
+    contents = read(path)
+    return contents.mechanism if contents.machine is None else contents.machine

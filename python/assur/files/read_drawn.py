@@ -1,0 +1,104 @@
+"""Where a mechanism is drawn, if not in its drawing: an assembly that `assemblies` found."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.kinematics.assembly import SAME, AssemblyNumbers, Place
+from assur.kinematics.place import size_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from assur._arrays import Float
+    from assur.files.node import Node
+    from assur.kinematics.mechanism import Mechanism
+
+REQUIRED = ("q", "joints", "angles")
+OPTIONAL = ("signs", "class_angles", "slides", "is_double", "dimensions", "drawn")
+
+Sized = "Callable[[Mechanism, Node], Mechanism]"
+
+
+def drawn_at(mechanism: Mechanism, section: Node, with_dimensions: Any) -> Mechanism:
+    """Return the mechanism drawn where the section says."""
+    place = _place(mechanism, section, with_dimensions)
+    own = place.mechanism
+    with section.refusing():
+        core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
+    drawn = mechanism._drawn_at(place, core)
+    _check(own._drawn_at(place, core), place, section)
+    return drawn
+
+
+def _place(mechanism: Mechanism, section: Node, with_dimensions: Any) -> Place:
+    entries = section.keys((*REQUIRED, *OPTIONAL), required=REQUIRED)
+    design = mechanism
+    if "dimensions" in entries:
+        design = with_dimensions(mechanism, entries["dimensions"])
+    if design.shape:
+        message = "dimensions: the place of a batch needs those of one design"
+        raise section.error(message)
+    if "drawn" in entries:
+        design = drawn_at(design, entries["drawn"], with_dimensions)
+    q = np.atleast_1d(entries["q"].array())
+    if q.shape != (mechanism._driver_count,):
+        message = f"has {q.size} numbers: there are {mechanism._driver_count} drivers"
+        raise entries["q"].error(message)
+    core = mechanism._core
+    numbers: AssemblyNumbers = {
+        "signs": [int(x) for x in _named(section, "signs", [n for n, _ in core.assembly], _sign)],
+        "class_angles": _class_angles(entries),
+        "slides": _named(section, "slides", mechanism.slides, _number),
+        "joints": _named(section, "joints", mechanism._joint_names, _pair),
+        "angles": _named(section, "angles", mechanism.links, _number),
+        "is_double": entries["is_double"].flag() if "is_double" in entries else False,
+    }
+    return Place(design, tuple(q.tolist()), numbers)
+
+
+def _class_angles(entries: dict[str, Node]) -> list[float]:
+    if "class_angles" not in entries:
+        return []
+    return [node.number() for node in entries["class_angles"].entries()]
+
+
+def _number(node: Node) -> float:
+    return node.number()
+
+
+def _pair(node: Node) -> tuple[float, float]:
+    return node.pair()
+
+
+def _sign(node: Node) -> int:
+    if (sign := node.whole()) not in (1, -1):
+        raise node.error(f"is {sign}: it must be 1 or -1")
+    return sign
+
+
+def _named(section: Node, key: str, names: Iterable[str], read: Callable[[Node], Any]) -> list[Any]:
+    """Return the values of all names, in their order."""
+    names = list(names)
+    if key not in section.value:
+        if names:
+            raise section.missing(key)
+        return []
+    entries = section.table()[key].keys(names, required=names)
+    return [read(entries[name]) for name in names]
+
+
+def _check(drawn: Mechanism, place: Place, section: Node) -> None:
+    """Refuse a place in which the mechanism does not fit together."""
+    motion = drawn.solve(drawn.q0, order=0, on_error="nan")
+    wanted: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
+    there = np.array([motion.joint(name).value for name in drawn._joint_names]).reshape(-1, 2)
+    # The comparison is false of NaN.
+    if not bool((np.abs(there - wanted) <= SAME * size_of(drawn)).all()):
+        message = (
+            "does not fit the dimensions: leave it to save(), or leave it out, and draw the "
+            "mechanism in [joints]"
+        )
+        raise section.error(message)

@@ -1,0 +1,127 @@
+"""A file that has been read and parsed, and errors that say where in it."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from assur.files.errors import FileError
+from assur.files.lexer import line_and_column
+from assur.files.limits import MOST_BYTES, beyond_limits
+from assur.files.positions import key_positions
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+if TYPE_CHECKING:
+    from assur.errors import AssurError
+    from assur.files.positions import KeyPath
+
+__all__ = ["Source"]
+
+# How the parser ends its messages.
+PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
+# How messages of the package begin; in a file the key says it.
+SUBJECT = re.compile(r'(?:joint|link|slide|cylinder|driver|dimension) (["\'])(.+?)\1:? ')
+
+
+class Source:
+    """A TOML file: its data, and where each key is.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = os.fspath(path)
+        self.text = self._decoded(self._bytes())
+        self._positions: dict[KeyPath, int] | None = None
+        found = beyond_limits(self.text)
+        if found is not None:
+            at, message = found
+            raise self._at(*line_and_column(self.text, at), message)
+        self.data = self._parsed()
+
+    def _bytes(self) -> bytes:
+        try:
+            with Path(self.path).open("rb") as file:
+                raw = file.read(MOST_BYTES + 1)
+        except (OSError, ValueError) as error:
+            # A ValueError: a path with a NUL.
+            why = getattr(error, "strerror", None) or error
+            message = f"{self.path}: cannot be read: {why}"
+            raise FileError(message, path=self.path) from error
+        if len(raw) > MOST_BYTES:
+            message = f"{self.path}: is larger than {MOST_BYTES // 2**20} MiB, the limit of a file"
+            raise FileError(message, path=self.path)
+        return raw
+
+    def _decoded(self, raw: bytes) -> str:
+        raw = raw.removeprefix(b"\xef\xbb\xbf")  # which some editors write first
+        try:
+            # The parser takes a line end of Windows for one; a key is where it is in either.
+            return raw.decode("utf-8").replace("\r\n", "\n")
+        except UnicodeDecodeError as error:
+            before = raw[: error.start].decode("utf-8")
+            message = f"byte 0x{raw[error.start]:02x} is not UTF-8: save the file as UTF-8"
+            raise self._at(*line_and_column(before, len(before)), message) from error
+
+    def _parsed(self) -> dict[str, Any]:
+        try:
+            return tomllib.loads(self.text)
+        except ValueError as error:
+            message, place = str(error), PLACE.search(str(error))
+            line, column = line_and_column(self.text, len(self.text))
+            if place is not None:
+                message = message[: place.start()]
+                if place[1]:
+                    line, column = int(place[1]), int(place[2])
+            message = f"not TOML: {message[:1].lower()}{message[1:]}"
+            raise self._at(line, column, message) from error
+
+    def _at(self, line: int, column: int, message: str, key: str | None = None) -> FileError:
+        named = f"{key}: " if key else ""
+        message = f"{self.path}:{line}:{column}: {named}{message}"
+        return FileError(message, path=self.path, line=line, column=column, key=key)
+
+    def error(
+        self, path: KeyPath, message: str, cause: AssurError | None = None, **fields: Any
+    ) -> FileError:
+        """Return the error of a key, with the fields of its cause."""
+        if self._positions is None:
+            self._positions = key_positions(self.text)
+        known = path
+        while known and known not in self._positions:
+            known = known[:-1]
+        line, column = line_and_column(self.text, self._positions.get(known, 0))
+        error = self._at(line, column, message, shown(path))
+        for name, value in {**(cause.__dict__ if cause else {}), **fields}.items():
+            setattr(error, name, value)
+        return error
+
+    def error_of(self, path: KeyPath, cause: AssurError) -> FileError:
+        """Return an error of the package as that of a key."""
+        message = str(cause)
+        subject = SUBJECT.match(message)
+        if subject is not None and path and subject[2] == path[-1]:
+            message = message[subject.end() :]
+        return self.error(path, message, cause)
+
+
+def shown(path: KeyPath) -> str:
+    """Return a key as messages show it: links.crank, loads[0].at."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+            continue
+        is_plain = part.isprintable() and part and not set(part) & set(" .[]\"'")
+        text += ("." if text else "") + (part if is_plain else ascii(part))
+    return text

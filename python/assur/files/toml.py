@@ -1,0 +1,58 @@
+"""Values as TOML that reads back with the same bits, laid out as one would by hand."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+BARE = re.compile(r"[A-Za-z0-9_-]+")
+WIDTH = 88
+
+
+def key_text(name: str) -> str:
+    """Return a key, in quotes if it needs them."""
+    return name if BARE.fullmatch(name) else string(name)
+
+
+def string(text: str) -> str:
+    """Return a text in quotes. JSON has the escapes of TOML, but lets DEL pass."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def value_text(value: Any) -> str:
+    """Return a string, bool, number, list or table as TOML."""
+    if isinstance(value, str):
+        return string(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return repr(value)
+    if isinstance(value, Mapping):
+        entries = ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items())
+        return f"{{ {entries} }}" if entries else "{}"
+    return _list_text([value_text(entry) for entry in value])
+
+
+def _list_text(entries: list[str]) -> str:
+    """Return a list, on several lines if it is long: TOML allows that within inline tables too."""
+    if sum(len(entry) + 2 for entry in entries) <= WIDTH:
+        return f"[{', '.join(entries)}]"
+    lines, line = ["["], "   "
+    for entry in entries:
+        if len(line) + len(entry) + 2 > WIDTH and line.strip():
+            lines.append(line)
+            line = "   "
+        line += f" {entry},"
+    return "\n".join([*lines, line, "]"])
+
+
+def pair_text(key: str, value: Any) -> str:
+    """Return a line of a table."""
+    return f"{key} = {value_text(value)}"
+
+
+def table_text(header: str, entries: Iterable[tuple[str, Any]]) -> str:
+    """Return a section; keys are as they are to be written."""
+    return "\n".join(["", header, *(pair_text(key, value) for key, value in entries)])

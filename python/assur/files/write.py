@@ -1,0 +1,90 @@
+"""Write mechanisms and machines to files."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from assur._arrays import short
+from assur.errors import InputError
+from assur.files.contents import FORMAT, Contents
+from assur.files.errors import FileError
+from assur.files.limits import MOST_BYTES, MOST_ITEMS
+from assur.files.toml import pair_text
+from assur.files.write_machine import machine_sections, wanted_sections
+from assur.files.write_mechanism import driver_value, mechanism_sections
+from assur.kinematics.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from assur.dynamics.machine import Machine
+
+__all__ = ["save"]
+
+
+def save(what: Mechanism | Machine | Contents, path: str | os.PathLike[str]) -> None:
+    """Write a mechanism, a machine, or both with the results wanted, to a TOML file.
+
+    Parameters
+    ----------
+    what : Mechanism, Machine or Contents
+        What to save; `Mechanism.save` and `Machine.save` call this.
+    path : path-like
+        The file; one that exists is replaced.
+
+    Raises
+    ------
+    InputError
+        A load or motor that is a function, a machine of a table, a batch without designs, more
+        designs than a file holds.
+    FileError
+        A file that cannot be written.
+
+    Examples
+    --------
+    >>> import assur, pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "engine.toml"
+    >>> turn = {"deg": assur.files.Range(0.0, 360.0, step=1.0), "outputs": ["B"]}
+    >>> contents = assur.files.Contents(assur.SliderCrank(0.05, 0.2), wanted={"solve": turn})
+    >>> assur.files.save(contents, path)
+    >>> assur.files.read(path).result("solve").joint("B").value.shape
+    (361, 2)
+    """
+    raw = text_of(what).encode()
+    if len(raw) > MOST_BYTES:
+        message = (
+            f"the file would have {len(raw) / 2**20:.1f} MiB, of {MOST_BYTES // 2**20} that a file "
+            "may have: save fewer designs, or keep them with numpy.savez"
+        )
+        raise InputError(message)
+    name = os.fspath(path)
+    try:
+        Path(name).write_bytes(raw)
+    except (OSError, ValueError) as error:
+        message = f"{name}: cannot be written: {getattr(error, 'strerror', None) or error}"
+        raise FileError(message, path=name) from error
+
+
+def text_of(what: Any) -> str:
+    """Return the text of a file."""
+    wanted: Any = {}
+    if isinstance(what, Contents):
+        what, wanted = what.machine or what.mechanism, what.wanted
+    sections = []
+    if not isinstance(what, Mechanism):
+        if not hasattr(what, "bodies"):
+            message = f"{short(what)} is not a Mechanism, Machine or Contents"
+            raise InputError(message)
+        if what.mechanism is None:
+            message = "a machine of a table cannot be saved: keep its table in a file of its own"
+            raise InputError(message)
+        sections = machine_sections(what)
+        what = what.mechanism
+    own = what._description
+    for name, count in zip(("joints", "links", "slides"), map(len, own[:3]), strict=True):
+        if count > MOST_ITEMS:
+            message = f"the mechanism has {count} {name}: a file may have {MOST_ITEMS}"
+            raise InputError(message)
+    head = f"format = {FORMAT}\n{pair_text('driver', driver_value(what))}"
+    body = [*mechanism_sections(what), *sections, *wanted_sections(wanted)]
+    return "\n".join([head, *body, ""])

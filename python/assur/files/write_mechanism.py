@@ -1,0 +1,148 @@
+"""The mechanism of a file, as text: the drawing, and what differs from it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import short
+from assur.description import encode
+from assur.description.words import Cylinder, Drive
+from assur.errors import InputError
+from assur.files.limits import MOST_PARTS
+from assur.files.toml import key_text, table_text
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.description.encode import Description, DriverLike
+    from assur.kinematics.assembly import Place
+    from assur.kinematics.mechanism import Mechanism
+
+
+def driver_value(mechanism: Mechanism) -> Any:
+    """Return the driver as a value of a file."""
+    driver = mechanism.driver
+    if isinstance(driver, tuple):
+        return [_one_driver(one) for one in driver]
+    return _one_driver(driver)
+
+
+def _one_driver(driver: DriverLike) -> Any:
+    if isinstance(driver, Drive):
+        return {"link": driver.link, "relative_to": driver.relative_to}
+    return driver
+
+
+def mechanism_sections(mechanism: Mechanism) -> list[str]:
+    """Return the sections of a mechanism."""
+    own = mechanism._description
+    links, slides = with_cylinders(own)
+    sections = [
+        table_text("[joints]", [(key_text(name), (x, y)) for name, x, y in own.joints]),
+        table_text("[links]", [(key_text(name), on) for name, on in links]),
+    ]
+    if slides:
+        sections.append(table_text("[slides]", [(key_text(n), s) for n, s in slides]))
+    if own.assembly:
+        sections.append(table_text("[assembly]", [(key_text(n), s) for n, s in own.assembly]))
+    # The core of a mechanism that is drawn elsewhere has the drawing of that place.
+    core = mechanism._core if mechanism._place is None else encode.core_of(own)
+    drawing = np.array(core.drawing)
+    if mechanism.shape or mechanism._values.tobytes() != drawing.tobytes():
+        sections.append(_dimensions("[dimensions]", mechanism))
+    if mechanism._place is not None:
+        sections += _drawn("drawn", mechanism, mechanism._place)
+    return sections
+
+
+def with_cylinders(
+    own: Description,
+) -> tuple[list[tuple[str, tuple[str, ...]]], list[tuple[str, dict[str, Any]]]]:
+    """Return links and slides, each slide between two links of its own as a cylinder."""
+    links, slides = dict(own.links), []
+    cylinders: list[tuple[str, tuple[str, ...]]] = []
+    for name, slide in own.slides:
+        barrel, rod = links.get(slide.on, ()), links.get(slide.link, ())
+        short_form: dict[str, Any] | None = None
+        if len(barrel) == len(rod) == 1 and slide.origin == barrel[0] and barrel != rod:
+            names = (slide.on, slide.link)
+            given = [
+                None if link == f"{name}_{part}" else link
+                for link, part in zip(names, ("barrel", "rod"), strict=True)
+            ]
+            one = Cylinder(barrel[0], rod[0], *given)
+            short_form = _same_cylinder(name, one, own, slide)
+        if short_form is None:
+            slides.append((name, _present(slide, ("link", "on", "angle", "origin"))))
+        else:
+            slides.append((name, short_form))
+            cylinders += [(slide.on, barrel), (slide.link, rod)]
+    # A cylinder adds its links at the end; elsewhere they are written as links.
+    rest = own.links[: len(own.links) - len(cylinders)]
+    if (*rest, *cylinders) == own.links:
+        return list(rest), slides
+    plain = [(n, _present(s, ("link", "on", "angle", "origin"))) for n, s in own.slides]
+    return list(own.links), plain
+
+
+def _same_cylinder(name: str, one: Cylinder, own: Description, slide: Any) -> dict[str, Any] | None:
+    """Return a cylinder as a table, if it makes the same slide to the last bit."""
+    try:
+        made, _ = encode.cylinder(name, one, own.joints)
+    except InputError:
+        return None
+    same = made == slide and repr(made.angle) == repr(slide.angle)
+    return _present(one, ("base", "end", "barrel", "rod")) if same else None
+
+
+def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
+    """Return the attributes that are not None."""
+    given = {name: getattr(thing, name) for name in names}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def _dimensions(header: str, mechanism: Mechanism) -> str:
+    """Return all dimensions; of a batch, lists of those that differ."""
+    names, values = mechanism._core.dimension_names, mechanism._values
+    if values.size == 0 and names:
+        message = f"a batch {mechanism.shape} without designs cannot be saved"
+        raise InputError(message)
+    own = [_same_or_all(one) for one in values]
+    if mechanism.shape and not any(isinstance(one, list) for one in own):
+        own = values.tolist()
+    dotted = (".".join(map(key_text, name.split("."))) for name in names)
+    return table_text(header, zip(dotted, own, strict=True))
+
+
+def _same_or_all(values: Float) -> Any:
+    """Return one number if all designs have it, to the bit; otherwise lists."""
+    first = values.flat[0]
+    is_one = values.tobytes() == np.full(values.shape, first).tobytes() and np.isfinite(first)
+    return float(first) if is_one else values.tolist()
+
+
+def _drawn(name: str, mechanism: Mechanism, place: Place) -> list[str]:
+    """Return where an assembly was found, by the names of joints, links and slides."""
+    if name.count(".") + 2 >= MOST_PARTS:
+        message = "too many assemblies, each found from the one before: with_assembly() once, of "
+        message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
+        raise InputError(message)
+    own, numbers = place.mechanism, place.numbers
+    signs = dict(zip((n for n, _ in own._core.assembly), numbers["signs"], strict=True))
+    entries: dict[str, Any] = {
+        "q": list(place.q),
+        "is_double": numbers["is_double"],
+        "signs": signs,
+        "class_angles": numbers["class_angles"],
+        "slides": dict(zip(own.slides, numbers["slides"], strict=True)),
+        "joints": dict(zip(own._joint_names, numbers["joints"], strict=True)),
+        "angles": dict(zip(own.links, numbers["angles"], strict=True)),
+    }
+    given = [(k, v) for k, v in entries.items() if v or k in ("q", "joints", "angles")]
+    sections = [table_text(f"[{name}]", given)]
+    if own._values.tobytes() != mechanism._values.tobytes():
+        sections.append(_dimensions(f"[{name}.dimensions]", own))
+    if own._place is not None:
+        sections += _drawn(f"{name}.drawn", own, own._place)
+    return sections
