@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING, TypeAlias
 
 from assur.files.lexer import Token, tokens
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
+from assur.files.parser import loads
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,8 +28,7 @@ class _Reader:
         # Number of tables in each array of tables.
         self.counts: dict[KeyPath, int] = {}
         self.rest: Iterator[Token] = (t for t in tokens(text) if t.kind != "comment")
-        self.token: Token | None = None
-        self.advance()
+        self.token: Token | None = next(self.rest, None)
         table: KeyPath = ()
         while self.token is not None:
             if self.token.kind == "newline":
@@ -81,7 +75,7 @@ class _Reader:
             kind, start, end = self.advance()
             if kind != ".":
                 raw = self.text[start:end]
-                parts.append((raw if kind == "word" else tomllib.loads(f"k={raw}")["k"], start))
+                parts.append((raw if kind == "word" else loads(f"k={raw}")["k"], start))
         return parts
 
     def pair(self, table: KeyPath) -> None:

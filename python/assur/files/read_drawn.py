@@ -19,12 +19,20 @@ if TYPE_CHECKING:
 REQUIRED = ("q", "joints", "angles")
 OPTIONAL = ("signs", "class_angles", "slides", "is_double", "dimensions", "drawn")
 
-Sized = "Callable[[Mechanism, Node], Mechanism]"
 
+def drawn_at(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechanism]) -> Mechanism:
+    """Return the mechanism drawn where the section says.
 
-def drawn_at(mechanism: Mechanism, section: Node, with_dimensions: Any) -> Mechanism:
-    """Return the mechanism drawn where the section says."""
-    place = _place(mechanism, section, with_dimensions)
+    Parameters
+    ----------
+    mechanism : Mechanism
+        As in its drawing, with its dimensions.
+    section : Node
+        The section "drawn".
+    sized : callable
+        Gives the mechanism with the dimensions of a section.
+    """
+    place = _place(mechanism, section, sized)
     own = place.mechanism
     with section.refusing():
         core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
@@ -33,16 +41,15 @@ def drawn_at(mechanism: Mechanism, section: Node, with_dimensions: Any) -> Mecha
     return drawn
 
 
-def _place(mechanism: Mechanism, section: Node, with_dimensions: Any) -> Place:
+def _place(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechanism]) -> Place:
     entries = section.keys((*REQUIRED, *OPTIONAL), required=REQUIRED)
     design = mechanism
     if "dimensions" in entries:
-        design = with_dimensions(mechanism, entries["dimensions"])
+        design = sized(entries["dimensions"])
     if design.shape:
-        message = "dimensions: the place of a batch needs those of one design"
-        raise section.error(message)
+        raise section.missing("dimensions", ": a batch is drawn at a place of one design")
     if "drawn" in entries:
-        design = drawn_at(design, entries["drawn"], with_dimensions)
+        design = drawn_at(design, entries["drawn"], sized)
     q = np.atleast_1d(entries["q"].array())
     if q.shape != (mechanism._driver_count,):
         message = f"has {q.size} numbers: there are {mechanism._driver_count} drivers"

@@ -8,6 +8,7 @@ from assur.dynamics.friction import JointFriction, SlideFriction
 from assur.dynamics.loads import Body
 from assur.dynamics.machine import Machine
 from assur.errors import AssurError
+from assur.files.limits import MOST_ITEMS
 from assur.files.parts import BODY, FRICTIONS, LOADS, MOTORS, build
 
 if TYPE_CHECKING:
@@ -34,6 +35,9 @@ def read_machine(root: Node, mechanism: Mechanism) -> Machine | None:
         parts["bodies"] = {link: build(Body, BODY, node) for link, node in bodies.items()}
     if "loads" in sections:
         loads = sections["loads"].entries("a list, [[loads]],")
+        if len(loads) > MOST_ITEMS:
+            message = f"has {len(loads)} entries: a file may have {MOST_ITEMS}"
+            raise sections["loads"].error(message)
         parts["loads"] = [_typed(node, LOADS) for node in loads]
     if "motor" in sections:
         parts["motor"] = _motors(sections["motor"])

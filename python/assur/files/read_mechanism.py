@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from assur.description.words import Cylinder, Drive, Slide
 from assur.files.limits import MOST_ITEMS
+from assur.files.locate import key_of
 from assur.files.read_drawn import drawn_at
 from assur.kinematics.mechanism import Mechanism
 
@@ -35,13 +36,14 @@ def read_mechanism(root: Node) -> Mechanism:
     if "assembly" in sections:
         assembly = {name: _sign(node) for name, node in sections["assembly"].table().items()}
     driver = read_driver(sections["driver"])
-    with root.refusing(lambda error: key_of(error, root, sections)):
+    with root.refusing(lambda error: key_of(error, root.value)):
         mechanism = Mechanism(joints, links, driver, slides, assembly)
+    sized = mechanism
     if "dimensions" in sections:
-        mechanism = with_dimensions(mechanism, sections["dimensions"])
+        sized = with_dimensions(mechanism, sections["dimensions"])
     if "drawn" in sections:
-        mechanism = drawn_at(mechanism, sections["drawn"], with_dimensions)
-    return mechanism
+        return drawn_at(sized, sections["drawn"], lambda node: with_dimensions(mechanism, node))
+    return sized
 
 
 def _items(section: Node) -> list[tuple[str, Node]]:
@@ -111,61 +113,3 @@ def _flatten(prefix: str, node: Node, into: dict[str, Node]) -> None:
             raise one.error(f"dimension {name!r} is given twice")
         else:
             into[name] = one
-
-
-# -- where an error of the constructor belongs ---------------------------------------------------
-
-
-def key_of(error: AssurError, root: Node, sections: dict[str, Node]) -> KeyPath:
-    """Return the key that an error of the constructor is about."""
-    names = [n for n in (error.joint, error.link, error.slide, error.driver) if n is not None]
-    tables = {
-        what: sections[what].value
-        for what in ("joints", "links", "slides", "assembly")
-        if what in sections
-    }
-    if error.kind == "bad_sign" and error.joint in tables.get("assembly", {}):
-        return ("assembly", str(error.joint))
-    for path, name, kinds in references(root.value):
-        if name in names and not any(name in tables.get(kind, {}) for kind in kinds):
-            return path
-    order = (
-        ("slides", error.slide),
-        ("links", error.link),
-        ("joints", error.joint),
-        ("slides", error.link),
-        *((what, name) for name in names for what in ("links", "slides", "joints", "assembly")),
-    )
-    for what, name in order:
-        if name is not None and name in tables.get(what, {}):
-            return (what, name)
-    for cylinder, slide in tables.get("slides", {}).items():
-        own = {slide.get("barrel", f"{cylinder}_barrel"), slide.get("rod", f"{cylinder}_rod")}
-        if own & set(names):
-            return ("slides", cylinder)
-    return ("driver",) if error.driver is not None else ("links",)
-
-
-def references(data: dict[str, Any]) -> list[tuple[KeyPath, str, tuple[str, ...]]]:
-    """Return every name that refers to something: its key, and in which sections it should be."""
-    found: list[tuple[KeyPath, str, tuple[str, ...]]] = []
-    for link, joints in data["links"].items():
-        found += [(("links", link, i), joint, ("joints",)) for i, joint in enumerate(joints)]
-    made: set[str] = set()
-    for name, slide in data.get("slides", {}).items():
-        kinds = {"origin": "joints", "base": "joints", "end": "joints"}
-        made |= (
-            {slide.get(p, f"{name}_{p}") for p in ("barrel", "rod")} if "base" in slide else set()
-        )
-        for key, value in slide.items():
-            if key not in ("angle", "barrel", "rod"):
-                found.append((("slides", name, key), value, (kinds.get(key, "links"),)))
-    drivers = data["driver"] if isinstance(data["driver"], list) else [data["driver"]]
-    for i, driver in enumerate(drivers):
-        path: KeyPath = ("driver", i) if isinstance(data["driver"], list) else ("driver",)
-        if isinstance(driver, dict):
-            found += [((*path, key), value, ("links",)) for key, value in driver.items()]
-        else:
-            found.append((path, driver, ("links", "slides")))
-    # The links of cylinders are in no section.
-    return [one for one in found if one[1] not in made]

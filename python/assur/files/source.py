@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assur.files.errors import FileError
 from assur.files.lexer import line_and_column
 from assur.files.limits import MOST_BYTES, beyond_limits
+from assur.files.parser import loads
 from assur.files.positions import key_positions
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
 
 if TYPE_CHECKING:
     from assur.errors import AssurError
@@ -75,7 +70,7 @@ class Source:
 
     def _parsed(self) -> dict[str, Any]:
         try:
-            return tomllib.loads(self.text)
+            return loads(self.text)
         except ValueError as error:
             message, place = str(error), PLACE.search(str(error))
             line, column = line_and_column(self.text, len(self.text))

@@ -83,7 +83,8 @@ class Range:
         """Return the coordinates: (N,), or (N, n) of n drivers."""
         if self.count is not None:
             return np.linspace(self.start, self.stop, self.count, endpoint=self.endpoint)
-        return np.asarray(self.start + np.arange(self._size()) * self.step)
+        steps: Any = np.arange(self._size())
+        return np.asarray(self.start + steps * self.step)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Float:
         return np.asarray(self.values(), dtype)

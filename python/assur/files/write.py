@@ -17,12 +17,12 @@ from assur.files.write_mechanism import driver_value, mechanism_sections
 from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 __all__ = ["save"]
 
 
-def save(what: Mechanism | Machine | Contents, path: str | os.PathLike[str]) -> None:
+def save(what: Mechanism | MachineModel | Contents, path: str | os.PathLike[str]) -> None:
     """Write a mechanism, a machine, or both with the results wanted, to a TOML file.
 
     Parameters

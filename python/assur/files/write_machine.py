@@ -17,12 +17,11 @@ from assur.files.wanted import RANGE, WANTED, Range
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from assur.dynamics.machine import Machine
     from assur.dynamics.model import MachineModel
     from assur.dynamics.motors import Motor
 
 
-def machine_sections(machine: Machine | MachineModel) -> list[str]:
+def machine_sections(machine: MachineModel) -> list[str]:
     """Return the sections of a machine."""
     bodies = [(key_text(link), part(b, f"bodies[{link!r}]")) for link, b in machine.bodies.items()]
     sections = [table_text("[bodies]", bodies)]
