@@ -40,6 +40,8 @@ def key_of(error: AssurError, data: dict[str, Any]) -> KeyPath:
         is_known = name in made or any(name in given[section] for section in sections)
         if name in names and not is_known:
             return path
+    if error.kind == "unknown" and names and names[0] in data.get("assembly", {}):
+        return ("assembly", names[0])  # a joint, but not an inner one
     if error.driver is not None:
         return ("driver",)
     own = (("slides", error.slide), ("links", error.link), ("joints", error.joint))
@@ -67,6 +69,8 @@ def _references(data: dict[str, Any]) -> Iterator[tuple[KeyPath, str, tuple[str,
         for key, section in SLIDE_WORDS.items():
             if key in slide:
                 yield ("slides", name, key), slide[key], (section,)
+    for name in data.get("assembly", {}):
+        yield ("assembly", name), name, ("joints", "slides")
     driver = data["driver"]
     for i, one in enumerate(driver if isinstance(driver, list) else [driver]):
         path: KeyPath = ("driver", i) if isinstance(driver, list) else ("driver",)

@@ -95,19 +95,13 @@ class Node:
 
     def number(self) -> float:
         """Return a finite number."""
-        number = self._number()
+        if isinstance(self.value, bool) or not isinstance(self.value, int | float):
+            raise self.wrong("a number")
+        number = float(self.value)
         if not math.isfinite(number):
             message = f"is {described(number)}: a finite number is needed"
             raise self.error(message, value=number)
         return number
-
-    def _number(self) -> float:
-        if isinstance(self.value, bool) or not isinstance(self.value, int | float):
-            raise self.wrong("a number")
-        try:
-            return float(self.value)
-        except OverflowError:
-            return math.inf
 
     def whole(self) -> int:
         """Return a whole number."""
@@ -143,10 +137,8 @@ class Node:
         try:
             return real_array(self.value, "it")
         except InputError as error:
-            # All entries are numbers, so the shape is wrong, or a whole number is too large.
-            is_flat = not any(isinstance(entry, list) for entry in self.value)
-            why = "a number is too large" if is_flat else "its lists have different lengths"
-            message = f"{why}: a list of numbers, or lists of equal length, is needed"
+            # All entries are numbers, so it is the shape.
+            message = "its lists have different lengths: one number for each design is needed"
             raise self.error(message) from error
 
     def _check_numbers(self, finite: bool) -> None:
@@ -155,10 +147,8 @@ class Node:
         for node in self.entries():
             if isinstance(node.value, list):
                 node._check_numbers(finite)
-            elif finite:
+            elif finite or not isinstance(node.value, float):
                 node.number()
-            else:
-                node._number()
 
 
 def all_finite(values: list[float]) -> bool:
