@@ -50,6 +50,9 @@ def _typed(thing: Any, what: str) -> dict[str, Any]:
 
 def part(thing: Any, what: str) -> dict[str, Any]:
     """Return what a part was given, without what it has by default."""
+    if type(thing) not in PARTS:
+        message = f"{what} is of a class that a file cannot hold"
+        raise InputError(message)
     parameters = inspect.signature(type(thing)).parameters
     given = {}
     for name in PARTS[type(thing)]:

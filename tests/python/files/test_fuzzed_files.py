@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 GOOD = [*BY_HAND.values(), *saved().values()]
 GOOD.append(saved()["everything"] + WANTED)
-BLOCKS, EACH = 20, 50
+BLOCKS, EACH = 10, 100
 # What one may write in place of something else.
 OTHERS = (
     *(

@@ -101,6 +101,14 @@ def test_functions_are_refused(parts: Any, what: str, tmp_path: Path) -> None:
     assert not (tmp_path / "m.toml").exists()
 
 
+def test_other_classes_are_refused(tmp_path: Path) -> None:
+    class Weight(assur.Gravity):
+        pass
+
+    with pytest.raises(assur.InputError, match=r"loads\[0\], the Weight is of a class"):
+        assur.Machine(four_bar(), loads=[Weight()]).save(tmp_path / "m.toml")
+
+
 def test_a_machine_of_a_table_is_refused(tmp_path: Path) -> None:
     phi = np.linspace(0.0, math.tau, 9)
     machine = assur.Machine.from_table(phi, np.sin(phi), 2.0)
