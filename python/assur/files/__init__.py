@@ -8,7 +8,7 @@ from pathlib import Path
 
 from assur.files.contents import Contents, load, read
 from assur.files.errors import FileError
-from assur.files.wanted import Range
+from assur.files.ranges import Range
 from assur.files.write import save
 
 __all__ = ["SCHEMA", "Contents", "FileError", "Range", "load", "read", "save"]

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from assur._validate import one_of
 from assur.errors import InputError
 from assur.files.node import Node
 from assur.files.read_machine import SECTIONS, read_machine
@@ -53,6 +54,16 @@ class Contents:
     _nodes: Mapping[str, Node] = field(
         default_factory=lambda: MappingProxyType({}), repr=False, compare=False
     )
+
+    def __post_init__(self) -> None:
+        if self.machine is not None and self.machine.mechanism != self.mechanism:
+            message = "mechanism is not that of the machine"
+            raise InputError(message)
+        for name in self.wanted:
+            one_of(name, tuple(WANTED), "wanted")
+            if name != "solve" and self.machine is None:
+                message = f"wanted: {name!r} needs a machine"
+                raise InputError(message)
 
     def result(self, name: str) -> Any:
         """Return a result that the file asks for.

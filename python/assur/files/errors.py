@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
+from assur._arrays import short
 from assur.errors import InputError
 
 __all__ = ["FileError"]
@@ -48,3 +50,12 @@ class FileError(InputError):
         self.line = line
         self.column = column
         self.key = key
+
+
+def file_name(path: Any) -> str:
+    """Return the name of a file."""
+    try:
+        return os.fsdecode(path)
+    except TypeError as error:
+        message = f"path is {short(path)}: the name of a file is needed"
+        raise InputError(message) from error

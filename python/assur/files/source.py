@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from assur.files.errors import FileError
+from assur.files.errors import FileError, file_name
 from assur.files.lexer import line_and_column
 from assur.files.limits import MOST_BYTES, beyond_limits
 from assur.files.parser import loads
 from assur.files.positions import key_positions
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     from assur.errors import AssurError
     from assur.files.positions import KeyPath
 
@@ -34,8 +35,8 @@ class Source:
         The file.
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = os.fspath(path)
+    def __init__(self, path: str | PathLike[str]) -> None:
+        self.path = file_name(path)
         self.text = self._decoded(self._bytes())
         self._positions: dict[KeyPath, int] | None = None
         found = beyond_limits(self.text)

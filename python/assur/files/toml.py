@@ -27,8 +27,10 @@ def value_text(value: Any) -> str:
         return string(value)
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int | float):
-        return repr(value)
+    if isinstance(value, int):
+        return repr(int(value))
+    if isinstance(value, float):
+        return repr(float(value))  # NumPy's own repr names its type
     if isinstance(value, Mapping):
         entries = ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items())
         return f"{{ {entries} }}" if entries else "{}"

@@ -2,92 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from assur._validate import checked_order
-from assur.errors import InputError
-from assur.files.limits import MOST_POSITIONS
 from assur.files.node import Node
+from assur.files.ranges import Range
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
-
-# A last step of a range that misses its end by so much of a step is not left out.
-ROUNDING = 1e-9
-
-
-@dataclass(frozen=True)
-class Range:
-    """Evenly spaced coordinates; an argument wherever an array is one.
-
-    Parameters
-    ----------
-    start, stop : float or tuple of float
-        The ends, both included; with several drivers one number for each.
-    step : float, optional
-        The distance of two coordinates (one driver). Give either this or:
-    count : int, optional
-        How many they are.
-    endpoint : bool
-        With `count`: whether `stop` is one of them.
-
-    Examples
-    --------
-    >>> import assur
-    >>> assur.files.Range(0.0, 90.0, step=30.0).values()
-    array([ 0., 30., 60., 90.])
-    >>> assur.files.Range(0.0, 360.0, count=4, endpoint=False).values()
-    array([  0.,  90., 180., 270.])
-    """
-
-    start: float | tuple[float, ...]
-    stop: float | tuple[float, ...]
-    step: float | None = None
-    count: int | None = None
-    endpoint: bool = True
-
-    def __post_init__(self) -> None:
-        if (self.step is None) == (self.count is None):
-            message = "a range needs either step or count"
-            raise InputError(message)
-        if np.shape(self.start) != np.shape(self.stop):
-            message = "a range needs as many numbers for start as for stop"
-            raise InputError(message)
-        if self.step is not None and (np.shape(self.start) or not self.endpoint):
-            message = "a range with several drivers, or without its end, needs count, not step"
-            raise InputError(message)
-        if not 1 <= self._size() <= MOST_POSITIONS:
-            message = (
-                f"a range must have from 1 to {MOST_POSITIONS} positions: its step must lead from "
-                "start to stop"
-            )
-            raise InputError(message)
-
-    def _size(self) -> float:
-        if self.count is not None:
-            return self.count
-        assert self.step is not None
-        length = float(self.stop) - float(self.start)  # type: ignore[arg-type]
-        steps = length / self.step if self.step else math.inf
-        return math.floor(steps + ROUNDING) + 1 if 0.0 <= steps < MOST_POSITIONS else math.inf
-
-    def values(self) -> Float:
-        """Return the coordinates: (N,), or (N, n) of n drivers."""
-        if self.count is not None:
-            return np.linspace(self.start, self.stop, self.count, endpoint=self.endpoint)
-        steps: Any = np.arange(self._size())
-        return np.asarray(self.start + steps * self.step)
-
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Float:
-        return np.asarray(self.values(), dtype)
 
 
 class Result(NamedTuple):

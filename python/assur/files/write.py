@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assur._arrays import short
 from assur.errors import InputError
 from assur.files.contents import FORMAT, Contents
-from assur.files.errors import FileError
+from assur.files.errors import FileError, file_name
 from assur.files.limits import MOST_BYTES, MOST_ITEMS
 from assur.files.toml import pair_text
 from assur.files.write_machine import machine_sections, wanted_sections
@@ -17,12 +16,14 @@ from assur.files.write_mechanism import driver_value, mechanism_sections
 from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     from assur.dynamics.model import MachineModel
 
 __all__ = ["save"]
 
 
-def save(what: Mechanism | MachineModel | Contents, path: str | os.PathLike[str]) -> None:
+def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -> None:
     """Write a mechanism, a machine, or both with the results wanted, to a TOML file.
 
     Parameters
@@ -57,7 +58,7 @@ def save(what: Mechanism | MachineModel | Contents, path: str | os.PathLike[str]
             "may have: save fewer designs, or keep them with numpy.savez"
         )
         raise InputError(message)
-    name = os.fspath(path)
+    name = file_name(path)
     try:
         Path(name).write_bytes(raw)
     except (OSError, ValueError) as error:

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import finite_array
 from assur.dynamics.table import Table
 from assur.errors import InputError
 from assur.files.parts import PARTS, ROWS
+from assur.files.ranges import Range
 from assur.files.read_machine import NO_MOTOR
 from assur.files.toml import key_text, table_text
-from assur.files.wanted import RANGE, WANTED, Range
+from assur.files.wanted import RANGE, WANTED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -80,20 +82,25 @@ def wanted_sections(wanted: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """Return the sections of results that a file asks for."""
     sections = []
     for name, arguments in wanted.items():
-        unknown = [key for key in arguments if key not in WANTED.get(name, {})]
-        if name not in WANTED or unknown:
-            what = f"{name}: {unknown[0]}" if name in WANTED else name
-            message = f"wanted: a file cannot ask for {what!r}"
+        unknown = [key for key in arguments if key not in WANTED[name]]
+        if unknown:
+            message = f"wanted: a file has no {unknown[0]!r} of {name!r}"
             raise InputError(message)
-        entries = [(key, _argument(value)) for key, value in arguments.items()]
+        entries = [(key, _argument(value, f"{name}: {key}")) for key, value in arguments.items()]
         sections.append(table_text(f"[{name}]", entries))
     return sections
 
 
-def _argument(value: Any) -> Any:
+def _argument(value: Any, what: str) -> Any:
     if isinstance(value, Range):
         given = {name: getattr(value, name) for name in RANGE}
         if value.endpoint:
-            del given["endpoint"]
-        return {name: one for name, one in given.items() if one is not None}
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+            given["endpoint"] = None
+        return {k: _argument(one, f"{what}.{k}") for k, one in given.items() if one is not None}
+    if isinstance(value, str | bool):
+        return value
+    if isinstance(value, list | tuple) and all(isinstance(one, str) for one in value):
+        return value
+    plain = finite_array(value, what).tolist()
+    # Whole numbers stay whole: max_steps.
+    return int(value) if isinstance(value, int) else plain

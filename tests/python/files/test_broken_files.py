@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -177,6 +177,13 @@ def test_files_that_cannot_be_read(name: str, tmp_path: Path) -> None:
     with pytest.raises(assur.files.FileError, match="cannot be read") as caught:
         assur.load(path)
     assert (caught.value.path, caught.value.line, caught.value.key) == (path, None, None)
+
+
+@pytest.mark.parametrize("path", [3, None, ["m.toml"], 1.5])
+def test_paths_that_are_no_names(path: Any) -> None:
+    for ask in (assur.load, assur.files.read, assur.FourBar(1.0, 3.0, 2.5, 3.0).save):
+        with pytest.raises(assur.InputError, match="the name of a file is needed"):
+            ask(path)
 
 
 def test_a_drawn_place_that_does_not_fit(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import pytest
@@ -130,6 +130,12 @@ def test_ranges(given: Range, values: Any) -> None:
         {"start": 0.0, "stop": (1.0, 2.0), "count": 3},
         {"start": (0.0, 1.0), "stop": (1.0, 2.0), "step": 0.1},
         {"start": 0.0, "stop": 1.0, "step": 0.1, "endpoint": False},
+        {"start": math.nan, "stop": 1.0, "count": 3},
+        {"start": 0.0, "stop": [[1.0]], "count": 3},
+        {"start": 0.0, "stop": 1.0, "count": 2.5},
+        {"start": 0.0, "stop": 1.0, "step": math.inf},
+        {"start": -1e308, "stop": 1e308, "step": 1e302},
+        {"start": (0.0, -1e308), "stop": (1.0, 1e308), "count": 3},
     ],
     ids=str,
 )
@@ -139,12 +145,31 @@ def test_ranges_that_are_refused(given: dict[str, Any]) -> None:
 
 
 def test_what_a_file_cannot_ask_for(tmp_path: Path) -> None:
-    unknown: list[dict[str, dict[str, Any]]]
-    unknown = [{"effort": {}}, {"solve": {"q": 0.0, "threads": 2}}]
-    for wanted in unknown:
-        contents = Contents(four_bar(), wanted=wanted)
-        with pytest.raises(assur.InputError, match="cannot ask for"):
+    for name, words in {"effort": "one of 'solve'", "run": "needs a machine"}.items():
+        with pytest.raises(assur.InputError, match=words):
+            Contents(four_bar(), wanted={name: {}})
+    with pytest.raises(assur.InputError, match="not that of the machine"):
+        Contents(four_bar(), machine())
+    wrong: dict[str, Any] = {"threads": 2, "q": math.nan, "deg": object(), "order": None}
+    for key, value in wrong.items():
+        contents = Contents(four_bar(), wanted={"solve": {key: value}})
+        with pytest.raises(assur.InputError, match=key):
             assur.files.save(contents, tmp_path / "m.toml")
+
+
+def test_arguments_of_numpy(tmp_path: Path) -> None:
+    start, stop, count = np.float64(0.1), np.float64(0.5), cast("int", np.int64(3))
+    wanted: dict[str, Any] = {
+        "solve": {"deg": Range(start, stop, count=count), "order": 1, "outputs": ("C",)},
+        "run": {"t_end": np.float64(0.1), "max_steps": 7, "atol": (1e-9, np.float64(1e-9))},
+        "reactions": {"q": np.array([0.1, 0.2]), "sense": np.int64(1)},
+    }
+    own = assur.Machine(four_bar(), {"crank": assur.Body(inertia=1.0)})
+    assur.files.save(Contents(own.mechanism, own, wanted), tmp_path / "m.toml")  # type: ignore[arg-type]
+    after = assur.files.read(tmp_path / "m.toml")
+    assert after.wanted["solve"]["deg"] == Range(0.1, 0.5, count=3)
+    assert after.wanted["run"] == {"t_end": 0.1, "max_steps": 7, "atol": (1e-9, 1e-9)}
+    assert after.result("solve").joint("C").value.shape == (3, 2)
 
 
 def test_motors_of_files_drive(tmp_path: Path) -> None:
