@@ -46,6 +46,14 @@ class Contents:
     wanted : mapping of str to mapping
         Results that the file asks for, by the name of the method (``"solve"``, ``"reactions"``,
         ``"run"``, ``"steady_state"``, ``"flywheel"``): its arguments.
+
+    Examples
+    --------
+    >>> import assur
+    >>> engine = assur.SliderCrank(0.05, 0.2)
+    >>> contents = assur.files.Contents(engine, wanted={"solve": {"q": [0.0, 1.0], "order": 0}})
+    >>> contents.result("solve").slide("bore").value.round(6)                # m
+    array([0.25   , 0.22254])
     """
 
     mechanism: Mechanism
@@ -86,6 +94,13 @@ class Contents:
             As the method does.
         InputError
             A result that the file does not ask for.
+
+        Examples
+        --------
+        >>> import assur
+        >>> contents = assur.files.Contents(assur.SliderCrank(1.0, 3.0), None, {"solve": {"deg": 0}})
+        >>> float(contents.result("solve").slide("bore").value)              # m
+        4.0
         """
         if name not in self.wanted:
             known = ", ".join(self.wanted) or "none"
@@ -120,6 +135,16 @@ def read(path: str | PathLike[str]) -> Contents:
     FileError
         A file that cannot be read, is not TOML, or does not describe a mechanism: with line,
         column and key.
+
+    Examples
+    --------
+    >>> import assur, pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "engine.toml")
+    ...     assur.SliderCrank(0.05, 0.2).save(path)
+    ...     contents = assur.files.read(path)
+    >>> contents.mechanism, contents.machine, dict(contents.wanted)
+    (<assur.Mechanism I(crank) → II(rod, piston)>, None, {})
     """
     source = Source(path)
     root = Node(source, (), source.data)

@@ -96,7 +96,21 @@ class Range:
         return math.floor(steps + ROUNDING) + 1 if 0.0 <= steps < MOST_POSITIONS else math.inf
 
     def values(self) -> Float:
-        """Return the coordinates: (N,), or (N, n) of n drivers."""
+        """Return the coordinates.
+
+        Returns
+        -------
+        ndarray
+            (N,), or (N, n) of n drivers.
+
+        Examples
+        --------
+        >>> import assur
+        >>> assur.files.Range((0.0, 1.0), (1.0, 3.0), count=3).values()
+        array([[0. , 1. ],
+               [0.5, 2. ],
+               [1. , 3. ]])
+        """
         if self.count is not None:
             return np.linspace(self.start, self.stop, self.count, endpoint=self.endpoint)
         steps: Any = np.arange(self._size())

@@ -44,8 +44,10 @@ class Imported:
     >>> from assur import importers
     >>> text = "ground crank R 0 0 0 ffft|crank rod R 0 1|rod block R 3 0|ground block P 3 0 0"
     >>> found = importers.read(text)
-    >>> found.format, found.mechanism.structure.formula, found.omitted
-    ('pmks', 'I(crank) → II(rod, block)', ())
+    >>> found.format, found.mechanism.structure.formula
+    ('pmks', 'I(crank) → II(rod, block)')
+    >>> found.omitted
+    ('Joints J3 and J4 are at one place of link block: they are one joint, J3.',)
     """
 
     mechanism: Mechanism

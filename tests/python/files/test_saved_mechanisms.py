@@ -9,22 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from higher_library import HIGHER
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from library import LIBRARY
 
 import assur
 from assur.files.parser import loads
 from assur.files.toml import value_text
 from assur.files.write import text_of
 from machines import five_bar, four_bar
+from named_drawings import CLASS_II, HIGHER
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-NAMED: dict[str, Callable[[], assur.Mechanism]] = {**LIBRARY, **HIGHER}
+NAMED: dict[str, Callable[[], assur.Mechanism]] = {**CLASS_II, **HIGHER}
 # 1e22 and 5e-324 have exponents, 0.1 + 0.2 seventeen digits.
 ODD = (-0.0, 5e-324, 2.2250738585072014e-308, 1e22, 1e16, 0.1 + 0.2, 1.7976931348623157e308, 123.0)
 
@@ -168,7 +167,7 @@ def test_too_many_designs_are_refused_when_they_are_saved(tmp_path: Path) -> Non
 
 
 def test_cylinders_stay_cylinders(tmp_path: Path) -> None:
-    excavator = LIBRARY["excavator"]()
+    excavator = CLASS_II["excavator"]()
     text = text_of(excavator)
     assert 'boom_cylinder = { base = "boom_base", end = "boom_eye"' in text
     assert "angle" not in text

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from higher_library import HIGHER
-
 from assur.files.write import text_of
 from file_machines import whole_machines
+from named_drawings import HIGHER
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 
