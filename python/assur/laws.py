@@ -442,7 +442,18 @@ class Tabulated(Law):
         return float(self.t[0]), float(self.t[-1])
 
     def at(self, t: npt.ArrayLike) -> tuple[Float, Float, Float, Float]:
-        """Return the coordinate, its speed, acceleration and jerk at times, s."""
+        """Return the coordinate, its speed, acceleration and jerk at times, s.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, s.
+
+        Returns
+        -------
+        q, speed, acceleration, jerk : ndarray
+            Each of the shape of t: rad or m, and so on per s.
+        """
         times = _times(t)
         first, last = self.span
         within = np.clip(times, first, last)

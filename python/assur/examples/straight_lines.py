@@ -43,7 +43,7 @@ def peaucellier() -> assur.Mechanism:
 
     Arms OA, OC 250 mm, rhombus A, B, C, P 170 mm: OB · OP = 0.25² − 0.17². B runs on a circle
     through O (crank QB = QO = 60 mm), so that P runs on the line x = 280 mm. It closes for
-    cos(q/2) ≥ (0.25 − 0.17)/(2 · 0.06), |q| ≤ 96.4°.
+    cos(q/2) ≥ (0.25 − 0.17)/(2 · 0.06), q within ±96.4°.
 
     Returns
     -------
@@ -90,7 +90,7 @@ def hart() -> assur.Mechanism:
 
     Bars AB = CD = 200 mm, AD = BC = 130 mm; O, P, Q in the middles of AD, AB, CD are in line and
     OP · OQ = (0.2² − 0.13²)/4. The crank MP = MO = 52.5 mm leads P round a circle through O, so
-    that Q runs on x = 55 mm. It closes for cos(q/2) ≥ 1/3, |q| ≤ 141°.
+    that Q runs on x = 55 mm. It closes for cos(q/2) ≥ 1/3, q within ±141°.
 
     Returns
     -------

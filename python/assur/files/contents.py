@@ -98,7 +98,8 @@ class Contents:
         Examples
         --------
         >>> import assur
-        >>> contents = assur.files.Contents(assur.SliderCrank(1.0, 3.0), None, {"solve": {"deg": 0}})
+        >>> wanted = {"solve": {"deg": 0}}
+        >>> contents = assur.files.Contents(assur.SliderCrank(1.0, 3.0), wanted=wanted)
         >>> float(contents.result("solve").slide("bore").value)              # m
         4.0
         """
@@ -129,6 +130,7 @@ def read(path: str | PathLike[str]) -> Contents:
     Returns
     -------
     Contents
+        The mechanism, the machine if there is one, and the results wanted.
 
     Raises
     ------

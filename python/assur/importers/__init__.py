@@ -66,11 +66,11 @@ def read(
     source : str or path-like
         A file, a text or an address.
     format : str, optional
-        One of `FORMATS`; without it the text tells.
+        One of ``FORMATS``; without it the text tells.
     scale : float
         The file's unit of length, m.
     drivers : sequence of (int, int), optional
-        The drivers of an expression of pyslvs: see `pyslvs.read`.
+        The drivers of an expression of pyslvs: see ``pyslvs.read``.
     assembly : mapping of str to int, optional
         For dyads drawn with their links collinear: see `Mechanism`.
 
@@ -128,7 +128,7 @@ def detect(path: Any, text: str) -> str | None:
     Returns
     -------
     str or None
-        One of `FORMATS`.
+        One of ``FORMATS``.
 
     Examples
     --------
