@@ -1,7 +1,7 @@
 """Named examples: each function returns a `Mechanism` or, with masses, a `Machine`.
 
-``ALL`` has the functions by name, ``RANGES`` the coordinates over which each is used. Their docstrings
-say what to look at, and where the mechanism comes from.
+``ALL`` has the functions by name, ``RANGES`` the coordinates over which each is used. Their
+docstrings say what to look at, and where the mechanism comes from.
 
 >>> import assur
 >>> m = assur.examples.crank_rocker()
