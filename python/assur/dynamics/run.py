@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
 from assur._table import Column, Tabular, coordinate_columns
+from assur._summary import summary
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
 from assur.kinematics.table import driven_angles
@@ -153,6 +154,9 @@ class Energy(NamedTuple):
     potential: Float
     work: Float
     balance: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
     @property
     def error(self) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import real_array, short
 from assur._table import Column, Tabular
+from assur._summary import summary
 from assur._validate import one_of
 from assur.errors import InputError
 from assur.kinematics.table import Options, motion_columns
@@ -47,6 +48,9 @@ class InTime(NamedTuple):
     velocity: Float
     acceleration: Float
     jerk: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class TimedMotion(Tabular):

@@ -30,9 +30,10 @@ class Designs:
         self.mechanism = mechanism
         names = [checked_name(name, "dimensions") for name in dimensions]
         indices = [mechanism._core.dimension(name) for name in names]
+        new = [real_array(dimensions[n], f"dimension {n!r}", copy=False) for n in names]
         # Designs are asked for later, when the caller may have changed his arrays (no grid's).
-        copy = not isinstance(dimensions, Grid)
-        new = [real_array(dimensions[n], f"dimension {n!r}", copy=copy) for n in names]
+        if not isinstance(dimensions, Grid):
+            new = _copied(new)
         own = mechanism.shape
         try:
             self.shape = np.broadcast_shapes(own, *(array.shape for array in new))
@@ -85,3 +86,15 @@ class Designs:
         column = self._columns[self.changed[name]]
         values: Float = np.broadcast_to(column, self.shape).reshape(-1)
         return values
+
+
+def _copied(arrays: list[Float]) -> list[Float]:
+    """Copy arrays into one: a large one gets large pages, which take a tenth of the time."""
+    memory = np.empty(sum(array.size for array in arrays))
+    found, start = [], 0
+    for array in arrays:
+        copy = memory[start : start + array.size].reshape(array.shape)
+        copy[...] = array
+        found.append(copy)
+        start += array.size
+    return found
