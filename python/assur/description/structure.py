@@ -94,6 +94,11 @@ class Structure:
     sliding_pairs: int
     adjustment: float = 0.0
 
+    def __repr__(self) -> str:
+        return (
+            f"<assur.Structure {self.formula}, class {roman(self.cls)}, mobility {self.mobility}>"
+        )
+
     def __str__(self) -> str:
         n, turning, sliding = self.moving_links, self.turning_pairs, self.sliding_pairs
         p = turning + sliding

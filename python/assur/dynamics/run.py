@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
-from assur._table import Column, Tabular, coordinate_columns
 from assur._summary import summary
+from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
 from assur.kinematics.table import driven_angles

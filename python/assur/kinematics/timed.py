@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import real_array, short
-from assur._table import Column, Tabular
 from assur._summary import summary
+from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
 from assur.kinematics.table import Options, motion_columns

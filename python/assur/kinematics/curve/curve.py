@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from assur._arrays import counted
 from assur._trig import sin_cos
 from assur._validate import checked_index, whole_number
 from assur.description.words import Status
@@ -96,6 +97,11 @@ class ConfigurationCurve:
     circuits: tuple[Circuit, ...]
     fan: Float
     _mechanism: Mechanism
+
+    def __repr__(self) -> str:
+        folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
+        of = self._mechanism._core.formula
+        return f"<assur.ConfigurationCurve of {of}, {circuits}, {folds}>"
 
     def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:
         """Return what keeps a design from going through given positions one after another.
