@@ -7,7 +7,7 @@ from typing_extensions import Self
 
 from assur.description.words import Drive, Slide
 from assur.dynamics.friction import PairFriction
-from assur.dynamics.loads import Body, Load
+from assur.dynamics.loads import Body, Gas, Load, Table
 from assur.dynamics.machine import Method
 from assur.dynamics.motors import Motor
 from assur.dynamics.reactions import Key
@@ -42,6 +42,7 @@ __all__ = [
     "curvature",
     "error_kinds",
     "four_bar_drawing",
+    "gas_pressures",
     "instant_centre",
     "panic_in_chunk",
     "simd_level",
@@ -57,6 +58,7 @@ __all__ = [
     "slider_crank_series",
     "slider_crank_stroke",
     "start_threads_at_once",
+    "table_values",
     "unit_angle",
     "version",
 ]
@@ -320,6 +322,14 @@ class Machine:
     @property
     def tables(self) -> list[tuple[list[float], bool]]: ...
     @property
+    def jumps(self) -> list[list[float]]: ...
+    @property
+    def follows(self) -> tuple[bool, bool]: ...
+    def stations(self, dimensions: list[float], start: float, end: float) -> list[float]: ...
+    def uncovered(
+        self, dimensions: list[float], q: list[float]
+    ) -> tuple[float, float, float] | None: ...
+    @property
     def load_functions(self) -> list[Function]: ...
     def reduce(
         self,
@@ -327,6 +337,7 @@ class Machine:
         q: _Float,
         speed: _Float,
         function_values: _Float,
+        sense: list[float],
         threads: int | None,
         report: list[int],
     ) -> tuple[_Float, _Float, _Float, _Float, npt.NDArray[np.uint8], Any]: ...
@@ -413,6 +424,8 @@ def crank_rocker_exact_least_gamma(
 ) -> _Float: ...
 def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: ...
 def crank_rocker_run(case: dict[str, Any], ground: Callable[[float], float]) -> _JammingRun: ...
+def gas_pressures(gas: Gas, area: float, values: _Float) -> _Float: ...
+def table_values(table: Table, points: _Float) -> _Float: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
 def four_bar_drawing(mode: Literal["open", "crossed"]) -> _Drawing: ...
 def slider_crank_drawing() -> _Drawing: ...

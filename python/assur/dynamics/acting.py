@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur import _trig
+from assur import _core, _trig
 from assur.description.words import Drive
 from assur.dynamics.loads import (
     Damper,
     Force,
+    Gas,
     Gravity,
+    Pressure,
     Spring,
     Torque,
     TorsionDamper,
@@ -147,6 +149,8 @@ def _loads(at: Positions, link: str) -> Iterator[Acting]:
                     "depend on it; replace it by two forces"
                 )
                 raise InputError(message, link=link)
+        elif isinstance(load, Pressure):
+            yield from _pressure(at, load, link)
         elif isinstance(load, Force):
             if (load.on or _taker(at, load.at)) == link:
                 place, _ = _place(at, link, load.at)
@@ -173,8 +177,57 @@ def _taker(at: Positions, point: PointLike) -> str:
     return next(link for link, joints in links if point in joints)
 
 
+def _measure(at: Positions, name: str) -> Float:
+    """Return the value of a slide, or the angle of a link."""
+    motion = at.motion
+    both: Float = (motion.slide if name in _mechanism(at).slides else motion.link)(name).value
+    return both
+
+
+def _acts(at: Positions, load: Force | Pressure, default: str | None) -> Any:
+    """Return where a load acts: everywhere, or where its coordinate moves in its direction."""
+    if load.while_ is None:
+        return np.True_
+    name = load.over or default
+    speeds = at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
+    if name is None:
+        rate = at.speed[:, 0]
+    elif name in _mechanism(at).slides:
+        rate = at.motion.slide(name).velocity(speeds)
+    else:
+        rate = at.motion.link(name).velocity(speeds)
+    return rate > 0.0 if load.while_ == "forward" else rate < 0.0
+
+
+def _pressure(at: Positions, load: Pressure, link: str) -> Iterator[Acting]:
+    """Yield the force of a pressure on the sliding link, or its reaction on the other."""
+    slide = _mechanism(at).slides[load.slide]
+    if link not in (slide.link, slide.on):
+        return
+    area = load.area if load.expands == "forward" else -load.area
+    if isinstance(load.pressure, Gas):
+        value = at.motion.slide(load.slide).value
+        pressure = _core.gas_pressures(load.pressure, area, value)
+    else:
+        pressure = values_at(load.pressure, at.q, at.speed, at.t, lambda name: _measure(at, name))
+    size = np.where(_acts(at, load, load.slide), area * (pressure - load.ambient), 0.0)
+    sliding = _mechanism(at).links[slide.link]
+    place = _place(at, slide.link, sliding[0] if sliding else (slide.link, (0.0, 0.0)))[0]
+    sign = 1.0 if link == slide.link else -1.0
+    joint = sliding[0] if sliding and link == slide.link else None
+    force = sign * size[:, np.newaxis] * _guide(at, load.slide)
+    yield Acting(f"the pressure in {load.slide!r}", place, force, _nothing(at), joint)
+
+
 def _force(at: Positions, load: Force) -> Float:
-    x, y = (values_at(value, at.q, at.speed, at.t) for value in load.force)
+    x, y = (
+        np.where(
+            _acts(at, load, None),
+            values_at(value, at.q, at.speed, at.t, lambda name: _measure(at, name)),
+            0.0,
+        )
+        for value in load.force
+    )
     if load.axes is None:
         return np.stack([x, y], axis=-1)
     sine, cosine = _trig.sin_cos(at.motion.link(load.axes).value)

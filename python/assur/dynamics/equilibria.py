@@ -90,6 +90,12 @@ def equilibria(machine: MachineModel, between: Any) -> Equilibria:
             "equilibria need constant loads, or tables over q (assur.Table)"
         )
         raise InputError(message)
+    if machine._core.follows[1]:
+        message = (
+            "a load has while_=: it acts in one direction of motion, and at rest there is none; "
+            "equilibria need loads that act at rest"
+        )
+        raise InputError(message)
     ends, is_turn, intervals = search_range(machine, between)
     dimensions = np.empty(0) if machine.mechanism is None else machine.mechanism._values.ravel()
     q, stable, stiffness, frequency, indifferent, jumps, incomplete, empty, failure = (

@@ -22,6 +22,7 @@ from assur.dynamics.options import (
     step_count,
     tolerance_pair,
     turn_count,
+    without_followers,
     without_friction,
 )
 from assur.dynamics.run import Run
@@ -60,6 +61,7 @@ def run(
     one_design(machine, "run")
     if machine._drivers > 1:
         without_friction(machine, "run with several drivers")
+        without_followers(machine, "run with several drivers")
     along_q = q_end is not None
     if along_q == (t_end is not None):
         message = "run needs t_end or q_end" + (", not both" if along_q else "")
@@ -97,7 +99,7 @@ def run(
         checked,
     )
     # The core counts what friction does after the events that were asked for.
-    made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q)
+    made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, len(machine._core.tables))
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
     # A machine from a table has no singular positions.

@@ -14,7 +14,7 @@ from assur.description.words import Status
 from assur.dynamics.along import times
 from assur.dynamics.friction import SlideFriction
 from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions, links_at
-from assur.dynamics.reduce import with_designs
+from assur.dynamics.reduce import checked_senses, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
 
@@ -182,7 +182,7 @@ def _solved(
     )
     coordinates = np.ascontiguousarray(everywhere if per_design else x).ravel()
     rows = everywhere.reshape(-1, drivers), np.broadcast_to(v, full).reshape(-1, drivers)
-    senses = _senses(machine, *rows, friction[0])
+    senses = checked_senses(machine, *rows, friction[0])
     at = times(t, shape)
     given = np.empty(0)
     if functions:
@@ -202,29 +202,6 @@ def _solved(
         list(designs),
     )
     return found
-
-
-def _senses(
-    machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
-) -> list[float]:
-    """Return in which sense each driver is about to move at rest, which friction needs."""
-    if sense is not None:
-        senses = real_array(sense, "sense").ravel()
-        if senses.size != machine._drivers or not np.isin(senses, (-1.0, 1.0)).all():
-            wanted = "+1 or −1" if machine._drivers == 1 else f"{machine._drivers} of +1 or −1"
-            message = f"sense is {short(sense)}: {wanted} is needed"
-            raise InputError(message)
-        found: list[float] = senses.tolist()
-        return found
-    rests = ~speeds.any(axis=1)
-    if machine.friction and rests.any():
-        shown = ", ".join(f"{number:.9g}" for number in q[np.argmax(rests)])
-        message = (
-            f"speed is 0 at q = {shown}: friction needs sense=+1 or −1, the way in which the drive "
-            "is about to move"
-        )
-        raise InputError(message, value=0.0)
-    return []
 
 
 def _require_finite(
@@ -300,7 +277,7 @@ def effort(
     bare = machine
     if machine.motor is not None and machine.mechanism is not None:
         bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
-    inertia, rates, moment, _ = bare._reduce(x, v, on_error, times(motion.t, shape))
+    inertia, rates, moment, _ = bare._reduce(x, v, on_error, times(motion.t, shape), sense)
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment

@@ -12,6 +12,8 @@ import numpy as np
 
 from assur._arrays import not_negative, real_array, real_number, short, two_numbers
 from assur._validate import checked_name
+from assur.dynamics.one_way import Way, check_way
+from assur.dynamics.pressure import Gas, Pressure
 from assur.dynamics.table import Table, replace_fields
 from assur.dynamics.values import Value, checked_value
 from assur.errors import InputError
@@ -20,7 +22,9 @@ __all__ = [
     "Body",
     "Damper",
     "Force",
+    "Gas",
     "Gravity",
+    "Pressure",
     "Spring",
     "Table",
     "Torque",
@@ -102,28 +106,41 @@ class Force:
     at : str or (link, (x, y))
         A joint, or a point in a link's frame, m.
     force : (fx, fy)
-        N; each a number, a `Table` over q, or a function of (t, q, speed).
+        N; each a number, a `Table` over q or another coordinate, or a function of (t, q, speed).
     axes : str, optional
-        The link whose frame gives the directions of fx and fy; the drawing's axes by default.
+        The link whose frame gives the directions of fx and fy, and turns with it; the drawing's
+        axes by default.
     on : str, optional
         At a joint of several links the one that takes the force; by default the first of them in
         the description. It matters for joint forces only.
+    while_ : {"forward", "backward"}, optional
+        It acts only while a coordinate grows, or falls: a cutting force, the friction of a tool.
+        While the coordinate rests, also where it turns back, it does not act.
+    over : str, optional
+        The slide or link whose value or angle is the coordinate of `while_`; that of the (first)
+        driver by default.
 
     Examples
     --------
-    >>> import assur, numpy as np
-    >>> gas = assur.Force("B", (-800.0, 0.0), on="piston")
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[gas])
-    >>> machine.reduced_moment(np.pi / 2).round(6)  # N·m
-    np.float64(80.0)
+    A shaper's tool cuts with 900 N along the middle of its way, on the forward stroke alone:
+
+    >>> import assur
+    >>> cut = assur.Table([0.3, 0.32, 0.32, 0.48, 0.48, 0.5], [0, 0, -900, -900, 0, 0], over="bore")
+    >>> force = assur.Force("B", (cut, 0.0), while_="forward", over="bore")
+    >>> shaper = assur.Machine(assur.SliderCrank(crank=0.1, rod=0.4), loads=[force])
+    >>> shaper.reduced_moment([1.0, 5.0], speed=1.0).round(3)
+    array([-0.   , 71.3])
     """
 
     at: PointLike
     force: tuple[Value, Value]
     axes: str | None = None
     on: str | None = None
+    while_: Way | None = None
+    over: str | None = None
 
     def __post_init__(self) -> None:
+        check_way(self)
         force: Any = self.force
         listed = isinstance(force, tuple | list) or (
             isinstance(force, np.ndarray) and force.ndim == 1
@@ -149,9 +166,11 @@ class Torque:
     link : str
         The link on which it acts.
     torque : float, Table or callable
-        N·m: a number, a `Table` over q, or a function of (t, q, speed).
+        N·m: a number, a `Table` over q or another coordinate, or a function of (t, q, speed).
     on : str
         The link on which the reaction acts.
+    while_, over
+        See `Force`.
 
     Examples
     --------
@@ -165,8 +184,11 @@ class Torque:
     link: str
     torque: Value
     on: str = "ground"
+    while_: Way | None = None
+    over: str | None = None
 
     def __post_init__(self) -> None:
+        check_way(self)
         _check_links(self)
         replace_fields(self, torque=checked_value(self.torque))
 
@@ -303,7 +325,9 @@ class TorsionDamper:
         _check_numbers(self, "damping")
 
 
-Load: TypeAlias = Gravity | Force | Torque | Spring | TorsionSpring | Damper | TorsionDamper
+Load: TypeAlias = (
+    Gravity | Force | Torque | Pressure | Spring | TorsionSpring | Damper | TorsionDamper
+)
 
 
 def checked_load(load: Any) -> Load:

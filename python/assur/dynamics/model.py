@@ -12,6 +12,7 @@ from assur._arrays import counted, real_array
 from assur._validate import one_of
 from assur.dynamics import parts, reduce
 from assur.dynamics.friction import checked_friction
+from assur.dynamics.functions import check_functions
 from assur.dynamics.loads import checked_load
 from assur.dynamics.options import as_list
 from assur.errors import InputError
@@ -88,13 +89,15 @@ class MachineModel:
             type(self),
             (mechanism, dict(bodies), self.loads, self.motor, dict(self.friction)),
         )
+        motors = parts.motors(self.motor, self._drivers)
         self._core = _core.Machine(
             mechanism._core,
             loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
             bodies=[parts.body(mechanism, link, body) for link, body in self.bodies.items()],
-            motors=parts.motors(self.motor, self._drivers),
+            motors=motors,
             friction=list(self.friction.items()),
         )
+        check_functions(self.loads, motors, np.ravel(mechanism.q0).tolist())
         if mechanism.driver not in mechanism.slides:
             for rows, periodic in self._core.tables:
                 warn_if_degrees(rows[-1] - rows[0], periodic)
@@ -177,6 +180,7 @@ class MachineModel:
         self._core = _core.Machine.from_table(
             x, columns["moment"], columns["inertia"], spline, bool(periodic), *motors
         )
+        check_functions((), motors, [float(x[0])])
         return self
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -312,8 +316,8 @@ class MachineModel:
         q : array_like
             Coordinates, see `reduced_inertia`.
         speed : array_like
-            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers and functions need them.
-            (Functions of time are evaluated at t = 0.)
+            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers, functions and loads with
+            ``while_`` need them. (Functions of time are evaluated at t = 0.)
         on_error : {"raise", "nan"}
             See `reduced_inertia`.
 
@@ -327,7 +331,8 @@ class MachineModel:
         PositionError
             See `reduced_inertia`.
         InputError
-            Wrong arguments, coordinates beyond a table, a function that gives no finite number.
+            Wrong arguments, coordinates beyond a table, a function that gives no finite number; a
+            load with ``while_`` at rest.
         MotionError
             A damper or spring of length zero, or a load too great.
 
@@ -345,7 +350,7 @@ class MachineModel:
         return moment[..., 0][()] if self._drivers == 1 else moment
 
     def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
-        """Return the potential energy of weights and springs.
+        """Return the potential energy of weights, springs and closed gases.
 
         Parameters
         ----------
@@ -358,9 +363,10 @@ class MachineModel:
         -------
         ndarray
             J, of shape S + (N,). A weight has −m g·r, r from the drawing's origin; a spring
-            k e²/2 + preload · e, e its elongation (or twist) from the free length (or angle). Other
+            k e²/2 + preload · e, e its elongation (or twist) from the free length (or angle); a
+            `Gas` in a `Pressure` without ``while_`` −∫ (p − p_ambient) dV from its `at`. Other
             loads have none here, constant forces and torques included; so `reduced_moment` is
-            −dV/dq if there are only weights and springs.
+            −dV/dq if there are only such weights, springs and gases.
 
         Raises
         ------
@@ -389,5 +395,6 @@ class MachineModel:
         speed: npt.ArrayLike | None,
         on_error: str,
         t: npt.ArrayLike = 0.0,
+        sense: Any = None,
     ) -> tuple[Float, Float, Float, Float]:
-        return reduce.reduce(self, q, speed, on_error, t)
+        return reduce.reduce(self, q, speed, on_error, t, sense)

@@ -124,6 +124,23 @@ def checked_motor(motor: Any) -> Motor:
             "or a Table of torque over speed"
         )
         raise InputError(message)
+    if isinstance(motor, Table):
+        if motor.over is not None:
+            message = (
+                f"motor: its Table has over={motor.over!r}: a motor's table is over its own speed"
+            )
+            raise InputError(message)
+        if motor._jumps.size:
+            at = float(motor._jumps[0])
+            message = f"motor: its torque jumps at {at:g} rad/s: over speed it must be continuous"
+            raise InputError(message, value=at)
+    elif isinstance(motor, ConstantTorque) and isinstance(motor.torque, Table):
+        if motor.torque.over is not None:
+            message = (
+                f"motor: its torque is a Table over {motor.torque.over!r}: motors follow q; give "
+                "such a torque as a load (assur.Torque)"
+            )
+            raise InputError(message)
     return motor
 
 

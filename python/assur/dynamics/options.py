@@ -39,6 +39,16 @@ def without_friction(machine: MachineModel, what: str) -> None:
         raise InputError(message)
 
 
+def without_followers(machine: MachineModel, what: str) -> None:
+    """Raise InputError for loads that follow other coordinates than the driver's."""
+    if machine._core.follows[0]:
+        message = (
+            f"{what} has no loads with over=, while_= or a Gas yet: make the machine with one "
+            "driver, or without them; reactions and effort have them"
+        )
+        raise InputError(message)
+
+
 def require_rotary_driver(machine: MachineModel, what: str) -> None:
     """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver

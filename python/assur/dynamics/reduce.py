@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import Float, finite_array, real_array
+from assur._arrays import Float, finite_array, real_array, short
 from assur._validate import one_of
 from assur.description.words import Status
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from assur.dynamics.model import MachineModel
     from assur.errors import AssurError
 
@@ -25,6 +27,7 @@ def reduce(
     speed: npt.ArrayLike | None,
     on_error: str,
     t: npt.ArrayLike = 0.0,
+    sense: float | Sequence[float] | None = None,
 ) -> tuple[Float, Float, Float, Float]:
     """Return mass matrices, their derivatives, moments and potential energies.
 
@@ -45,14 +48,15 @@ def reduce(
         message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
         raise InputError(message) from error
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
-    given = np.empty(0)
+    given, senses = np.empty(0), list[float]()
     if speed is not None:
+        senses = checked_senses(machine, flat.reshape(-1, n), speeds.reshape(-1, n), sense)
         functions = machine._core.load_functions
         at = np.broadcast_to(np.asarray(t), shape).ravel()
         given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
     values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
     *arrays, status, failure = machine._core.reduce(
-        values.reshape(-1), flat, speeds, given, None, list(designs)
+        values.reshape(-1), flat, speeds, given, senses, None, list(designs)
     )
     if on_error == "raise":
         if failure is not None:
@@ -64,9 +68,11 @@ def reduce(
         if missing.size:
             row = int(missing[0])
             given = given.reshape(status.size, -1)[row]
-            failed = _without_moment(machine, flat.reshape(-1, n)[row].tolist(), given)
+            design = row // (status.size // math.prod(designs)) if designs else 0
+            own = [] if values.size == 0 else values.reshape(values.shape[0], -1)[:, design].tolist()
+            failed = _without_moment(machine, own, flat.reshape(-1, n)[row].tolist(), given)
             if designs:
-                index = np.unravel_index(row // (status.size // math.prod(designs)), designs)
+                index = np.unravel_index(design, designs)
                 failed.design = tuple(int(i) for i in index)
             raise failed
     return (
@@ -77,7 +83,34 @@ def reduce(
     )
 
 
-def _without_moment(machine: MachineModel, q: list[float], values: Float) -> AssurError:
+def checked_senses(
+    machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
+) -> list[float]:
+    """Return in which sense each driver is about to move at rest, which some loads need."""
+    if sense is not None:
+        senses = real_array(sense, "sense").ravel()
+        if senses.size != machine._drivers or not np.isin(senses, (-1.0, 1.0)).all():
+            wanted = "+1 or −1" if machine._drivers == 1 else f"{machine._drivers} of +1 or −1"
+            message = f"sense is {short(sense)}: {wanted} is needed"
+            raise InputError(message)
+        found: list[float] = senses.tolist()
+        return found
+    rests = ~speeds.any(axis=1)
+    has_ways = machine._core.follows[1]
+    if (machine.friction or has_ways) and rests.any():
+        shown = ", ".join(f"{number:.9g}" for number in q[np.argmax(rests)])
+        what = "friction needs" if machine.friction else "a load with while_= needs a speed, or"
+        message = (
+            f"speed is 0 at q = {shown}: {what} sense=+1 or −1, the way in which the drive is about "
+            "to move"
+        )
+        raise InputError(message, value=0.0)
+    return []
+
+
+def _without_moment(
+    machine: MachineModel, dimensions: list[float], q: list[float], values: Float
+) -> AssurError:
     """Return the error of a load without a value: that of a run that begins there."""
     at = q[0] if len(q) == 1 else tuple(q)
     shown = f"{q[0]:.15g}" if len(q) == 1 else f"({', '.join(f'{x:.15g}' for x in q)})"
@@ -88,9 +121,18 @@ def _without_moment(machine: MachineModel, q: list[float], values: Float) -> Ass
         number = float(values[~np.isfinite(values)][0])
         message = f"q = {shown}: a function among the loads gave {number}, it must be finite"
         return InputError(message, q=at, value=number)
+    uncovered = machine._core.uncovered(dimensions, q)
+    if uncovered is not None:
+        first, last, value = uncovered
+        hint = "extend the table"
+        message = (
+            f"a table over a slide or link covers {first:.9g} to {last:.9g}: {value:.9g}, at "
+            f"q = {shown}, is not in it; {hint}"
+        )
+        return InputError(message, kind="table_ends", hint=hint, q=at, value=value)
     message = (
         f"the moment is not finite at q = {shown}: a load, a speed or a mass is too great there, "
-        "or a damper or spring has length zero"
+        "a damper or spring has length zero, or a gas no volume"
     )
     return MotionError(message, kind="not_finite", q=at)
 

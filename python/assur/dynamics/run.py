@@ -238,9 +238,11 @@ class Run(Tabular):
         drivers: int,
         events: list[Any],
         along_q: bool,
+        tables: int = 0,
     ) -> None:
-        self._init_args = core, mechanism, drivers, events, along_q
+        self._init_args = core, mechanism, drivers, events, along_q, tables
         self._core, self._along_q, self._drivers = core, along_q, drivers
+        self._tables = tables
         self._mechanism = mechanism
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
@@ -419,6 +421,8 @@ class Run(Tabular):
                 "lengths clear of it"
             )
         event = None if which is None else events[which]
+        # The tables over other coordinates come after those over q.
+        is_over = ending["table"] is not None and ending["table"] >= self._tables
         sentences = {
             "reached": "reached its end",
             "event": f"{event} at {place}",
@@ -426,7 +430,7 @@ class Run(Tabular):
             "locked": f"friction locks the machine at {place}: no acceleration agrees with it",
             "lost": f"the branch cannot be tracked beyond {place}: {ending['why']}",
             "rest": f"the machine came to rest at {place}",
-            "table ends": f"a table over q ends at {place}",
+            "table ends": f"a table over {'a slide or link' if is_over else 'q'} ends at {place}",
             "motor table ends": f"the motor's table ends at {place}",
             "stalled": f"the tolerance cannot be met with any step beyond {place}",
             "step limit": f"max_steps was reached at {place}"

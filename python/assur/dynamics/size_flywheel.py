@@ -11,6 +11,7 @@ import numpy as np
 
 from assur._arrays import finite_array, real_number
 from assur._validate import one_of
+from assur.dynamics.flywheel_of_designs import FlywheelOfDesigns
 from assur.dynamics.integrate import steady_state
 from assur.dynamics.motors import ConstantTorque
 from assur.dynamics.options import (
@@ -49,6 +50,8 @@ MOMENT_ROUNDING_RTOL = 1e-12
 FIRST_ROWS, LAST_ROWS = 96, 12288
 # Least rows between two knots of a load's table.
 MIN_ROWS_BETWEEN_KNOTS = 6
+# How far beside a jump loads are evaluated, rad: beyond the rounding of its coordinate.
+BESIDE = 1e-10
 # The flywheel has converged when two tables agree to this fraction of the inertia.
 CONVERGED_RTOL = 1e-9
 
@@ -78,7 +81,12 @@ def flywheel(
             "mean_speed, or build the machine without a motor"
         )
         raise InputError(message)
-    made = _from_tables(machine, fluctuation, mean_speed, mean, on_error)
+    wanted = fluctuation, mean_speed, mean, on_error
+    if machine.shape and machine._core.follows[0]:
+        # Each design has its own coordinates at which the loads are not smooth.
+        made: Flywheel = FlywheelOfDesigns.of(machine, wanted, _from_tables)
+    else:
+        made = _from_tables(machine, *wanted)
     if isinstance(machine.motor, ConstantTorque):
         own = float(machine.motor.ratio) * float(torque)
         off = np.abs(np.asarray(made.motor_moment) - own) > TORQUE_RTOL * abs(own)
@@ -97,6 +105,7 @@ def _from_tables(
 ) -> Flywheel:
     """Refine tables of moment and inertia until the flywheel converges."""
     knots = _knots(machine)
+    jumps = _jumps(machine, knots)
     speed = finite_array(mean_speed, "mean_speed")
     if speed.ndim and speed.shape != machine.shape:
         message = (
@@ -107,11 +116,11 @@ def _from_tables(
     last: Flywheel | None = None
     rows = FIRST_ROWS
     while True:
-        phi, corners = _table_rows(knots, rows)
+        phi, at, corners = _table_rows(knots, jumps, rows)
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
-        inertia, _, moment, _ = machine._reduce(phi, own_speed, on_error)
+        inertia, _, moment, _ = machine._reduce(at, own_speed, on_error)
         if last is None:
-            others = aperiodic_designs(machine, phi, own_speed, on_error, inertia, moment)
+            others = aperiodic_designs(machine, at, own_speed, on_error, inertia, moment)
         inertia[others], moment[others] = math.nan, math.nan
         # The last row equals the first up to rounding: make it exact.
         moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
@@ -186,10 +195,31 @@ def _flat(machine: Machine, array: Any) -> Any:
     return array.reshape(*machine.shape, -1)
 
 
+def _stations(machine: Machine) -> list[float]:
+    """Return where loads that follow other coordinates are not smooth in a turn."""
+    if not machine._core.follows[0] or machine.mechanism is None:
+        return []
+    dimensions = machine.mechanism._values.ravel().tolist()
+    return machine._core.stations(dimensions, -BESIDE, 2.0 * math.pi + BESIDE)
+
+
+def _jumps(machine: Machine, knots: list[float]) -> list[bool]:
+    """Return at which of the knots of a turn loads may jump."""
+    turn, found = 2.0 * math.pi, _stations(machine)
+    for (rows, _), own in zip(machine._core.tables, machine._core.jumps, strict=True):
+        period = rows[-1] - rows[0]
+        steps = range(math.floor(-rows[0] / period) - 1, math.ceil((turn - rows[0]) / period) + 1)
+        found += [q + shift * period for shift in steps for q in own]
+    every = np.array([*found, math.inf])
+    # The seam is at both ends.
+    every = np.concatenate([every, every + turn, every - turn])
+    return [bool(np.abs(every - q).min() <= PERIOD_RTOL) for q in knots]
+
+
 def _knots(machine: Machine) -> list[float]:
     """Return the coordinates of a turn at which loads are not smooth, its ends included."""
     turn = 2.0 * math.pi
-    found = {0.0, turn}
+    found = {0.0, turn, *_stations(machine)}
     for rows, periodic in machine._core.tables:
         first, period = rows[0], rows[-1] - rows[0]
         require_whole_periods(period if periodic else None, turn)
@@ -205,11 +235,22 @@ def _knots(machine: Machine) -> list[float]:
     return [*(q for q in kept if q < turn - PERIOD_RTOL), turn]
 
 
-def _table_rows(knots: list[float], rows: int) -> tuple[Any, list[int]]:
-    """Return coordinates with a row at every knot, and the indices of the knots."""
-    parts, corners = [], [0]
-    for low, high in itertools.pairwise(knots):
+def _table_rows(knots: list[float], jumps: list[bool], rows: int) -> tuple[Any, Any, list[int]]:
+    """Return coordinates with a row at every knot, two at a jump, and the indices of the knots.
+
+    The second array is where loads are evaluated: at a jump beside it.
+    """
+    parts, places, corners = [], [], [0]
+    for index, (low, high) in enumerate(itertools.pairwise(knots)):
         count = max(MIN_ROWS_BETWEEN_KNOTS, math.ceil(rows * (high - low) / (2.0 * math.pi)))
-        parts.append(np.linspace(low, high, count, endpoint=False))
-        corners.append(corners[-1] + count)
-    return np.append(np.concatenate(parts), knots[-1]), corners
+        own = np.linspace(low, high, count, endpoint=False)
+        if jumps[index + 1]:
+            own = np.append(own, high)
+        at = own.copy()
+        at[0] += BESIDE * jumps[index]
+        at[-1] -= BESIDE * jumps[index + 1]
+        parts.append(own)
+        places.append(at)
+        corners.append(corners[-1] + own.size)
+    last = knots[-1] + BESIDE * jumps[-1]
+    return np.append(np.concatenate(parts), knots[-1]), np.append(np.concatenate(places), last), corners

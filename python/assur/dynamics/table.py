@@ -1,4 +1,4 @@
-"""Functions given by points: over the driver's coordinate, or torque over a motor's speed."""
+"""Functions given by points: over a coordinate, or torque over a motor's speed."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from assur import _core
 from assur._arrays import Float, flag, not_negative, real_array, real_number
-from assur._validate import one_of, require_rows
+from assur._validate import checked_name, one_of, require_rows
 from assur.errors import InputError
 from assur.flywheel import SPLINES, Spline
 
@@ -24,36 +25,51 @@ def replace_fields(instance: Any, **values: Any) -> None:
 
 @dataclass(frozen=True, eq=False, init=False)
 class Table:
-    """Values over the (first) driver's coordinate; as a motor, torque over the motor's own speed.
+    """Values over the (first) driver's coordinate, or over that of another link or slide.
+
+    As a motor: torque over the motor's own speed.
 
     Parameters
     ----------
     q : array_like
-        Coordinates, ascending, rad or m; for a motor its speeds, rad/s. Stored as a read-only copy.
+        Coordinates, ascending, rad or m; for a motor its speeds, rad/s. A coordinate given twice is
+        a jump, from its first value (before) to its second (from there on): a separate curve goes
+        through the rows on each side, and integration restarts there. Stored as a read-only copy.
     value : array_like
         Values there, of the same length.
     spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
         Interpolation between the rows.
-    periodic : bool
-        Whether the rows are one period, the last equal to the first (the default); otherwise the
-        table has no value beyond its rows. Ignored for a motor, whose table is not periodic.
+    periodic : bool, optional
+        Whether the rows are one period, the last equal to the first: the default over q. Then the
+        first coordinate or the last may be given twice, for a jump there. Otherwise, by default
+        with `over`, the table has no value beyond its rows. Ignored for a motor, whose table is not
+        periodic.
     ratio : float
         For a motor: its speed divided by that of the driver.
     rotor_inertia : float
         For a motor: moment of inertia of its rotor, kg·m².
+    over : str, optional
+        For a load: the slide over whose value (m), or the link over whose angle (rad), the
+        coordinates are, instead of q.
 
     Raises
     ------
     InputError
         Fewer than two rows (three for a periodic spline), lists of different lengths, a number
-        that is not finite, coordinates that do not ascend, an unknown spline.
+        that is not finite, coordinates that do not ascend or that come three times, a jump at an
+        end of a table that is not periodic, an unknown spline.
 
     Examples
     --------
+    A step, and a force over the stroke of a slide:
+
     >>> import assur
-    >>> work = assur.Table([0.0, 3.0, 3.4, 6.283185307179586], [0.0, 0.0, 900.0, 0.0], "linear")
-    >>> work.value
-    array([  0.,   0., 900.,   0.])
+    >>> work = assur.Table([0.0, 2.0, 2.0, 3.0, 3.0, 6.0], [0.0, 0.0, 90.0, 90.0, 0.0, 0.0], "linear")
+    >>> work.at([1.0, 2.0, 2.5, 3.0])
+    array([ 0., 90., 90.,  0.])
+    >>> cut = assur.Table([0.3, 0.5], [0.0, -900.0], "linear", over="bore")
+    >>> cut.over, cut.periodic
+    ('bore', False)
     """
 
     q: Float
@@ -62,19 +78,24 @@ class Table:
     periodic: bool
     ratio: float
     rotor_inertia: float
+    over: str | None
 
     def __init__(
         self,
         q: npt.ArrayLike,
         value: npt.ArrayLike,
         spline: Spline = "not-a-knot",
-        periodic: bool = True,
+        periodic: bool | None = None,
         ratio: float = 1.0,
         rotor_inertia: float = 0.0,
+        over: str | None = None,
     ) -> None:
         one_of(spline, SPLINES, "Table spline")
         x, y = real_array(q, "Table q"), real_array(value, "Table value")
+        own = None if over is None else checked_name(over, "Table over")
+        repeats = own is None if periodic is None else flag(periodic, "Table periodic")
         _check_rows(x, y, 3 if spline == "periodic" else 2)
+        _check_jumps(x, spline, repeats)
         for column in (x, y):
             column.flags.writeable = False
         replace_fields(
@@ -82,10 +103,36 @@ class Table:
             q=x,
             value=y,
             spline=spline,
-            periodic=flag(periodic, "Table periodic"),
+            periodic=repeats,
             ratio=checked_ratio(ratio, "Table: ratio"),
             rotor_inertia=not_negative(rotor_inertia, "Table: rotor_inertia"),
+            over=own,
         )
+
+    def at(self, x: npt.ArrayLike) -> Any:
+        """Return the value at coordinates, of their shape; at a jump the value behind it.
+
+        Parameters
+        ----------
+        x : array_like
+            Coordinates, rad or m.
+
+        Returns
+        -------
+        float or ndarray
+            NaN beyond a table that is not periodic.
+
+        Raises
+        ------
+        InputError
+            A periodic table whose last value is not its first.
+        """
+        points = real_array(x, "x")
+        return _core.table_values(self, points.ravel()).reshape(points.shape)[()]
+
+    @property
+    def _jumps(self) -> Float:
+        return self.q[1:][np.diff(self.q) == 0.0]
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor, so that a copy is checked and read-only too.
@@ -103,14 +150,44 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
             wrong = float(column[bad[0]])
             message = f"Table: {name}[{bad[0]}] is {wrong}, it must be finite"
             raise InputError(message, kind="not_finite", value=wrong)
-    back = np.flatnonzero(np.diff(q) <= 0.0)
+    back = np.flatnonzero(np.diff(q) < 0.0)
     if back.size:
         row = int(back[0]) + 1
         message = (
-            f"Table: q[{row}] = {q[row]!s} is not above q[{row - 1}] = {q[row - 1]!s}: "
-            "coordinates must ascend without repeats"
+            f"Table: q[{row}] = {q[row]!s} is below q[{row - 1}] = {q[row - 1]!s}: coordinates must "
+            "ascend (one given twice is a jump)"
         )
         raise InputError(message, kind="not_increasing", q=float(q[row]), value=float(q[row]))
+
+
+def _check_jumps(q: Float, spline: str, periodic: bool) -> None:
+    steps = np.diff(q)
+    thrice = np.flatnonzero((steps[1:] == 0.0) & (steps[:-1] == 0.0))
+    if thrice.size:
+        at = float(q[thrice[0]])
+        message = (
+            f"Table: q = {at!s} comes three times: two rows there are a jump, from the value before "
+            "to the one behind"
+        )
+        raise InputError(message, kind="tripled", q=at, value=at)
+    jumps = q[1:][steps == 0.0]
+    if not jumps.size:
+        return
+    at = float(jumps[0])
+    require_rows(q.size - jumps.size, 2, "Table: between jumps it")
+    ends = [float(jump) for jump in jumps if jump in (q[0], q[-1])]
+    if ends and not periodic:
+        message = (
+            f"Table: it jumps at its end, q = {ends[0]!s}, and is not periodic: nothing is beyond; "
+            "leave one of the two rows out"
+        )
+        raise InputError(message, kind="jump_at_end", q=ends[0], value=ends[0])
+    if spline == "periodic":
+        message = (
+            f'Table: it jumps at q = {at!s}: spline="periodic" is one curve without jumps; choose '
+            '"not-a-knot", "natural", "clamped" or "linear"'
+        )
+        raise InputError(message, kind="periodic_jump", q=at, value=at)
 
 
 def checked_ratio(value: Any, what: str) -> float:

@@ -1,4 +1,4 @@
-"""Values of loads and motors: numbers, tables over the coordinate, functions of (t, q, speed)."""
+"""Values of loads and motors: numbers, tables over a coordinate, functions of (t, q, speed)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from assur import _core
 from assur._arrays import Float, real_array, real_number, short
 from assur.dynamics.table import Table
 from assur.errors import InputError
@@ -16,7 +15,7 @@ __all__ = ["Function", "Value", "checked_value", "function_values", "values_at"]
 
 # Called with floats (t, q, speed); with several drivers q and speed are tuples.
 Function: TypeAlias = Callable[[float, Any, Any], float]
-# A number, a table over q, or a function of (t, q, speed).
+# A number, a table over q or another coordinate, or a function of (t, q, speed).
 Value: TypeAlias = float | Table | Function
 
 
@@ -60,20 +59,17 @@ def _called(function: Function, t: float, q: Any, speed: Any) -> float:
     return float(array)
 
 
-def values_at(value: Value, q: Float, speed: Float, t: Float) -> Float:
+def values_at(
+    value: Value, q: Float, speed: Float, t: Float, measure: Callable[[str], Float]
+) -> Float:
     """Evaluate a value of a load at rows of coordinates and speeds, at times.
 
-    NaN where a table ends.
+    NaN where a table ends. `measure` gives the values of a slide, or the angles of a link, by name.
     """
     rows = q.shape[0]
     if isinstance(value, Table):
-        # The core interpolates: a machine whose reduced moment is the table.
-        table = _core.Machine.from_table(
-            value.q, value.value, np.zeros(value.q.size), value.spline, value.periodic, None
-        )
-        first = np.ascontiguousarray(q[:, 0])
-        empty = np.empty(0)
-        return table.reduce(empty, first, np.zeros(rows), empty, None, [])[2].reshape(rows)
+        at: Float = value.at(q[:, 0] if value.over is None else measure(value.over))
+        return at
     if callable(value):
         return function_values([value], q, speed, t)
     return np.full(rows, value)

@@ -306,6 +306,9 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
         | E::BadFluctuation { value: number }
         | E::BadSpeed { value: number, .. }
         | E::BadInertia { value: number } => (Class::Input, value(number)),
+        E::Tripled { at: q } | E::JumpAtEnd { at: q } | E::PeriodicJump { at: q } => {
+            (Class::Input, at(q, q))
+        }
         E::AlreadyMet { wanted, .. } => (Class::Input, value(wanted)),
         E::Infinite { speed, .. } => (Class::Input, value(speed)),
         E::Stalls { speed0, at: q, .. } => (Class::Motion, at(q, speed0)),

@@ -128,11 +128,14 @@ impl Flywheels {
         if second.len() != count || [&moment, &inertia].iter().any(|a| a.len() != count * rows) {
             return Err(error::input("the arrays do not fit", None));
         }
-        let corners = corners.unwrap_or_default();
         let one = |i: usize| {
             let table = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
-            Cycle::with_corners(&phi, &table(&moment), &table(&inertia), ends, &corners)
-                .and_then(|turn| task.solve(turn, [first[i], second[i]], mean))
+            let (moment, inertia) = (table(&moment), table(&inertia));
+            let turn = match &corners {
+                Some(corners) => Cycle::with_corners(&phi, &moment, &inertia, ends, corners),
+                None => Cycle::new(&phi, &moment, &inertia, ends),
+            };
+            turn.and_then(|turn| task.solve(turn, [first[i], second[i]], mean))
         };
         detach::run(py, count <= TABLES_PER_THREAD, |cancel| {
             parallel_map(count, TABLES_PER_THREAD, threads, cancel, &one)

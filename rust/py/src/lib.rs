@@ -32,6 +32,10 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use super::convert::load::gas_pressures;
+    #[pymodule_export]
+    use super::convert::value::table_values;
+    #[pymodule_export]
     use super::crank_rocker::{
         crank_rocker_blocked, crank_rocker_exact_least_gamma, crank_rocker_extremes,
         crank_rocker_grashof, crank_rocker_ground_range, crank_rocker_least_gamma,

@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    EndCondition, EquilibriumRange, Extreme, FluctuationTarget, Mean, ReducedTable, RunOptions,
-    SteadyOptions, TabulatedMachine, Variable,
+    DrivenPositions, EndCondition, EquilibriumRange, Extreme, FluctuationTarget, Mean,
+    ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use assur::{FirstFailure, SolveError, Status};
@@ -98,7 +98,7 @@ impl Machine {
     ) -> PyResult<Self> {
         let core = &mechanism.bind(py).get().inner;
         catch_panic(|| {
-            let mut values = Values::default();
+            let mut values = Values { mechanism: Some(core), ..Values::default() };
             let (loads, gravity) = self::loads(core, &loads, &mut values)?;
             let load_functions = values.functions.len();
             let motors = self::motors(&motors, &mut values)?;
@@ -106,9 +106,17 @@ impl Machine {
             let bodies = bodies.iter().map(body).collect::<PyResult<_>>()?;
             let of_pair = |(name, own): &(String, PairFriction)| own.of_pair(core, name);
             let friction = friction.iter().map(of_pair).collect::<PyResult<_>>()?;
-            let Values { tables, functions } = values;
-            let machine =
-                assur::dynamics::Machine { bodies, loads, gravity, tables, motors, friction };
+            let Values { tables, over, ways, functions, .. } = values;
+            let machine = assur::dynamics::Machine {
+                bodies,
+                loads,
+                gravity,
+                tables,
+                over,
+                ways,
+                motors,
+                friction,
+            };
             Ok((machine, functions, load_functions))
         })
         .map(|(machine, functions, load_functions)| Self {
@@ -133,7 +141,7 @@ impl Machine {
             let tables = vec![column(&inertia)?, column(&moment)?];
             let mut values = Values { tables, ..Values::default() };
             let motors = motors(&[motor], &mut values)?;
-            let Values { tables, functions } = values;
+            let Values { tables, functions, .. } = values;
             let inner = Inner::Tables(TabulatedMachine { tables, motors });
             Ok(Self { inner, functions, load_functions: 0 })
         })
@@ -146,11 +154,57 @@ impl Machine {
     /// Tables over the coordinate: the coordinates of their rows, and whether they are periodic.
     #[getter]
     fn tables(&self) -> Vec<(Vec<f64>, bool)> {
-        let tables = match &self.inner {
-            Inner::Mechanism(_, machine) => &machine.tables,
-            Inner::Tables(machine) => &machine.tables,
-        };
+        let tables = self.own_tables();
         tables.iter().map(|table| (table.knots().to_vec(), table.period().is_some())).collect()
+    }
+
+    /// The coordinates at which each of these tables jumps.
+    #[getter]
+    fn jumps(&self) -> Vec<Vec<f64>> {
+        self.own_tables().iter().map(|table| table.jumps().to_vec()).collect()
+    }
+
+    /// Whether loads follow other coordinates than the first driver's and may not be smooth over it, and
+    /// whether they follow the direction of one.
+    #[getter]
+    fn follows(&self) -> (bool, bool) {
+        match &self.inner {
+            Inner::Mechanism(_, machine) => (machine.has_stations(), !machine.ways.is_empty()),
+            Inner::Tables(_) => (false, false),
+        }
+    }
+
+    /// Where such loads are not smooth between two coordinates: a coordinate is at a knot of a table
+    /// over it, or turns back.
+    fn stations(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        start: f64,
+        end: f64,
+    ) -> PyResult<Vec<f64>> {
+        match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                let core = &mechanism.get().inner;
+                detach::run(py, true, |_| machine.stations(core, &dimensions, [start, end]))
+            }
+            Inner::Tables(_) => Ok(Vec::new()),
+        }
+    }
+
+    /// The first table over another coordinate that does not cover a position of a design: its ends, and
+    /// the value there.
+    fn uncovered(&self, dimensions: Vec<f64>, q: Vec<f64>) -> PyResult<Option<(f64, f64, f64)>> {
+        match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                let core = &mechanism.get().inner;
+                catch_panic(|| {
+                    let found = machine.uncovered(core, &dimensions, &q);
+                    Ok(found.map(|([from, to], at)| (from, to, at)))
+                })
+            }
+            Inner::Tables(_) => Ok(None),
+        }
     }
 
     /// Python functions of the loads.
@@ -163,7 +217,8 @@ impl Machine {
     /// Reduces the inertia and loads of designs to the drivers, each at the same number of
     /// positions. `dimensions`: the first of every design, then the second; the others design by
     /// design. `function_values`: of the loads' Python functions at every position; `report`:
-    /// the shape of the designs, for the exception of the first that failed.
+    /// the shape of the designs, for the exception of the first that failed; `sense`: in which sense each
+    /// driver is about to move where all rest, or empty.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reduce<'py>(
         &self,
@@ -172,6 +227,7 @@ impl Machine {
         q: Flat<'py>,
         speed: Flat<'py>,
         function_values: Flat<'py>,
+        sense: Vec<f64>,
         threads: Option<usize>,
         report: Vec<usize>,
     ) -> PyResult<Arrays<'py>> {
@@ -206,7 +262,9 @@ impl Machine {
                 let [q, speed, given] = [&q, &speed, &given].map(|all| part_of(all, design));
                 let values: Vec<f64> =
                     (0..size).map(|index| dimensions[index * designs + design]).collect();
-                machine.reduce(mechanism, &values, &q, &speed, &given, cancel)
+                let positions =
+                    DrivenPositions { q: &q, speed: &speed, sense: &sense, external: &given };
+                machine.reduce(mechanism, &values, positions, cancel)
             };
             parallel_map(designs, 1, threads, cancel, &one)
         })?;
@@ -384,6 +442,14 @@ impl Machine {
 }
 
 impl Machine {
+    /// Its tables over the driver's coordinate.
+    fn own_tables(&self) -> &[assur::dynamics::Table] {
+        match &self.inner {
+            Inner::Mechanism(_, machine) => &machine.tables,
+            Inner::Tables(machine) => &machine.tables,
+        }
+    }
+
     /// Runs work that may call the Python functions of the machine and of events. With such functions
     /// it holds the GIL throughout. Raises what a signal handler raised meanwhile.
     fn with_callbacks<T: Send>(

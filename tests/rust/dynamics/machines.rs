@@ -5,9 +5,9 @@ use std::sync::atomic::AtomicBool;
 
 use assur::Mechanism;
 use assur::dynamics::{
-    Body, Characteristic, EndCondition, EventKind, EventSpec, Load, Machine, Mean, Motor,
-    NoCallbacks, Point, RunError, RunOptions, SteadyError, SteadyOptions, StopReason, Table,
-    TabulatedMachine, Value, Variable,
+    Body, Characteristic, Curve, DrivenPositions, EndCondition, EventKind, EventSpec, Load,
+    Machine, Mean, Measure, Motor, NoCallbacks, OneWay, Over, Point, RunError, RunOptions,
+    SteadyError, SteadyOptions, StopReason, Table, TabulatedMachine, Value, Variable,
 };
 use assur::ode::{Crossing, Method};
 
@@ -138,7 +138,12 @@ fn a_table_over_the_coordinate_does_its_work() {
         Table::new(&[0.0, PI, TAU], &[1.0, 3.0, 1.0], EndCondition::Linear, true).expect("a table");
     let machine = Machine {
         bodies: vec![Body { link: crank, at: Point::Joint(0), mass: 0.0, inertia: 2.0 }],
-        loads: vec![Load::Torque { link: crank, on: ground, torque: Value::Table(0) }],
+        loads: vec![Load::Torque {
+            link: crank,
+            on: ground,
+            torque: Value::Table(0),
+            one_way: None,
+        }],
         tables: vec![torque],
         ..Machine::default()
     };
@@ -148,6 +153,47 @@ fn a_table_over_the_coordinate_does_its_work() {
     let speed = run.samples.last().expect("an end").speed[0];
     assert!((speed - (1.0 + 2.0 * TAU).sqrt()).abs() < 1e-12, "{speed}");
     assert_eq!(run.statistics.restarts, 1);
+}
+
+#[test]
+fn loads_follow_another_link() {
+    let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
+    let link = |name| mechanism.link(name).expect("a link");
+    let (crank, rocker, ground) = (link("crank"), link("rocker"), link("ground"));
+    // A table with a jump, which over the rocker's own angle does no work in a turn, and a brake that
+    // takes 2 N·m over what the rocker swings forward.
+    let table = Table::with_jumps(
+        &[-10.0, 2.0, 2.0, 10.0],
+        &[3.0, 3.0, -8.0, 0.0],
+        EndCondition::Linear,
+        false,
+    );
+    let curve = Curve::Table(table.expect("a table"));
+    let one_way = Some(OneWay { way: 0, sign: 1.0 });
+    let torque = |torque, one_way| Load::Torque { link: rocker, on: ground, torque, one_way };
+    let machine = Machine {
+        bodies: vec![Body { link: crank, at: Point::Joint(0), mass: 0.0, inertia: 2.0 }],
+        loads: vec![torque(Value::Over(0), None), torque(Value::Number(-2.0), one_way)],
+        over: vec![Over { measure: Measure::Angle(rocker), curve }],
+        ways: vec![Measure::Angle(rocker)],
+        ..Machine::default()
+    };
+    let turns = machine.stations(&mechanism, mechanism.drawing(), [0.0, TAU]);
+    assert!((2..=6).contains(&turns.len()), "{turns:?}");
+    let task = RunOptions { along: Variable::Coordinate, ..task(&[0.0], &[9.0], TAU) };
+    let run = machine.run(&mechanism, mechanism.drawing(), &task, NoCallbacks).expect("a run");
+    let end = run.samples.last().expect("an end").speed[0];
+    // The potential of a constant torque is the angle.
+    let preloaded =
+        Load::TorsionSpring { link: rocker, on: ground, stiffness: 0.0, angle: 0.0, preload: 1.0 };
+    let unit = Machine { loads: vec![preloaded], ..Machine::default() };
+    let q: Vec<f64> = (0..20_000).map(|i| TAU * f64::from(i) / 20_000.0).collect();
+    let positions = DrivenPositions { q: &q, speed: &q, ..DrivenPositions::default() };
+    let cancel = AtomicBool::new(false);
+    let swings = unit.reduce(&mechanism, mechanism.drawing(), positions, &cancel).potential;
+    let least = swings.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = swings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert!((81.0 - end * end - 2.0 * (greatest - least)).abs() < 1e-6, "{end}");
 }
 
 #[test]
@@ -161,7 +207,8 @@ fn a_place_on_the_ground_is_in_the_drawings_frame() {
         Load::Spring { ends: [Point::Joint(1), anchor], stiffness: 8.0, length: 0.0, preload: 0.0 };
     let machine = Machine { loads: vec![spring], ..Machine::default() };
     let (q, cancel) = (mechanism.q0(), AtomicBool::new(false));
-    let rows = machine.reduce(&mechanism, mechanism.drawing(), q, &[0.0], &[], &cancel);
+    let positions = DrivenPositions { q, speed: &[0.0], ..DrivenPositions::default() };
+    let rows = machine.reduce(&mechanism, mechanism.drawing(), positions, &cancel);
     // 8/2 · 5².
     assert!((rows.potential[0] - 100.0).abs() < 1e-12);
 }

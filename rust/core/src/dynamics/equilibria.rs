@@ -7,6 +7,7 @@
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::followers::Followers;
 use super::kinematics::SolvedPose;
 use super::load::Load;
 use super::machine::Machine;
@@ -31,6 +32,14 @@ const NO_DIGITS: f64 = 1.0e-2;
 const SAME_IN_A_TURN: f64 = 1.0e-7;
 /// Rest this close to an end of a range, in u of its greater end, is within it.
 const WITHIN_ULPS: f64 = 8.0;
+/// Distance from a station, relative to it (or to 1), beyond its rounding.
+const BESIDE: f64 = 1.0e-12;
+
+/// Both sides of a station, beyond its rounding.
+fn beside(station: f64) -> [f64; 2] {
+    let step = BESIDE * station.abs().max(1.0);
+    [station - step, station + step]
+}
 
 /// Where to look for rest: evenly spaced positions, to which the rows of tables are added.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,7 +97,7 @@ impl Machine {
             return Equilibria { is_empty: true, ..Equilibria::default() };
         }
         let derivatives = DerivativeTables::new(1, 2);
-        let torsion = self.has_torsion();
+        let torsion = self.needs_angles();
         let mut evaluator =
             Evaluator::new(mechanism, dimensions, &derivatives, Queries::Any, torsion);
         let mut machine = self.clone();
@@ -97,6 +106,8 @@ impl Machine {
             .retain(|load| !matches!(load, Load::Damper { .. } | Load::TorsionDamper { .. }));
         let mut reduced = Reduced::new(1);
         let mut tables = Vec::new();
+        let mut followers = Followers::default();
+        let mut knots = self.stations_of(&mut evaluator, &derivatives, range.widened());
         let is_reached = Cell::new(false);
         let mut sample = |q: f64| {
             if cancel.load(Ordering::Relaxed) {
@@ -116,10 +127,11 @@ impl Machine {
                 machine.tables.iter().map(|t| t.value_and_slope(q).unwrap_or([f64::NAN; 2])),
             );
             machine.add_configuration(&pose, &mut reduced);
-            let numbers = Numbers { tables: &tables, external: &[] };
+            followers.read(machine.followed(), &pose, &[q], &[0.0]);
+            let numbers = Numbers { tables: &tables, ..followers.numbers() };
             machine.add_speed_loads(&pose, &[0.0], numbers, &mut reduced);
             let reach = Reach { length: scale / unit, angle: 1.0 / unit };
-            let found = machine.moment_slope(&pose, &tables, reach);
+            let found = machine.moment_slope(&pose, numbers, reach);
             let error = ANALOGUE_PER_CONDITION_SQUARED * condition * condition;
             if error > NO_DIGITS {
                 return None;
@@ -128,8 +140,16 @@ impl Machine {
             let sample = Sample { x: q, value: reduced.moment(0), slope: found.slope, noise };
             Some((sample, reduced.inertia[0]))
         };
-        let knots = self.tables.iter().map(|table| table.knots_within(range.widened()));
-        let nodes = range.nodes(knots.flatten());
+        knots = knots.into_iter().flat_map(beside).collect();
+        for table in &self.tables {
+            let own = table.knots_within(range.widened());
+            // The value at a jump is the one behind it.
+            if !table.jumps().is_empty() {
+                knots.extend(own.iter().map(|knot| knot.next_down()));
+            }
+            knots.extend(own);
+        }
+        let nodes = range.nodes(knots.into_iter());
         let roots = all_roots(&nodes, |q| sample(q).map(|pair| pair.0));
         let mut found = Equilibria::of_roots(&roots, range, sample);
         if !is_reached.get() {

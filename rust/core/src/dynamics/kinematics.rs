@@ -107,6 +107,16 @@ impl<'p> SolvedPose<'p> {
         state.pose.slides[slide * self.derivatives.len() + k][0] * units.length[k]
     }
 
+    /// The size of the design, m.
+    pub(crate) fn size(&self) -> f64 {
+        self.position.constants.scale
+    }
+
+    /// One over the unit of a driver's coordinate: the size for a slide, 1 for an angle.
+    pub(crate) fn unit(&self, driver: usize) -> f64 {
+        self.position.units.coordinate[driver]
+    }
+
     /// A link's angle, rad, continuous along the branch from the drawing.
     pub(crate) fn total_angle(&self, link: usize) -> f64 {
         self.position.angle(link)

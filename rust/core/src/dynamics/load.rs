@@ -2,7 +2,9 @@
 //! its product with the derivatives of the point or angle it acts on (I. M. Matsyuk &
 //! E. M. Shlyakhov, equation 1; Uicker, Pennock & Shigley 2017, chapter 12).
 
+use super::gas::Gas;
 use super::kinematics::{Point, SolvedPose};
+use super::measure::{Curve, Measure, OneWay, Over};
 use super::reduced::Reduced;
 use super::value::{Numbers, Value};
 use crate::math::vector::Vector;
@@ -20,6 +22,22 @@ pub enum Load {
         axes: Option<usize>,
         /// The link that takes it, of those at a joint; `None`: the first of them.
         on: Option<usize>,
+        /// The direction in which it acts, if it does not in both.
+        one_way: Option<OneWay>,
+    },
+    /// A pressure in the cylinder of a slide: a force along the guide on the sliding link at its
+    /// sliding point; its reaction acts on the link that carries the guide.
+    Pressure {
+        /// The slide.
+        slide: usize,
+        /// Area of the piston, m²; positive if the pressure drives the sliding link along the guide.
+        area: f64,
+        /// Absolute pressure, Pa.
+        pressure: Value,
+        /// Pressure on the other side, Pa.
+        ambient: f64,
+        /// The direction in which it acts, if it does not in both.
+        one_way: Option<OneWay>,
     },
     /// A torque on a link; its reaction acts on another link (or the frame).
     Torque {
@@ -29,6 +47,8 @@ pub enum Load {
         on: usize,
         /// N·m, counter-clockwise on the link.
         torque: Value,
+        /// The direction in which it acts, if it does not in both.
+        one_way: Option<OneWay>,
     },
     /// A spring between two points; pulls them together when longer than its free length.
     Spring {
@@ -81,9 +101,41 @@ pub(super) fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (
 }
 
 impl Load {
-    /// Adds the moments and the potential energy of a spring.
-    pub(crate) fn add_conservative(&self, pose: &SolvedPose<'_>, out: &mut Reduced) {
+    /// The direction in which it acts, if it does not in both.
+    pub(crate) fn one_way(&self) -> Option<OneWay> {
         match self {
+            Self::Force { one_way, .. }
+            | Self::Torque { one_way, .. }
+            | Self::Pressure { one_way, .. } => *one_way,
+            _ => None,
+        }
+    }
+
+    /// The gas in the cylinder of its own slide, if it acts in both directions: a spring.
+    fn gas_spring<'o>(&self, over: &'o [Over]) -> Option<&'o Gas> {
+        let Self::Pressure { slide, pressure: Value::Over(index), one_way: None, .. } = self else {
+            return None;
+        };
+        match over.get(*index)? {
+            Over { measure: Measure::Slide(own), curve: Curve::Gas(gas) } if own == slide => {
+                Some(gas)
+            }
+            _ => None,
+        }
+    }
+
+    /// Adds the moments and the potential energy of a spring.
+    pub(crate) fn add_conservative(&self, pose: &SolvedPose<'_>, over: &[Over], out: &mut Reduced) {
+        match self {
+            Self::Pressure { slide, area, ambient, .. } => {
+                let Some(gas) = self.gas_spring(over) else { return };
+                let at = pose.slide(*slide, 0);
+                out.potential += gas.energy(at, *ambient);
+                let force = area * (gas.value_and_slope(at)[0] - ambient);
+                for (driver, sum) in out.conservative.iter_mut().enumerate() {
+                    *sum += force * pose.slide(*slide, SolvedPose::first_order(driver));
+                }
+            }
             Self::Spring { ends, stiffness, length, preload } => {
                 let (unit, distance) = direction_and_length(pose, *ends);
                 let elongation = distance - length;
@@ -114,8 +166,12 @@ impl Load {
         pose: &SolvedPose<'_>,
         speed: &[f64],
         numbers: Numbers<'_>,
+        over: &[Over],
         out: &mut Reduced,
     ) {
+        if self.one_way().is_some_and(|one_way| !one_way.acts(numbers.ways)) {
+            return;
+        }
         let first = SolvedPose::first_order;
         match self {
             Self::Force { at, force: [x, y], axes, .. } => {
@@ -127,7 +183,18 @@ impl Load {
                 let rate = Vector::new(x.d_speed(numbers), y.d_speed(numbers)) * frame;
                 out.d_moment_d_speed += rate.dot(pose.point(*at, first(0)));
             }
-            Self::Torque { link, on, torque } => {
+            Self::Pressure { slide, area, pressure, ambient, .. } => {
+                if self.gas_spring(over).is_some() {
+                    return;
+                }
+                let force = area * (pressure.at(numbers) - ambient);
+                for (driver, sum) in out.applied.iter_mut().enumerate() {
+                    *sum += force * pose.slide(*slide, first(driver));
+                }
+                out.d_moment_d_speed +=
+                    area * pressure.d_speed(numbers) * pose.slide(*slide, first(0));
+            }
+            Self::Torque { link, on, torque, .. } => {
                 let moment = torque.at(numbers);
                 for (driver, sum) in out.applied.iter_mut().enumerate() {
                     *sum += moment * relative_rate(pose, *link, *on, driver);

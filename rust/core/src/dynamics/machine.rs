@@ -3,9 +3,11 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::body::Body;
+use super::followers::{Followed, Followers};
 use super::friction::description::Friction;
 use super::kinematics::SolvedPose;
 use super::load::Load;
+use super::measure::{Measure, Over};
 use super::motor::Motor;
 use super::reduced::Reduced;
 use super::tables::table::Table;
@@ -28,10 +30,27 @@ pub struct Machine {
     pub gravity: [f64; 2],
     /// Tables over the first driver's coordinate, for loads and motors.
     pub tables: Vec<Table>,
+    /// Curves over other coordinates, for loads and motors.
+    pub over: Vec<Over>,
+    /// Coordinates whose direction of motion loads follow.
+    pub ways: Vec<Measure>,
     /// Its motors. Their rotors count in the machine's inertia, but their torque is not a load.
     pub motors: Vec<Motor>,
     /// Friction in its pairs: of [reactions](Machine::reactions), not of the reduced moment.
     pub friction: Vec<Friction>,
+}
+
+/// Positions of one design and the motion of its drivers there.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct DrivenPositions<'a> {
+    /// Coordinates, drivers fastest.
+    pub q: &'a [f64],
+    /// Speeds, drivers fastest.
+    pub speed: &'a [f64],
+    /// In which sense each driver is about to move where all rest, +1 or −1. May be empty.
+    pub sense: &'a [f64],
+    /// The callbacks' values, equally many for each position.
+    pub external: &'a [f64],
 }
 
 /// A machine referred to its drivers at many positions, one after another; NaN where a position
@@ -53,27 +72,26 @@ pub struct ReducedTable {
 }
 
 impl Machine {
-    /// Refers a design to its drivers at positions (`q`, `speed`: drivers fastest; `external`: the
-    /// callbacks' values, equally many for each position). Ends early once `cancel` is true.
+    /// Refers a design to its drivers at positions. Ends early once `cancel` is true.
     #[must_use]
     pub fn reduce(
         &self,
         mechanism: &Mechanism,
         dimensions: &[f64],
-        q: &[f64],
-        speed: &[f64],
-        external: &[f64],
+        positions: DrivenPositions<'_>,
         cancel: &AtomicBool,
     ) -> ReducedTable {
+        let DrivenPositions { q, speed, sense, external } = positions;
         let drivers = mechanism.q0().len();
         let derivatives = DerivativeTables::new(drivers, 2);
         let asked = Queries::Listed(q);
         let mut evaluator =
-            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.has_torsion());
+            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.needs_angles());
         let per_position = external.len().checked_div(q.len() / drivers).unwrap_or(0);
         let mut rows = ReducedTable::default();
         let mut reduced = Reduced::new(drivers);
         let (mut tables, mut numbers) = (Vec::new(), Vec::new());
+        let mut followers = Followers::default();
         for (row, (q, speed)) in
             q.chunks_exact(drivers).zip(speed.chunks_exact(drivers)).enumerate()
         {
@@ -95,12 +113,10 @@ impl Machine {
                     .map(|&number| [number, 0.0]),
             );
             self.add_configuration(&pose, &mut reduced);
-            self.add_speed_loads(
-                &pose,
-                speed,
-                Numbers { tables: &tables, external: &numbers },
-                &mut reduced,
-            );
+            let rests = speed.iter().all(|&speed| speed == 0.0);
+            followers.read(self.followed(), &pose, q, if rests { sense } else { speed });
+            let numbers = Numbers { tables: &tables, external: &numbers, ..followers.numbers() };
+            self.add_speed_loads(&pose, speed, numbers, &mut reduced);
             // At a change point the values are those of the motion through it.
             let status = match evaluator.status() {
                 Status::Ok => Status::Ok,
@@ -112,8 +128,25 @@ impl Machine {
     }
 
     /// Whether a load needs the angles of links, not only their derivatives.
-    pub(crate) fn has_torsion(&self) -> bool {
+    pub(crate) fn needs_angles(&self) -> bool {
         self.loads.iter().any(|load| matches!(load, Load::TorsionSpring { .. }))
+            || self.over.iter().any(|over| matches!(over.measure, Measure::Angle(_)))
+    }
+
+    /// The coordinates that loads follow, and the curves over them.
+    pub(crate) fn followed(&self) -> Followed<'_> {
+        Followed { over: &self.over, ways: &self.ways }
+    }
+
+    /// Whether loads follow other coordinates than the first driver's.
+    pub(crate) fn follows(&self) -> bool {
+        !(self.over.is_empty() && self.ways.is_empty())
+    }
+
+    /// Whether such loads may not be smooth over the drivers.
+    #[must_use]
+    pub fn has_stations(&self) -> bool {
+        !self.ways.is_empty() || self.over.iter().any(|over| over.table().is_some())
     }
 
     /// Inertia, weights and springs at a position; replaces those in `out`.
@@ -128,7 +161,7 @@ impl Machine {
             out.add_body(pose, body, gravity);
         }
         for load in &self.loads {
-            load.add_conservative(pose, out);
+            load.add_conservative(pose, &self.over, out);
         }
     }
 
@@ -143,7 +176,7 @@ impl Machine {
         out.applied.fill(0.0);
         out.d_moment_d_speed = 0.0;
         for load in &self.loads {
-            load.add_applied(pose, speed, numbers, out);
+            load.add_applied(pose, speed, numbers, &self.over, out);
         }
     }
 }

@@ -1,12 +1,13 @@
 //! The slope of a machine's reduced moment at rest: minus the second derivative of its potential.
 //!
 //! The derivative of the principle of virtual work by the coordinate of one driver. A force F at x
-//! gives F·x″ + F′·x′, a spring of length l and tension T gives −(k l′² + T l″), with
+//! gives F·x″ + F′·x′ (so does a pressure, along its slide), a spring of length l and tension T gives −(k l′² + T l″), with
 //! l″ = u·d″ + (|d′|² − l′²)/l and d = l u the vector between its ends.
 
 use super::kinematics::SolvedPose;
 use super::load::{Load, axis_of, direction_and_length, relative_rate};
 use super::machine::Machine;
+use super::value::Numbers;
 use crate::math::vector::Vector;
 
 /// How far points and angles move with the coordinate at most, roughly: what remains of a term that
@@ -34,12 +35,11 @@ impl Slope {
 }
 
 impl Machine {
-    /// The slope at a position of a machine with one driver, without dampers; `tables`: value and
-    /// slope of every table.
+    /// The slope at a position of a machine with one driver, without dampers.
     pub(crate) fn moment_slope(
         &self,
         pose: &SolvedPose<'_>,
-        tables: &[[f64; 2]],
+        numbers: Numbers<'_>,
         reach: Reach,
     ) -> Slope {
         let mut out = Slope::default();
@@ -51,18 +51,28 @@ impl Machine {
             out.add(weight.dot(pose.point(body.at, two)), weight.size() * moved);
         }
         for load in &self.loads {
-            load.add_slope(pose, tables, reach, &mut out);
+            load.add_slope(pose, numbers, reach, &mut out);
         }
         out
     }
 }
 
 impl Load {
-    fn add_slope(&self, pose: &SolvedPose<'_>, tables: &[[f64; 2]], reach: Reach, out: &mut Slope) {
+    fn add_slope(
+        &self,
+        pose: &SolvedPose<'_>,
+        numbers: Numbers<'_>,
+        reach: Reach,
+        out: &mut Slope,
+    ) {
+        if self.one_way().is_some() {
+            // At rest it does not act.
+            return;
+        }
         let (one, two) = (SolvedPose::first_order(0), pose.second_order(0, 0));
         match self {
             Self::Force { at, force: [x, y], axes, .. } => {
-                let [x, y] = [x, y].map(|value| value.with_slope(tables));
+                let [x, y] = [x, y].map(|value| value.with_slope(numbers));
                 let axis = axis_of(pose, *axes);
                 let force = Vector::new(x[0], y[0]) * axis;
                 let turned = axes.map_or(0.0, |link| pose.angle(link, one));
@@ -71,8 +81,15 @@ impl Load {
                 let slope = rate.dot(velocity) + force.dot(pose.point(*at, two));
                 out.add(slope, force.size() * (velocity.size() + reach.length));
             }
-            Self::Torque { link, on, torque } => {
-                let [torque, rate] = torque.with_slope(tables);
+            Self::Pressure { slide, area, pressure, ambient, .. } => {
+                let [pressure, rate] = pressure.with_slope(numbers);
+                let (force, moved) = (area * (pressure - ambient), pose.slide(*slide, one));
+                let slope = area * rate * moved + force * pose.slide(*slide, two);
+                let most = (area * pressure).abs() + (area * ambient).abs();
+                out.add(slope, most * (moved.abs() + reach.length));
+            }
+            Self::Torque { link, on, torque, .. } => {
+                let [torque, rate] = torque.with_slope(numbers);
                 let turned = relative_rate(pose, *link, *on, 0);
                 let slope = rate * turned + torque * second_rate(pose, *link, *on);
                 out.add(slope, torque.abs() * (turned.abs() + reach.angle));

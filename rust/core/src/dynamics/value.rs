@@ -7,17 +7,23 @@ pub enum Value {
     Number(f64),
     /// Index of one of the machine's tables over the first driver's coordinate.
     Table(usize),
+    /// Index of one of the machine's curves over other coordinates.
+    Over(usize),
     /// Index of one of the numbers that callbacks give at every evaluation.
     External(usize),
 }
 
-/// Values of tables and callbacks at the current state.
+/// Values of tables and callbacks, and directions of motion, at the current state.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Numbers<'a> {
     /// Value and slope of every table.
     pub tables: &'a [[f64; 2]],
+    /// Value of every curve over another coordinate, and its slope by the first driver's.
+    pub over: &'a [[f64; 2]],
     /// Value of every callback and its derivative by the speed.
     pub external: &'a [[f64; 2]],
+    /// Direction of every coordinate that a load follows: +1, −1 or, at rest, 0.
+    pub ways: &'a [f64],
 }
 
 impl Value {
@@ -27,15 +33,19 @@ impl Value {
         match self {
             Self::Number(number) => number,
             Self::Table(index) => value(numbers.tables, index),
+            Self::Over(index) => value(numbers.over, index),
             Self::External(index) => value(numbers.external, index),
         }
     }
 
-    /// Value and derivative by the coordinate, without callbacks; `tables`: those of every table.
-    pub(crate) fn with_slope(self, tables: &[[f64; 2]]) -> [f64; 2] {
+    /// Value and derivative by the coordinate, without callbacks.
+    pub(crate) fn with_slope(self, numbers: Numbers<'_>) -> [f64; 2] {
+        let pair =
+            |list: &[[f64; 2]], index: usize| list.get(index).copied().unwrap_or([f64::NAN; 2]);
         match self {
             Self::Number(number) => [number, 0.0],
-            Self::Table(index) => tables.get(index).copied().unwrap_or([f64::NAN; 2]),
+            Self::Table(index) => pair(numbers.tables, index),
+            Self::Over(index) => pair(numbers.over, index),
             Self::External(_) => [f64::NAN; 2],
         }
     }
@@ -44,7 +54,7 @@ impl Value {
     pub(crate) fn d_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {
             Self::External(index) => numbers.external.get(index).map_or(f64::NAN, |pair| pair[1]),
-            Self::Number(_) | Self::Table(_) => 0.0,
+            Self::Number(_) | Self::Table(_) | Self::Over(_) => 0.0,
         }
     }
 }

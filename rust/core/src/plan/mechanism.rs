@@ -218,6 +218,27 @@ impl Mechanism {
     pub fn slide(&self, name: &str) -> Result<usize, SolveError> {
         find(name, Named::Slide, None, self.linkage.slides.iter().map(|x| x.name.as_str()))
     }
+
+    /// Index of a slide, or of a link, by name.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Unknown`] with the nearest names of slides and links.
+    pub fn slide_or_link(&self, name: &str) -> Result<(Named, usize), SolveError> {
+        let (slides, links) = (&self.linkage.slides, &self.linkage.links);
+        if let Some(slide) = slides.iter().position(|slide| slide.name == name) {
+            return Ok((Named::Slide, slide));
+        }
+        if let Some(link) = links.iter().position(|link| link.name == name) {
+            return Ok((Named::Link, link));
+        }
+        let kind = if slides.is_empty() { Named::Link } else { Named::Slide };
+        let known = slides.iter().map(|x| &x.name).chain(links.iter().map(|x| &x.name));
+        let known =
+            known.enumerate().filter(|(index, _)| *index != slides.len() + self.linkage.ground);
+        let hint = suggest(name, known.map(|(_, name)| name.as_str()));
+        Err(SolveError::Unknown { kind, name: name.into(), hint })
+    }
 }
 
 fn find<'a>(

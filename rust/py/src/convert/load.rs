@@ -2,12 +2,15 @@
 #![allow(clippy::struct_field_names, reason = "the names of the classes and of their fields")]
 
 use assur::Mechanism;
-use assur::dynamics::Load;
+use assur::dynamics::{Curve, Gas, Load, Measure, Over};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use super::Classes;
 use super::point::{PointLike, link};
 use super::value::Values;
+use crate::detach::catch_panic;
+use crate::error_map;
 
 const MODULE: Classes = Classes("assur.dynamics.loads");
 
@@ -22,6 +25,34 @@ struct Force<'py> {
     force: [Bound<'py, PyAny>; 2],
     axes: Option<String>,
     on: Option<String>,
+    while_: Option<String>,
+    over: Option<String>,
+}
+
+#[derive(FromPyObject)]
+struct Pressure<'py> {
+    slide: String,
+    area: f64,
+    pressure: Bound<'py, PyAny>,
+    expands: String,
+    ambient: f64,
+    while_: Option<String>,
+    over: Option<String>,
+}
+
+#[derive(FromPyObject)]
+pub(crate) struct GasFields {
+    pressure: f64,
+    volume: f64,
+    at: f64,
+    exponent: f64,
+}
+
+impl GasFields {
+    fn gas(self, area: f64) -> Gas {
+        let Self { pressure, volume, at, exponent } = self;
+        Gas { pressure, volume, at, exponent, area }
+    }
 }
 
 #[derive(FromPyObject)]
@@ -29,6 +60,8 @@ struct Torque<'py> {
     link: String,
     torque: Bound<'py, PyAny>,
     on: String,
+    while_: Option<String>,
+    over: Option<String>,
 }
 
 #[derive(FromPyObject)]
@@ -63,11 +96,26 @@ struct TorsionDamper {
     on: String,
 }
 
+/// The pressures of a `Gas` at values of its slide; `area` is negative if its volume falls as they grow.
+#[pyfunction]
+pub(crate) fn gas_pressures<'py>(
+    py: Python<'py>,
+    gas: GasFields,
+    area: f64,
+    values: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    catch_panic(|| {
+        let gas = gas.gas(area);
+        let pressures = values.as_array().iter().map(|&value| gas.pressure_at(value)).collect();
+        Ok(PyArray1::from_vec(py, pressures))
+    })
+}
+
 /// The loads besides gravity, and the sum of the gravitational accelerations.
 pub(crate) fn loads(
     mechanism: &Mechanism,
     objects: &[Bound<'_, PyAny>],
-    values: &mut Values,
+    values: &mut Values<'_>,
 ) -> PyResult<(Vec<Load>, [f64; 2])> {
     let (mut loads, mut gravity) = (Vec::new(), [0.0; 2]);
     for object in objects {
@@ -81,22 +129,42 @@ pub(crate) fn loads(
     Ok((loads, gravity))
 }
 
-fn load(mechanism: &Mechanism, object: &Bound<'_, PyAny>, values: &mut Values) -> PyResult<Load> {
+fn load(
+    mechanism: &Mechanism,
+    object: &Bound<'_, PyAny>,
+    values: &mut Values<'_>,
+) -> PyResult<Load> {
     let is = |class| MODULE.is(object, class);
     let link = |name: &str| link(mechanism, name);
     let ends = |first: &PointLike, second: &PointLike| {
         Ok::<_, PyErr>([first.resolve(mechanism)?, second.resolve(mechanism)?])
     };
     if is("Force")? {
-        let Force { at, force: [x, y], axes, on } = object.extract()?;
+        let Force { at, force: [x, y], axes, on, while_, over } = object.extract()?;
         let force = [values.read(&x)?, values.read(&y)?];
+        let one_way = values.one_way(while_.as_deref(), over.as_deref(), Measure::Driver(0))?;
         let axes = axes.as_deref().map(link).transpose()?;
         let on = on.as_deref().map(link).transpose()?;
-        Ok(Load::Force { at: at.resolve(mechanism)?, force, axes, on })
+        Ok(Load::Force { at: at.resolve(mechanism)?, force, axes, on, one_way })
     } else if is("Torque")? {
-        let Torque { link: name, torque, on } = object.extract()?;
+        let Torque { link: name, torque, on, while_, over } = object.extract()?;
         let torque = values.read(&torque)?;
-        Ok(Load::Torque { link: link(&name)?, on: link(&on)?, torque })
+        let one_way = values.one_way(while_.as_deref(), over.as_deref(), Measure::Driver(0))?;
+        Ok(Load::Torque { link: link(&name)?, on: link(&on)?, torque, one_way })
+    } else if is("Pressure")? {
+        let Pressure { slide, area, pressure, expands, ambient, while_, over } =
+            object.extract()?;
+        let slide = mechanism.slide(&slide).map_err(error_map::solve)?;
+        let area = if expands == "backward" { -area } else { area };
+        let measure = Measure::Slide(slide);
+        let pressure = if MODULE.is(&pressure, "Gas")? {
+            let gas = pressure.extract::<GasFields>()?.gas(area);
+            values.follow(Over { measure, curve: Curve::Gas(gas) })
+        } else {
+            values.read(&pressure)?
+        };
+        let one_way = values.one_way(while_.as_deref(), over.as_deref(), measure)?;
+        Ok(Load::Pressure { slide, area, pressure, ambient, one_way })
     } else if is("Spring")? {
         let Spring { first, second, stiffness, length, preload } = object.extract()?;
         Ok(Load::Spring { ends: ends(&first, &second)?, stiffness, length, preload })

@@ -36,7 +36,7 @@ struct InductionMotor {
 /// The motors of drivers, one after another; a driver may have none.
 pub(crate) fn motors(
     objects: &[Option<Bound<'_, PyAny>>],
-    values: &mut Values,
+    values: &mut Values<'_>,
 ) -> PyResult<Vec<Motor>> {
     let mut motors = Vec::new();
     for (driver, object) in objects.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(crate) fn motors(
     Ok(motors)
 }
 
-fn characteristic(object: &Bound<'_, PyAny>, values: &mut Values) -> PyResult<Characteristic> {
+fn characteristic(object: &Bound<'_, PyAny>, values: &mut Values<'_>) -> PyResult<Characteristic> {
     if MODULE.is(object, "ConstantTorque")? {
         let ConstantTorque { torque } = object.extract()?;
         Ok(Characteristic::Value(values.read(&torque)?))

@@ -47,11 +47,12 @@ impl Cycle {
         inertia: &[f64],
         ends: EndCondition,
     ) -> Result<Self, TableError> {
+        check(knots, [("moment", moment), ("inertia", inertia)], false)?;
         Self::with_corners(knots, moment, inertia, ends, &[])
     }
 
     /// The same with corners at some rows: a separate curve is fitted from each corner to the next.
-    /// The first and the last row may be among them.
+    /// The first and the last row may be among them. Two rows at one coordinate are a jump.
     ///
     /// # Errors
     ///
@@ -63,24 +64,26 @@ impl Cycle {
         ends: EndCondition,
         corners: &[usize],
     ) -> Result<Self, TableError> {
-        check(knots, [("moment", moment), ("inertia", inertia)])?;
+        check(knots, [("moment", moment), ("inertia", inertia)], true)?;
         let mut cuts: Vec<usize> = [0]
             .into_iter()
             .chain(corners.iter().copied().filter(|&row| row > 0 && row + 1 < knots.len()))
+            .chain((1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).flat_map(|i| [i - 1, i]))
             .chain([knots.len() - 1])
             .collect();
         cuts.sort_unstable();
         cuts.dedup();
         let fit = |values: &[f64]| -> Result<Pieces, TableError> {
             let mut all = Pieces::with_capacity(knots.len());
-            for cut in cuts.windows(2) {
+            for cut in cuts.windows(2).filter(|cut| knots[cut[0]] < knots[cut[1]]) {
                 all.append(&mut spline(&knots[cut[0]..=cut[1]], &values[cut[0]..=cut[1]], ends)?);
             }
             Ok(all)
         };
         let (moment, inertia) = (fit(moment)?, fit(inertia)?);
-        let mut cycle =
-            Self { knots: knots.to_vec(), moment, inertia, work: Vec::new(), motor: 0.0 };
+        let mut knots = knots.to_vec();
+        knots.dedup();
+        let mut cycle = Self { knots, moment, inertia, work: Vec::new(), motor: 0.0 };
         cycle.integrate_work();
         // The motor balances the mean moment.
         cycle.motor = -cycle.total_work() / cycle.period();
@@ -212,8 +215,12 @@ pub(crate) fn wrap_to_period(x: f64, start: f64, period: f64) -> [f64; 2] {
     [start + rest, ((since - rest) / period).round()]
 }
 
-fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), TableError> {
-    check_columns(knots, &columns, true)?;
+fn check(
+    knots: &[f64],
+    columns: [(&'static str, &[f64]); 2],
+    jumps: bool,
+) -> Result<(), TableError> {
+    check_columns(knots, &columns, true, jumps)?;
     let inertia = columns[1].1;
     if let Some(row) = inertia.iter().position(|&x| x < 0.0) {
         return Err(TableError::Negative { value: inertia[row], at: knots[row], in_row: true });
@@ -221,11 +228,13 @@ fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), Tabl
     Ok(())
 }
 
-/// Checks that the coordinates increase, and that periodic columns have equal ends.
+/// Checks that the coordinates increase (with `jumps`: some may be there twice), and that periodic
+/// columns have equal ends.
 pub(crate) fn check_columns(
     knots: &[f64],
     columns: &[(&'static str, &[f64])],
     periodic: bool,
+    jumps: bool,
 ) -> Result<(), TableError> {
     let all = || std::iter::once(("phi", knots)).chain(columns.iter().copied());
     let count = all().map(|(_, column)| column.len()).min().unwrap_or(0);
@@ -241,9 +250,15 @@ pub(crate) fn check_columns(
             return Err(TableError::NotFinite { row, quantity, value: column[row] });
         }
     }
-    if let Some(row) = (1..count).find(|&row| knots[row] <= knots[row - 1]) {
+    let is_back = |row: usize| {
+        if jumps { knots[row] < knots[row - 1] } else { knots[row] <= knots[row - 1] }
+    };
+    if let Some(row) = (1..count).find(|&row| is_back(row)) {
         let (value, before) = (knots[row], knots[row - 1]);
         return Err(TableError::NotIncreasing { row, value, before });
+    }
+    if let Some(row) = (2..count).find(|&row| knots[row] == knots[row - 2]) {
+        return Err(TableError::Tripled { at: knots[row] });
     }
     for &(quantity, column) in columns.iter().filter(|_| periodic) {
         let (first, last) = (column[0], column[count - 1]);

@@ -13,6 +13,7 @@ use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_direction
 use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::dynamics::reactions::rubbing::Rubbing;
 use crate::dynamics::reactions::scene::Scene;
+use crate::dynamics::value::Numbers;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 
@@ -45,7 +46,6 @@ pub(crate) struct FrictionMotion<'m> {
     guides: Vec<Vector>,
     size: f64,
     values: Vec<Vec<f64>>,
-    tables: Vec<Vec<f64>>,
     scene: Scene<f64>,
 }
 
@@ -65,7 +65,6 @@ impl<'m> FrictionMotion<'m> {
             guides: guide_directions(mechanism, dimensions),
             size: mechanism.linkage().size(),
             values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
-            tables: vec![vec![0.0]; machine.tables.len()],
             scene: Scene::new(&plan),
             rubbing: Rubbing::of(&plan, &links_at, &machine.friction),
             machine,
@@ -74,22 +73,28 @@ impl<'m> FrictionMotion<'m> {
         }
     }
 
-    /// The acceleration; `None` where friction leaves none. `tables` and `external`: values of the loads.
+    /// The acceleration; `None` where friction leaves none. `numbers`: what the loads read.
     pub(crate) fn acceleration(
         &mut self,
         pose: &SolvedPose<'_>,
         state: RubbingState,
         drive: Drive,
-        (tables, external): (&[[f64; 2]], &[[f64; 2]]),
+        numbers: Numbers<'_>,
     ) -> Option<f64> {
         self.read_values(pose);
-        for (table, &[value, _]) in self.tables.iter_mut().zip(tables) {
-            table[0] = value;
-        }
-        let external: Vec<f64> = external.iter().map(|&[value, _]| value).collect();
-        let Self { machine, plan, rubbing, sources, guides, values, tables, scene, .. } = self;
+        let of_one = |list: &[[f64; 2]]| list.iter().map(|&[value, _]| vec![value]).collect();
+        let (tables, over): (Vec<_>, Vec<_>) = (of_one(numbers.tables), of_one(numbers.over));
+        let ways: Vec<Vec<f64>> = numbers.ways.iter().map(|&way| vec![way]).collect();
+        let external: Vec<f64> = numbers.external.iter().map(|&[value, _]| value).collect();
+        let Self { machine, plan, rubbing, sources, guides, values, scene, .. } = self;
         let rubbing = &rubbing[..];
-        let values_of_loads = Values { tables, external: &external, callbacks: external.len() };
+        let values_of_loads = Values {
+            tables: &tables,
+            over: &over,
+            ways: &ways,
+            external: &external,
+            callbacks: external.len(),
+        };
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         let speed = [state.speed];
         let load = |acceleration: f64, scene: &mut Scene<f64>| {
@@ -147,7 +152,7 @@ impl<'m> FrictionMotion<'m> {
 
     /// Fills the columns that reactions read.
     fn read_values(&mut self, pose: &SolvedPose<'_>) {
-        let is_torsion = self.machine.has_torsion();
+        let needs_angles = self.machine.needs_angles();
         for (column, values) in self.columns.iter().zip(&mut self.values) {
             let k = column.order;
             match column.quantity {
@@ -162,7 +167,7 @@ impl<'m> FrictionMotion<'m> {
                 Quantity::Slide(slide) => values[0] = pose.slide(slide, k),
                 Quantity::Angle(link) if k > 0 => values[0] = pose.angle(link, k),
                 // Without torsion springs only the direction is read.
-                Quantity::Angle(link) if is_torsion => values[0] = pose.total_angle(link),
+                Quantity::Angle(link) if needs_angles => values[0] = pose.total_angle(link),
                 Quantity::Angle(link) => values[0] = pose.frame(link, 0).angle(),
             }
         }

@@ -6,6 +6,7 @@ use super::scene::{Moving, Scene};
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::measure::OneWay;
 use crate::dynamics::value::Value;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
@@ -16,6 +17,10 @@ use crate::structure::closure::point_of_joint;
 pub(crate) struct Values<'a> {
     /// Of every table, at every position.
     pub tables: &'a [Vec<f64>],
+    /// Of every curve over another coordinate.
+    pub over: &'a [Vec<f64>],
+    /// Direction of every coordinate that a load follows.
+    pub ways: &'a [Vec<f64>],
     /// Of the callbacks, `callbacks` numbers a position.
     pub external: &'a [f64],
     pub callbacks: usize,
@@ -27,8 +32,23 @@ impl Values<'_> {
         match value {
             Value::Number(number) => R::splat(number),
             Value::Table(index) => rows.read(&self.tables[index], 1, 0),
+            Value::Over(index) => rows.read(&self.over[index], 1, 0),
             Value::External(index) => rows.read(self.external, self.callbacks, index),
         }
+    }
+
+    /// A value where the load acts; 0 elsewhere.
+    #[inline(always)]
+    fn read_acting<R: Real>(self, value: Value, one_way: Option<OneWay>, rows: Rows) -> R {
+        let all = self.read(value, rows);
+        self.acting(all, one_way, rows)
+    }
+
+    #[inline(always)]
+    fn acting<R: Real>(self, value: R, one_way: Option<OneWay>, rows: Rows) -> R {
+        let Some(OneWay { way, sign }) = one_way else { return value };
+        let along = rows.read::<R>(&self.ways[way], 1, 0) * R::splat(sign);
+        R::select(along.le(R::ZERO), R::ZERO, value)
     }
 }
 
@@ -70,8 +90,9 @@ impl<R: Real> Scene<R> {
     #[inline(always)]
     fn apply_load(&mut self, plan: &ForcePlan, load: &Load, values: Values<'_>, rows: Rows) {
         match load {
-            Load::Force { at, force: [x, y], axes, on } => {
-                let force = Vector::new(values.read(*x, rows), values.read(*y, rows));
+            Load::Force { at, force: [x, y], axes, on, one_way } => {
+                let read = |value: &Value| values.read_acting(*value, *one_way, rows);
+                let force = Vector::new(read(x), read(y));
                 let force = match axes {
                     Some(link) => self.directions[*link] * force,
                     None => force,
@@ -79,8 +100,17 @@ impl<R: Real> Scene<R> {
                 let place = self.place(plan, *at).at;
                 self.force_on(plan, on.unwrap_or_else(|| taker(plan, *at)), place, force);
             }
-            Load::Torque { link, on, torque } => {
-                let torque = values.read(*torque, rows);
+            Load::Pressure { slide, area, pressure, ambient, one_way } => {
+                let pressure = values.read::<R>(*pressure, rows) - R::splat(*ambient);
+                let force = values.acting(pressure * R::splat(*area), *one_way, rows);
+                let force = self.guides[*slide].scale(force);
+                let [sliding, carrying] = plan.slide_links[*slide];
+                let place = self.points[plan.reference[sliding]].at;
+                self.force_on(plan, sliding, place, force);
+                self.force_on(plan, carrying, place, -force);
+            }
+            Load::Torque { link, on, torque, one_way } => {
+                let torque = values.read_acting(*torque, *one_way, rows);
                 self.moment_on(plan, *link, torque);
                 self.moment_on(plan, *on, -torque);
             }

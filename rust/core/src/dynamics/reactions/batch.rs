@@ -3,6 +3,7 @@
 use super::applied::Values;
 use super::columns::{Solved, Sources, guide_directions};
 use super::evaluate::{Batch, Evaluate};
+use super::followed::{Drivers, Followed};
 use super::force_plan::ForcePlan;
 use super::pair_forces::{JointForce, Reaction};
 use super::request::ReactionRequest;
@@ -110,6 +111,7 @@ struct Own<'b, R: Real, const G: usize> {
     scratch: Scratch,
     scene: Scene<R>,
     tables: Vec<Vec<f64>>,
+    followed: Followed,
     squares: Vec<Squares<R>>,
 }
 
@@ -125,6 +127,7 @@ impl ForLevel for React<'_, '_> {
             scratch: Scratch::new(columns, batch.shape.positions),
             scene: Scene::new(batch.plan),
             tables: vec![Vec::new(); batch.machine.tables.len()],
+            followed: Followed::default(),
             squares: Vec::new(),
         };
         let work = |own: &mut Own<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
@@ -142,7 +145,10 @@ impl Batch<'_> {
         mut results: RowSlices<'_>,
     ) {
         let Shape { designs: all, positions, drivers } = *self.shape;
-        let Own { worker, designs, scratch, scene, tables, squares } = own;
+        let Own { worker, designs, scratch, scene, tables, followed, squares } = own;
+        let size = self.mechanism.linkage().size();
+        let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
+        let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
         designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
         // Squares are of all positions.
         let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };
@@ -178,17 +184,24 @@ impl Batch<'_> {
                 }
             };
             let external = first * self.callbacks..(first + count) * self.callbacks;
+            let solved = Solved {
+                columns: &values,
+                speed: &self.asked.speed[drive(self.asked.speed)],
+                acceleration: &self.asked.acceleration[drive(self.asked.acceleration)],
+                positions: count,
+            };
+            if self.machine.follows() {
+                let drivers = Drivers { q, units: &units, sense: self.asked.sense };
+                followed.read(self.machine, &self.sources, &solved, drivers, size);
+            }
             let mut task = Evaluate {
                 batch: self,
                 guides: guide_directions(self.mechanism, row.dimensions),
-                solved: Solved {
-                    columns: &values,
-                    speed: &self.asked.speed[drive(self.asked.speed)],
-                    acceleration: &self.asked.acceleration[drive(self.asked.acceleration)],
-                    positions: count,
-                },
+                solved,
                 values: Values {
                     tables,
+                    over: &followed.over,
+                    ways: &followed.ways,
                     external: &self.asked.external[external],
                     callbacks: self.callbacks,
                 },

@@ -8,6 +8,7 @@ use crate::dynamics::friction::description::Friction;
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::measure::Measure;
 use crate::plan::mechanism::Mechanism;
 use crate::structure::closure::{GROUND_POINT, point_of_joint};
 
@@ -88,7 +89,9 @@ impl ForcePlan {
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let has_speeds = machine.loads.iter().any(reads_velocities) || !machine.friction.is_empty();
+        let has_speeds = machine.loads.iter().any(reads_velocities)
+            || !machine.friction.is_empty()
+            || !machine.ways.is_empty();
         let edges: Vec<ForceEdge> = plan
             .edges
             .iter()
@@ -197,7 +200,18 @@ impl ForcePlan {
                     self.need_angle(*link);
                     self.need_angle(*on);
                 }
+                Load::Pressure { slide, .. } => {
+                    let [sliding, carrying] = self.slide_links[*slide];
+                    self.need_point(self.reference[sliding]);
+                    self.need_direction(carrying);
+                }
                 Load::Torque { .. } => {}
+            }
+        }
+        let curves = machine.over.iter().map(|over| over.measure);
+        for measure in curves.chain(machine.ways.iter().copied()) {
+            if let Measure::Angle(link) = measure {
+                self.need_angle(link);
             }
         }
         // The value of a slide tells where on its guide the resultant acts.
@@ -310,6 +324,7 @@ fn reads_velocities(load: &Load) -> bool {
         Load::Damper { .. } | Load::TorsionDamper { .. } => true,
         Load::Force { .. }
         | Load::Torque { .. }
+        | Load::Pressure { .. }
         | Load::Spring { .. }
         | Load::TorsionSpring { .. } => false,
     }

@@ -10,6 +10,7 @@ pub(crate) mod applied;
 pub(crate) mod batch;
 pub(crate) mod columns;
 mod evaluate;
+mod followed;
 pub(crate) mod force_plan;
 pub(crate) mod moments;
 pub(crate) mod pair_forces;

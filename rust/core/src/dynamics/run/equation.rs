@@ -6,7 +6,8 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use super::callbacks::Callbacks;
 use super::error::{RunError, outside_table};
 use super::model::ReducedModel;
-use super::table_cursor::TableCursor;
+use super::station_cursor::StationCursor;
+use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, SAME_KNOT_RTOL, TableCursor};
 use crate::dynamics::friction::motion::{Drive, RubbingState};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
@@ -19,6 +20,9 @@ use crate::state::status::Rejection;
 /// Relative change of the speed for the difference quotient of callbacks: the cube root of the unit
 /// roundoff, which balances rounding and curvature.
 const SLOPE_STEP: f64 = 6.0e-6;
+
+/// Halvings of an interval in search of a position that can be reached.
+const HALVINGS: u32 = 40;
 
 type EquationFault<E> = Fault<RunError<E>>;
 
@@ -38,6 +42,10 @@ pub(crate) struct Equation<'a, S, O> {
     pub flywheel: f64,
     pub extra_moment: f64,
     pub cursor: TableCursor,
+    stations: StationCursor,
+    /// The sense in which the only driver moves, +1 or −1, for loads that depend on it; 0 before a
+    /// motion begins.
+    pub sense: f64,
     /// The current piece of each motor's own table.
     pub motor_cells: Vec<Cell>,
     pub reduced: Reduced,
@@ -80,6 +88,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             flywheel: 0.0,
             extra_moment: 0.0,
             cursor: TableCursor::new(),
+            stations: StationCursor::default(),
+            sense: 0.0,
             motor_cells: vec![Cell::default(); motors.len()],
             reduced: Reduced::new(drivers),
             drive: vec![0.0; drivers],
@@ -100,6 +110,10 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     /// Looks up the tables at the start of a motion.
     pub(crate) fn begin(&mut self, q: f64, speed: &[f64]) -> Result<(), RunError<O::Error>> {
         self.look_up(q)?;
+        self.sense = speed[0].signum();
+        if speed[0] == 0.0 {
+            self.sense = 0.0;
+        }
         for (motor, cell) in self.motors.iter().zip(&mut self.motor_cells) {
             if let Some(table) = motor.table() {
                 let motor_speed = motor.ratio * speed[motor.driver];
@@ -151,7 +165,85 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     /// Looks up the tables in the middle of an interval between knots.
     pub(crate) fn enter_interval(&mut self, from: f64, to: f64) -> Result<(), RunError<O::Error>> {
         self.coordinates = just_inside(from, to);
-        self.look_up(0.5 * (from + to))
+        self.look_up(0.5 * (from + to))?;
+        self.hold_between(from, to).map_err(|which| self.outside_curve(which))
+    }
+
+    /// Holds what is true of loads that follow other coordinates between two stations.
+    fn hold_between(&mut self, from: f64, to: f64) -> Result<(), (usize, f64)> {
+        if !self.model.has_stations() {
+            return Ok(());
+        }
+        // Beyond a dead point there is no position.
+        let mut beyond = to;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (from + beyond);
+            if self.model.hold(middle)? {
+                break;
+            }
+            beyond = middle;
+        }
+        Ok(())
+    }
+
+    fn outside_curve(&self, (which, at): (usize, f64)) -> RunError<O::Error> {
+        match self.model.table_over(which) {
+            Some(table) => outside_table("table over a slide or link", table, at),
+            None => RunError::Options("a curve is missing".into()),
+        }
+    }
+
+    /// Enters the interval between stations around a coordinate, or ahead of it where it is at one. An
+    /// error is the index of the table that ends there, and the value that it lacks.
+    fn face(&mut self, q: f64, up: bool) -> Result<(), (usize, f64)> {
+        if !self.model.has_stations() {
+            return Ok(());
+        }
+        let unit = self.model.unit(0);
+        let model = &mut self.model;
+        let [low, high] = self.stations.around(q, up, unit, |range| model.stations(range));
+        self.cursor.update_interval(self.tables);
+        (self.cursor.low, self.cursor.high) =
+            (self.cursor.low.max(low), self.cursor.high.min(high));
+        if up { self.hold_between(q, high) } else { self.hold_between(q, low) }
+    }
+
+    /// Enters the interval between stations where a motion in time begins.
+    pub(crate) fn begin_in_time(&mut self, q: f64, speed: f64) -> Result<(), RunError<O::Error>> {
+        if self.model.has_stations() && q.abs() > MAX_COORDINATE * self.model.unit(0) {
+            return Err(RunError::TooManyKnots { most: MAX_KNOTS, from: q, to: q });
+        }
+        self.face(q, speed >= 0.0).map_err(|which| self.outside_curve(which))
+    }
+
+    /// Enters the first interval between stations of a motion along the coordinate.
+    pub(crate) fn begin_along(
+        &mut self,
+        [from, to]: [f64; 2],
+        stations: &[f64],
+    ) -> Result<(), RunError<O::Error>> {
+        let first = if to >= from { stations.first() } else { stations.last() };
+        self.hold_between(from, first.copied().unwrap_or(to))
+            .map_err(|which| self.outside_curve(which))
+    }
+
+    /// Faces the sense of a motion that may begin at a coordinate: there may be a station at it. What
+    /// ends there ends the motion later.
+    pub(crate) fn turn_to(&mut self, q: f64, sense: f64) {
+        self.sense = sense;
+        let [low, high] = [self.cursor.low, self.cursor.high];
+        let edge = if sense > 0.0 { high } else { low };
+        if self.stations.has_begun() && (q - edge).abs() <= SAME_KNOT_RTOL * q.abs().max(1.0) {
+            let _ = self.face(q, sense > 0.0);
+        }
+    }
+
+    /// Passes on to the next interval between knots and stations. Returns the coordinate, inside it, or
+    /// the index of the table that ends there: those of curves follow those over the driver.
+    pub(crate) fn cross(&mut self, up: bool) -> Result<f64, usize> {
+        let knot = self.cursor.cross(self.tables, up)?;
+        self.face(knot, up).map_err(|(which, _)| self.tables.len() + which)?;
+        Ok(knot)
     }
 
     fn look_up(&mut self, q: f64) -> Result<(), RunError<O::Error>> {
@@ -161,7 +253,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             .map_err(|which| outside_table("table over q", &tables[which], q))
     }
 
-    /// Looks up the tables at a coordinate, unless their current pieces contain it. Returns false
+    /// Looks up the tables over the driver at a coordinate, unless their current pieces contain it. Returns false
     /// if a table does not.
     pub(crate) fn ensure_tables_at(&mut self, q: f64) -> bool {
         (self.cursor.low..=self.cursor.high).contains(&q)
@@ -196,7 +288,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     #[inline]
     pub(crate) fn set_configuration(&mut self, q: &[f64]) -> Result<(), EquationFault<O::Error>> {
         self.cursor.read(self.tables, q[0], &mut self.readings);
-        let numbers = Numbers { tables: &self.readings, external: &[] };
+        let numbers = Numbers { tables: &self.readings, ..Numbers::default() };
         if let Err(rejection) = self.model.set_configuration(q, numbers, &mut self.reduced) {
             self.rejected = Some((rejection, q.to_vec()));
             return Err(Fault::OutOfDomain);
@@ -217,8 +309,9 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             self.evaluate_callbacks(t, q, speed)
                 .map_err(|error| Fault::Error(RunError::Callback(error)))?;
         }
-        let numbers = Numbers { tables: &self.readings, external: &self.external };
-        self.model.apply_loads(speed, numbers, &mut self.reduced);
+        let (tables, external) = (&self.readings[..], &self.external[..]);
+        let numbers = Numbers { tables, external, ..Numbers::default() };
+        self.model.apply_loads(q, speed, self.sense, numbers, &mut self.reduced);
         self.drive.fill(0.0);
         self.drive[0] = self.extra_moment;
         self.d_drive_d_speed = 0.0;
@@ -260,9 +353,15 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         state: RubbingState,
     ) -> Result<f64, EquationFault<O::Error>> {
         self.friction = 0.0;
+        if !self.model.has_friction() {
+            self.is_locked = false;
+            let free = self.moment(0) - self.reduced.centrifugal(0, &[state.speed]);
+            return Ok(free / self.inertia(q)?);
+        }
         let rotors: f64 = self.motors.iter().map(Motor::inertia).sum();
         let drive = Drive { effort: self.drive[0], inertia: rotors + self.flywheel };
-        let numbers = Numbers { tables: &self.readings, external: &self.external };
+        let (tables, external) = (&self.readings[..], &self.external[..]);
+        let numbers = Numbers { tables, external, ..Numbers::default() };
         let found = self.model.rubbing_acceleration(state, drive, numbers);
         self.is_locked = found.is_none();
         let Some(acceleration) = found else {

@@ -9,7 +9,7 @@ use super::options::{EventKind, RunOptions};
 use super::sample::Samples;
 use super::stick_slip::Change;
 use super::system::{Ended, RunSystem};
-use super::table_cursor::SAME_KNOT_RTOL;
+use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, SAME_KNOT_RTOL};
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use super::variable::Variable;
@@ -81,22 +81,34 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
 ) -> Result<Run, RunError<O::Error>> {
     equation.flywheel = options.flywheel;
     equation.begin(options.q[0], options.speed)?;
-    let mut system = RunSystem::new(equation, options);
-    system.store_initial_energy(options)?;
-    if let (&[q], &[speed]) = (options.q, options.speed) {
-        system.phase = system.equation.first_phase(options.t, q, speed)?;
-    }
     let (from, end) = match options.along {
         Variable::Time => (options.t, options.end),
         Variable::Coordinate => (options.q[0], options.end),
     };
     let (to, clipped) = match options.along {
         Variable::Time => (end, None),
-        Variable::Coordinate => clip_to_tables(system.equation.tables, from, end),
+        Variable::Coordinate => clip_to_tables(equation.tables, from, end),
     };
+    let mut stations = Vec::new();
+    match (options.along, options.q) {
+        (Variable::Time, &[q]) => equation.begin_in_time(q, options.speed[0])?,
+        (Variable::Coordinate, _) => {
+            stations = stations_between(&mut equation.model, [from, to])?;
+            equation.begin_along([from, to], &stations)?;
+        }
+        _ => {}
+    }
+    let mut system = RunSystem::new(equation, options);
+    system.store_initial_energy(options)?;
+    if let (&[q], &[speed]) = (options.q, options.speed) {
+        system.phase = system.equation.first_phase(options.t, q, speed)?;
+    }
     let breaks = match options.along {
         Variable::Time => options.breaks.to_vec(),
-        Variable::Coordinate => breaks_of(system.equation.tables, options.breaks, [from, to])?,
+        Variable::Coordinate => {
+            let given = [options.breaks, &stations].concat();
+            breaks_of(system.equation.tables, &given, [from, to])?
+        }
     };
     let [relative, absolute] = tolerances(&mut system, options, sizes)?;
     let crossings = system.crossings();
@@ -156,10 +168,27 @@ const STEPS_AT_REST: f64 = 1000.0;
 const ANGLE_EVENT_STEP: f64 = 0.1;
 /// The same with several drivers and no such events.
 const SEVERAL_DRIVERS_STEP: f64 = 1.0;
-/// Largest number of table knots in a run along the coordinate: they are all listed beforehand.
-const MAX_KNOTS: f64 = 1.0e7;
-/// Coordinates beyond this are too coarse for a table's knots.
-const MAX_COORDINATE: f64 = 1.0e9;
+/// Longest motion along the coordinate (rad, or sizes) with loads that follow other coordinates.
+const MOST_FOLLOWED: f64 = 1.0e5;
+
+/// The stations between two coordinates, beyond the rounding of these.
+pub(crate) fn stations_between<S: ReducedModel, E>(
+    model: &mut S,
+    [from, to]: [f64; 2],
+) -> Result<Vec<f64>, RunError<E>> {
+    if !model.has_stations() {
+        return Ok(Vec::new());
+    }
+    let unit = model.unit(0);
+    if from.abs().max(to.abs()) > MAX_COORDINATE * unit || (to - from).abs() > MOST_FOLLOWED * unit
+    {
+        return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
+    }
+    let mut found = model.stations([from.min(to), from.max(to)]);
+    let is_at = |q: f64, end: f64| (q - end).abs() <= SAME_KNOT_RTOL * end.abs().max(1.0);
+    found.retain(|&q| !is_at(q, from) && !is_at(q, to));
+    Ok(found)
+}
 
 /// Knots of tables between two coordinates, together with given breaks; knots of several tables
 /// that coincide count once.

@@ -9,6 +9,7 @@ pub(crate) mod model;
 pub(crate) mod options;
 pub(crate) mod parts;
 pub(crate) mod sample;
+pub(crate) mod station_cursor;
 pub(crate) mod stick_slip;
 pub(crate) mod system;
 pub(crate) mod table_cursor;

@@ -3,9 +3,11 @@
 use std::convert::Infallible;
 
 use crate::dynamics::angle_between::Angle;
+use crate::dynamics::followers::{Followers, Held};
 use crate::dynamics::friction::motion::{Drive, FrictionMotion, RubbingState};
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::{Machine, ReducedTable};
+use crate::dynamics::measure::Over;
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::tables::table::Table;
@@ -49,8 +51,45 @@ pub(crate) trait ReducedModel {
         None
     }
 
-    /// Reduces the other loads at the last position and these speeds.
-    fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced);
+    /// Whether loads of a machine with one driver follow others, and may not be smooth between stations.
+    fn has_stations(&self) -> bool {
+        false
+    }
+
+    /// Whether loads depend on the sense of the motion.
+    fn has_ways(&self) -> bool {
+        false
+    }
+
+    /// The coordinates between which loads that follow others are smooth, in a range.
+    fn stations(&mut self, _: [f64; 2]) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Holds what is true of these loads at a coordinate until the next station. Returns whether it is
+    /// reachable.
+    ///
+    /// # Errors
+    ///
+    /// Index of the curve whose table does not cover the position, and the value that it lacks.
+    fn hold(&mut self, _: f64) -> Result<bool, (usize, f64)> {
+        Ok(true)
+    }
+
+    /// The table of a curve over another coordinate.
+    fn table_over(&self, _: usize) -> Option<&Table> {
+        None
+    }
+
+    /// Reduces the other loads at the last position (`q`), these speeds and this sense of the motion.
+    fn apply_loads(
+        &mut self,
+        q: &[f64],
+        speed: &[f64],
+        sense: f64,
+        numbers: Numbers<'_>,
+        out: &mut Reduced,
+    );
 
     /// An angle at coordinates; NaN if they cannot be reached.
     fn angle(&mut self, q: &[f64], angle: &Angle) -> f64;
@@ -83,6 +122,8 @@ pub(crate) struct MechanismModel<'m> {
     machine: &'m Machine,
     derivatives: &'m DerivativeTables,
     evaluator: Evaluator<'m>,
+    held: Held,
+    followers: Followers,
     friction: Option<FrictionMotion<'m>>,
 }
 
@@ -142,11 +183,12 @@ impl<'m> MechanismModel<'m> {
         dimensions: &[f64],
         derivatives: &'m DerivativeTables,
     ) -> Self {
-        let lifted = machine.has_torsion();
+        let lifted = machine.needs_angles();
         let evaluator = Evaluator::new(mechanism, dimensions, derivatives, Queries::Any, lifted);
         let rubs = !machine.friction.is_empty() && mechanism.q0().len() == 1;
         let friction = rubs.then(|| FrictionMotion::new(machine, mechanism, dimensions));
-        Self { machine, derivatives, evaluator, friction }
+        let (held, followers) = (Held::default(), Followers::default());
+        Self { machine, derivatives, evaluator, held, followers, friction }
     }
 }
 
@@ -179,7 +221,13 @@ impl ReducedModel for MechanismModel<'_> {
     ) -> Option<f64> {
         let pose = SolvedPose::new(self.evaluator.position(), self.derivatives);
         let friction = self.friction.as_mut()?;
-        friction.acceleration(&pose, state, drive, (numbers.tables, numbers.external))
+        // As at the last call of `apply_loads`.
+        let numbers = Numbers {
+            tables: numbers.tables,
+            external: numbers.external,
+            ..self.followers.numbers()
+        };
+        friction.acceleration(&pose, state, drive, numbers)
     }
 
     fn failure(&self, rejection: Rejection, q: &[f64]) -> Option<Failure> {
@@ -190,8 +238,56 @@ impl ReducedModel for MechanismModel<'_> {
         Some(self.evaluator.driver_name(driver))
     }
 
-    fn apply_loads(&mut self, speed: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
+    fn has_stations(&self) -> bool {
+        self.machine.has_stations() && self.derivatives.drivers == 1
+    }
+
+    fn has_ways(&self) -> bool {
+        !self.machine.ways.is_empty() && self.derivatives.drivers == 1
+    }
+
+    fn stations(&mut self, range: [f64; 2]) -> Vec<f64> {
+        if !self.has_stations() {
+            return Vec::new();
+        }
+        self.machine.stations_of(&mut self.evaluator, self.derivatives, range)
+    }
+
+    fn hold(&mut self, q: f64) -> Result<bool, (usize, f64)> {
+        if self.evaluator.solve(&[q]).is_err() {
+            return Ok(false);
+        }
         let pose = SolvedPose::new(self.evaluator.position(), self.derivatives);
+        self.held.hold(self.machine.followed(), &pose, &[q]).map(|()| true)
+    }
+
+    fn table_over(&self, index: usize) -> Option<&Table> {
+        self.machine.over.get(index).and_then(Over::table)
+    }
+
+    fn apply_loads(
+        &mut self,
+        q: &[f64],
+        speed: &[f64],
+        sense: f64,
+        numbers: Numbers<'_>,
+        out: &mut Reduced,
+    ) {
+        let pose = SolvedPose::new(self.evaluator.position(), self.derivatives);
+        if !self.machine.follows() {
+            self.machine.add_speed_loads(&pose, speed, numbers, out);
+            return;
+        }
+        if let &[_] = q {
+            self.followers.read_held(self.machine.followed(), &pose, q, (&self.held, sense));
+        } else {
+            self.followers.read(self.machine.followed(), &pose, q, speed);
+        }
+        let numbers = Numbers {
+            tables: numbers.tables,
+            external: numbers.external,
+            ..self.followers.numbers()
+        };
         self.machine.add_speed_loads(&pose, speed, numbers, out);
     }
 
@@ -293,7 +389,14 @@ impl ReducedModel for &TabulatedMachine {
         None
     }
 
-    fn apply_loads(&mut self, _: &[f64], numbers: Numbers<'_>, out: &mut Reduced) {
+    fn apply_loads(
+        &mut self,
+        _: &[f64],
+        _: &[f64],
+        _: f64,
+        numbers: Numbers<'_>,
+        out: &mut Reduced,
+    ) {
         out.applied[0] = numbers.tables[1][0];
     }
 

@@ -1,4 +1,5 @@
-//! Stick and slip: a machine with friction moves in one sense, or rests while friction holds it.
+//! Stick and slip: a machine with friction, or with loads that act in one sense of its motion, moves in
+//! one sense, or rests while they hold it.
 
 use super::callbacks::Callbacks;
 use super::equation::Equation;
@@ -10,7 +11,7 @@ use crate::ode::system::Fault;
 /// How a machine with friction moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Phase {
-    /// It has no friction.
+    /// It has no friction, nor loads that depend on the sense of the motion.
     Smooth,
     /// It slides in this sense, +1 or −1.
     Slip(f64),
@@ -37,10 +38,16 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         t: f64,
         q: f64,
     ) -> Result<[f64; 2], Fault<RunError<O::Error>>> {
+        self.turn_to(q, 1.0);
         self.set_configuration(&[q])?;
         self.apply_loads(t, &[q], &[0.0])?;
         let mut both = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, sense) in both.iter_mut().zip([1.0, -1.0]) {
+            if sense < 0.0 && self.model.has_ways() {
+                self.turn_to(q, sense);
+                self.set_configuration(&[q])?;
+                self.apply_loads(t, &[q], &[0.0])?;
+            }
             let state = RubbingState { speed: 0.0, sense, is_static: true };
             match self.rub(q, state) {
                 Ok(acceleration) => *own = acceleration,
@@ -81,12 +88,13 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         q: f64,
         speed: f64,
     ) -> Result<Phase, RunError<O::Error>> {
-        if !self.model.has_friction() {
+        if !self.model.has_friction() && !self.model.has_ways() {
             return Ok(Phase::Smooth);
         }
         let phase =
             if speed == 0.0 { self.phase_from_rest(t, q)? } else { Phase::Slip(speed.signum()) };
         let Phase::Slip(sense) = phase else { return Ok(phase) };
+        self.turn_to(q, sense);
         let state = RubbingState { speed, sense, is_static: false };
         let begun = self
             .set_configuration(&[q])
@@ -119,6 +127,9 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
             },
             _ => self.phase_from_rest(t, q)?,
         };
+        if let Phase::Slip(sense) = phase {
+            self.turn_to(q, sense);
+        }
         let change = match (before, phase) {
             (_, Phase::Stick) => Change::Stick,
             (Phase::Stick, _) => Change::Slip,

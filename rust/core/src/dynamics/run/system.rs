@@ -161,10 +161,11 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         }
     }
 
-    /// Boundaries of table pieces are the first events: those of tables over q (in a run along q
-    /// they are breaks), then those of motors.
+    /// Boundaries of table pieces are the first events: those of tables over q and stations (in a run
+    /// along q they are breaks), then those of motors.
     fn has_table_boundaries(&self) -> bool {
-        self.along == Variable::Time && !self.equation.tables.is_empty()
+        let has_tables = !self.equation.tables.is_empty() || self.equation.model.has_stations();
+        self.along == Variable::Time && has_tables
     }
 
     /// Next comes the event that may be a dead point: for a single driver its rest, for several the
@@ -287,6 +288,9 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
                 equation.callbacks.event(which, t, q, speed).map_err(RunError::Callback)?
             }
             EventKind::Extreme => {
+                if let Phase::Slip(sense) = self.phase {
+                    equation.sense = sense;
+                }
                 let outcome =
                     equation.set_configuration(q).and_then(|()| equation.apply_loads(t, q, speed));
                 match outcome {
@@ -314,6 +318,9 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
 
     fn rates(&mut self, x: f64, y: &[f64], rates: &mut [f64]) -> Result<(), Fault<Self::Error>> {
         let (n, equation) = (self.drivers, &mut self.equation);
+        if let Phase::Slip(sense) = self.phase {
+            equation.sense = sense;
+        }
         match self.along {
             Variable::Time => {
                 let (q, speed) = (&y[..n], &y[n..2 * n]);
@@ -415,7 +422,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         let mut event = event;
         if self.has_table_boundaries() {
             if event < 2 {
-                return Ok(match self.equation.cursor.cross(self.equation.tables, up) {
+                return Ok(match self.equation.cross(up) {
                     Ok(knot) => {
                         y[0] = knot;
                         Action::Restart

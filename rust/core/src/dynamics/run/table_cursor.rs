@@ -7,6 +7,11 @@ use crate::dynamics::tables::table::{Cell, Table};
 /// turns are no more accurate.
 pub(crate) const SAME_KNOT_RTOL: f64 = 1.0e-12;
 
+/// Largest number of table knots in a run along the coordinate: they are all listed beforehand.
+pub(crate) const MAX_KNOTS: f64 = 1.0e7;
+/// Coordinates beyond this are too coarse for a table's knots.
+pub(crate) const MAX_COORDINATE: f64 = 1.0e9;
+
 /// The current piece of every table, and the interval between their nearest knots.
 #[derive(Debug, Clone)]
 pub(crate) struct TableCursor {
@@ -57,7 +62,7 @@ impl TableCursor {
         Ok(if up { border.max(self.low) } else { border.min(self.high) })
     }
 
-    fn update_interval(&mut self, tables: &[Table]) {
+    pub(crate) fn update_interval(&mut self, tables: &[Table]) {
         (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (table, &cell) in tables.iter().zip(&self.cells) {
             let [low, high] = table.ends(cell);

@@ -5,7 +5,7 @@ use super::options::SteadyOptions;
 use super::period::{Period, PeriodOutcome, PeriodStart, period};
 use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
-use crate::dynamics::run::integrate::{breaks_of, run};
+use crate::dynamics::run::integrate::{breaks_of, run, stations_between};
 use crate::dynamics::run::model::ReducedModel;
 use crate::dynamics::run::options::{EventKind, EventSpec, RunOptions};
 use crate::dynamics::run::trajectory::{Run, StopReason};
@@ -127,7 +127,12 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
     /// Sets the coordinate where periods start.
     fn set_start(&mut self, q: f64) -> Result<(), SteadyError<O::Error>> {
         let SteadyOptions { span, breaks, .. } = self.options;
-        let given: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
+        let mut given: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
+        let range = [q, q + span];
+        let stations =
+            stations_between(&mut self.equation.model, range).map_err(SteadyError::Run)?;
+        self.equation.begin_along(range, &stations).map_err(SteadyError::Run)?;
+        given.extend(stations);
         self.from = q;
         self.breaks =
             breaks_of(self.equation.tables, &given, [q, q + span]).map_err(SteadyError::Run)?;

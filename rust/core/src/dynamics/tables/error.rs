@@ -30,6 +30,19 @@ pub enum TableError {
         "row {row} of the table: phi goes from {} to {} rad, but must increase", short(*before), short(*value)
     )]
     NotIncreasing { row: usize, value: f64, before: f64 },
+    /// More than two values at one coordinate.
+    #[error(
+        "the table has {} three times: two rows there are a jump, from the value before to the one behind", number(*at)
+    )]
+    Tripled { at: f64 },
+    /// A jump where nothing is on one side.
+    #[error("the table jumps at its end, {}, and is not periodic: nothing is beyond", number(*at))]
+    JumpAtEnd { at: f64 },
+    /// A jump in a spline whose derivatives agree at its ends.
+    #[error(
+        "the table jumps at {}: spline=\"periodic\" is one curve without jumps", number(*at)
+    )]
+    PeriodicJump { at: f64 },
     /// Ends that differ in a periodic table.
     #[error(
         "the table is not periodic: {quantity} is {} in its first row and {} in its last, one period on; they must agree", number(*first), number(*last)
@@ -90,6 +103,10 @@ pub enum TableError {
 impl Hint for TableError {
     fn hint(&self) -> Option<String> {
         let hint = match self {
+            Self::PeriodicJump { .. } => {
+                "choose \"not-a-knot\", \"natural\", \"clamped\" or \"linear\""
+            }
+            Self::JumpAtEnd { .. } => "leave one of the two rows out",
             Self::Negative { in_row: false, .. } => "spline=\"linear\" stays between the rows",
             Self::NoInertia { .. } => "give the machine an inertia or a greater flywheel",
             Self::Stalls { .. } => "start faster, or add a flywheel",

@@ -2,7 +2,7 @@
 
 use super::error::TableError;
 use super::spline::{EndCondition, Pieces, spline};
-use crate::dynamics::flywheel::cycle::wrap_to_period;
+use crate::dynamics::flywheel::cycle::{check_columns, wrap_to_period};
 
 /// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,6 +10,8 @@ pub struct Table {
     knots: Vec<f64>,
     pieces: Pieces,
     periodic: bool,
+    /// The knots at which it jumps.
+    jumps: Vec<f64>,
 }
 
 /// How far beyond a table its ends still count, relative to its size.
@@ -36,8 +38,50 @@ impl Table {
         ends: EndCondition,
         periodic: bool,
     ) -> Result<Self, TableError> {
-        crate::dynamics::flywheel::cycle::check_columns(knots, &[("value", values)], periodic)?;
-        Ok(Self { knots: knots.to_vec(), pieces: spline(knots, values, ends)?, periodic })
+        check_columns(knots, &[("value", values)], periodic, false)?;
+        let pieces = spline(knots, values, ends)?;
+        Ok(Self { knots: knots.to_vec(), pieces, periodic, jumps: Vec::new() })
+    }
+
+    /// The same with a jump at each knot that is there twice, from the first value to the second: a
+    /// separate curve is fitted between jumps. In a table of one period the first knot or the last may
+    /// be there twice.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Table::new`]; a jump in a periodic spline, or at an end of a table that is not
+    /// periodic.
+    pub fn with_jumps(
+        knots: &[f64],
+        values: &[f64],
+        ends: EndCondition,
+        periodic: bool,
+    ) -> Result<Self, TableError> {
+        check_columns(knots, &[("value", values)], periodic, true)?;
+        let mut starts: Vec<usize> =
+            (1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).collect();
+        let jumps: Vec<f64> = starts.iter().map(|&start| knots[start]).collect();
+        if jumps.is_empty() {
+            return Self::new(knots, values, ends, periodic);
+        }
+        let at_end = jumps.iter().find(|&&at| at == knots[0] || at == knots[knots.len() - 1]);
+        if let (Some(&at), false) = (at_end, periodic) {
+            return Err(TableError::JumpAtEnd { at });
+        }
+        if ends == EndCondition::Periodic {
+            return Err(TableError::PeriodicJump { at: jumps[0] });
+        }
+        starts.push(knots.len());
+        let (mut own, mut pieces, mut from) = (vec![knots[0]], Pieces::new(), 0);
+        for start in starts {
+            // One row alone at an end of the period: only its value counts, which the other end has.
+            if start - from > 1 {
+                pieces.append(&mut spline(&knots[from..start], &values[from..start], ends)?);
+                own.extend_from_slice(&knots[from + 1..start]);
+            }
+            from = start;
+        }
+        Ok(Self { knots: own, pieces, periodic, jumps })
     }
 
     /// The value at `x`; NaN beyond a table that is not periodic.
@@ -60,6 +104,12 @@ impl Table {
     #[must_use]
     pub fn knots(&self) -> &[f64] {
         &self.knots
+    }
+
+    /// The knots at which it jumps; of one period.
+    #[must_use]
+    pub fn jumps(&self) -> &[f64] {
+        &self.jumps
     }
 
     /// Its period, if it has one.
@@ -159,6 +209,31 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_knot_given_twice_is_a_jump() {
+        let linear = EndCondition::Linear;
+        let knots = [0.0, 1.0, 1.0, 3.0];
+        let table =
+            Table::with_jumps(&knots, &[0.0, 2.0, 5.0, 0.0], linear, true).expect("a table");
+        assert_eq!((table.knots(), table.jumps()), (&[0.0, 1.0, 3.0][..], &[1.0][..]));
+        assert_eq!([0.5, 1.0, 2.0, 3.5].map(|x| table.at(x)), [1.0, 5.0, 2.5, 1.0]);
+        assert_eq!(table.read(table.cell(0.5).expect("a piece"), 1.0)[0], 2.0);
+        let seam = Table::with_jumps(&[0.0, 0.0, 3.0], &[1.0, 4.0, 1.0], linear, true);
+        let seam = seam.expect("a table");
+        assert_eq!((seam.knots(), seam.jumps()), (&[0.0, 3.0][..], &[0.0][..]));
+        assert_eq!([0.0, 1.0, 3.0].map(|x| seam.at(x)), [4.0, 3.0, 4.0]);
+        let last = Table::with_jumps(&[0.0, 3.0, 3.0], &[4.0, 1.0, 4.0], linear, true);
+        assert_eq!([0.0, 1.0, 3.0].map(|x| last.as_ref().expect("a table").at(x)), [4.0, 3.0, 4.0]);
+        let natural = |knots: &[f64], periodic| {
+            Table::with_jumps(knots, &[0.0, 2.0, 5.0, 0.0], EndCondition::Natural, periodic)
+        };
+        assert!(natural(&knots, false).is_ok());
+        assert!(natural(&[0.0, 1.0, 1.0, 1.0], false).is_err());
+        assert!(natural(&[0.0, 0.0, 1.0, 2.0], false).is_err());
+        let periodic = EndCondition::Periodic;
+        assert!(Table::with_jumps(&knots, &[0.0, 2.0, 5.0, 0.0], periodic, true).is_err());
+    }
 
     #[test]
     fn pieces_are_adjacent() {

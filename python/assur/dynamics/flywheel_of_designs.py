@@ -1,0 +1,86 @@
+"""The flywheels of designs whose loads are smooth between coordinates of their own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import real_array
+from assur._extreme import Extreme
+from assur.errors import AssurError, InputError
+from assur.flywheel.result import Flywheel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from typing_extensions import Self
+
+    from assur._arrays import Float
+    from assur.dynamics.machine import Machine
+    from assur.flywheel.result import Curve
+
+
+class FlywheelOfDesigns(Flywheel):
+    """The flywheels of a batch, one after another."""
+
+    def __init__(self, each: Sequence[Flywheel], shape: tuple[int, ...]) -> None:
+        self._each = tuple(each)
+
+        def stacked(values: list[Any]) -> Any:
+            numbers = np.array(values, np.float64).reshape(shape)
+            numbers.flags.writeable = False
+            return numbers
+
+        def extreme(all_: list[Extreme]) -> Extreme:
+            return Extreme(stacked([one.at for one in all_]), stacked([one.value for one in all_]))
+
+        super().__init__(
+            inertia=stacked([one.inertia for one in each]),
+            speed0=stacked([one.speed0 for one in each]),
+            motor_moment=stacked([one.motor_moment for one in each]),
+            extremes=(extreme([one.greatest for one in each]), extreme([one.least for one in each])),
+            period=stacked([one.period for one in each]),
+            mean=each[0].mean,
+            turn=each[0]._turn,
+            shape=shape,
+        )
+
+    @classmethod
+    def of(
+        cls,
+        machine: Machine,
+        wanted: tuple[Any, Any, Any, str],
+        one: Callable[[Machine, Any, Any, Any, str], Flywheel],
+    ) -> Self:
+        """Size the flywheel of each design for a fluctuation, mean speed and mean."""
+        fluctuation, speed, mean, on_error = wanted
+        try:
+            fluctuations, speeds = (
+                np.broadcast_to(real_array(value, name), machine.shape)
+                for value, name in ((fluctuation, "fluctuation"), (speed, "mean_speed"))
+            )
+        except ValueError as error:
+            message = f"fluctuation and mean_speed do not fit the designs, {machine.shape}"
+            raise InputError(message) from error
+        each = []
+        for index in np.ndindex(machine.shape):
+            own = float(fluctuations[index]), float(speeds[index])
+            try:
+                each.append(one(machine.design(index), *own, mean, on_error))
+            except AssurError as error:
+                error.design = index
+                raise
+        return cls(each, machine.shape)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._each, self.shape)
+
+    def _problem(self, entry: tuple[int, ...]) -> str | None:
+        return self._each[int(np.ravel_multi_index(entry, self.shape))]._problem(())
+
+    def _curve(self, what: Curve, x: Float) -> Any:
+        curves = np.array([one._curve(what, x) for one in self._each], np.float64)
+        curves = curves.reshape(self.shape + x.shape)
+        curves.flags.writeable = False
+        return curves

@@ -1,0 +1,167 @@
+//! Where loads that follow other coordinates are not smooth over the only driver: where a coordinate
+//! passes a knot of a table over it, and where it turns back.
+
+use super::kinematics::SolvedPose;
+use super::machine::Machine;
+use super::measure::{Measure, Over};
+use super::tables::table::Table;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::root::all_roots::{Sample, all_roots};
+use crate::math::root::itp::itp;
+use crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED;
+use crate::plan::mechanism::Mechanism;
+use crate::query::evaluator::{Evaluator, Queries};
+use crate::state::status::Status;
+
+/// Distance of the positions (rad, or of the size) between which the coordinates are followed: the
+/// search itself adds some where they are not cubics.
+const STEP: f64 = std::f64::consts::TAU / 64.0;
+/// Least and greatest number of such steps in a range.
+const MIN_STEPS: f64 = 4.0;
+const MAX_STEPS: f64 = 1.0e6;
+/// A coordinate this near to a knot (rad, or of the size) is at it.
+const AT_KNOT: f64 = 1.0e-13;
+/// Width to which a station is located, in u of its coordinate or unit.
+const WIDTH_ULPS: f64 = 4.0;
+
+/// A coordinate that loads follow, and the tables over it.
+struct Coordinate<'m> {
+    measure: Measure,
+    tables: Vec<&'m Table>,
+}
+
+impl Machine {
+    /// The stations of a design of one driver between two coordinates, ascending; none with several
+    /// drivers.
+    #[must_use]
+    pub fn stations(&self, mechanism: &Mechanism, dimensions: &[f64], range: [f64; 2]) -> Vec<f64> {
+        if mechanism.q0().len() != 1 {
+            return Vec::new();
+        }
+        let derivatives = DerivativeTables::new(1, 2);
+        let queries = Queries::Any;
+        let mut evaluator =
+            Evaluator::new(mechanism, dimensions, &derivatives, queries, self.needs_angles());
+        self.stations_of(&mut evaluator, &derivatives, range)
+    }
+
+    /// The first table over another coordinate that does not cover a position of a design: its ends, and
+    /// the value there.
+    #[must_use]
+    pub fn uncovered(
+        &self,
+        mechanism: &Mechanism,
+        dimensions: &[f64],
+        q: &[f64],
+    ) -> Option<([f64; 2], f64)> {
+        let derivatives = DerivativeTables::new(mechanism.q0().len(), 1);
+        let asked = Queries::Listed(q);
+        let mut evaluator =
+            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.needs_angles());
+        evaluator.solve(q).ok()?;
+        let pose = SolvedPose::new(evaluator.position(), &derivatives);
+        self.over.iter().find_map(|over| {
+            let (table, at) = (over.table()?, over.measure.at(&pose, q));
+            table.at(at).is_nan().then(|| (table.range(), at))
+        })
+    }
+
+    pub(crate) fn stations_of(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        derivatives: &DerivativeTables,
+        range: [f64; 2],
+    ) -> Vec<f64> {
+        let mut found: Vec<f64> = self
+            .coordinates()
+            .iter()
+            .flat_map(|coordinate| coordinate.stations(evaluator, derivatives, range))
+            .collect();
+        found.sort_unstable_by(f64::total_cmp);
+        found.dedup();
+        found
+    }
+
+    fn coordinates(&self) -> Vec<Coordinate<'_>> {
+        let mut all: Vec<Coordinate<'_>> = Vec::new();
+        let curves = self.over.iter().filter_map(|over: &Over| Some((over.measure, over.table()?)));
+        for (measure, table) in curves {
+            match all.iter_mut().find(|own| own.measure == measure) {
+                Some(own) => own.tables.push(table),
+                None => all.push(Coordinate { measure, tables: vec![table] }),
+            }
+        }
+        for &measure in &self.ways {
+            if all.iter().all(|own| own.measure != measure) {
+                all.push(Coordinate { measure, tables: Vec::new() });
+            }
+        }
+        // The direction of a driver is the sense of the motion.
+        all.retain(|own| !(own.tables.is_empty() && matches!(own.measure, Measure::Driver(_))));
+        all
+    }
+}
+
+impl Coordinate<'_> {
+    fn stations(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        derivatives: &DerivativeTables,
+        [from, to]: [f64; 2],
+    ) -> Vec<f64> {
+        let [low, high] = [from.min(to), from.max(to)];
+        let unit = evaluator.unit(0);
+        let steps = ((high - low) / (STEP * unit)).ceil().clamp(MIN_STEPS, MAX_STEPS);
+        let parts = std::iter::successors(Some(0.0), |&part| (part < steps).then_some(part + 1.0));
+        let nodes: Vec<f64> = parts.map(|part| low + (high - low) * (part / steps)).collect();
+        let size = if matches!(self.measure, Measure::Slide(_)) {
+            evaluator.position().constants.scale
+        } else {
+            1.0
+        };
+        let mut passed: Vec<[f64; 2]> = Vec::new();
+        let mut at = |q: f64| {
+            evaluator.solve(&[q]).ok()?;
+            if evaluator.status() as u8 > Status::Singular as u8 {
+                return None;
+            }
+            let condition = evaluator.total_condition();
+            let pose = SolvedPose::new(evaluator.position(), derivatives);
+            let (rate, second) = (self.measure.rate(&pose, 0), self.measure.second_rate(&pose));
+            let noise = ANALOGUE_PER_CONDITION_SQUARED * condition * condition * size / unit;
+            passed.push([q, self.measure.at(&pose, &[q])]);
+            Some(Sample { x: q, value: rate, slope: second, noise })
+        };
+        let turns = all_roots(&nodes, &mut at);
+        passed.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut found: Vec<f64> = turns.isolated.iter().map(|root| root.at).collect();
+        found.extend(turns.jumps);
+        found.extend(turns.zero.into_iter().flatten());
+        // From one of these positions to the next the coordinate goes one way.
+        for pair in passed.windows(2) {
+            let ([a, from], [b, to]) = (pair[0], pair[1]);
+            let near = AT_KNOT * size.max(from.abs());
+            let within = [from.min(to) - near, from.max(to) + near];
+            for knot in self.tables.iter().flat_map(|table| table.knots_within(within)) {
+                if (from - knot).abs() <= near {
+                    found.push(a);
+                } else if (to - knot).abs() <= near {
+                    found.push(b);
+                } else {
+                    let sign = (from - knot).signum();
+                    let width = WIDTH_ULPS * f64::EPSILON * a.abs().max(b.abs()).max(unit);
+                    let distance = |q: f64| {
+                        evaluator.solve(&[q]).map_err(|_| ())?;
+                        let pose = SolvedPose::new(evaluator.position(), derivatives);
+                        Ok::<_, ()>(sign * (self.measure.at(&pose, &[q]) - knot))
+                    };
+                    let ends = ((a, sign * (from - knot)), (b, sign * (to - knot)));
+                    // Between them the mechanism may not be possible.
+                    found.extend(itp(ends.0, ends.1, width, |far| far <= 0.0, distance));
+                }
+            }
+        }
+        found.retain(|q| (low..=high).contains(q));
+        found
+    }
+}
