@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import require_finite
+from assur._arrays import real_array, require_finite
 from assur._extreme import Extreme
 from assur.dynamics import kinetostatics
 from assur.dynamics.along import DrivenMotion, times
+from assur.dynamics.jumps import jumps_between
 from assur.dynamics.pieces import Pieces
-from assur.errors import InputError, MotionError
+from assur.errors import AssurWarning, InputError, MotionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -157,6 +159,26 @@ def duty(
         lost,
         efficiency,
     )
+
+
+def warn_of_jumps(machine: MachineModel, motion: DrivenMotion) -> None:
+    """Warn if loads jump between the positions of a motion given by numbers."""
+    if machine._drivers > 1 or not (machine._core.follows[0] or any(machine._core.jumps)):
+        return
+    x = real_array(motion.q, "q")
+    if not (x.size and np.isfinite(x).all()):
+        return
+    place = ""
+    if not machine.shape:
+        jumps = jumps_between(machine, float(x.min()), float(x.max()))
+        if not jumps.size:
+            return
+        place = f" at q = {jumps[0]:.9g}"
+    message = (
+        f"loads may jump{place}, between positions: the duty is no more accurate than these are "
+        "close there; a run and a steady state have positions at the jumps"
+    )
+    warnings.warn(message, AssurWarning, stacklevel=3)
 
 
 def _check_path(x: Float, speed: Float) -> None:

@@ -39,7 +39,10 @@ class FlywheelOfDesigns(Flywheel):
             inertia=stacked([one.inertia for one in each]),
             speed0=stacked([one.speed0 for one in each]),
             motor_moment=stacked([one.motor_moment for one in each]),
-            extremes=(extreme([one.greatest for one in each]), extreme([one.least for one in each])),
+            extremes=(
+                extreme([one.greatest for one in each]),
+                extreme([one.least for one in each]),
+            ),
             period=stacked([one.period for one in each]),
             mean=each[0].mean,
             turn=each[0]._turn,

@@ -28,7 +28,9 @@ def _functions(loads: Iterable[Any], motors: Iterable[Any]) -> Iterator[tuple[st
     for load in loads:
         if isinstance(load, Force):
             own = zip(("fx", "fy"), load.force, strict=True)
-            named = [(f"Force at {load.at!r}: {name}", value) for name, value in own]
+            named: list[tuple[str, Any]] = [
+                (f"Force at {load.at!r}: {n}", value) for n, value in own
+            ]
         elif isinstance(load, Torque):
             named = [(f"Torque on {load.link!r}: torque", load.torque)]
         elif isinstance(load, Pressure):
@@ -85,7 +87,7 @@ def _require_arguments(name: str, function: Any, given: tuple[Any, ...]) -> None
         signature.bind(*given)
     except TypeError as error:
         message = (
-            f"{name} is a function with the arguments {signature}: it is called with (t, q, speed), "
-            "the time, s, and the driver's coordinate and speed (of several drivers tuples)"
+            f"{name} is a function with the arguments {signature}: it is called with (t, q, "
+            "speed), the time, s, and the driver's coordinate and speed (of several drivers tuples)"
         )
         raise InputError(message) from error

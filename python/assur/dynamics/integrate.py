@@ -99,7 +99,9 @@ def run(
         checked,
     )
     # The core counts what friction does after the events that were asked for.
-    made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, len(machine._core.tables))
+    made = Run(
+        core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, len(machine._core.tables)
+    )
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
     # A machine from a table has no singular positions.

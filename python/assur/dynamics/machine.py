@@ -17,7 +17,10 @@ from assur.dynamics import (
 )
 from assur.dynamics import internal_loads as inside
 from assur.dynamics.along import motion_of
+from assur.dynamics.jumps import driven_motion
 from assur.dynamics.model import MachineModel
+from assur.dynamics.run import Run
+from assur.dynamics.steady import SteadyState
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -34,8 +37,6 @@ if TYPE_CHECKING:
     from assur.dynamics.locking import SelfLocking
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
-    from assur.dynamics.run import Run
-    from assur.dynamics.steady import SteadyState
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean
 
@@ -53,8 +54,10 @@ class Machine(MachineModel):
         One design, or a batch of designs (not for motions in time).
     bodies : mapping of str to Body, optional
         Masses of links, by name. Statics needs none.
-    loads : sequence of Gravity, Force, Torque, Spring, TorsionSpring, Damper, TorsionDamper
-        Loads; several of a kind add up.
+    loads : sequence of load, optional
+        `Gravity`, `Force`, `Torque`, `Pressure`, `Spring`, `TorsionSpring`, `Damper`,
+        `TorsionDamper`; several of a kind add up. Each function of (t, q, speed) among them is
+        called once when the machine is made, at t = 0, the drawing's q and rest.
     motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
         Motor of the driver; with several drivers a sequence, None for each without one. Its rotor
         counts as inertia; its torque is not a load.
@@ -66,8 +69,8 @@ class Machine(MachineModel):
     Raises
     ------
     InputError
-        An object that is not a body, load or motor, a negative mass, or a name that the mechanism
-        does not have.
+        An object that is not a body, load or motor, a negative mass, a name that the mechanism does
+        not have, or a function that does not take (t, q, speed) or gives no finite number.
 
     Examples
     --------
@@ -158,7 +161,7 @@ class Machine(MachineModel):
         >>> found.joint("B", on="piston").round(4)
         array([ 800.    , -204.3016])
         """
-        motion = motion_of(q, speed, acceleration, t)
+        motion = driven_motion(self, q, speed, acceleration, t)
         return kinetostatics.reactions(self, motion, threads, on_error, sense=sense)
 
     def effort(
@@ -199,7 +202,8 @@ class Machine(MachineModel):
         >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
         array([11.9002, -3.753 ])
         """
-        return kinetostatics.effort(self, motion_of(q, speed, acceleration, t), on_error, sense)
+        motion = driven_motion(self, q, speed, acceleration, t)
+        return kinetostatics.effort(self, motion, on_error, sense)
 
     def internal_loads(
         self,
@@ -270,7 +274,7 @@ class Machine(MachineModel):
         >>> print(f"{peak.value:.4f} N·m at {peak.x:.4f} m, {np.degrees(peak.q):.3f}°")
         -253.0759 N·m at 0.1517 m, 61.356°
         """
-        motion = motion_of(q, speed, acceleration, t)
+        motion = driven_motion(self, q, speed, acceleration, t)
         return inside.internal_loads(self, link, motion, along, density, n, on_error)
 
     def with_counterweights(self, weights: Iterable[Counterweight]) -> Machine:
@@ -377,7 +381,10 @@ class Machine(MachineModel):
         >>> duty.greatest_power.value.round(6), abs(duty.energy) < 1e-12
         (np.float64(10.0), np.True_)
         """
-        return duty.duty(self, motion_of(q, speed, acceleration, t), on_error)
+        motion = driven_motion(self, q, speed, acceleration, t)
+        if not isinstance(q, Run | SteadyState):
+            duty.warn_of_jumps(self, motion)
+        return duty.duty(self, motion, on_error)
 
     def equilibria(self, between: npt.ArrayLike | None = None) -> Equilibria:
         """Return the positions of rest under weights, springs and constant loads.

@@ -134,13 +134,13 @@ def checked_motor(motor: Any) -> Motor:
             at = float(motor._jumps[0])
             message = f"motor: its torque jumps at {at:g} rad/s: over speed it must be continuous"
             raise InputError(message, value=at)
-    elif isinstance(motor, ConstantTorque) and isinstance(motor.torque, Table):
-        if motor.torque.over is not None:
-            message = (
-                f"motor: its torque is a Table over {motor.torque.over!r}: motors follow q; give "
-                "such a torque as a load (assur.Torque)"
-            )
-            raise InputError(message)
+    over = getattr(getattr(motor, "torque", None), "over", None)
+    if over is not None:
+        message = (
+            f"motor: its torque is a Table over {over!r}: motors follow q; give such a torque as a "
+            "load (assur.Torque)"
+        )
+        raise InputError(message)
     return motor
 
 

@@ -23,7 +23,7 @@ ATMOSPHERE = 101325.0
 
 @dataclass(frozen=True)
 class Gas:
-    """A closed gas in a cylinder: its pressure times a power of its volume is constant, p Vⁿ = p₀ V₀ⁿ.
+    """A closed gas in a cylinder: p Vⁿ = p₀ V₀ⁿ.
 
     Parameters
     ----------

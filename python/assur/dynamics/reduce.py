@@ -69,7 +69,9 @@ def reduce(
             row = int(missing[0])
             given = given.reshape(status.size, -1)[row]
             design = row // (status.size // math.prod(designs)) if designs else 0
-            own = [] if values.size == 0 else values.reshape(values.shape[0], -1)[:, design].tolist()
+            own = (
+                [] if values.size == 0 else values.reshape(values.shape[0], -1)[:, design].tolist()
+            )
             failed = _without_moment(machine, own, flat.reshape(-1, n)[row].tolist(), given)
             if designs:
                 index = np.unravel_index(design, designs)
@@ -101,8 +103,8 @@ def checked_senses(
         shown = ", ".join(f"{number:.9g}" for number in q[np.argmax(rests)])
         what = "friction needs" if machine.friction else "a load with while_= needs a speed, or"
         message = (
-            f"speed is 0 at q = {shown}: {what} sense=+1 or −1, the way in which the drive is about "
-            "to move"
+            f"speed is 0 at q = {shown}: {what} sense=+1 or −1, the way in which the drive is "
+            "about to move"
         )
         raise InputError(message, value=0.0)
     return []

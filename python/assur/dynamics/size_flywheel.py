@@ -13,6 +13,7 @@ from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics.flywheel_of_designs import FlywheelOfDesigns
 from assur.dynamics.integrate import steady_state
+from assur.dynamics.jumps import BESIDE, jumps_between, stations_between
 from assur.dynamics.motors import ConstantTorque
 from assur.dynamics.options import (
     PERIOD_RTOL,
@@ -50,8 +51,6 @@ MOMENT_ROUNDING_RTOL = 1e-12
 FIRST_ROWS, LAST_ROWS = 96, 12288
 # Least rows between two knots of a load's table.
 MIN_ROWS_BETWEEN_KNOTS = 6
-# How far beside a jump loads are evaluated, rad: beyond the rounding of its coordinate.
-BESIDE = 1e-10
 # The flywheel has converged when two tables agree to this fraction of the inertia.
 CONVERGED_RTOL = 1e-9
 
@@ -81,12 +80,12 @@ def flywheel(
             "mean_speed, or build the machine without a motor"
         )
         raise InputError(message)
-    wanted = fluctuation, mean_speed, mean, on_error
+    asked = fluctuation, mean_speed, mean, on_error
     if machine.shape and machine._core.follows[0]:
         # Each design has its own coordinates at which the loads are not smooth.
-        made: Flywheel = FlywheelOfDesigns.of(machine, wanted, _from_tables)
+        made: Flywheel = FlywheelOfDesigns.of(machine, asked, _from_tables)
     else:
-        made = _from_tables(machine, *wanted)
+        made = _from_tables(machine, *asked)
     if isinstance(machine.motor, ConstantTorque):
         own = float(machine.motor.ratio) * float(torque)
         off = np.abs(np.asarray(made.motor_moment) - own) > TORQUE_RTOL * abs(own)
@@ -195,31 +194,19 @@ def _flat(machine: Machine, array: Any) -> Any:
     return array.reshape(*machine.shape, -1)
 
 
-def _stations(machine: Machine) -> list[float]:
-    """Return where loads that follow other coordinates are not smooth in a turn."""
-    if not machine._core.follows[0] or machine.mechanism is None:
-        return []
-    dimensions = machine.mechanism._values.ravel().tolist()
-    return machine._core.stations(dimensions, -BESIDE, 2.0 * math.pi + BESIDE)
-
-
 def _jumps(machine: Machine, knots: list[float]) -> list[bool]:
     """Return at which of the knots of a turn loads may jump."""
-    turn, found = 2.0 * math.pi, _stations(machine)
-    for (rows, _), own in zip(machine._core.tables, machine._core.jumps, strict=True):
-        period = rows[-1] - rows[0]
-        steps = range(math.floor(-rows[0] / period) - 1, math.ceil((turn - rows[0]) / period) + 1)
-        found += [q + shift * period for shift in steps for q in own]
-    every = np.array([*found, math.inf])
+    turn = 2.0 * math.pi
+    found = jumps_between(machine, -PERIOD_RTOL, turn + PERIOD_RTOL)
     # The seam is at both ends.
-    every = np.concatenate([every, every + turn, every - turn])
+    every = np.concatenate([found, found + turn, found - turn, [math.inf]])
     return [bool(np.abs(every - q).min() <= PERIOD_RTOL) for q in knots]
 
 
 def _knots(machine: Machine) -> list[float]:
     """Return the coordinates of a turn at which loads are not smooth, its ends included."""
     turn = 2.0 * math.pi
-    found = {0.0, turn, *_stations(machine)}
+    found = {0.0, turn, *stations_between(machine, 0.0, turn)}
     for rows, periodic in machine._core.tables:
         first, period = rows[0], rows[-1] - rows[0]
         require_whole_periods(period if periodic else None, turn)
@@ -253,4 +240,8 @@ def _table_rows(knots: list[float], jumps: list[bool], rows: int) -> tuple[Any, 
         places.append(at)
         corners.append(corners[-1] + own.size)
     last = knots[-1] + BESIDE * jumps[-1]
-    return np.append(np.concatenate(parts), knots[-1]), np.append(np.concatenate(places), last), corners
+    return (
+        np.append(np.concatenate(parts), knots[-1]),
+        np.append(np.concatenate(places), last),
+        corners,
+    )

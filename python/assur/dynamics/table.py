@@ -64,7 +64,8 @@ class Table:
     A step, and a force over the stroke of a slide:
 
     >>> import assur
-    >>> work = assur.Table([0.0, 2.0, 2.0, 3.0, 3.0, 6.0], [0.0, 0.0, 90.0, 90.0, 0.0, 0.0], "linear")
+    >>> q = [0.0, 2.0, 2.0, 3.0, 3.0, 6.0]
+    >>> work = assur.Table(q, [0.0, 0.0, 90.0, 90.0, 0.0, 0.0], "linear")
     >>> work.at([1.0, 2.0, 2.5, 3.0])
     array([ 0., 90., 90.,  0.])
     >>> cut = assur.Table([0.3, 0.5], [0.0, -900.0], "linear", over="bore")
@@ -128,11 +129,13 @@ class Table:
             A periodic table whose last value is not its first.
         """
         points = real_array(x, "x")
-        return _core.table_values(self, points.ravel()).reshape(points.shape)[()]
+        values: Any = _core.table_values(self, points.ravel()).reshape(points.shape)
+        return values[()]
 
     @property
     def _jumps(self) -> Float:
-        return self.q[1:][np.diff(self.q) == 0.0]
+        jumps: Float = self.q[1:][np.diff(self.q) == 0.0]
+        return jumps
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor, so that a copy is checked and read-only too.
@@ -154,8 +157,8 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
     if back.size:
         row = int(back[0]) + 1
         message = (
-            f"Table: q[{row}] = {q[row]!s} is below q[{row - 1}] = {q[row - 1]!s}: coordinates must "
-            "ascend (one given twice is a jump)"
+            f"Table: q[{row}] = {q[row]!s} is below q[{row - 1}] = {q[row - 1]!s}: coordinates "
+            "must ascend (one given twice is a jump)"
         )
         raise InputError(message, kind="not_increasing", q=float(q[row]), value=float(q[row]))
 
@@ -166,8 +169,8 @@ def _check_jumps(q: Float, spline: str, periodic: bool) -> None:
     if thrice.size:
         at = float(q[thrice[0]])
         message = (
-            f"Table: q = {at!s} comes three times: two rows there are a jump, from the value before "
-            "to the one behind"
+            f"Table: q = {at!s} comes three times: two rows there are a jump, from the value "
+            "before to the one behind"
         )
         raise InputError(message, kind="tripled", q=at, value=at)
     jumps = q[1:][steps == 0.0]

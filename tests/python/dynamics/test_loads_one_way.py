@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import copy
+import itertools
 import math
 import pickle
 from typing import Any
 
 import numpy as np
 import pytest
-from shapers import STROKE, TURN, integral, place, slider
 from scipy.integrate import solve_ivp
 
 import assur
 from assur import Body, Force, FourBar, LinearMotor, Machine, Table, Torque
+from shapers import STROKE, TURN, place, slider
 
 CUT = 700.0
 
@@ -47,21 +48,21 @@ def test_where_its_coordinate_turns_back_it_does_not_act(turn: float) -> None:
     machine = Machine(slider(), loads=[follower])
     assert machine.reduced_moment(turn, 3.0) == 0.0
     assert machine.reactions(turn, 3.0).driver == 0.0
-    assert machine.reduced_moment(turn - 1e-6, 3.0) + machine.reduced_moment(turn + 1e-6, 3.0) == 5.0
+    assert (
+        machine.reduced_moment(turn - 1e-6, 3.0) + machine.reduced_moment(turn + 1e-6, 3.0) == 5.0
+    )
 
 
-@pytest.mark.parametrize("speed0", [30.0, -30.0])
+@pytest.mark.parametrize("speed0", [60.0, -60.0])
 def test_a_run_loses_the_work_of_the_strokes(speed0: float) -> None:
     run = shaper().run(t_end=0.8, q0=1.0, speed0=speed0, rtol=1e-12)
     way = math.copysign(1.0, speed0)
-    turns = [math.pi * k for k in range(-12, 13)]
+    turns = [math.pi * k for k in range(-20, 21)]
     for q, speed in zip(run.q[::7], run.speed[::7], strict=True):
         low, high = sorted((1.0, float(q)))
-
-        def lost(at: float) -> float:
-            return float(CUT * min(way * place(at)[1], 0.0))
-
-        work = integral(lost, low, high, *turns)
+        stops = np.array([low, *(at for at in turns if low < at < high), high])
+        steps = np.diff(place(stops)[0]) * way
+        work = CUT * float(np.minimum(steps, 0.0).sum())
         kinetic = 0.5 * (inertia(q) * speed**2 - inertia(1.0) * speed0**2)
         assert kinetic == pytest.approx(work, abs=2e-9)
     assert run.energy.error < 1e-12
@@ -75,20 +76,22 @@ def test_a_load_that_jumps_where_the_slide_turns_back() -> None:
     machine = Machine(slider(), {"crank": Body(inertia=0.5)}, [ratchet])
     run = machine.run(t_end=1.0, q0=0.5, speed0=30.0, rtol=1e-12)
     # The slide goes forward from π to 2π.
-    braked = np.array([integral(lambda q: float(math.sin(q) < 0.0), 0.5, float(q), *np.pi * np.arange(1, 9)) for q in run.q])
+    within = run.q % TURN
+    braked = (run.q // TURN) * math.pi + np.maximum(within - math.pi, 0.0)
     np.testing.assert_allclose(0.25 * (run.speed**2 - 900.0), -8.0 * braked, atol=1e-10)
     along = machine.run(q_end=float(run.q[-1]), q0=0.5, speed0=30.0, rtol=1e-12)
     assert along.t[-1] == pytest.approx(1.0, rel=1e-11)
 
 
 def test_dry_friction_on_a_spring_loses_its_part_each_stroke() -> None:
-    # A mass on a spring, with a constant force against its motion: each stroke is 2 F/k shorter, and it
-    # stays where the spring no longer moves it (J. P. Den Hartog, Mechanical Vibrations, 8.6).
+    # A mass on a spring, with a constant force against its motion: each stroke is 2 F/k shorter,
+    # and it stays where the spring no longer moves it (J. P. Den Hartog, Mechanical Vibrations,
+    # 4th ed. 1956, 8.6).
     mass = assur.Mechanism(
         {"B": (0.5, 0.0), "O": (0.0, 0.0)},
         {"ground": ["O"], "block": ["B"]},
-        {"guide": assur.Slide("block", on="ground", angle=0.0, origin="O")},
         driver="guide",
+        slides={"guide": assur.Slide("block", on="ground", angle=0.0, origin="O")},
     )
     rub = [
         Force("B", (-3.0, 0.0), while_="forward"),
@@ -97,14 +100,13 @@ def test_dry_friction_on_a_spring_loses_its_part_each_stroke() -> None:
     spring = assur.Spring("O", "B", 100.0, 0.5)
     machine = Machine(mass, {"block": Body(mass=1.0)}, [spring, *rub])
     run = machine.run(t_end=5.0, q0=0.5 + 0.2, rtol=1e-12)
-    turns = [record.q for record in run.events if record.event in ("stick", "slip")]
-    assert [record.event for record in run.events] == ["stick"]
+    assert [record.event for record in run.events if record.event != "slip"] == ["stick"]
     # 0.2, −0.14, 0.08 and −0.02: the spring pulls with 2 N.
-    assert turns == pytest.approx([0.5 - 0.02 + 0.0], abs=1e-9)
+    assert run.q[-1] == pytest.approx(0.48, abs=1e-9)
     ends = run.q[np.flatnonzero(np.abs(run.speed) < 1e-9)]
     for place_ in (0.7, 0.36, 0.58, 0.48):
         assert np.abs(ends - place_).min() < 1e-9
-    assert run.events[0].t == pytest.approx(3.0 * math.pi / 10.0, abs=1e-9)
+    assert run.events[-1].t == pytest.approx(3.0 * math.pi / 10.0, abs=1e-9)
     assert run.energy.error < 1e-11
 
 
@@ -152,8 +154,9 @@ def test_a_steady_state_closes_for_another_integrator() -> None:
 
     start = float(steady.q[0])
     state = [float(steady.speed[0]) ** 2, 0.0]
-    cuts = sorted({start, start + TURN, *(math.pi * k for k in range(4) if start < math.pi * k < start + TURN)})
-    for a, b in zip(cuts[:-1], cuts[1:], strict=True):
+    inside = (math.pi * k for k in range(4) if start < math.pi * k < start + TURN)
+    cuts = sorted({start, start + TURN, *inside})
+    for a, b in itertools.pairwise(cuts):
         state = list(solve_ivp(rates, (a, b), state, "DOP853", rtol=1e-12, atol=1e-12).y[:, -1])
     assert state[0] == pytest.approx(float(steady.speed[0]) ** 2, rel=1e-8)
     assert state[1] == pytest.approx(steady.period, rel=1e-8)
@@ -161,7 +164,8 @@ def test_a_steady_state_closes_for_another_integrator() -> None:
 
 
 def test_a_shapers_flywheel_by_hand() -> None:
-    # Without masses: the cut takes CUT x' from 0 to π and nothing on the way back; the motor its mean.
+    # Without masses: the cut takes CUT x' from 0 to π and nothing on the way back, the motor gives
+    # its mean.
     found = shaper(inertia=0.0, mass=0.0).flywheel(1 / 30, mean_speed=8.0)
     mean = CUT * 0.2 / TURN
     assert found.motor_moment == pytest.approx(mean, rel=1e-9)
@@ -169,7 +173,8 @@ def test_a_shapers_flywheel_by_hand() -> None:
     excess = -cutting(q) - mean
     middle = -cutting(0.5 * (q[1:] + q[:-1])) - mean
     step = q[1] - q[0]
-    work = np.concatenate([[0.0], np.cumsum((excess[:-1] + 4.0 * middle + excess[1:]) * step / 6.0)])
+    parts = (excess[:-1] + 4.0 * middle + excess[1:]) * step / 6.0
+    work = np.concatenate([[0.0], np.cumsum(parts)])
     assert found.inertia == pytest.approx((work.max() - work.min()) / (64.0 / 30.0), rel=1e-9)
     # With its own motor: the same machine integrated.
     driven = shaper(motor=LinearMotor(60.0, 20.0)).flywheel(1 / 30)

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from shapers import CRANK, ROD, STROKE, TURN, integral, place, slider, turning
 
 import assur
 from assur import Body, Force, FourBar, Machine, Table, Torque
+from shapers import CRANK, ROD, STROKE, TURN, integral, place, slider, turning
 
 # A jump at 0.36 and a kink at 0.45, over the whole stroke.
 FORCE = Table([0.3, 0.36, 0.36, 0.45, 0.5], [0.0, 0.0, -900.0, -300.0, 0.0], "linear", over="bore")
@@ -122,9 +122,7 @@ def test_a_torque_over_a_links_angle(spline: assur.flywheel.Spline) -> None:
     knots = np.linspace(low, high, 6)
     values = np.array([5.0, -10.0, -40.0, 20.0, 7.0, -3.0])
     table = Table(knots, values, spline, over="rocker")
-    machine = Machine(
-        mechanism, {"crank": Body(inertia=3.0)}, [Torque("rocker", table)]
-    )
+    machine = Machine(mechanism, {"crank": Body(inertia=3.0)}, [Torque("rocker", table)])
     h = 1e-5
     rate = (rocker_angle(q + h) - rocker_angle(q - h)) / (2.0 * h)
     own = Table(knots, values, spline, periodic=False).at(angles) * rate
@@ -170,7 +168,7 @@ def test_designs_have_their_own_knots() -> None:
         assert flywheels.greatest.at[index] == own.greatest.at
     twin = pickle.loads(pickle.dumps(flywheels))
     np.testing.assert_array_equal(twin.inertia, flywheels.inertia)
-    assert flywheels.explain(1) == one.flywheel(0.04, mean_speed=12.0).explain()
+    assert flywheels.explain(2) == batch.design(2).flywheel(0.04, mean_speed=12.0).explain()
 
 
 def test_copies_move_alike() -> None:
@@ -190,7 +188,9 @@ def test_the_end_of_a_table() -> None:
         run = machine.run(t_end=5.0, q0=0.5, speed0=5.0)
     assert run.end == "table ends"
     assert place(run.q[-1])[0] == pytest.approx(0.35, abs=1e-12)
-    with pytest.raises(assur.InputError, match=r"a table over a slide or link covers 0\.35 to 0\.5"):
+    with pytest.raises(
+        assur.InputError, match=r"a table over a slide or link covers 0\.35 to 0\.5"
+    ):
         machine.run(t_end=5.0, q0=3.0, speed0=5.0)
     with pytest.raises(assur.InputError, match=r"a table over a slide or link covers"):
         machine.run(q_end=5.0, q0=0.5, speed0=5.0)
@@ -201,7 +201,7 @@ def test_a_table_may_end_where_the_slide_turns_back() -> None:
     machine = Machine(slider(), {"crank": Body(inertia=1.0)}, [Force("B", (exact, 0.0))])
     run = machine.run(t_end=5.0, q0=0.0, speed0=15.0, rtol=1e-12)
     assert run.end == "reached"
-    potential = -500.0 * (place(run.q)[0] - ROD) ** 2
+    potential = -250.0 * (place(run.q)[0] - ROD) ** 2
     total = 0.5 * run.speed**2 + potential
     np.testing.assert_allclose(total, total[0], rtol=1e-10)
     assert STROKE == (ROD - CRANK, ROD + CRANK)
@@ -231,11 +231,12 @@ def test_motors_follow_q() -> None:
 
 def test_several_drivers_reduce_but_do_not_run() -> None:
     joints = {"A": (0, 0), "B": (1, 0.3), "C": (2.2, 0.9), "E": (3.4, 0.2), "F": (4.0, 0.0)}
-    links = {"ground": ["A", "F"], "a": ["A", "B"], "b": ["B", "C"], "c": ["C", "E"], "d": ["F", "E"]}
+    links = {"ground": ["A", "F"], "a": ["A", "B"], "b": ["B", "C"], "c": ["C", "E"]}
+    links["d"] = ["F", "E"]
     five = assur.Mechanism(joints, links, driver=["a", "d"])
     table = Table([-7.0, 7.0], [-7.0, 7.0], "linear", over="b")
     machine = Machine(five, loads=[Torque("b", table, while_="forward", over="c")])
-    q, speed = five.q0 + [0.1, -0.1], np.array([1.0, 0.5])
+    q, speed = np.add(five.q0, [0.1, -0.1]), np.array([1.0, 0.5])
     link = five.solve(q).link("b")
     rate = five.solve(q).link("c").velocity(speed)
     moment = machine.reduced_moment(q, np.sign(rate) * speed)

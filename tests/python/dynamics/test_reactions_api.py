@@ -80,9 +80,7 @@ def test_loads_at_a_pin() -> None:
     """It acts on the link named, or on the first of the description: only the pin's force tells."""
     push = np.array([-800.0, 35.0])
     found = {
-        on: machine(None, Force("B", tuple(push), **({"on": on} if on else {}))).reactions(
-            Q, 9.0, 0.0
-        )
+        on: machine(None, Force("B", tuple(push), on=on)).reactions(Q, 9.0, 0.0)
         for on in ("rod", "piston", None)
     }
     on_piston = {on: one.joint("B", on="piston") for on, one in found.items()}
@@ -198,7 +196,7 @@ def test_an_infinite_load_leaves_nan_in_its_place() -> None:
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_a_load_that_is_not_finite_is_named(value: float) -> None:
     """Once it gave NaN with the status OK, errors or not."""
-    load = assur.Force("B", (lambda *_: value, 0.0), on="piston")
+    load = assur.Force("B", (lambda *given: value if given[1] else 0.0, 0.0), on="piston")
     machine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[load])
     with pytest.raises(assur.MotionError) as caught:
         machine.reactions([1.0, 2.0])

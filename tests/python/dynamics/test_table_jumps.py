@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import copy
-import math
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
-from shapers import TURN, integral, place, slider
 
 import assur
 from assur import Body, Force, Machine, Table, Torque
+from shapers import TURN, integral, place, slider
 
 STEP = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -30.0, -50.0, 0.0, 0.0], "linear")
 
@@ -21,7 +21,7 @@ def step(q: float) -> float:
     return -30.0 - 20.0 * (within - 1.0) / 3.0 if 1.0 < within < 4.0 else 0.0
 
 
-def loaded(*loads: object, inertia: float = 2.0) -> Machine:
+def loaded(*loads: Any, inertia: float = 2.0) -> Machine:
     return Machine(slider(), {"crank": Body(inertia=inertia)}, loads)
 
 
@@ -64,7 +64,6 @@ def test_a_run_gains_the_integral(back: bool) -> None:
         cuts = [1.0 + TURN * k for k in range(-9, 9)] + [4.0 + TURN * k for k in range(-9, 9)]
         cuts += [TURN * k for k in range(-9, 9)]
         low, high = min(state.q, 0.0), max(state.q, 0.0)
-        work = math.copysign(integral(step, low, high, *cuts), state.q) * 1.0
         work = -integral(step, low, high, *cuts) if back else integral(step, low, high, *cuts)
         assert 0.5 * 2.0 * (state.speed**2 - 400.0) == pytest.approx(work, abs=1e-8)
     assert run.energy.error < 1e-12
@@ -94,8 +93,8 @@ def test_a_steady_state_takes_what_the_motor_gives() -> None:
 
 
 def test_a_flywheel_by_hand() -> None:
-    # Nothing has mass but the flywheel: I δ ω² is the greatest excess of energy. The motor gives the mean
-    # moment, and takes up 20 N·m · 3 rad less than the load between the jumps.
+    # Nothing has mass but the flywheel: I δ ω² is the greatest excess of energy. The motor gives
+    # the mean moment, which between the jumps falls short of the load's 20 N·m over 3 rad.
     load = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -20.0, -20.0, 0.0, 0.0], "linear")
     found = loaded(Torque("crank", load), inertia=0.0).flywheel(0.05, mean_speed=10.0)
     mean = 60.0 / TURN
@@ -114,6 +113,38 @@ def test_reactions_agree_with_the_power() -> None:
     effort = machine.effort(q, speed=3.0)
     np.testing.assert_allclose(machine.reactions(q, speed=3.0).driver, effort, rtol=1e-13)
     np.testing.assert_allclose(effort, -STEP.at(q) * place(q)[1], rtol=1e-13, atol=1e-14)
+
+
+@pytest.mark.parametrize("speed0", [20.0, -20.0])
+def test_the_drive_of_a_motion_is_its_motor(speed0: float) -> None:
+    motor = assur.LinearMotor(stall=60.0, no_load=40.0)
+    cut = Force("B", (700.0, 0.0), while_="backward", over="bore")
+    over = Table([0.3, 0.4, 0.4, 0.5], [0.0, 0.0, 90.0, 10.0], "linear", over="bore")
+    loads = [Torque("crank", STEP), cut, Force("B", (over, 0.0))]
+    machine = Machine(slider(), {"crank": Body(inertia=2.0)}, loads, motor)
+    run = machine.run(t_end=1.0, q0=0.0, speed0=speed0)
+    given = 60.0 * (1.0 - run.speed / 40.0)
+    # The cut holds it where it comes to rest: then the drive is not determined.
+    moves = run.speed != 0.0
+    for effort in (machine.reactions(run, sense=1).driver, machine.effort(run, sense=1)):
+        np.testing.assert_allclose(effort[moves], given[moves], rtol=1e-6)
+    assert run.end == "reached"
+    assert moves.sum() > 20
+    if speed0 > 0.0:
+        steady = machine.steady_state()
+        duty = machine.duty(steady)
+        assert duty.energy == pytest.approx(steady.power * steady.period, rel=1e-4)
+
+
+def test_a_duty_across_jumps_warns() -> None:
+    machine = loaded(Torque("crank", STEP))
+    q = np.linspace(0.0, TURN, 400)
+    with pytest.warns(assur.AssurWarning, match=r"loads may jump at q = 1, between positions"):
+        machine.duty(q, 3.0)
+    machine.duty(np.linspace(1.5, 3.5, 9), 3.0)
+    batch = Machine(slider().with_dimensions({"rod.length": [0.4, 0.5]}), loads=machine.loads)
+    with pytest.warns(assur.AssurWarning, match=r"loads may jump, between positions"):
+        batch.duty(q, 3.0)
 
 
 def test_rest_in_a_jump_is_refused_and_beside_it_found() -> None:

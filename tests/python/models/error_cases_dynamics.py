@@ -195,6 +195,21 @@ TABLE: dict[str, Case] = {
         lambda: sized(phi=PHI[::-1]),
         {"q": 1.75 * math.pi, "value": 1.75 * math.pi},
     ),
+    "tripled": Case(
+        InputError,
+        lambda: Table([0.0, 1.0, 1.0, 1.0, 2.0], [0.0, 0.0, 1.0, 2.0, 0.0]),
+        {"q": 1.0, "value": 1.0},
+    ),
+    "jump_at_end": Case(
+        InputError,
+        lambda: Table([0.0, 1.0, 2.0, 2.0], [0.0, 0.0, 1.0, 2.0], periodic=False),
+        {"q": 2.0, "value": 2.0},
+    ),
+    "periodic_jump": Case(
+        InputError,
+        lambda: Table([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 1.0, 0.0], "periodic"),
+        {"q": 1.0, "value": 1.0},
+    ),
     "not_periodic": Case(InputError, lambda: sized(moment=torn(8, 3.0))),
     "negative": Case(
         InputError,

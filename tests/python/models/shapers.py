@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.integrate import quad
 
 import assur
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 __all__ = ["CRANK", "ROD", "STROKE", "TURN", "integral", "place", "slider", "turning"]
 
@@ -37,5 +40,5 @@ def turning(x: float) -> float:
 def integral(function: Callable[[float], float], start: float, end: float, *cuts: float) -> float:
     """An integral, cut where the function is not smooth."""
     nodes = sorted({start, end, *(cut for cut in cuts if start < cut < end)})
-    parts = zip(nodes[:-1], nodes[1:], strict=True)
+    parts = itertools.pairwise(nodes)
     return sum(quad(function, a, b, epsabs=1e-13, epsrel=1e-13)[0] for a, b in parts)

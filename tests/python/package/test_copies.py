@@ -134,7 +134,7 @@ def test_a_table_has_its_own_rows_and_they_do_not_change() -> None:
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Table([0.0, 1.0, 1.0], [0, 1, 0]), "Table q[2] = 1.0 1.0 ascend without repeats"),
+        (lambda: Table([0.0, 1.0, 0.5], [0, 1, 0]), "Table q[2] = 0.5 1.0 must ascend given twice"),
         (lambda: Table([0.0, 2.0, 1.0], [0, 1, 0]), "Table q[2] = 1.0 2.0 ascend"),
         (lambda: Table([0.0, np.nan], [0, 1]), "Table q[1] nan finite"),
         (lambda: Table([0.0, 1.0], [np.inf, 1]), "Table value[0] inf finite"),

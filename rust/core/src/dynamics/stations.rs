@@ -21,6 +21,8 @@ const MIN_STEPS: f64 = 4.0;
 const MAX_STEPS: f64 = 1.0e6;
 /// A coordinate this near to a knot (rad, or of the size) is at it.
 const AT_KNOT: f64 = 1.0e-13;
+/// A station this near to an end of a range (rad, or of the size; relative beyond 1) is in it.
+const AT_END: f64 = 1.0e-13;
 /// Width to which a station is located, in u of its coordinate or unit.
 const WIDTH_ULPS: f64 = 4.0;
 
@@ -31,8 +33,8 @@ struct Coordinate<'m> {
 }
 
 impl Machine {
-    /// The stations of a design of one driver between two coordinates, ascending; none with several
-    /// drivers.
+    /// The stations of a design of one driver between two coordinates, ends included, ascending; none
+    /// with several drivers.
     #[must_use]
     pub fn stations(&self, mechanism: &Mechanism, dimensions: &[f64], range: [f64; 2]) -> Vec<f64> {
         if mechanism.q0().len() != 1 {
@@ -109,8 +111,10 @@ impl Coordinate<'_> {
         derivatives: &DerivativeTables,
         [from, to]: [f64; 2],
     ) -> Vec<f64> {
-        let [low, high] = [from.min(to), from.max(to)];
         let unit = evaluator.unit(0);
+        let ends = [from.min(to), from.max(to)];
+        // A root at an end lies between positions.
+        let [low, high] = [ends[0] - STEP * unit, ends[1] + STEP * unit];
         let steps = ((high - low) / (STEP * unit)).ceil().clamp(MIN_STEPS, MAX_STEPS);
         let parts = std::iter::successors(Some(0.0), |&part| (part < steps).then_some(part + 1.0));
         let nodes: Vec<f64> = parts.map(|part| low + (high - low) * (part / steps)).collect();
@@ -161,7 +165,8 @@ impl Coordinate<'_> {
                 }
             }
         }
-        found.retain(|q| (low..=high).contains(q));
+        let slack = AT_END * ends[0].abs().max(ends[1].abs()).max(unit);
+        found.retain(|q| (ends[0] - slack..=ends[1] + slack).contains(q));
         found
     }
 }
