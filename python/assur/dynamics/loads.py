@@ -129,7 +129,7 @@ class Force:
     >>> force = assur.Force("B", (cut, 0.0), while_="forward", over="bore")
     >>> shaper = assur.Machine(assur.SliderCrank(crank=0.1, rod=0.4), loads=[force])
     >>> shaper.reduced_moment([1.0, 5.0], speed=1.0).round(3)
-    array([-0.   , 71.3])
+    array([  0.   , -92.607])
     """
 
     at: PointLike

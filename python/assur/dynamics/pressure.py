@@ -95,8 +95,8 @@ class Pressure:
 
     Examples
     --------
-    The head of an engine is beyond the outer dead centre of its piston. At that of the crank the
-    gas has its clearance, and 10 times that volume at the other:
+    The head of an engine is beyond the outer dead centre of its piston, where a tenth of the
+    volume at the inner one (0.105 m) is left:
 
     >>> import assur
     >>> engine = assur.SliderCrank(crank=0.045, rod=0.15)
@@ -104,7 +104,7 @@ class Pressure:
     >>> pressure = assur.Pressure("bore", 0.005, air, expands="backward")
     >>> machine = assur.Machine(engine, loads=[pressure])
     >>> machine.reduced_moment([1.0, 6.283185307179586 - 1.0]).round(6)
-    array([ 31.361486, -31.361486])
+    array([ 62.418733, -62.418733])
     """
 
     slide: str

@@ -29,6 +29,9 @@ def table(c: Choices) -> Any:
     count = 2 + c.byte() % 8
     even = np.linspace(0.0, 2.0 * np.pi, count)
     q = even if c.byte() % 2 else np.cumsum([c.positive() for _ in range(count)])
+    if c.byte() % 4 == 0:
+        q = np.sort(np.append(q, q[c.byte() % count]))
+        count += 1
     values = np.array([c.number() for _ in range(count)])
     values[-1] = values[0]
     return c.call(
@@ -39,6 +42,7 @@ def table(c: Choices) -> Any:
         periodic=lambda: bool(c.byte() % 2),
         ratio=c.number,
         rotor_inertia=c.positive,
+        over=lambda: c.among(("crank", "rocker", "bore", "piston")),
     )
 
 
@@ -55,10 +59,30 @@ def _load(c: Choices, m: assur.Mechanism) -> Any:
     def force() -> Any:
         return c.argument(value), value()
 
+    def way() -> Any:
+        return c.among(("forward", "backward"))
+
+    def followed() -> Any:
+        return c.among([*m.slides, *m.links])
+
+    def gas() -> Any:
+        return c.call(
+            assur.Gas, pressure=c.positive, volume=c.positive, at=c.number, exponent=c.positive
+        )
+
     return c.either(
         lambda: c.call(assur.Gravity, acceleration=lambda: (0.0, c.argument(c.number))),
-        lambda: c.call(assur.Force, at=place, force=force, axes=link),
-        lambda: c.call(assur.Torque, link=link, torque=value, on=link),
+        lambda: c.call(assur.Force, at=place, force=force, axes=link, while_=way, over=followed),
+        lambda: c.call(assur.Torque, link=link, torque=value, on=link, while_=way, over=followed),
+        lambda: c.call(
+            assur.Pressure,
+            slide=followed,
+            area=c.positive,
+            pressure=lambda: c.either(value, gas),
+            expands=way,
+            ambient=c.positive,
+            while_=way,
+        ),
         lambda: c.call(
             assur.Spring, first=place, second=place, stiffness=c.positive, length=c.positive
         ),

@@ -23,6 +23,9 @@ const MAX_STEPS: f64 = 1.0e6;
 const AT_KNOT: f64 = 1.0e-13;
 /// A station this near to an end of a range (rad, or of the size; relative beyond 1) is in it.
 const AT_END: f64 = 1.0e-13;
+/// Where a coordinate turns back at a knot, it is at the knot to rounding up to this distance (rad, or of
+/// the size).
+const BESIDE_TURN: f64 = 1.0e-5;
 /// Width to which a station is located, in u of its coordinate or unit.
 const WIDTH_ULPS: f64 = 4.0;
 
@@ -141,13 +144,25 @@ impl Coordinate<'_> {
         let mut found: Vec<f64> = turns.isolated.iter().map(|root| root.at).collect();
         found.extend(turns.jumps);
         found.extend(turns.zero.into_iter().flatten());
+        // Where it turns back: the coordinate, and its value.
+        let turned: Vec<[f64; 2]> = turns
+            .isolated
+            .iter()
+            .filter_map(|root| passed.iter().find(|pair| pair[0] == root.at).copied())
+            .collect();
         // From one of these positions to the next the coordinate goes one way.
         for pair in passed.windows(2) {
             let ([a, from], [b, to]) = (pair[0], pair[1]);
             let near = AT_KNOT * size.max(from.abs());
             let within = [from.min(to) - near, from.max(to) + near];
             for knot in self.tables.iter().flat_map(|table| table.knots_within(within)) {
-                if (from - knot).abs() <= near {
+                let beside = BESIDE_TURN * unit;
+                let touches = turned.iter().any(|&[at, value]| {
+                    (value - knot).abs() <= near && at >= a - beside && at <= b + beside
+                });
+                if touches {
+                    // The place where it turns back is a station already.
+                } else if (from - knot).abs() <= near {
                     found.push(a);
                 } else if (to - knot).abs() <= near {
                     found.push(b);
