@@ -109,6 +109,9 @@ def _check_load(load: Any) -> None:
     if not all(isinstance(part, int | float) for part in parts):
         message = f"{short(load)}: an impact needs a direction in numbers"
         raise InputError(message)
+    if load.while_ is not None:
+        message = f"{short(load)}: an impact is no motion in one direction; leave while_= out"
+        raise InputError(message)
     if not any(parts):
         message = f"{short(load)} is zero: an impact needs a direction"
         raise InputError(message, value=0.0)

@@ -94,7 +94,7 @@ def self_locking(
     def holding(at: Float) -> npt.NDArray[np.bool_]:
         motion = DrivenMotion(at, rate, change, 0.0)
         rubbing = reactions(machine, motion, None, "nan", sense=way).driver * way
-        free = reactions(bare, motion, None, "nan").driver * way
+        free = reactions(bare, motion, None, "nan", sense=way).driver * way
         return np.asarray((free < 0.0) & (rubbing > 0.0))
 
     return SelfLocking(*(_intervals(of, q, is_turn) for of in (locked, holding)))

@@ -107,9 +107,9 @@ class EventRecord(NamedTuple):
     Attributes
     ----------
     event : object
-        The event as passed to `Machine.run`; "stick" where friction stops a machine, "slip" where
-        it no longer holds it; or "dead point", "rest" or "near_change_point" (`NearChangePoint`)
-        if the mechanism itself ended the run.
+        The event as passed to `Machine.run`; "stick" where friction (or loads with ``while_``)
+        stops a machine, "slip" where it no longer holds it; or "dead point", "rest" or
+        "near_change_point" (`NearChangePoint`) if the mechanism itself ended the run.
     t, q, speed
         Time, s, and the driver's coordinate and speed.
 
@@ -135,7 +135,7 @@ class Energy(NamedTuple):
     Attributes
     ----------
     kinetic, potential : ndarray
-        Of the bodies, rotors included; of weights and springs.
+        Of the bodies, rotors included; of weights, springs and closed gases.
     work : ndarray
         Work since the start of all other loads, of motors and dampers.
     balance : ndarray

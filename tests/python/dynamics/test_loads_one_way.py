@@ -248,6 +248,25 @@ def test_at_rest_a_direction_is_needed() -> None:
         shaper().equilibria()
 
 
+def test_self_locking_has_the_loads_of_its_sense() -> None:
+    rubs = {"bore": assur.SlideFriction(coefficient=0.1, length=0.1)}
+    pushed = Force("B", (40.0, 0.0))
+    machine = Machine(slider(), loads=[pushed, shaper().loads[0]], friction=rubs)
+    plain = Machine(slider(), loads=[pushed], friction=rubs)
+    q = (4.0, 5.0)
+    # The slide goes forward there: the cut does not act, whatever pushes.
+    for one, other in zip(
+        machine.self_locking(1, between=q), plain.self_locking(1, between=q), strict=True
+    ):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_an_impact_has_no_direction() -> None:
+    machine = Machine(slider(), {"crank": Body(inertia=1.0)})
+    with pytest.raises(assur.InputError, match=r"an impact is no motion in one direction"):
+        machine.impact(Force("B", (1.0, 0.0), while_="forward"), 1.0, 3.0)
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

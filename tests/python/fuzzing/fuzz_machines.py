@@ -25,7 +25,7 @@ def _against(t: float, q: float | tuple[float, ...], speed: float | tuple[float,
     return float(-np.sum(speed) - 0.1 * np.sum(q) + 0.01 * t)
 
 
-def table(c: Choices) -> Any:
+def table(c: Choices, **over: Any) -> Any:
     count = 2 + c.byte() % 8
     even = np.linspace(0.0, 2.0 * np.pi, count)
     q = even if c.byte() % 2 else np.cumsum([c.positive() for _ in range(count)])
@@ -42,7 +42,7 @@ def table(c: Choices) -> Any:
         periodic=lambda: bool(c.byte() % 2),
         ratio=c.number,
         rotor_inertia=c.positive,
-        over=lambda: c.among(("crank", "rocker", "bore", "piston")),
+        **over,
     )
 
 
@@ -54,7 +54,9 @@ def _load(c: Choices, m: assur.Mechanism) -> Any:
         return c.either(lambda: c.among(list(m.joints)), lambda: (link(), (c.number(), c.number())))
 
     def value() -> Any:
-        return c.either(c.number, lambda: table(c), lambda: _against)
+        return c.either(
+            c.number, lambda: table(c), lambda: table(c, over=followed), lambda: _against
+        )
 
     def force() -> Any:
         return c.argument(value), value()
