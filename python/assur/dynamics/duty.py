@@ -10,6 +10,7 @@ import numpy as np
 
 from assur._arrays import real_array, require_finite
 from assur._extreme import Extreme
+from assur._summary import summary
 from assur.dynamics import kinetostatics
 from assur.dynamics.along import DrivenMotion, times
 from assur.dynamics.jumps import jumps_between
@@ -91,6 +92,9 @@ class Duty(NamedTuple):
     time: Any
     lost: Any
     efficiency: Any
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def duty(

@@ -9,6 +9,7 @@ import numpy as np
 
 from assur import _core
 from assur._arrays import counted, real_array
+from assur._summary import summary
 from assur._validate import one_of
 from assur.dynamics import parts, reduce
 from assur.dynamics.friction import checked_friction
@@ -58,6 +59,9 @@ class Reduced(NamedTuple):
 
     value: Any
     d1: Any
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class MachineModel:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur._summary import summary
 from assur._table import Column, Tabular, coordinate_columns, design_columns
 from assur._validate import checked_name
 from assur.description.words import Status
@@ -69,6 +70,9 @@ class SlideReaction(NamedTuple):
     moment: Any
     along: Any
     friction: Any
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Reactions(Tabular):

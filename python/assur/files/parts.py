@@ -17,6 +17,7 @@ from assur.dynamics.loads import (
     TorsionSpring,
 )
 from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
+from assur.dynamics.pressure import Gas, Pressure
 from assur.dynamics.table import Table
 from assur.files.node import Node
 
@@ -46,12 +47,19 @@ def pair_of_values(node: Node) -> tuple[Any, Any]:
 
 
 def value(node: Node) -> Any:
-    """Return a number or a table over q."""
+    """Return a number or a table over q or another coordinate."""
     if isinstance(node.value, dict):
         return build(Table, ROWS, node)
     if isinstance(node.value, bool) or not isinstance(node.value, int | float):
         raise node.wrong("a number, or a table { q = […], value = […] },")
     return node.number()
+
+
+def pressure(node: Node) -> Any:
+    """Return a closed gas, a number or a table."""
+    if isinstance(node.value, dict) and "volume" in node.value:
+        return build(Gas, GAS, node)
+    return value(node)
 
 
 def place(node: Node) -> str | tuple[float, float]:
@@ -77,13 +85,29 @@ def _no_place(node: Node, other: str) -> Any:
 
 number, text, flag = Node.number, Node.text, Node.flag
 
-ROWS: Words = {"q": Node.array, "value": Node.array, "spline": text, "periodic": flag}
+ROWS: Words = {
+    "q": Node.array,
+    "value": Node.array,
+    "spline": text,
+    "periodic": flag,
+    "over": text,
+}
+GAS: Words = dict.fromkeys(("pressure", "volume", "at", "exponent"), number)
+WAY: Words = {"while_": text, "over": text}
 SHAFT: Words = {"ratio": number, "rotor_inertia": number}
 BODY: Words = {"mass": number, "inertia": number, "at": place}
 LOADS: dict[type, Words] = {
     Gravity: {"acceleration": Node.pair},
-    Force: {"at": point, "force": pair_of_values, "axes": text, "on": text},
-    Torque: {"link": text, "torque": value, "on": text},
+    Force: {"at": point, "force": pair_of_values, "axes": text, "on": text, **WAY},
+    Torque: {"link": text, "torque": value, "on": text, **WAY},
+    Pressure: {
+        "slide": text,
+        "area": number,
+        "pressure": pressure,
+        "expands": text,
+        "ambient": number,
+        **WAY,
+    },
     Spring: {
         "first": point,
         "second": point,
@@ -103,10 +127,10 @@ MOTORS: dict[type, Words] = {
     ConstantTorque: {"torque": value, **SHAFT},
     LinearMotor: {"stall": number, "no_load": number, **SHAFT},
     InductionMotor: {"breakdown": number, "slip": number, "synchronous": number, **SHAFT},
-    Table: {**ROWS, **SHAFT},
+    Table: {**{name: read for name, read in ROWS.items() if name != "over"}, **SHAFT},
 }
 FRICTIONS: dict[type, Words] = {
     cls: dict.fromkeys(("coefficient", size, "viscous", "static_coefficient"), number)
     for cls, size in ((JointFriction, "radius"), (SlideFriction, "length"))
 }
-PARTS: dict[type, Words] = {Body: BODY, **LOADS, **MOTORS, **FRICTIONS}
+PARTS: dict[type, Words] = {Body: BODY, Gas: GAS, **LOADS, **MOTORS, **FRICTIONS}

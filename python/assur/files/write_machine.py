@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import finite_array
+from assur.dynamics.pressure import Gas
 from assur.dynamics.table import Table
 from assur.errors import InputError
 from assur.files.parts import PARTS, ROWS
@@ -59,6 +60,8 @@ def part(thing: Any, what: str) -> dict[str, Any]:
     given = {}
     for name in PARTS[type(thing)]:
         value = getattr(thing, name)
+        if isinstance(thing, Table) and name == "periodic" and value == (thing.over is None):
+            continue
         # By its repr: -0.0 is not 0.0.
         if repr(value) != repr(parameters[name].default):
             given[name] = _value(value, f"{what}: {name}")
@@ -67,7 +70,12 @@ def part(thing: Any, what: str) -> dict[str, Any]:
 
 def _value(value: Any, what: str) -> Any:
     if isinstance(value, Table):
-        return {name: one for name, one in part(value, what).items() if name in ROWS}
+        rows = part(value, what)
+        if value.over is not None:
+            rows["over"] = value.over
+        return {name: one for name, one in rows.items() if name in ROWS}
+    if isinstance(value, Gas):
+        return part(value, what)
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, tuple):

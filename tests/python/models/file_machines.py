@@ -30,6 +30,18 @@ LOADS: dict[str, Any] = {
     "torsion damper": assur.TorsionDamper("rocker", THIRD, on="coupler"),
 }
 
+IN_PRACTICE: list[Any] = [
+    assur.Pressure("ram", 0.01, assur.Gas(2e5 * THIRD, 0.003, 1.0, 1.3), "forward"),
+    assur.Pressure("ram", 0.01, assur.Gas(2e5, 0.03, 0.9), "backward", ambient=0.0),
+    assur.Pressure("ram", THIRD, Table([0.1, 9.0], [1e5, 2e5], over="ram"), "forward"),
+    assur.Pressure("ram", 0.01, 3e5, "forward", while_="backward", over="arm"),
+    assur.Force(
+        "P", (Table([0.1, 0.9, 0.9, 9.0], [1.0, 2.0, -0.0, THIRD], "linear", over="ram"), -THIRD)
+    ),
+    assur.Force("P", (0.0, -9.0), while_="forward", over="ram"),
+    assur.Torque("arm", Table([-9.0, 9.0, 9.5], [0.0, THIRD, 0.0], over="arm"), while_="backward"),
+]
+
 MOTORS: dict[str, Any] = {
     "constant": assur.ConstantTorque(184.0 * THIRD),
     "constant of a table": assur.ConstantTorque(WORK, ratio=-THIRD, rotor_inertia=0.01),
@@ -68,6 +80,7 @@ def whole_machines() -> dict[str, assur.Machine]:
         "nothing": assur.Machine(m),
         "everything": assur.Machine(m, bodies, list(LOADS.values()), MOTORS["induction"], friction),
         "cylinder": assur.Machine(cylinder(), {"arm": Body(3.0)}, friction={"ram": guide}),
+        "in practice": assur.Machine(cylinder(), {"arm": Body(3.0)}, IN_PRACTICE),
         "two motors": assur.Machine(five_bar(), motor=[MOTORS["linear"], MOTORS["table"]]),
         "one motor of two": assur.Machine(five_bar(), motor=[None, MOTORS["constant"]]),
         "designs": assur.Machine(m.with_dimensions(lengths), {"rocker": Body(2.0)}),
