@@ -263,6 +263,7 @@ ENTRIES: dict[str, Entry] = {
     **each_of("Flywheel.coordinate", WHEEL.coordinate, t=0.0),
     **each_of("Flywheel.reduced_moment", WHEEL.reduced_moment, q=0.0),
     **each_of("Flywheel.reduced_inertia", WHEEL.reduced_inertia, q=0.0),
+    **each_of("Table.at", assur.Table([0.0, 1.0], [0.0, 1.0], periodic=False).at, x=0.5),
     **each_of("Flywheel.speed", WHEEL.speed, q=0.0),
     **each_of("Flywheel.speed_at", WHEEL.speed_at, t=0.0),
     **each_of("Flywheel.time", WHEEL.time, q=0.0),

@@ -124,9 +124,12 @@ def test_non_numbers_are_refused(name: str, what: str) -> None:
 @pytest.mark.parametrize("what", ["text", "bytes", "a buffer", "masked", "complex", "a dictionary"])
 def test_a_run_refuses_a_function_that_gives_no_number(what: str) -> None:
     value = NOT_NUMBERS[what]
-    load = assur.Torque("crank", lambda *_: value)
+    with pytest.raises(assur.InputError, match=r"gives .* at t = 0"):
+        Machine(PRESS, {}, [assur.Torque("crank", lambda *_: value)])
+    # At rest, where the machine tries it, it is one.
+    load = assur.Torque("crank", lambda *given: value if given[2] else 0.0)
     with pytest.raises(assur.InputError, match=r"gave .* at t = 0"):
-        Machine(PRESS, {"crank": Body(inertia=1.0)}, [load]).run(0.1)
+        Machine(PRESS, {"crank": Body(inertia=1.0)}, [load]).run(0.1, speed0=1.0)
 
 
 def made(name: str, value: Any) -> type:
