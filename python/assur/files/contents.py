@@ -148,7 +148,11 @@ def read(path: str | PathLike[str]) -> Contents:
     >>> contents.mechanism, contents.machine, dict(contents.wanted)
     (<assur.Mechanism I(crank) → II(rod, piston)>, None, {})
     """
-    source = Source(path)
+    return contents_of(Source(path))
+
+
+def contents_of(source: Source) -> Contents:
+    """Return what a file that has been read and parsed holds."""
     root = Node(source, (), source.data)
     if "format" not in source.data:
         raise root.missing("format", f": write format = {FORMAT} in the first line")

@@ -33,11 +33,13 @@ class Source:
     ----------
     path : path-like
         The file.
+    raw : bytes, optional
+        What is in it, if it has been read already.
     """
 
-    def __init__(self, path: str | PathLike[str]) -> None:
+    def __init__(self, path: str | PathLike[str], raw: bytes | None = None) -> None:
         self.path = file_name(path)
-        self.text = self._decoded(self._bytes())
+        self.text = self._decoded(self._bytes() if raw is None else self._few(raw))
         self._positions: dict[KeyPath, int] | None = None
         found = beyond_limits(self.text)
         if found is not None:
@@ -54,6 +56,9 @@ class Source:
             why = getattr(error, "strerror", None) or error
             message = f"{self.path}: cannot be read: {why}"
             raise FileError(message, path=self.path) from error
+        return self._few(raw)
+
+    def _few(self, raw: bytes) -> bytes:
         if len(raw) > MOST_BYTES:
             message = f"{self.path}: is larger than {MOST_BYTES // 2**20} MiB, the limit of a file"
             raise FileError(message, path=self.path)

@@ -1,0 +1,38 @@
+"""``assur convert``: a file of another program, or a changed one, as a TOML file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from assur.cli.help import describe
+from assur.cli.source import add_source, read
+from assur.cli.toml_output import add_toml, check_toml, write_toml
+
+if TYPE_CHECKING:
+    import argparse
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    describe(
+        parser,
+        "Write what FILE holds as a TOML file (docs/files.md). What does not carry over from\n"
+        "another program is said on the standard error.",
+        "assur convert example:watt_1 watt.toml",
+        "assur convert example:engine --set rod.length=220mm long.toml",
+    )
+    add_source(parser)
+    parser.add_argument(
+        "target",
+        metavar="TOML",
+        nargs="?",
+        default="-",
+        help="the file; by default, and for -, the standard output",
+    )
+    add_toml(parser)
+
+
+def run(given: argparse.Namespace) -> None:
+    """Run the command."""
+    check_toml(given.target, given.force)
+    write_toml(read(given), given.target)

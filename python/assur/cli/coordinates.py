@@ -1,0 +1,95 @@
+"""The coordinates of the drivers, ``--q``, and their speeds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.cli.units import ANGLE, LENGTH, LINEAR, ROTARY, argument, numbers
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Mapping
+
+    from assur._arrays import Float
+    from assur.cli.units import Numbers
+    from assur.kinematics.mechanism import Mechanism
+
+# Without --q and without one in the file a driver that is an angle turns once.
+TURN = "0:360:1deg"
+
+
+def add_coordinates(parser: argparse.ArgumentParser) -> None:
+    """Add ``--q``."""
+    parser.add_argument(
+        "--q",
+        metavar="START:END:STEP",
+        type=argument(numbers),
+        action="append",
+        help="the driver's coordinate: 0:360:1deg, 0,90,180deg, 0.1:0.3:0.01 (rad or m), 50mm; "
+        "of several drivers one --q each; by default what the file asks for, or a turn",
+    )
+
+
+def coordinates(
+    mechanism: Mechanism, given: list[Numbers] | None, wanted: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return the argument ``q`` of a method, or ``deg``: of flags, or what a file asks for."""
+    from assur.kinematics.table import driven_angles
+
+    angles = driven_angles(mechanism)
+    if given is None:
+        own = {name: wanted[name] for name in ("q", "deg") if name in wanted}
+        if own:
+            return own
+        if angles != [True]:
+            message = "nothing says where the drivers go: give --q for each, such as --q 0:0.1:0.01"
+            raise InputError(message)
+        given = [numbers(TURN)]
+    if len(given) != len(angles):
+        message = f"--q is given {len(given)} times: the mechanism has {len(angles)} drivers"
+        if len(angles) == 1:
+            message = f"--q is given {len(given)} times: the mechanism has one driver"
+        raise InputError(message)
+    for one, is_angle in zip(given, angles, strict=True):
+        one.require(ANGLE if is_angle else LENGTH, "--q")
+    if len(given) == 1:
+        return {"q": given[0].values}
+    return {"q": _together([one.values for one in given])}
+
+
+def _together(columns: list[Float]) -> Float:
+    """Return the positions of several drivers; one number holds its driver."""
+    counts = {len(column) for column in columns if column.ndim}
+    if len(counts) > 1:
+        shown = ", ".join("1" if not column.ndim else str(len(column)) for column in columns)
+        message = f"--q: the drivers have {shown} positions: the same number of each is needed"
+        raise InputError(message)
+    return np.stack(np.broadcast_arrays(*columns), axis=-1)
+
+
+def speeds(mechanism: Mechanism, given: Numbers | None, what: str) -> Any:
+    """Return a speed, of several drivers one each; None if none is given."""
+    from assur.kinematics.table import driven_angles
+
+    if given is None:
+        return None
+    angles = driven_angles(mechanism)
+    if given.values.size != len(angles) or given.values.ndim > 1:
+        drivers = "one number is" if len(angles) == 1 else f"{len(angles)} numbers, 1,2, are"
+        message = f"{what} has {given.values.size} numbers: {drivers} needed"
+        raise InputError(message)
+    if given.unit is not None:
+        for is_angle in angles:
+            given.require(ROTARY if is_angle else LINEAR, what)
+    return float(given.values.ravel()[0]) if len(angles) == 1 else given.values
+
+
+def plain(given: Numbers | None, mechanism: Mechanism, what: str) -> Any:
+    """Return an acceleration, of several drivers one each: always in SI units."""
+    if given is not None and given.unit is not None:
+        message = f"{what} is in rad/s² or m/s²: write no unit"
+        raise InputError(message)
+    return speeds(mechanism, given, what)

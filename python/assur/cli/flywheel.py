@@ -1,0 +1,122 @@
+"""``assur flywheel``: of a machine, or of a table of reduced moment and inertia."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from assur import flywheel
+from assur.cli.help import describe
+from assur.cli.source import EXAMPLE, STDIN, add_source, read, require_machine
+from assur.cli.table import Output, add_output
+from assur.cli.units import ROTARY, argument, numbers
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import argparse
+
+    from assur.flywheel import Flywheel
+
+TABLES = (".csv", ".tsv", ".dat", "")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    describe(
+        parser,
+        "The flywheel with which the speed varies by a given part of its mean. FILE is a\n"
+        "machine, or a table with the columns phi (rad), moment (N·m) and inertia (kg·m²) of one\n"
+        "period, comma-separated (its ending is .csv). Of a machine the arguments are by default\n"
+        "those of the file's [flywheel]; without a mean speed its own motor sets the speed.",
+        "assur flywheel table.csv --fluctuation 0.125 --mean-speed 15",
+        "assur flywheel press.toml",
+        "assur flywheel press.toml --fluctuation 0.05 --out speed.csv",
+    )
+    add_source(parser)
+    one = parser.add_mutually_exclusive_group()
+    one.add_argument("--fluctuation", type=argument(numbers), help="coefficient δ wanted")
+    one.add_argument(
+        "--flywheel",
+        type=argument(numbers),
+        help="of a table: a given flywheel, kg·m², instead",
+    )
+    parser.add_argument(
+        "--mean-speed", metavar="SPEED", type=argument(numbers), help="rad/s, or 143rpm"
+    )
+    parser.add_argument("--mean", choices=flywheel.MEANS, help="definition of it; extremes")
+    parser.add_argument("--spline", choices=flywheel.SPLINES, help="of a table; not-a-knot")
+    parser.add_argument(
+        "--degrees", action="store_true", help="phi of the table, q of --out, in degrees"
+    )
+    parser.add_argument("--plot", metavar="PICTURE", help="draw the speed over the turn to a file")
+    add_output(parser)
+
+
+def run(given: argparse.Namespace) -> None:
+    """Run the command."""
+    output = Output(given.out, given.file)
+    is_table = not given.file.startswith(EXAMPLE) and given.file != STDIN
+    is_table = is_table and PurePath(given.file).suffix.lower() in TABLES
+    found = _of_table(given) if is_table else _of_machine(given)
+    if given.out is not None:
+        output.write(found._columns(given.degrees))
+    if given.out != "-":
+        _print(found)
+    if given.plot:
+        from assur.cli.picture import save_figure
+
+        save_figure(found.plot, given.plot)
+
+
+def _number(given: Any, kind: str, what: str) -> float | None:
+    return None if given is None else given.one(kind, what)
+
+
+def _of_table(given: argparse.Namespace) -> Flywheel:
+    if (given.fluctuation is None and given.flywheel is None) or given.mean_speed is None:
+        given.parser.error("a table needs --fluctuation (or --flywheel) and --mean-speed")
+    for name in ("set", "design", "format", "scale", "drivers"):
+        if getattr(given, name):
+            given.parser.error(f"--{name} is for mechanisms, not for tables")
+    table = flywheel.read_table(given.file, degrees=given.degrees)
+    speed = given.mean_speed.one(ROTARY, "--mean-speed")
+    mean, spline = given.mean or "extremes", given.spline or "not-a-knot"
+    options: dict[str, Any] = {"mean": mean, "spline": spline}
+    if given.flywheel is None:
+        wanted = given.fluctuation.one("", "--fluctuation")
+        return flywheel.from_table(*table, wanted, speed, **options)
+    own = given.flywheel.one("", "--flywheel")
+    return flywheel.evaluate(*table, own, mean_speed=speed, **options)
+
+
+def _of_machine(given: argparse.Namespace) -> Flywheel:
+    for name in ("flywheel", "spline"):
+        if getattr(given, name) is not None:
+            given.parser.error(f"--{name} is for tables, not for machines")
+    contents = read(given)
+    machine = require_machine(contents, given.file)
+    asked = dict(contents.wanted.get("flywheel", {}))
+    flags = {
+        "fluctuation": _number(given.fluctuation, "", "--fluctuation"),
+        "mean_speed": _number(given.mean_speed, ROTARY, "--mean-speed"),
+        "mean": given.mean,
+    }
+    asked.update({name: value for name, value in flags.items() if value is not None})
+    if "fluctuation" not in asked:
+        message = "no fluctuation is given: write --fluctuation 0.05, or [flywheel] in the file"
+        raise InputError(message)
+    if machine.shape:
+        message = f"{given.file} has {machine.shape} designs: choose one by --design"
+        raise InputError(message)
+    return machine.flywheel(**asked)
+
+
+def _print(f: Flywheel) -> None:
+    print(f"flywheel      {f.inertia:.9g} kg·m²")
+    print(f"fluctuation   {f.delta:.9g}")
+    print(f"mean speed    {f.mean_speed:.9g} rad/s ({f.mean})")
+    print(f"speed0        {f.speed0:.9g} rad/s")
+    print(f"greatest      {f.greatest.value:.9g} rad/s at {f.greatest.at:.6g} rad")
+    print(f"least         {f.least.value:.9g} rad/s at {f.least.at:.6g} rad")
+    print(f"motor         {f.motor_moment:.9g} N·m")
+    print(f"period        {f.period:.9g} s")

@@ -1,0 +1,141 @@
+"""The program: its commands, its errors and its exit statuses."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING, NoReturn
+
+from assur._core import version
+from assur.cli.terminal import any_encoding, cannot_write, note, short_warnings
+from assur.errors import AssurError, AssurWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["main"]
+
+# 3 is that of `assur.cli.failures`.
+OK, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
+
+# Each is a module of this package, imported when it is called.
+COMMANDS = {
+    "solve": "positions and their derivatives, as a table",
+    "structure": "mobility, Assur groups, dimensions",
+    "limits": "where the driver can move, dead points, assemblies",
+    "reactions": "forces in joints and slides, and of the drive, as a table",
+    "flywheel": "the flywheel of a machine, or of a table of moment and inertia",
+    "sweep": "many designs, measured; the best of them",
+    "plot": "a picture",
+    "convert": "a file of another program, as a TOML file",
+    "examples": "the examples that the package contains",
+}
+EPILOG = """\
+FILE is a TOML file (docs/files.md), a file of PMKS, PMKS+, pylinkage, pyslvs or
+Linkage, an example (example:jansen_leg), or - for the standard input.
+
+exit status:
+  0    done
+  1    the input is wrong, or has no answer: a line on the standard error says why
+  2    the command line is wrong
+  3    done, but some positions could not be solved; of a sweep no design is left
+  130  interrupted
+"""
+# A value that begins like a number is no option.
+NEGATIVE = re.compile(r"-\.?\d")
+
+
+class Parser(argparse.ArgumentParser):
+    """Errors of the command line are one line, like all others."""
+
+    def error(self, message: str) -> NoReturn:
+        """Report a wrong command line and end."""
+        note(f"{' '.join(message.split())} (see {self.prog} --help)")
+        raise SystemExit(USAGE)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Command-line arguments; ``sys.argv[1:]`` by default.
+
+    Returns
+    -------
+    int
+        Exit status: 0, or another one after an error, which is reported on standard error.
+
+    Examples
+    --------
+    >>> from assur.cli import main
+    >>> main(["solve", "example:engine", "--q", "0,90deg", "--order", "0", "--outputs", "bore"])
+    q,status,bore
+    0.0,0,0.195
+    1.5707963267948966,0,0.14309088021254185
+    0
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    with any_encoding(), short_warnings():
+        try:
+            try:
+                return _run(words)
+            finally:
+                # Flush here, where a full disk can still be reported.
+                sys.stdout.flush()
+        except (AssurError, AssurWarning, ImportError) as error:
+            note(str(error))
+        except MemoryError:
+            note("there is not enough memory for so many results: ask for fewer")
+        except OSError as error:
+            cannot_write(error)
+        except KeyboardInterrupt:
+            note("interrupted")
+            return INTERRUPTED
+    return FAILED
+
+
+def _run(words: list[str]) -> int:
+    try:
+        given = _parser(words).parse_args(_joined(words))
+    except SystemExit as end:
+        return int(end.code or OK)
+    result = given.run(given)
+    return int(result or OK)
+
+
+def _parser(words: list[str]) -> Parser:
+    parser = Parser(
+        prog="assur",
+        description="Planar linkages: structure, motion, forces.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"assur {version()}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    # The options above take no values: the first other word is the command.
+    called = next((word for word in words if not word.startswith("-")), None)
+    for name, does in COMMANDS.items():
+        own = commands.add_parser(
+            name, help=does, formatter_class=argparse.RawDescriptionHelpFormatter
+        )
+        if name == called:
+            command = import_module(f"assur.cli.{name}")
+            command.add_arguments(own)
+            own.set_defaults(run=command.run, parser=own)
+    return parser
+
+
+def _joined(words: list[str]) -> list[str]:
+    """Write ``--q -10:10:1deg`` as ``--q=-10:10:1deg``: no option to argparse."""
+    joined: list[str] = []
+    for word in words:
+        last = joined[-1] if joined else ""
+        if NEGATIVE.match(word) and last.startswith("--") and len(last) > 2 and "=" not in last:
+            joined[-1] = f"{last}={word}"
+        else:
+            joined.append(word)
+    return joined

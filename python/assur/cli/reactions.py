@@ -1,0 +1,70 @@
+"""``assur reactions``: forces in joints and slides, and of the drive."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from assur.cli.coordinates import add_coordinates, coordinates, plain, speeds
+from assur.cli.failures import report
+from assur.cli.help import describe
+from assur.cli.source import add_source, read, require_machine
+from assur.cli.table import Output, add_output
+from assur.cli.units import argument, numbers
+
+if TYPE_CHECKING:
+    import argparse
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    describe(
+        parser,
+        "Forces in joints and slides, torque or force of the drive, shaking force and moment\n"
+        "of a machine (kinetostatics). Without flags those of the file's [reactions]; without\n"
+        "a speed statics. Where there is no result the table has NaN, and the exit status is 3.",
+        "assur reactions press.toml --q 0:360:10deg --speed 200rpm --out forces.csv",
+        "assur reactions example:toggle_press --speed 20 --degrees",
+    )
+    add_source(parser)
+    add_coordinates(parser)
+    parser.add_argument(
+        "--speed",
+        metavar="SPEED",
+        type=argument(numbers),
+        help="of the driver, 10rad/s, 60rpm, 20mm/s; of several drivers 1,2",
+    )
+    parser.add_argument(
+        "--acceleration", metavar="NUMBER", type=argument(numbers), help="rad/s² or m/s²"
+    )
+    parser.add_argument(
+        "--sense",
+        metavar="SIGN",
+        type=argument(numbers),
+        help="1 or -1: in which way the drive is about to move at speed 0, if there is friction",
+    )
+    parser.add_argument("--degrees", action="store_true", help="angles of the table in degrees")
+    add_output(parser)
+
+
+def run(given: argparse.Namespace) -> int:
+    """Run the command."""
+    output = Output(given.out, given.file)
+    contents = read(given)
+    machine = require_machine(contents, given.file)
+    mechanism = contents.mechanism
+    wanted = contents.wanted.get("reactions", {})
+    asked: dict[str, Any] = {name: wanted[name] for name in wanted if name not in ("q", "deg")}
+    flags = {
+        "speed": speeds(mechanism, given.speed, "--speed"),
+        "acceleration": plain(given.acceleration, mechanism, "--acceleration"),
+        "sense": plain(given.sense, mechanism, "--sense"),
+    }
+    asked.update({name: value for name, value in flags.items() if value is not None})
+    place = coordinates(mechanism, given.q, wanted or contents.wanted.get("solve", {}))
+    if "deg" in place:
+        from assur.kinematics.solve import in_radians
+
+        place = {"q": in_radians(mechanism, None, place["deg"])}
+    found = machine.reactions(**place, **{**asked, "on_error": "nan"})
+    output.write(found._columns(given.degrees))
+    return report(found.status)

@@ -1,0 +1,45 @@
+"""``assur structure``: mobility, Assur groups, dimensions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from assur.cli.help import describe
+from assur.cli.source import add_source, kind_of, read
+from assur.cli.units import LENGTH
+
+if TYPE_CHECKING:
+    import argparse
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    describe(
+        parser,
+        "The structural formula, the mobility and the Assur groups in solving order.",
+        "assur structure example:stephenson_3",
+        "assur structure example:crank_rocker --dimensions",
+    )
+    add_source(parser)
+    parser.add_argument(
+        "--dimensions",
+        action="store_true",
+        help="also the dimensions, by the names that --set and --vary take",
+    )
+
+
+def run(given: argparse.Namespace) -> None:
+    """Run the command."""
+    mechanism = read(given).mechanism
+    print(mechanism.structure)
+    if mechanism.shape:
+        print(f"{mechanism.shape} designs")
+    if not given.dimensions:
+        return
+    for name, value in mechanism.dimensions.items():
+        unit = "m" if kind_of(name) == LENGTH else "rad"
+        if mechanism.shape:
+            text = f"{float(value.min())!r} to {float(value.max())!r}"
+        else:
+            text = repr(float(value))
+        print(f"{name} = {text} {unit}")

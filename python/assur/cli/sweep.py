@@ -1,0 +1,212 @@
+"""``assur sweep``: many designs, measured."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.cli.coordinates import add_coordinates, coordinates
+from assur.cli.designs import read_designs
+from assur.cli.failures import INCOMPLETE
+from assur.cli.help import describe
+from assur.cli.progress import add_progress, progress
+from assur.cli.source import add_source, kind_of, read, require_one
+from assur.cli.table import Output, add_output
+from assur.cli.terminal import note
+from assur.cli.units import LENGTH, argument, evenly
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur._table import Column
+    from assur.cli.units import Numbers
+    from assur.files import Contents
+    from assur.sweeps.measures import Measures
+
+POSITIONS = 72
+# A metric of so many designs takes nearly a gigabyte.
+MOST_DESIGNS = 100_000_000
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    describe(
+        parser,
+        "Measure every combination of some dimensions (--vary), or the designs of a table\n"
+        "(--designs). Metrics are those of assur.metric: span(B.x), least(bore), greatest,\n"
+        "mean, rms, least_transmission(C), deviation(P, line, part=0.5), time_ratio(bore);\n"
+        "of a machine peak_reaction(B, speed=20), peak_effort(); with order=1, over=(0,90deg),\n"
+        "between=(B,D); with + - * / and numbers. A design that does not move over all\n"
+        "positions, or misses a condition, has NaN; if no design is left, the exit status is 3.\n"
+        "Results are in m and rad.",
+        "assur sweep example:crank_rocker --vary coupler.length=90:150mm:20 "
+        "--vary rocker.length=60:120mm:20 --metric 'gamma=least_transmission(C)' --best 5 "
+        "--greatest",
+        "assur sweep example:engine --vary rod.length=0.1:0.2:50 --metric 'span(bore)' "
+        "--out strokes.csv",
+        "assur sweep example:crank_rocker --vary coupler.length=90:150mm:20 "
+        "--metric 'off=deviation(P, line, relative=true)' --where 'least_transmission(C) > 40deg'",
+    )
+    add_source(parser)
+    parser.add_argument(
+        "--vary",
+        metavar="NAME=FROM:TO:COUNT",
+        type=argument(_axis),
+        action="append",
+        default=[],
+        help="values of a dimension, both ends included: coupler.length=100:200mm:50, or a list; "
+        "several make a grid",
+    )
+    parser.add_argument(
+        "--designs",
+        metavar="TABLE.csv",
+        help="a design in each row; the header names the dimensions, m and rad",
+    )
+    parser.add_argument(
+        "--metric",
+        metavar="NAME=METRIC",
+        action="append",
+        required=True,
+        help="what is measured, gamma=least_transmission(C)",
+    )
+    parser.add_argument(
+        "--where",
+        metavar="CONDITION",
+        action="append",
+        default=[],
+        help="drop designs that miss it: least_transmission(C) > 40deg",
+    )
+    parser.add_argument("--best", type=int, metavar="N", help="only the N best designs")
+    parser.add_argument("--by", metavar="NAME", help="the metric that is best; the first")
+    parser.add_argument("--greatest", action="store_true", help="the greatest is best, not least")
+    add_coordinates(parser)
+    parser.add_argument(
+        "--positions",
+        type=int,
+        metavar="N",
+        help=f"instead of --q: so many even steps of a turn; {POSITIONS}",
+    )
+    parser.add_argument("--threads", type=int, metavar="N", help="most threads; one a core")
+    add_output(parser)
+    add_progress(parser)
+
+
+def run(given: argparse.Namespace) -> int:
+    """Run the command."""
+    from assur.cli.metrics import condition, named_metric
+    from assur.sweeps.sweep import sweep
+
+    if given.best is None and (given.by is not None or given.greatest):
+        given.parser.error("--by and --greatest need --best")
+    if given.positions is not None and given.q is not None:
+        given.parser.error("--positions is in place of --q")
+    output = Output(given.out, given.file)
+    metrics = dict(named_metric(text) for text in given.metric)
+    if len(metrics) < len(given.metric):
+        message = "--metric: two have the same name"
+        raise InputError(message)
+    by = _by(given, list(metrics))
+    where = [condition(text) for text in given.where]
+    contents = read(given)
+    require_one(contents.mechanism, given.file)
+    found: Measures = sweep(
+        contents.machine or contents.mechanism,
+        _dimensions(given),
+        _positions(contents, given),
+        metrics=metrics,
+        where=where or None,
+        threads=given.threads,
+        progress=progress(given),
+    )
+    if not len(found.kept):
+        output.write(_columns(found, None))
+        note(f"no design is left: {found._counts()}")
+        return INCOMPLETE
+    best = None if given.best is None else found.best(given.best, by, given.greatest)
+    output.write(_columns(found, best))
+    return 0
+
+
+def _by(given: argparse.Namespace, names: list[str]) -> str:
+    if given.by is None:
+        return names[0]
+    if given.by not in names:
+        message = f"--by {given.by}: there is no such --metric; there are {', '.join(names)}"
+        raise InputError(message)
+    return str(given.by)
+
+
+def _dimensions(given: argparse.Namespace) -> Mapping[str, npt.ArrayLike]:
+    from assur.sweeps.grid import Grid
+
+    if given.designs is not None:
+        if given.vary:
+            given.parser.error("--designs is in place of --vary")
+        return read_designs(given.designs)
+    if not given.vary:
+        given.parser.error("the designs are missing: --vary, or --designs")
+    axes: dict[str, Float] = {}
+    for name, values in given.vary:
+        values.require(kind_of(name), f"--vary {name}")
+        if name in axes:
+            message = f"--vary {name} is given twice"
+            raise InputError(message)
+        axes[name] = values.values
+    count = math.prod(map(len, axes.values()))
+    if count > MOST_DESIGNS:
+        message = f"--vary: these are {count} designs, of {MOST_DESIGNS} at most"
+        raise InputError(message)
+    return Grid(axes)
+
+
+def _positions(contents: Contents, given: argparse.Namespace) -> Any:
+    from assur.kinematics.solve import in_radians
+    from assur.kinematics.table import driven_angles
+
+    mechanism = contents.mechanism
+    if given.q is None and driven_angles(mechanism) == [True]:
+        count = POSITIONS if given.positions is None else given.positions
+        if not 1 <= count <= 1_000_000:
+            message = f"--positions is {count}: a whole number from 1 to 1000000 is needed"
+            raise InputError(message)
+        return np.linspace(0.0, math.tau, count, endpoint=False)
+    if given.positions is not None:
+        message = "--positions is for a driver that turns: give --q"
+        raise InputError(message)
+    place = coordinates(mechanism, given.q, contents.wanted.get("solve", {}))
+    q = in_radians(mechanism, None, place["deg"]) if "deg" in place else place["q"]
+    return np.atleast_1d(q) if len(driven_angles(mechanism)) == 1 else np.atleast_2d(q)
+
+
+def _columns(found: Measures, best: npt.NDArray[np.intp] | None) -> list[Column]:
+    """Return the columns of `Measures.to_dataframe`, of the best designs or of all."""
+    from assur._table import Column, design_columns
+
+    size = found.status.size
+    which = np.arange(size) if best is None else best
+    columns = [*design_columns(found.shape, len(found.shape))]
+    for name in found._designs.changed:
+        unit = "m" if kind_of(name) == LENGTH else "rad"
+        columns.append(Column(name, found._designs.values(name), unit, None))
+    columns.append(Column("status", found.status.reshape(-1), "", None))
+    columns.append(Column("kept", np.isin(np.arange(size), found.kept), "", None))
+    taken = {column.name for column in columns}
+    for name, values in found.items():
+        shown = f"metric {name}" if name in taken else name
+        columns.append(Column(shown, values.reshape(-1), "", "metrics"))
+    return [one._replace(values=one.values[which]) for one in columns]
+
+
+def _axis(text: str) -> tuple[str, Numbers]:
+    name, equals, values = text.partition("=")
+    if not equals or not name.strip():
+        message = f"{text[:60]!r}: NAME=FROM:TO:COUNT is needed, coupler.length=0.1:0.2:50"
+        raise InputError(message)
+    return name.strip(), evenly(values)
