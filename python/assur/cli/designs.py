@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from assur._arrays import counted
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -41,6 +42,6 @@ def _numbers(path: str, line: int, row: list[str], count: int) -> list[float]:
     except ValueError:
         found = []
     if len(found) != count or not all(map(math.isfinite, found)):
-        message = f"{path}, line {line}: {','.join(row)[:80]!r} is not {count} numbers"
+        message = f"{path}, line {line}: {','.join(row)[:80]!r} is not {counted(count, 'number')}"
         raise InputError(message)
     return found

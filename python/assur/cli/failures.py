@@ -17,9 +17,12 @@ if TYPE_CHECKING:
 INCOMPLETE = 3
 
 
-def report(status: npt.NDArray[Any], motion: Motion | None = None) -> int:
-    """Say how many positions have no result, and why the first has none."""
-    failed = status >= Status.SINGULAR
+def report(status: npt.NDArray[Any], least: Status, motion: Motion | None = None) -> int:
+    """Say how many positions have no result, and why the first has none.
+
+    `least` is the first status without one.
+    """
+    failed = status >= least
     count = int(failed.sum())
     if not count:
         return 0

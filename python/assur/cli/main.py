@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, NoReturn
 
 from assur._core import version
-from assur.cli.terminal import any_encoding, cannot_write, note, short_warnings
+from assur.cli.terminal import any_encoding, cannot_write, note, reworded, short_warnings
 from assur.errors import AssurError, AssurWarning
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ __all__ = ["main"]
 # 3 is that of `assur.cli.failures`.
 OK, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 
-# Each is a module of this package, imported when it is called.
+# Each is a module of `assur.cli.commands`, imported when it is called.
 COMMANDS = {
     "solve": "positions and their derivatives, as a table",
     "structure": "mobility, Assur groups, dimensions",
@@ -79,6 +80,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
+    if sys.stdout is None:  # closed by the shell
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115
     with any_encoding(), short_warnings():
         try:
             try:
@@ -87,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 # Flush here, where a full disk can still be reported.
                 sys.stdout.flush()
         except (AssurError, AssurWarning, ImportError) as error:
-            note(str(error))
+            note(reworded(error))
         except MemoryError:
             note("there is not enough memory for so many results: ask for fewer")
         except OSError as error:
@@ -100,11 +103,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str]) -> int:
     try:
-        given = _parser(words).parse_args(_joined(words))
-    except SystemExit as end:
+        parser = _parser(words)
+        for word in words:
+            if word.startswith("--") and word.endswith("=--"):
+                parser.error(f"{word!r}: -- is no value")  # argparse would drop it
+        given = parser.parse_args(_joined(words))
+        return int(given.run(given) or OK)
+    except SystemExit as end:  # argparse's, after help and errors
         return int(end.code or OK)
-    result = given.run(given)
-    return int(result or OK)
 
 
 def _parser(words: list[str]) -> Parser:
@@ -112,21 +118,23 @@ def _parser(words: list[str]) -> Parser:
         prog="assur",
         description="Planar linkages: structure, motion, forces.",
         epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=_wide,
     )
     parser.add_argument("--version", action="version", version=f"assur {version()}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     # The options above take no values: the first other word is the command.
     called = next((word for word in words if not word.startswith("-")), None)
     for name, does in COMMANDS.items():
-        own = commands.add_parser(
-            name, help=does, formatter_class=argparse.RawDescriptionHelpFormatter
-        )
+        own = commands.add_parser(name, help=does, formatter_class=_wide)
         if name == called:
-            command = import_module(f"assur.cli.{name}")
+            command = import_module(f"assur.cli.commands.{name}")
             command.add_arguments(own)
             own.set_defaults(run=command.run, parser=own)
     return parser
+
+
+def _wide(prog: str) -> argparse.HelpFormatter:
+    return argparse.RawDescriptionHelpFormatter(prog, max_help_position=28)
 
 
 def _joined(words: list[str]) -> list[str]:

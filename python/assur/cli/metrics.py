@@ -15,6 +15,7 @@ import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from assur import metric
+from assur.cli.metric_arguments import argument_of, parts
 from assur.cli.units import numbers
 from assur.errors import InputError
 from assur.sweeps.terms import Condition, Metric
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 FUNCTIONS = tuple(name for name in metric.__all__ if name.islower() and name != "function")
-NUMBERS = ("part", "speed", "acceleration", "fluctuation", "mean_speed")
-FLAGS = {"true": True, "false": False}
 MOST_LETTERS, MOST_BRACKETS = 2000, 20
 TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?P<unit>rad/s|deg/s|mm/s|m/s|[a-z]+)?"
@@ -126,7 +125,7 @@ class _Reader:
         value = self.factor()
         while sign := self.take("*", "/"):
             right = self.factor()
-            if sign == "/" and not isinstance(value, Metric) and right == 0.0:
+            if sign == "/" and right == 0.0:
                 raise self.error("a division by zero")
             value = value * right if sign == "*" else value / right
         return value
@@ -173,7 +172,7 @@ class _Reader:
         inside, self.at = self.text[self.at : end], end + 1
         function = getattr(metric, token.text)
         positional, named = [], {}
-        for part in _parts(inside):
+        for part in parts(inside):
             name, equals, value = part.partition("=")
             if equals:
                 named[name.strip()] = value.strip()
@@ -184,7 +183,7 @@ class _Reader:
         except TypeError as error:
             raise self.error(f"{token.text}: {error}", token.start) from error
         try:
-            return function(**{name: _argument(name, text) for name, text in bound.items()})
+            return function(**{name: argument_of(name, text) for name, text in bound.items()})
         except InputError as error:
             raise self.error(f"{token.text}: {error}", token.start) from error
 
@@ -196,38 +195,3 @@ class _Reader:
             if depth == 0:
                 return place
         raise self.error("')' is missing")
-
-
-def _parts(inside: str) -> list[str]:
-    """Split arguments at commas that are in no brackets."""
-    parts, depth = [""], 0
-    for letter in inside:
-        depth += {"(": 1, ")": -1}.get(letter, 0)
-        if letter == "," and depth == 0:
-            parts.append("")
-        else:
-            parts[-1] += letter
-    return parts if inside.strip() else []
-
-
-def _argument(name: str, text: str) -> Any:
-    """Return an argument of a metric by the kind of its parameter."""
-    if name in ("over", "between"):
-        ends = _parts(text.removeprefix("(").removesuffix(")")) if text.startswith("(") else [text]
-        if name == "between":
-            return tuple(_unquoted(end) for end in ends)
-        both = numbers(",".join(ends)).values
-        return tuple(both.tolist()) if both.ndim else (float(both),)
-    if name in NUMBERS:
-        return float(numbers(text).values)
-    if name == "order":
-        return int(text) if re.fullmatch(r"\d", text, re.ASCII) else text
-    if name == "relative":
-        return FLAGS.get(text.lower(), text)
-    return _unquoted(text)
-
-
-def _unquoted(text: str) -> str:
-    text = text.strip()
-    quoted = len(text) > 1 and text[0] == text[-1] and text[0] in "'\""
-    return text[1:-1] if quoted else text

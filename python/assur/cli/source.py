@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import sys
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
+from assur.cli.named import EXAMPLE, example
 from assur.cli.terminal import note
-from assur.cli.units import ANGLE, LENGTH, argument, numbers
+from assur.cli.units import LENGTH, kind_of
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,49 +18,10 @@ if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
     from assur.files import Contents
     from assur.importers import Imported
+    from assur.importers.source import Source as Text
     from assur.kinematics.mechanism import Mechanism
 
-EXAMPLE = "example:"
-STDIN = "-"
-# Of an example with several drivers, along the line between the ends of its range.
-POSITIONS_OF_SEVERAL = 91
-FULL_TURN = (0.0, math.tau)
-
-
-def add_source(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that `read` takes."""
-    parser.add_argument(
-        "file",
-        metavar="FILE",
-        help="a TOML file, a file of another program, example:NAME, or - for the standard input",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="NAME=VALUE",
-        type=argument(_setting),
-        action="append",
-        default=[],
-        help="change a dimension, coupler.length=120mm; m and rad without a unit",
-    )
-    parser.add_argument(
-        "--design", type=int, metavar="I", help="one design of a file of several, from 0"
-    )
-    other = parser.add_argument_group("files of other programs")
-    other.add_argument(
-        "--format", metavar="NAME", help="pmks, pmks_plus, pylinkage, pyslvs or linkage2"
-    )
-    other.add_argument(
-        "--scale",
-        metavar="LENGTH",
-        type=argument(numbers),
-        help="the file's unit of length, such as 1mm; 1m by default",
-    )
-    other.add_argument(
-        "--drivers",
-        metavar="I-J",
-        type=argument(_pairs),
-        help="of a pyslvs expression: the drivers, each by its two points, 0-1",
-    )
+STDIN, STDIN_NAME = "-", "the standard input"
 
 
 def read(given: argparse.Namespace) -> Contents:
@@ -77,40 +38,50 @@ def read(given: argparse.Namespace) -> Contents:
 def _found(given: argparse.Namespace) -> Contents:
     from assur.files.contents import contents_of, read
     from assur.files.source import Source
-    from assur.importers.source import Source as Text
+    from assur.importers import detect
+    from assur.importers.source import LARGEST_FILE
 
     word = given.file
     if word.startswith(EXAMPLE):
         _refuse_import(given)
         return example(word.removeprefix(EXAMPLE))
-    if word == STDIN:
-        raw, name = standard_input(), "the standard input"
-        text = Text(raw.decode("utf-8", errors="replace").removeprefix("\ufeff"), name)
-        if not _is_foreign(given, text):
-            return contents_of(Source(name, raw))
-        return _imported(given, text)
     if "://" in word:
         return _imported(given, word)
-    if PurePath(word).suffix.lower() == ".toml" and given.format is None:
+    is_toml = PurePath(word).suffix.lower() == ".toml"
+    if is_toml and given.format is None:
         _refuse_import(given)
         return read(word)
-    opened = _opened(word)
-    return _imported(given, opened) if _is_foreign(given, opened) else read(word)
+    raw, name = (standard_input(), STDIN_NAME) if word == STDIN else (_bytes(word), word)
+    text = _text(raw, name)
+    if given.format is None and detect(text.name, text.text) is None:
+        _refuse_import(given)
+        return contents_of(Source(name, raw))
+    if len(text.text) > LARGEST_FILE:
+        raise text.error("", f"more than {LARGEST_FILE} letters: this is not the file of a linkage")
+    return _imported(given, text)
 
 
-def _is_foreign(given: argparse.Namespace, text: Any) -> bool:
-    from assur.importers import detect
+def _bytes(word: str) -> bytes:
+    """Return what a file holds, read once: it may be a pipe."""
+    from assur.files.limits import MOST_BYTES
 
-    if given.format is not None or detect(text.name, text.text) is not None:
-        return True
-    _refuse_import(given)
-    return False
+    try:
+        with Path(word).open("rb") as file:
+            return file.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as error:
+        message = f"{word}: cannot be read: {getattr(error, 'strerror', None) or error}"
+        raise InputError(message) from error
 
 
-def _opened(word: str) -> Any:
-    from assur.importers.source import open_source
+def _text(raw: bytes, name: str) -> Text:
+    """Return the text of another program; Linkage writes the code page of Windows."""
+    from assur.importers.source import Source as Text
 
-    return open_source(PurePath(word))
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError:
+        text = raw.decode("cp1252", errors="replace")
+    return Text(text.removeprefix("\ufeff"), PurePath(name).name)
 
 
 def _refuse_import(given: argparse.Namespace) -> None:
@@ -146,33 +117,6 @@ def standard_input() -> bytes:
     return raw
 
 
-def example(name: str) -> Contents:
-    """Return an example with its motion over the range in which it is used."""
-    from assur import examples
-    from assur.files import Contents, Range
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.table import driven_angles
-
-    if name not in examples.ALL:
-        from difflib import get_close_matches
-
-        near = get_close_matches(name, examples.ALL, n=3)
-        rest = f"did you mean {' or '.join(near)}?" if near else "assur examples lists them"
-        message = f"there is no example {name[:60]!r}; {rest}"
-        raise InputError(message)
-    made: Any = examples.ALL[name]()
-    machine = None if isinstance(made, Mechanism) else made
-    mechanism: Mechanism = made if machine is None else machine.mechanism
-    first, last = examples.RANGES[name]
-    if isinstance(first, tuple):
-        over = {"q": Range(first, last, count=POSITIONS_OF_SEVERAL)}
-    elif (first, last) == FULL_TURN and driven_angles(mechanism)[0]:
-        over = {"deg": Range(0.0, 360.0, step=1.0)}
-    else:
-        over = {"q": Range(first, last, count=361)}
-    return Contents(mechanism, machine, {"solve": over})
-
-
 def require_machine(contents: Contents, file: str) -> Machine:
     """Return the machine of a file."""
     if contents.machine is None:
@@ -200,25 +144,3 @@ def _with_mechanism(contents: Contents, mechanism: Mechanism) -> Contents:
 
     machine = None if contents.machine is None else contents.machine.of(mechanism)
     return Contents(mechanism, machine, contents.wanted)
-
-
-def kind_of(dimension: str) -> str:
-    """Return whether a dimension is a length or an angle."""
-    return ANGLE if dimension.endswith(".angle") else LENGTH
-
-
-def _setting(text: str) -> tuple[str, Numbers]:
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip():
-        message = f"{text[:60]!r}: NAME=VALUE is needed, such as coupler.length=120mm"
-        raise InputError(message)
-    return name.strip(), numbers(value)
-
-
-def _pairs(text: str) -> list[tuple[int, int]]:
-    try:
-        pairs = [tuple(int(end) for end in pair.split("-")) for pair in text.split(",")]
-        return [(first, second) for first, second in pairs]
-    except ValueError as error:
-        message = f"{text[:60]!r}: pairs of points are needed, such as 0-1 or 0-1,2-3"
-        raise InputError(message) from error

@@ -32,6 +32,11 @@ PLAIN = {
 IN_DEGREES = ("solve(deg=...)", "write --q 0:360:1deg")
 
 
+def reworded(message: object) -> str:
+    """Return a message of the package in words of the command line."""
+    return str(message).replace(*IN_DEGREES)
+
+
 def note(text: str) -> None:
     """Print a line on the standard error."""
     print(f"assur: {text}", file=sys.stderr)
@@ -79,8 +84,7 @@ def _show_warning(
     line: str | None = None,
 ) -> None:
     if issubclass(category, AssurWarning):
-        text = str(message).replace(*IN_DEGREES)
-        print(f"assur: warning: {text}", file=file or sys.stderr)
+        print(f"assur: warning: {reworded(message)}", file=file or sys.stderr)
     else:
         text = warnings.formatwarning(message, category, filename, lineno, line)
         print(text, end="", file=file or sys.stderr)

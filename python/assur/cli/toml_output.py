@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from assur.cli.table import cannot_write, replacing, require_writable
+from assur.cli.written import cannot_write, replacing, require_writable
 from assur.errors import InputError
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -20,24 +20,25 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 LENGTH, ANGLE, LINEAR, ROTARY = "a length", "an angle", "a speed", "an angular speed"
-# What a unit is of, what multiplies a number of it, and what divides it: 35 mm are 0.035 m to the
-# last bit only if it is divided.
-UNITS = {
-    "m": (LENGTH, 1.0, 1.0),
-    "cm": (LENGTH, 1.0, 100.0),
-    "mm": (LENGTH, 1.0, 1000.0),
-    "in": (LENGTH, 0.0254, 1.0),
-    "rad": (ANGLE, 1.0, 1.0),
-    "deg": (ANGLE, math.pi / 180.0, 1.0),
-    "m/s": (LINEAR, 1.0, 1.0),
-    "mm/s": (LINEAR, 1.0, 1000.0),
-    "rad/s": (ROTARY, 1.0, 1.0),
-    "deg/s": (ROTARY, math.pi / 180.0, 1.0),
-    "rpm": (ROTARY, math.pi / 30.0, 1.0),
+# What a unit is of, and what it is in SI units: a factor, or (int) a power of ten.
+UNITS: dict[str, tuple[str, float | int]] = {
+    "m": (LENGTH, 0),
+    "cm": (LENGTH, -2),
+    "mm": (LENGTH, -3),
+    "in": (LENGTH, 0.0254),
+    "rad": (ANGLE, 0),
+    "deg": (ANGLE, math.pi / 180.0),
+    "m/s": (LINEAR, 0),
+    "mm/s": (LINEAR, -3),
+    "rad/s": (ROTARY, 0),
+    "deg/s": (ROTARY, math.pi / 180.0),
+    "rpm": (ROTARY, math.pi / 30.0),
 }
-NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s].*?)?\s*", re.ASCII)
-# Longer texts are mistakes; their message would be as long.
-MOST_LETTERS = 100_000
+NUMBER = re.compile(
+    r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)\s*([^\d\s].*?)?\s*", re.ASCII
+)
+# A float has 24 letters at most.
+MOST_LETTERS = 100
 
 
 class Numbers(NamedTuple):
@@ -62,17 +63,31 @@ class Numbers(NamedTuple):
         return float(self.values)
 
 
-def split_number(text: str) -> tuple[float, str | None]:
-    """Return a number and its unit, None if it has none."""
+class Number(NamedTuple):
+    """A number as it is written, and its unit, None if it has none."""
+
+    text: str
+    unit: str | None
+
+    def si(self, unit: str | None) -> float:
+        """Return it in SI units: 35.7mm is 35.7e-3, with the same bits."""
+        scale = 0 if unit is None else UNITS[unit][1]
+        if isinstance(scale, float):
+            return float(self.text) * scale
+        digits, _, power = self.text.lower().partition("e")
+        return float(f"{digits}e{int(power or 0) + scale}")
+
+
+def split_number(text: str) -> Number:
+    """Return a number and its unit."""
     found = NUMBER.fullmatch(text) if len(text) < MOST_LETTERS else None
-    value = float(found[1]) if found else math.nan
-    if found is None or not math.isfinite(value):
+    if found is None or not math.isfinite(float(found[1])):
         message = f"{short(text)} is not a number, such as 0.12, 120mm or 30deg"
         raise InputError(message)
     if found[2] is not None and found[2] not in UNITS:
         message = f"{short(text)}: the unit {short(found[2])} is unknown; known: {', '.join(UNITS)}"
         raise InputError(message)
-    return value, found[2]
+    return Number(found[1], found[2])
 
 
 def numbers(text: str) -> Numbers:
@@ -80,11 +95,12 @@ def numbers(text: str) -> Numbers:
 
     The unit is that of all numbers: it is written after the last, or after each.
     """
-    separator = ":" if ":" in text else ","
-    values, unit = _same_unit(text, [split_number(part) for part in text.split(separator)])
-    if separator == ":":
-        return Numbers(_si(_steps(text, values), unit), unit)
-    return Numbers(_si(np.array(values if len(values) > 1 else values[0]), unit), unit)
+    if ":" in text:
+        parts, unit = _same_unit(text, text.split(":"))
+        return Numbers(_steps(text, parts, unit), unit)
+    parts, unit = _same_unit(text, text.split(","))
+    values = [part.si(unit) for part in parts]
+    return Numbers(np.array(values if len(values) > 1 else values[0]), unit)
 
 
 def evenly(text: str) -> Numbers:
@@ -96,41 +112,45 @@ def evenly(text: str) -> Numbers:
         found = numbers(text)
         return Numbers(np.atleast_1d(found.values), found.unit)
     first, last, count = text.split(":")
-    ends, unit = _same_unit(text, [split_number(first), split_number(last)])
+    ends, unit = _same_unit(text, [first, last])
     if not re.fullmatch(r"\s*\d{1,8}\s*", count, re.ASCII) or int(count) < 1:
         message = f"{short(text)}: from:to:count needs a whole number as the count"
         raise InputError(message)
     from assur.files.ranges import Range
 
-    return Numbers(_si(Range(ends[0], ends[1], count=int(count)).values(), unit), unit)
+    start, stop = (end.si(unit) for end in ends)
+    return Numbers(Range(start, stop, count=int(count)).values(), unit)
 
 
-def _same_unit(text: str, parts: list[tuple[float, str | None]]) -> tuple[list[float], str | None]:
-    unit = parts[-1][1]
-    if any(other not in (None, unit) for _, other in parts):
+def _same_unit(text: str, parts: list[str]) -> tuple[list[Number], str | None]:
+    found = [split_number(part) for part in parts]
+    unit = found[-1].unit
+    if any(other.unit not in (None, unit) for other in found):
         message = f"{short(text)}: write one unit, after the last number"
         raise InputError(message)
-    return [value for value, _ in parts], unit
+    return found, unit
 
 
-def _steps(text: str, values: list[float]) -> Any:
+def _steps(text: str, parts: list[Number], unit: str | None) -> Float:
+    """Return a range, in steps of its unit as `Mechanism.solve` takes degrees."""
     from assur.files.ranges import Range
 
-    if len(values) != 3:
+    if len(parts) != 3:
         message = f"{short(text)}: start:end:step is needed, such as 0:360:1deg"
         raise InputError(message)
+    start, stop, step = (float(part.text) for part in parts)
     try:
-        return Range(values[0], values[1], step=values[2]).values()
+        values = Range(start, stop, step=step).values()
     except InputError as error:
         message = f"{short(text)}: {error}"
         raise InputError(message) from error
+    scale = 0 if unit is None else UNITS[unit][1]
+    return values * scale if isinstance(scale, float) else values / 10.0**-scale
 
 
-def _si(values: Any, unit: str | None) -> Any:
-    if unit is None:
-        return np.asarray(values)
-    _, factor, divisor = UNITS[unit]
-    return np.asarray(values) * factor / divisor
+def kind_of(dimension: str) -> str:
+    """Return whether a dimension is a length or an angle."""
+    return ANGLE if dimension.endswith(".angle") else LENGTH
 
 
 def argument(parse: Callable[[str], T]) -> Callable[[str], T]:

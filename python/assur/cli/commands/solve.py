@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from assur.cli.coordinates import add_coordinates, coordinates, plain, speeds
 from assur.cli.failures import report
 from assur.cli.help import describe
+from assur.cli.output import Output, add_output
 from assur.cli.progress import add_progress, progress
-from assur.cli.source import add_source, read
-from assur.cli.table import Output, add_output
+from assur.cli.source import read
+from assur.cli.source_arguments import add_source
 from assur.cli.units import argument, numbers
+from assur.description.words import Status
 
 if TYPE_CHECKING:
     import argparse
@@ -62,13 +67,13 @@ def run(given: argparse.Namespace) -> int:
     contents = read(given)
     omega = speeds(contents.mechanism, given.omega, "--omega")
     alpha = plain(given.alpha, contents.mechanism, "--alpha")
-    motion = _motion(contents, given)
+    motion = _motion(contents, given, output)
     options = Options(omega, 0.0 if alpha is None else alpha, given.degrees, given.moving)
     output.write(motion_columns(motion, options))
-    return report(motion.status, motion)
+    return report(motion.status, Status.UNREACHABLE, motion)
 
 
-def _motion(contents: Contents, given: argparse.Namespace) -> Motion:
+def _motion(contents: Contents, given: argparse.Namespace, output: Output) -> Motion:
     from assur.kinematics.solve import in_radians
     from assur.sweeps.sweep import sweep
 
@@ -79,6 +84,9 @@ def _motion(contents: Contents, given: argparse.Namespace) -> Motion:
     if given.outputs is not None:
         asked["outputs"] = [name.strip() for name in given.outputs.split(",")]
     place = coordinates(mechanism, given.q, wanted)
+    drivers = mechanism._driver_count
+    size = np.size(place["q"] if "q" in place else place["deg"])
+    output.require_few(size // drivers * math.prod(mechanism.shape))
     if not mechanism.shape:
         motion: Motion = mechanism.solve(**place, **asked, on_error="nan")
         return motion

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from assur.cli.help import describe
-from assur.cli.source import add_source, kind_of, read
-from assur.cli.units import LENGTH
+from assur.cli.source import read
+from assur.cli.source_arguments import add_source
+from assur.cli.units import LENGTH, kind_of
 
 if TYPE_CHECKING:
     import argparse

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.cli.help import describe
-from assur.cli.source import add_source, read, require_one
-from assur.cli.table import Output, add_output
+from assur.cli.output import Output, add_output
+from assur.cli.source import read, require_one
+from assur.cli.source_arguments import add_source
 
 if TYPE_CHECKING:
     import argparse
@@ -26,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "Intervals of the driver's coordinate in which the drawn assembly exists, its dead\n"
         "points, after how many turns the motion closes, and how many assemblies there are at\n"
         "the drawing's coordinate.",
-        "assur limits example:peaucellier --degrees",
+        "assur limits example:pentagon --degrees",
         "assur limits example:crank_rocker --set rocker.length=1.2 --out intervals.csv",
     )
     add_source(parser)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from assur.cli.help import describe
-from assur.cli.source import EXAMPLE, example
+from assur.cli.named import EXAMPLE, example
 from assur.cli.toml_output import add_toml, check_toml, write_toml
 
 if TYPE_CHECKING:

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 from assur.cli.coordinates import add_coordinates, coordinates, plain, speeds
 from assur.cli.failures import report
 from assur.cli.help import describe
-from assur.cli.source import add_source, read, require_machine
-from assur.cli.table import Output, add_output
+from assur.cli.output import Output, add_output
+from assur.cli.source import read, require_machine
+from assur.cli.source_arguments import add_source
 from assur.cli.units import argument, numbers
+from assur.description.words import Status
 
 if TYPE_CHECKING:
     import argparse
@@ -23,9 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "of a machine (kinetostatics). Without flags those of the file's [reactions]; without\n"
         "a speed statics. Where there is no result the table has NaN, and the exit status is 3.",
         "assur reactions press.toml --q 0:360:10deg --speed 200rpm --out forces.csv",
-        "assur reactions example:toggle_press --speed 20 --degrees",
+        "assur reactions example:andrews_squeezer --speed 20rad/s --degrees",
     )
-    add_source(parser)
+    add_source(parser, others=False)
     add_coordinates(parser)
     parser.add_argument(
         "--speed",
@@ -67,4 +69,4 @@ def run(given: argparse.Namespace) -> int:
         place = {"q": in_radians(mechanism, None, place["deg"])}
     found = machine.reactions(**place, **{**asked, "on_error": "nan"})
     output.write(found._columns(given.degrees))
-    return report(found.status)
+    return report(found.status, Status.SINGULAR)

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from assur import flywheel
 from assur.cli.help import describe
-from assur.cli.source import EXAMPLE, STDIN, add_source, read, require_machine
-from assur.cli.table import Output, add_output
+from assur.cli.named import EXAMPLE
+from assur.cli.output import Output, add_output
+from assur.cli.source import STDIN, read, require_machine
+from assur.cli.source_arguments import add_source
 from assur.cli.units import ROTARY, argument, numbers
 from assur.errors import InputError
 
@@ -17,22 +19,21 @@ if TYPE_CHECKING:
 
     from assur.flywheel import Flywheel
 
-TABLES = (".csv", ".tsv", ".dat", "")
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     describe(
         parser,
         "The flywheel with which the speed varies by a given part of its mean. FILE is a\n"
-        "machine, or a table with the columns phi (rad), moment (N·m) and inertia (kg·m²) of one\n"
-        "period, comma-separated (its ending is .csv). Of a machine the arguments are by default\n"
-        "those of the file's [flywheel]; without a mean speed its own motor sets the speed.",
+        "machine (its ending is .toml), or a table with the columns phi (rad), moment (N·m) and\n"
+        "inertia (kg·m²) of one period, comma-separated. Of a machine the arguments are by\n"
+        "default those of the file's [flywheel]; without a mean speed its own motor sets the\n"
+        "speed.",
         "assur flywheel table.csv --fluctuation 0.125 --mean-speed 15",
         "assur flywheel press.toml",
-        "assur flywheel press.toml --fluctuation 0.05 --out speed.csv",
+        "assur flywheel press.toml --fluctuation 0.03 --out speed.csv",
     )
-    add_source(parser)
+    add_source(parser, others=False)
     one = parser.add_mutually_exclusive_group()
     one.add_argument("--fluctuation", type=argument(numbers), help="coefficient δ wanted")
     one.add_argument(
@@ -55,9 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Run the command."""
     output = Output(given.out, given.file)
-    is_table = not given.file.startswith(EXAMPLE) and given.file != STDIN
-    is_table = is_table and PurePath(given.file).suffix.lower() in TABLES
-    found = _of_table(given) if is_table else _of_machine(given)
+    found = _of_machine(given) if _is_machine(given.file) else _of_table(given)
     if given.out is not None:
         output.write(found._columns(given.degrees))
     if given.out != "-":
@@ -68,6 +67,10 @@ def run(given: argparse.Namespace) -> None:
         save_figure(found.plot, given.plot)
 
 
+def _is_machine(file: str) -> bool:
+    return file.startswith(EXAMPLE) or file == STDIN or PurePath(file).suffix.lower() == ".toml"
+
+
 def _number(given: Any, kind: str, what: str) -> float | None:
     return None if given is None else given.one(kind, what)
 
@@ -75,9 +78,8 @@ def _number(given: Any, kind: str, what: str) -> float | None:
 def _of_table(given: argparse.Namespace) -> Flywheel:
     if (given.fluctuation is None and given.flywheel is None) or given.mean_speed is None:
         given.parser.error("a table needs --fluctuation (or --flywheel) and --mean-speed")
-    for name in ("set", "design", "format", "scale", "drivers"):
-        if getattr(given, name):
-            given.parser.error(f"--{name} is for mechanisms, not for tables")
+    if given.set or given.design is not None:
+        given.parser.error("--set and --design are for machines, not for tables")
     table = flywheel.read_table(given.file, degrees=given.degrees)
     speed = given.mean_speed.one(ROTARY, "--mean-speed")
     mean, spline = given.mean or "extremes", given.spline or "not-a-knot"

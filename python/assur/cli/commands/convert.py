@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from assur.cli.help import describe
-from assur.cli.source import add_source, read
+from assur.cli.source import read
+from assur.cli.source_arguments import add_source
 from assur.cli.toml_output import add_toml, check_toml, write_toml
+from assur.cli.written import refuse_same
 
 if TYPE_CHECKING:
     import argparse
@@ -22,17 +24,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "assur convert example:engine --set rod.length=220mm long.toml",
     )
     add_source(parser)
-    parser.add_argument(
-        "target",
-        metavar="TOML",
-        nargs="?",
-        default="-",
-        help="the file; by default, and for -, the standard output",
-    )
+    parser.add_argument("target", metavar="TOML", help="the file, or - for the standard output")
     add_toml(parser)
 
 
 def run(given: argparse.Namespace) -> None:
     """Run the command."""
+    refuse_same(given.target, given.file)
     check_toml(given.target, given.force)
     write_toml(read(given), given.target)

@@ -11,11 +11,12 @@ from assur.cli.coordinates import add_coordinates, coordinates
 from assur.cli.designs import read_designs
 from assur.cli.failures import INCOMPLETE
 from assur.cli.help import describe
+from assur.cli.output import Output, add_output
 from assur.cli.progress import add_progress, progress
-from assur.cli.source import add_source, kind_of, read, require_one
-from assur.cli.table import Output, add_output
+from assur.cli.source import read, require_one
+from assur.cli.source_arguments import add_source
 from assur.cli.terminal import note
-from assur.cli.units import LENGTH, argument, evenly
+from assur.cli.units import LENGTH, argument, evenly, kind_of
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
     from assur.sweeps.measures import Measures
 
 POSITIONS = 72
-# A metric of so many designs takes nearly a gigabyte.
-MOST_DESIGNS = 100_000_000
+# They and two metrics take a gigabyte.
+MOST_DESIGNS = 20_000_000
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -105,6 +106,8 @@ def run(given: argparse.Namespace) -> int:
 
     if given.best is None and (given.by is not None or given.greatest):
         given.parser.error("--by and --greatest need --best")
+    if given.best is not None and given.best < 1:
+        given.parser.error("--best needs a number of at least 1")
     if given.positions is not None and given.q is not None:
         given.parser.error("--positions is in place of --q")
     output = Output(given.out, given.file)
@@ -116,9 +119,12 @@ def run(given: argparse.Namespace) -> int:
     where = [condition(text) for text in given.where]
     contents = read(given)
     require_one(contents.mechanism, given.file)
+    dimensions = _dimensions(given)
+    rows = math.prod(np.broadcast_shapes(*map(np.shape, dimensions.values())))
+    output.require_few(rows if given.best is None else min(rows, given.best))
     found: Measures = sweep(
         contents.machine or contents.mechanism,
-        _dimensions(given),
+        dimensions,
         _positions(contents, given),
         metrics=metrics,
         where=where or None,

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 from assur.cli.coordinates import add_coordinates, coordinates
 from assur.cli.help import describe
-from assur.cli.source import add_source, read, require_one
+from assur.cli.named import EXAMPLE
+from assur.cli.source import STDIN, read, require_one
+from assur.cli.source_arguments import add_source
 
 if TYPE_CHECKING:
     import argparse
@@ -34,9 +36,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Run the command."""
     from assur.cli.picture import save_figure
-    from assur.cli.table import refuse_same, require_writable
+    from assur.cli.written import refuse_same, require_writable
 
-    out = given.out or f"{PurePath(given.file.rpartition(':')[2]).stem or 'mechanism'}.svg"
+    out = given.out or f"{_stem(given.file)}.svg"
     refuse_same(out, given.file)
     require_writable(out)
     contents = read(given)
@@ -50,3 +52,10 @@ def run(given: argparse.Namespace) -> None:
         q = None if given.q is None else coordinates(mechanism, given.q, {})["q"]
         save_figure(lambda: mechanism.plot(q), out)
     print(out)
+
+
+def _stem(file: str) -> str:
+    """Return what a picture is called if it has no name."""
+    if file == STDIN or "://" in file:
+        return "mechanism"
+    return PurePath(file.removeprefix(EXAMPLE)).stem or "mechanism"
