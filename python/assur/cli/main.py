@@ -104,9 +104,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     try:
         parser = _parser(words)
-        for word in words:
-            if word.startswith("--") and word.endswith("=--"):
-                parser.error(f"{word!r}: -- is no value")  # argparse would drop it
+        if any(word == "--" or (word[:2] == "--" and word.endswith("=--")) for word in words):
+            # argparse drops it, also where it is a value.
+            parser.error("-- is not understood; a file's name can be written ./-name")
         given = parser.parse_args(_joined(words))
         return int(given.run(given) or OK)
     except SystemExit as end:  # argparse's, after help and errors

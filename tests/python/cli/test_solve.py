@@ -215,6 +215,8 @@ def test_wrong_input_is_one_line(words: tuple[str, ...], said: str) -> None:
         ("solve", "example:engine", "--set", "rod.length"),
         ("solve", "example:engine", "--unknown"),
         ("solve", "example:engine", "--drivers", "x"),
+        ("solve", "--", "example:engine"),
+        ("solve", "example:engine", "--out=--"),
     ],
 )
 def test_a_wrong_command_line_is_one_line_and_2(words: tuple[str, ...]) -> None:
