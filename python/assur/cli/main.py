@@ -49,7 +49,13 @@ NEGATIVE = re.compile(r"-\.?\d")
 
 
 class Parser(argparse.ArgumentParser):
-    """Errors of the command line are one line, like all others."""
+    """Errors of the command line are one line, like all others; options have one name."""
+
+    def __init__(self, *, prog: str) -> None:
+        def wide(prog: str) -> argparse.HelpFormatter:
+            return argparse.RawDescriptionHelpFormatter(prog, max_help_position=28)
+
+        super().__init__(prog=prog, formatter_class=wide, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
         """Report a wrong command line and end."""
@@ -80,8 +86,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     0
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if sys.stdout is None:  # closed by the shell
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by the shell
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123, SIM115
     with any_encoding(), short_warnings():
         try:
             try:
@@ -114,27 +121,19 @@ def _run(words: list[str]) -> int:
 
 
 def _parser(words: list[str]) -> Parser:
-    parser = Parser(
-        prog="assur",
-        description="Planar linkages: structure, motion, forces.",
-        epilog=EPILOG,
-        formatter_class=_wide,
-    )
+    parser = Parser(prog="assur")
+    parser.description, parser.epilog = "Planar linkages: structure, motion, forces.", EPILOG
     parser.add_argument("--version", action="version", version=f"assur {version()}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     # The options above take no values: the first other word is the command.
     called = next((word for word in words if not word.startswith("-")), None)
     for name, does in COMMANDS.items():
-        own = commands.add_parser(name, help=does, formatter_class=_wide)
+        own = commands.add_parser(name, help=does)
         if name == called:
             command = import_module(f"assur.cli.commands.{name}")
             command.add_arguments(own)
             own.set_defaults(run=command.run, parser=own)
     return parser
-
-
-def _wide(prog: str) -> argparse.HelpFormatter:
-    return argparse.RawDescriptionHelpFormatter(prog, max_help_position=28)
 
 
 def _joined(words: list[str]) -> list[str]:

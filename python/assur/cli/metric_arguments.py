@@ -7,9 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from assur.cli.units import numbers
+from assur.cli.units import ANGLE, LENGTH, LINEAR, ROTARY, UNITS, numbers
+from assur.errors import InputError
 
-NUMBERS = ("part", "speed", "acceleration", "fluctuation", "mean_speed")
+# Numbers, with the kinds of their units.
+NUMBERS: dict[str, tuple[str, ...]] = {
+    "over": (ANGLE, LENGTH),
+    "part": (),
+    "speed": (ROTARY, LINEAR),
+    "acceleration": (),
+    "fluctuation": (),
+    "mean_speed": (ROTARY,),
+}
 FLAGS = {"true": True, "false": False}
 
 
@@ -27,18 +36,28 @@ def parts(inside: str) -> list[str]:
 
 def argument_of(name: str, text: str) -> Any:
     """Return an argument of a metric by the kind of its parameter."""
-    if name in ("over", "between"):
-        ends = parts(text.removeprefix("(").removesuffix(")")) if text.startswith("(") else [text]
-        if name == "between":
-            return tuple(_unquoted(end) for end in ends)
-        return tuple(np.atleast_1d(numbers(",".join(ends)).values).tolist())
     if name in NUMBERS:
-        return numbers(text.strip("()")).values.tolist()
+        return _numbers(name, _inside(text))
+    if name == "between":
+        return tuple(_unquoted(end) for end in parts(_inside(text)))
     if name == "order":
         return int(text) if re.fullmatch(r"\d", text, re.ASCII) else text
     if name == "relative":
         return FLAGS.get(text.lower(), text)
     return _unquoted(text)
+
+
+def _inside(text: str) -> str:
+    return text[1:-1] if text.startswith("(") and text.endswith(")") else text
+
+
+def _numbers(name: str, text: str) -> Any:
+    found = numbers(text)
+    if found.unit is not None and UNITS[found.unit][0] not in NUMBERS[name]:
+        message = f"{name}={text}: its unit cannot be {found.unit}"
+        raise InputError(message)
+    values = np.atleast_1d(found.values) if name == "over" else found.values
+    return values.tolist()
 
 
 def _unquoted(text: str) -> str:

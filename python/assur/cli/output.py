@@ -49,10 +49,8 @@ class Output:
             return
         ending = Path(path).suffix.lower()
         if ending not in WRITERS:
-            known = ", ".join(WRITERS)
-            message = f"--out {path}: the ending {ending or 'is missing'!r}: known are {known}"
-            if not ending:
-                message = f"--out {path}: the file needs an ending: {known}"
+            wrong = f"not {ending}" if ending else "but has none"
+            message = f"--out {path}: the name ends with {', '.join(WRITERS)}, {wrong}"
             raise InputError(message)
         self._ending = ending
         for module, extra in NEEDS.get(ending, ()):

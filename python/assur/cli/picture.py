@@ -11,15 +11,12 @@ if TYPE_CHECKING:
 
 
 def save_figure(draw: Callable[[], Any], path: str) -> None:
-    """Draw, without a window, and write the picture."""
+    """Draw and write the picture."""
     try:
-        import matplotlib as mpl
+        from matplotlib import pyplot as plt
     except ImportError as error:
         message = "a picture needs matplotlib: pip install assur[plot]"
         raise InputError(message) from error
-    mpl.use("Agg")
-    from matplotlib import pyplot as plt
-
     figure = draw().figure
     try:
         figure.savefig(path)

@@ -39,7 +39,8 @@ def reworded(message: object) -> str:
 
 def note(text: str) -> None:
     """Print a line on the standard error."""
-    print(f"assur: {text}", file=sys.stderr)
+    # A name may have line ends in it.
+    print(f"assur: {' '.join(text.splitlines())}", file=sys.stderr)
 
 
 @contextlib.contextmanager

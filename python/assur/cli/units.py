@@ -48,11 +48,14 @@ class Numbers(NamedTuple):
     unit: str | None
 
     def require(self, kind: str, what: str) -> None:
-        """Refuse a unit of another kind."""
-        if self.unit is not None and UNITS[self.unit][0] != kind:
-            known = ", ".join(name for name, (of, *_) in UNITS.items() if of == kind)
-            message = f"{what} is {kind}: its unit can be {known}, not {self.unit}"
-            raise InputError(message)
+        """Refuse a unit of another kind; what has no kind ("") has no unit."""
+        if self.unit is None or UNITS[self.unit][0] == kind:
+            return
+        known = ", ".join(name for name, (of, _) in UNITS.items() if of == kind)
+        message = f"{what} is {kind}: its unit can be {known}, not {self.unit}"
+        if not kind:
+            message = f"{what} is written without a unit, not in {self.unit}"
+        raise InputError(message)
 
     def one(self, kind: str, what: str) -> float:
         """Return the one number."""
@@ -144,6 +147,9 @@ def _steps(text: str, parts: list[Number], unit: str | None) -> Float:
     except InputError as error:
         message = f"{short(text)}: {error}"
         raise InputError(message) from error
+    if len(values) == 1 and start != stop:
+        message = f"{short(text)}: the step is longer than the way from start to end"
+        raise InputError(message)
     scale = 0 if unit is None else UNITS[unit][1]
     return values * scale if isinstance(scale, float) else values / 10.0**-scale
 

@@ -32,7 +32,7 @@ def view(columns: Sequence[Column], width: int) -> str:
     if cut:
         lines.insert(2 + FIRST_ROWS, "...")
     left = len(columns) - len(shown)
-    more = f"; {left} more columns: --out table.csv has all, --outputs chooses" if left else ""
+    more = f"; {left} more columns: --out table.csv has all" if left else ""
     return "\n".join([*lines, f"{size} rows{more}" if cut or left else ""]).rstrip()
 
 

@@ -25,10 +25,22 @@ VALUES = (
     *("out.csv", "out.json", "out.toml", "out.svg", "no/out.csv", "out.exe", "-", "--", "\0", "é"),
     *("table.csv", "press.toml", "broken.toml", "sketch.txt", "example:engine", "example:x"),
     *("example:toggle_press", "example:five_bar", "a://b", ".", "10", "99999999999999999999"),
-    *("--out=-", "--q=0", "--q=", "rpm", "20rpm", "period", "natural", "%s", "{0}", "\ud800"),
+    *(
+        "--out=-",
+        "--q=0",
+        "--q=",
+        "rpm",
+        "20rpm",
+        "period",
+        "natural",
+        "%s",
+        "{0}",
+        "a\nb",
+        "\ud800",
+    ),
 )
 SOURCES = ("press.toml", "example:engine", "example:andrews_squeezer", "sketch.txt", "-")
-COUNT = 400
+COUNT = 300
 MOST_WORDS = 4
 
 

@@ -171,6 +171,8 @@ def test_flywheel_of_a_table(tmp_path: Path) -> None:
     assert found["flywheel"] == pytest.approx(own.inertia, rel=1e-8)
     given = figures(printed(*words, "--flywheel", repr(own.inertia), "--spline", "natural"))
     assert given["fluctuation"] == pytest.approx(0.1, rel=1e-8)
+    for flag in ("--fluctuation", "--flywheel"):
+        assert f"{flag} is written without a unit" in refused(*words, flag, "1mm")
     needed = "a table needs --fluctuation (or --flywheel) and --mean-speed"
     assert needed in refused(*words[:3], "--fluctuation", 0.1, code=2)
     assert needed in refused(*words, code=2)

@@ -214,6 +214,7 @@ def test_wrong_input_is_one_line(words: tuple[str, ...], said: str) -> None:
         ("solve", "example:engine", "--order", "4"),
         ("solve", "example:engine", "--set", "rod.length"),
         ("solve", "example:engine", "--unknown"),
+        ("solve", "example:engine", "--deg"),
         ("solve", "example:engine", "--drivers", "x"),
         ("solve", "--", "example:engine"),
         ("solve", "example:engine", "--out=--"),

@@ -80,6 +80,7 @@ def test_ranges_and_lists() -> None:
         ("0:1:0", "from 1 to 10000000 positions"),
         ("0:1:-1", "from 1 to 10000000 positions"),
         ("0:1:1e-9", "from 1 to 10000000 positions"),
+        ("0:1:50", "the step is longer than the way"),
         ("-1e308:1e308:1", "a finite length"),
         ("9" * 200_000, "is not a number"),
     ],

@@ -33,8 +33,8 @@ def test_what_cannot_be_written_is_refused_before_the_work(tmp_path: Path) -> No
     for path, said in (
         ("missing/t.csv", "cannot be written: No such file or directory"),
         ("folder.csv", "cannot be written: it is a directory"),
-        ("t.txt", "the ending '.txt': known are .csv, .parquet, .npz, .json, .xlsx"),
-        ("t", "the file needs an ending: .csv, .parquet"),
+        ("t.txt", "the name ends with .csv, .parquet, .npz, .json, .xlsx, not .txt"),
+        ("t", ".xlsx, but has none"),
         ("n" * 300 + ".csv", "cannot be written: File name too long"),
         ("nul\0.csv", "cannot be written: "),
     ):
