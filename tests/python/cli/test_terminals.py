@@ -297,3 +297,17 @@ def test_the_program_starts_quickly() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
     assert done.stdout.strip() == b"[]"
+
+
+@pytest.mark.parametrize("closed", ["stdout", "stderr"])
+def test_a_stream_that_the_shell_has_closed(closed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As by `2>&-`: errors do not go to the other stream."""
+    streams = {"stdout": io.StringIO(), "stderr": io.StringIO()}
+    for name, stream in streams.items():
+        monkeypatch.setattr(sys, name, None if name == closed else stream)
+    assert main(["structure", "example:nothing"]) == 1
+    assert main(["structure", "example:engine"]) == 0
+    getattr(sys, closed).close()
+    written = {name: stream.getvalue() for name, stream in streams.items()}
+    assert written["stdout"].startswith("I(crank)") == (closed == "stderr")
+    assert written["stderr"].startswith("assur: there is") == (closed == "stdout")
