@@ -127,6 +127,13 @@ class Table:
         ------
         InputError
             A periodic table whose last value is not its first.
+
+        Examples
+        --------
+        >>> import assur
+        >>> table = assur.Table([0.0, 1.0, 1.0, 2.0], [0.0, 4.0, 6.0, 0.0], "linear")
+        >>> table.at([0.5, 1.0, 2.5])
+        array([2., 6., 2.])
         """
         points = real_array(x, "x")
         values: Any = _core.table_values(self, points.ravel()).reshape(points.shape)
