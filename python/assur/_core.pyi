@@ -57,6 +57,7 @@ __all__ = [
     "slider_crank_rod_point",
     "slider_crank_series",
     "slider_crank_stroke",
+    "spline_pieces",
     "start_threads_at_once",
     "table_values",
     "unit_angle",

@@ -61,7 +61,8 @@ def test_shaper(tutorial: Callable[[str], dict[str, Any]], capsys: Any) -> None:
     rows = list(openpyxl.load_workbook("shaper.xlsx")["bed"].values)
     assert rows[0] == ("q", "status", "bed", "bed.v", "bed.a")
     speeds = found["motion"].slide("bed").velocity(found["omega"])
-    np.testing.assert_allclose([row[3] for row in rows[2:]], speeds, rtol=1e-14, atol=1e-15)
+    written = np.array([row[3] for row in rows[2:]], dtype=float)
+    np.testing.assert_allclose(written, speeds, rtol=1e-14, atol=1e-15)
     assert "O" in openpyxl.load_workbook("forces.xlsx").sheetnames
 
 
