@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.usefixtures("threads_at_once")
 
-# Random mechanisms: 500, or 5000 in a campaign.
-COUNT = 5000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 500
+# Random mechanisms: 250, or 5000 in a campaign.
+COUNT = 5000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 250
 PARTS = 10
 SIZES = (1, 7, 8, 9)
 LARGE = ("library crank_rocker", "library whitworth", "library trammel")

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     import assur
     from bits import Bits, Float
 
-# Random mechanisms of every kind: 40, or 1000 in a campaign.
-COUNT = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 40
+# Random mechanisms of every kind: 20, or 1000 in a campaign.
+COUNT = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 20
 PARTS = 10
 
 

@@ -13,8 +13,8 @@ from assur import _core
 
 # The only function that may call them: it reduces angles above three million one by one.
 COLD = "reduce_far"
-# An extension built without optimisation calls all of them.
-UNOPTIMISED = 1000
+# An extension built without optimisation calls them from thousands of functions.
+UNOPTIMISED = 300
 
 
 def calls() -> list[str]:
@@ -35,6 +35,6 @@ def calls() -> list[str]:
 @pytest.mark.skipif(shutil.which("objdump") is None, reason="objdump is not installed")
 def test_no_intrinsic_is_called() -> None:
     found = calls()
-    if len(found) > UNOPTIMISED:
+    if len(set(found)) > UNOPTIMISED:
         pytest.skip("the extension was built without optimisation")
     assert [name for name in found if COLD not in name] == []

@@ -3,6 +3,7 @@
 use std::ops::Add;
 
 use super::force_plan::{Direction, ForcePlan};
+use super::rubbing::Pair;
 use super::scene::{Moving, Scene};
 use crate::batch::outputs::{Column, Quantity};
 use crate::math::lanes::Real;
@@ -42,6 +43,18 @@ impl Sources {
     }
 }
 
+impl Sources {
+    /// The columns of which the rates, one less the other, are the speed at which a pair rubs.
+    pub(super) fn rubbing(&self, plan: &ForcePlan, pair: &Pair) -> [Option<usize>; 2] {
+        match *pair {
+            Pair::Journal { on, fast, .. } => {
+                [on, fast].map(|link| self.angles[link].filter(|_| link != plan.ground))
+            }
+            Pair::Guide { slide, .. } => [self.slides[slide], None],
+        }
+    }
+}
+
 /// The directions of all guides in the frames of the links that carry them.
 pub(crate) fn guide_directions(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<Vector> {
     let slides = mechanism.slots.slides.iter();
@@ -77,6 +90,7 @@ impl Rows {
     }
 
     /// The rate of what has these first derivatives, at speeds of the drivers.
+    #[inline(always)]
     pub(super) fn rate<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut rate = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {

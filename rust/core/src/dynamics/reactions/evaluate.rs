@@ -101,6 +101,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 
 impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
+    #[inline(always)]
     fn rub(&mut self, rows: Rows) {
         let Batch { mechanism, plan, sources, asked, rubbing, .. } = self.batch;
         let size = mechanism.linkage().size();
@@ -113,11 +114,15 @@ impl<R: Real> Evaluate<'_, '_, R> {
 
     /// The sum over the pairs with friction at a joint or in a slide.
     #[inline(always)]
-    fn sum_of_friction(&self, term: impl Fn(&Pair, usize) -> Option<R>) -> Vector<R> {
+    fn sum_of_friction(&self, reaction: Reaction) -> Vector<R> {
         let mut sum = R::ZERO;
         for (index, rubbing) in self.batch.rubbing.iter().enumerate() {
-            if let Some(term) = term(&rubbing.pair, index) {
-                sum += term;
+            match share(&rubbing.pair, reaction) {
+                Some(Share::Friction(sign)) => {
+                    sum += self.scene.rubs.friction[index] * R::splat(sign);
+                }
+                Some(Share::Loss) => sum += self.scene.rubs.loss(index),
+                None => {}
             }
         }
         one(sum)
@@ -141,27 +146,10 @@ impl<R: Real> Evaluate<'_, '_, R> {
             Reaction::Along(slide) => {
                 one(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
             }
-            Reaction::JointMoment { joint, on } => {
-                self.sum_of_friction(|pair, index| match *pair {
-                    Pair::Journal { joint: at, on: own, fast, .. } if at == joint => {
-                        let friction = scene.rubs.friction[index];
-                        (own == on).then_some(friction).or((fast == on).then_some(-friction))
-                    }
-                    _ => None,
-                })
-            }
-            Reaction::JointLoss(joint) => self.sum_of_friction(|pair, index| match *pair {
-                Pair::Journal { joint: at, .. } if at == joint => Some(scene.rubs.loss(index)),
-                _ => None,
-            }),
-            Reaction::Friction(slide) => self.sum_of_friction(|pair, index| match *pair {
-                Pair::Guide { slide: own, .. } if own == slide => Some(scene.rubs.friction[index]),
-                _ => None,
-            }),
-            Reaction::SlideLoss(slide) => self.sum_of_friction(|pair, index| match *pair {
-                Pair::Guide { slide: own, .. } if own == slide => Some(scene.rubs.loss(index)),
-                _ => None,
-            }),
+            Reaction::JointMoment { .. }
+            | Reaction::JointLoss(_)
+            | Reaction::Friction(_)
+            | Reaction::SlideLoss(_) => self.sum_of_friction(reaction),
             Reaction::Solutions if self.batch.rubbing.is_empty() => one(R::ONE),
             Reaction::Solutions => one(scene.rubs.solutions),
             Reaction::Safety => one(scene.rubs.safety),
@@ -301,6 +289,35 @@ impl<R: Real> Evaluate<'_, '_, R> {
 #[inline(always)]
 fn one<R: Real>(value: R) -> Vector<R> {
     Vector::new(value, R::ZERO)
+}
+
+/// What a pair adds to a sum over pairs.
+enum Share {
+    /// Its friction, with this sign.
+    Friction(f64),
+    /// The power that it loses.
+    Loss,
+}
+
+fn share(pair: &Pair, reaction: Reaction) -> Option<Share> {
+    match (reaction, pair) {
+        (Reaction::JointMoment { joint, on }, &Pair::Journal { joint: at, on: own, fast, .. })
+            if at == joint =>
+        {
+            let against = (fast == on).then_some(Share::Friction(-1.0));
+            (own == on).then_some(Share::Friction(1.0)).or(against)
+        }
+        (Reaction::JointLoss(joint), Pair::Journal { joint: at, .. }) if *at == joint => {
+            Some(Share::Loss)
+        }
+        (Reaction::Friction(slide), Pair::Guide { slide: own, .. }) if *own == slide => {
+            Some(Share::Friction(1.0))
+        }
+        (Reaction::SlideLoss(slide), Pair::Guide { slide: own, .. }) if *own == slide => {
+            Some(Share::Loss)
+        }
+        _ => None,
+    }
 }
 
 /// Whether a reaction may be infinite where the machine is not.

@@ -19,22 +19,35 @@ const UNSOLVED: f64 = -1.0;
 /// Where redundant links leave the force in one of them undetermined.
 const UNDETERMINED: f64 = -2.0;
 
+/// The friction in one lane.
+struct LaneFriction {
+    /// Of every pair.
+    dry: Vec<f64>,
+    solutions: f64,
+    safety: f64,
+    residual: f64,
+}
+
+// Loops: closures would not be compiled with the level's instructions.
 impl<R: Real> Scene<R> {
     /// The speeds of the drivers; where all rest, unit speeds in the given sense.
+    #[inline(always)]
     pub(super) fn ways(&self, sense: &[f64]) -> Vec<R> {
         let mut rests = R::Mask::NONE.not();
         for &[speed, _] in &self.drive {
             rests = rests.and(speed.abs().le(R::ZERO));
         }
-        let way = |(driver, &[speed, _]): (usize, &[R; 2])| {
+        let mut ways = Vec::with_capacity(self.drive.len());
+        for (driver, &[speed, _]) in self.drive.iter().enumerate() {
             let sense = sense.get(driver).copied().unwrap_or(0.0);
-            R::select(rests, R::splat(sense), speed)
-        };
-        self.drive.iter().enumerate().map(way).collect()
+            ways.push(R::select(rests, R::splat(sense), speed));
+        }
+        ways
     }
 
     /// Reads how fast every pair rubs, and how fast it would if the drivers had the speeds `ways`, which
     /// give the sense of friction.
+    #[inline(always)]
     pub(crate) fn read_rubbing(
         &mut self,
         (plan, rubbing): (&ForcePlan, &[Rubbing]),
@@ -43,7 +56,10 @@ impl<R: Real> Scene<R> {
         ways: &[R],
         size: f64,
     ) {
-        let speeds: Vec<R> = self.drive.iter().map(|&[speed, _]| speed).collect();
+        let mut speeds = Vec::with_capacity(self.drive.len());
+        for &[speed, _] in &self.drive {
+            speeds.push(speed);
+        }
         let mut turning = R::ZERO;
         for (driver, &way) in ways.iter().enumerate() {
             let is_angle = plan.driven_links[driver].is_some();
@@ -52,33 +68,30 @@ impl<R: Real> Scene<R> {
         self.rubs.speeds.clear();
         self.rubs.still.clear();
         for Rubbing { pair, .. } in rubbing {
-            let rate = |drivers: &[R]| match *pair {
-                Pair::Journal { on, fast, .. } => {
-                    let of = |link| match sources.angles[link] {
-                        Some(column) if link != plan.ground => {
-                            rows.rate(solved.columns[column + 1], drivers)
-                        }
-                        _ => R::ZERO,
-                    };
-                    of(on) - of(fast)
+            let [added, subtracted] = sources.rubbing(plan, pair);
+            let mut rates = [R::ZERO; 2];
+            for (rate, drivers) in rates.iter_mut().zip([&speeds[..], ways]) {
+                if let Some(column) = added {
+                    *rate += rows.rate(solved.columns[column + 1], drivers);
                 }
-                Pair::Guide { slide, .. } => sources.slides[slide]
-                    .map_or(R::ZERO, |column| rows.rate(solved.columns[column + 1], drivers)),
-            };
+                if let Some(column) = subtracted {
+                    *rate = *rate - rows.rate(solved.columns[column + 1], drivers);
+                }
+            }
             let unit = if matches!(pair, Pair::Guide { .. }) { size } else { 1.0 };
-            self.rubs.speeds.push([rate(&speeds), rate(ways)]);
+            self.rubs.speeds.push(rates);
             self.rubs.still.push(turning * R::splat(AT_REST * unit));
         }
     }
 
     /// Adds the friction of all pairs to the loads; the others are there.
+    #[inline(always)]
     pub(super) fn rub(
         &mut self,
         (plan, rubbing): (&ForcePlan, &[Rubbing]),
         (solution, asks_safety): (usize, bool),
         size: f64,
     ) {
-        let count = rubbing.len();
         self.drag(plan, rubbing);
         let loads = (self.link_force.clone(), self.link_moment.clone());
         self.start(plan);
@@ -86,47 +99,57 @@ impl<R: Real> Scene<R> {
         self.respond(plan, rubbing, |_| ());
         let undetermined = self.undetermined(plan, rubbing, size);
         (self.link_force, self.link_moment) = loads;
-        let mut dry = vec![R::ZERO; count];
-        let (mut solutions, mut safety) = (vec![0.0; R::LANES], vec![f64::NAN; R::LANES]);
-        let mut residual = vec![f64::NAN; R::LANES];
-        for lane in 0..R::LANES {
+        let found = self.solve_friction(rubbing, undetermined, (solution, asks_safety));
+        self.rubs.solutions = R::from_lanes(|lane| found[lane].solutions);
+        self.rubs.safety = R::from_lanes(|lane| found[lane].safety);
+        self.rubs.residual = R::from_lanes(|lane| found[lane].residual);
+        for (index, own) in rubbing.iter().enumerate() {
+            let dry = R::from_lanes(|lane| found[lane].dry[index]);
+            self.rub_pair(plan, own, dry);
+            self.rubs.friction[index] += dry;
+        }
+    }
+
+    /// Solves the friction of all pairs, in each lane by itself.
+    fn solve_friction(
+        &self,
+        rubbing: &[Rubbing],
+        undetermined: R::Mask,
+        (solution, asks_safety): (usize, bool),
+    ) -> Vec<LaneFriction> {
+        let lane_friction = |lane: usize| {
             let (problem, used) = self.problem(rubbing, lane);
             let is_determined = !undetermined.lane(lane);
             let is_known = is_determined && problem.pairs.iter().all(RubbingPair::is_finite);
             let solved = if is_known { problem.solve() } else { Ok(Vec::new()) };
-            solutions[lane] = match &solved {
+            let solutions = match &solved {
                 Ok(all) if is_known => all.len() as f64,
                 Ok(_) if is_determined => f64::NAN,
                 Ok(_) => UNDETERMINED,
                 Err(TooManyPaths) => UNSOLVED,
             };
             let all = solved.unwrap_or_default();
-            if asks_safety && is_known {
-                safety[lane] = problem.safety(MOST_SAFETY);
-            }
-            if let Some(friction) = all.get(solution) {
-                residual[lane] = problem.missed(friction);
-            }
+            let asked = all.get(solution);
+            let mut dry = vec![if asked.is_some() { 0.0 } else { f64::NAN }; rubbing.len()];
             for (index, &pair) in used.iter().enumerate() {
-                let own = all.get(solution).map_or(f64::NAN, |friction| friction[index]);
-                dry[pair] = with_lane(dry[pair], lane, own);
+                dry[pair] = asked.map_or(f64::NAN, |friction| friction[index]);
             }
-            if all.get(solution).is_none() {
-                for dry in &mut dry {
-                    *dry = with_lane(*dry, lane, f64::NAN);
-                }
+            LaneFriction {
+                dry,
+                solutions,
+                safety: if asks_safety && is_known {
+                    problem.safety(MOST_SAFETY)
+                } else {
+                    f64::NAN
+                },
+                residual: asked.map_or(f64::NAN, |friction| problem.missed(friction)),
             }
-        }
-        self.rubs.solutions = R::from_lanes(|lane| solutions[lane]);
-        self.rubs.safety = R::from_lanes(|lane| safety[lane]);
-        self.rubs.residual = R::from_lanes(|lane| residual[lane]);
-        for (index, &dry) in dry.iter().enumerate() {
-            self.rub_pair(plan, &rubbing[index], dry);
-            self.rubs.friction[index] += dry;
-        }
+        };
+        (0..R::LANES).map(lane_friction).collect()
     }
 
     /// Adds viscous friction to the loads.
+    #[inline(always)]
     pub(crate) fn drag(&mut self, plan: &ForcePlan, rubbing: &[Rubbing]) {
         self.rubs.friction.resize(rubbing.len(), R::ZERO);
         for (index, own) in rubbing.iter().enumerate() {
@@ -138,6 +161,7 @@ impl<R: Real> Scene<R> {
 
     /// Finds what a unit of friction in each pair does to all of them; replaces the loads. `each` sees the
     /// scene of one after another.
+    #[inline(always)]
     pub(crate) fn respond(
         &mut self,
         plan: &ForcePlan,
@@ -157,6 +181,7 @@ impl<R: Real> Scene<R> {
     }
 
     /// Lets friction of a pair act on both of its links.
+    #[inline(always)]
     fn rub_pair(&mut self, plan: &ForcePlan, rubbing: &Rubbing, friction: R) {
         match rubbing.pair {
             Pair::Journal { on, fast, .. } => {
@@ -173,11 +198,13 @@ impl<R: Real> Scene<R> {
     }
 
     /// Lanes in which a force of a pair is undetermined.
+    #[inline(always)]
     fn undetermined(&mut self, plan: &ForcePlan, rubbing: &[Rubbing], size: f64) -> R::Mask {
         let mut found = R::Mask::NONE;
         for &stress in &plan.self_stresses {
             self.stress(plan, stress);
-            for (own, reaction) in rubbing.iter().zip(self.pair_reactions(plan, rubbing)) {
+            let reactions = self.pair_reactions(plan, rubbing);
+            for (own, reaction) in rubbing.iter().zip(&reactions) {
                 let moment = match own.pair {
                     Pair::Journal { .. } => reaction.y,
                     Pair::Guide { .. } => reaction.y * R::splat(1.0 / size),
@@ -190,6 +217,7 @@ impl<R: Real> Scene<R> {
     }
 
     /// The reactions on which the friction of every pair depends.
+    #[inline(always)]
     pub(crate) fn pair_reactions(
         &mut self,
         plan: &ForcePlan,
@@ -197,15 +225,16 @@ impl<R: Real> Scene<R> {
     ) -> Vec<Vector<R>> {
         self.carry_loads(plan);
         self.pass_moments(plan);
-        rubbing
-            .iter()
-            .map(|own| match &own.pair {
+        let mut reactions = Vec::with_capacity(rubbing.len());
+        for own in rubbing {
+            reactions.push(match &own.pair {
                 Pair::Journal { force, .. } => force.of(self),
                 &Pair::Guide { slide, .. } => {
                     Vector::new(self.normal(plan, slide), self.slide_moment[slide])
                 }
-            })
-            .collect()
+            });
+        }
+        reactions
     }
 
     /// The pairs that rub in a lane, and which of all they are. At rest they have their static law.
@@ -233,9 +262,4 @@ impl<R: Real> Scene<R> {
         });
         (FrictionProblem { pairs: pairs.collect() }, used)
     }
-}
-
-/// The same with another number in a lane.
-fn with_lane<R: Real>(numbers: R, lane: usize, number: f64) -> R {
-    R::from_lanes(|own| if own == lane { number } else { numbers.lane(own) })
 }
