@@ -106,6 +106,18 @@ def numbers(text: str) -> Numbers:
     return Numbers(np.array(values if len(values) > 1 else values[0]), unit)
 
 
+def ratio(text: str) -> Numbers:
+    """Return ``0.04`` or ``1/25``."""
+    over, slash, under = text.partition("/")
+    if not slash:
+        return numbers(text)
+    parts = [split_number(part) for part in (over, under)]
+    if any(part.unit for part in parts) or float(parts[1].text) == 0.0:
+        message = f"{short(text)} is not a ratio, such as 0.04 or 1/25"
+        raise InputError(message)
+    return Numbers(np.array(float(parts[0].text) / float(parts[1].text)), None)
+
+
 def evenly(text: str) -> Numbers:
     """Return ``0.1:0.2:50`` (start, end, how many), a list or a number: at least one value (N,)."""
     if text.count(":") != 2:

@@ -53,11 +53,11 @@ class FlywheelOfDesigns(Flywheel):
     def of(
         cls,
         machine: Machine,
-        wanted: tuple[Any, Any, Any, str],
-        one: Callable[[Machine, Any, Any, Any, str], Flywheel],
+        wanted: tuple[Any, Any, Any, int, str],
+        one: Callable[[Machine, Any, Any, Any, int, str], Flywheel],
     ) -> Self:
         """Size the flywheel of each design for a fluctuation, mean speed and mean."""
-        fluctuation, speed, mean, on_error = wanted
+        fluctuation, speed, mean, turns, on_error = wanted
         try:
             fluctuations, speeds = (
                 np.broadcast_to(real_array(value, name), machine.shape)
@@ -70,7 +70,7 @@ class FlywheelOfDesigns(Flywheel):
         for index in np.ndindex(machine.shape):
             own = float(fluctuations[index]), float(speeds[index])
             try:
-                each.append(one(machine.design(index), *own, mean, on_error))
+                each.append(one(machine.design(index), *own, mean, turns, on_error))
             except AssurError as error:
                 error.design = index
                 raise

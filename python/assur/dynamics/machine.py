@@ -567,6 +567,7 @@ class Machine(MachineModel):
         mean_speed: npt.ArrayLike | None = None,
         mean: Mean = "extremes",
         on_error: OnError = "raise",
+        turns: int = 1,
     ) -> Flywheel:
         """Return the flywheel that limits the speed fluctuation to a given fraction of the mean.
 
@@ -583,6 +584,8 @@ class Machine(MachineModel):
             Definition of the mean speed (`assur.flywheel.from_table`).
         on_error : {"raise", "nan"}
             For a design of a batch without a flywheel: raise an error, or return NaN.
+        turns : int
+            Turns of the driver after which the loads repeat: 2 for an engine of four strokes.
 
         Returns
         -------
@@ -599,7 +602,7 @@ class Machine(MachineModel):
         PositionError
             A driver that does not turn fully.
         MotionError
-            A motion that does not repeat after one turn, a mean speed too low for the machine to
+            A motion that does not repeat after these turns, a mean speed too low for the machine to
             keep turning, a motor that cannot carry the load, no finite flywheel.
 
         Warns
@@ -620,7 +623,7 @@ class Machine(MachineModel):
         >>> machine.flywheel(fluctuation=0.05, mean_speed=20.0).delta.__round__(6)
         0.05
         """
-        return size_flywheel.flywheel(self, fluctuation, mean_speed, mean, on_error)
+        return size_flywheel.flywheel(self, fluctuation, mean_speed, mean, turns, on_error)
 
     def run(
         self,

@@ -19,6 +19,7 @@ from assur.dynamics.options import (
     PERIOD_RTOL,
     require_rotary_driver,
     require_whole_periods,
+    turn_count,
     without_friction,
 )
 from assur.dynamics.steady_flywheel import SteadyFlywheel
@@ -41,7 +42,7 @@ STEADY_OPTIONS: dict[str, Any] = {
 }
 # Warn if a constant motor misses the mean moment of the loads by more: torques are typed numbers.
 TORQUE_RTOL = 1e-2
-# Largest number of knots of loads in a turn.
+# Largest number of knots of loads in a cycle.
 MAX_KNOTS = 100_000
 # Inertia and moment must repeat after a turn to this relative accuracy.
 PERIODIC_RTOL = 1e-7
@@ -56,9 +57,10 @@ CONVERGED_RTOL = 1e-9
 
 
 def flywheel(
-    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
+    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, turns: Any, on_error: str
 ) -> Flywheel:
     """See `Machine.flywheel`."""
+    turns = turn_count(turns)
     without_friction(machine, "flywheel")
     require_rotary_driver(machine, "a flywheel")
     one_of(on_error, ("raise", "nan"), "on_error")
@@ -72,7 +74,7 @@ def flywheel(
         if not 0.0 < wanted < 2.0:
             message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"
             raise InputError(message, kind="bad_fluctuation", value=wanted)
-        steady = steady_state(machine, None, 1, None, wanted, mean=mean, **STEADY_OPTIONS)
+        steady = steady_state(machine, None, turns, None, wanted, mean=mean, **STEADY_OPTIONS)
         return SteadyFlywheel(machine, steady)
     if not constant:
         message = (
@@ -80,7 +82,7 @@ def flywheel(
             "mean_speed, or build the machine without a motor"
         )
         raise InputError(message)
-    asked = fluctuation, mean_speed, mean, on_error
+    asked = fluctuation, mean_speed, mean, turns, on_error
     if machine.shape and machine._core.follows[0]:
         # Each design has its own coordinates at which the loads are not smooth.
         made: Flywheel = FlywheelOfDesigns.of(machine, asked, _from_tables)
@@ -100,11 +102,12 @@ def flywheel(
 
 
 def _from_tables(
-    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, on_error: str
+    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, turns: int, on_error: str
 ) -> Flywheel:
     """Refine tables of moment and inertia until the flywheel converges."""
-    knots = _knots(machine)
-    jumps = _jumps(machine, knots)
+    cycle = 2.0 * math.pi * turns
+    knots = _knots(machine, cycle)
+    jumps = _jumps(machine, knots, cycle)
     speed = finite_array(mean_speed, "mean_speed")
     if speed.ndim and speed.shape != machine.shape:
         message = (
@@ -119,7 +122,7 @@ def _from_tables(
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
         inertia, _, moment, _ = machine._reduce(at, own_speed, on_error)
         if last is None:
-            others = aperiodic_designs(machine, at, own_speed, on_error, inertia, moment)
+            others = _aperiodic_designs(machine, (at, cycle), own_speed, on_error, inertia, moment)
         inertia[others], moment[others] = math.nan, math.nan
         # The last row equals the first up to rounding: make it exact.
         moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
@@ -150,12 +153,21 @@ def _from_tables(
         last, rows = own, 2 * rows
 
 
-def aperiodic_designs(
-    machine: Machine, phi: Any, speed: Any, on_error: str, inertia: Any, moment: Any
+def _aperiodic_designs(
+    machine: Machine,
+    cycle: tuple[Any, float],
+    speed: Any,
+    on_error: str,
+    inertia: Any,
+    moment: Any,
 ) -> Any:
-    """Find designs whose inertia or moment does not repeat after a turn; raise if asked to."""
+    """Find designs whose inertia or moment does not repeat after a cycle; raise if asked to.
+
+    The cycle is given by its coordinates and its length.
+    """
+    phi, length = cycle
     found = np.zeros(machine.shape, bool)
-    later, _, other, _ = machine._reduce(phi + 2.0 * math.pi, speed, on_error)
+    later, _, other, _ = machine._reduce(phi + length, speed, on_error)
     # Inertia times squared speed is the scale of a moment's rounding error.
     of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
     floor = (
@@ -180,10 +192,11 @@ def aperiodic_designs(
         row = int(np.nanargmax(np.abs(second - first)[design]))
         q, value = float(phi[row]), float(first[design][row])
         unit = "kg·m²" if name == "inertia" else "N·m"
+        over = "a turn" if length < 7.0 else f"{length:g} rad"
         message = (
-            f"{f'design {design}: ' if design else ''}the reduced {name} is not periodic over a "
-            f"turn: it is {value:g} {unit} at q = {q:g}, but {second[design][row]:g} a turn on; "
-            "there is no flywheel of one turn"
+            f"{f'design {design}: ' if design else ''}the reduced {name} is not periodic over "
+            f"{over}: it is {value:g} {unit} at q = {q:g}, but {second[design][row]:g} {over} on; "
+            "pass turns= if its cycle is longer"
         )
         raise MotionError(message, kind=kind, design=design or None, q=q, value=value)
     return found
@@ -194,32 +207,30 @@ def _flat(machine: Machine, array: Any) -> Any:
     return array.reshape(*machine.shape, -1)
 
 
-def _jumps(machine: Machine, knots: list[float]) -> list[bool]:
-    """Return at which of the knots of a turn loads may jump."""
-    turn = 2.0 * math.pi
-    found = jumps_between(machine, -PERIOD_RTOL, turn + PERIOD_RTOL)
+def _jumps(machine: Machine, knots: list[float], cycle: float) -> list[bool]:
+    """Return at which of the knots of a cycle loads may jump."""
+    found = jumps_between(machine, -PERIOD_RTOL, cycle + PERIOD_RTOL)
     # The seam is at both ends.
-    every = np.concatenate([found, found + turn, found - turn, [math.inf]])
+    every = np.concatenate([found, found + cycle, found - cycle, [math.inf]])
     return [bool(np.abs(every - q).min() <= PERIOD_RTOL) for q in knots]
 
 
-def _knots(machine: Machine) -> list[float]:
-    """Return the coordinates of a turn at which loads are not smooth, its ends included."""
-    turn = 2.0 * math.pi
-    found = {0.0, turn, *stations_between(machine, 0.0, turn)}
+def _knots(machine: Machine, cycle: float) -> list[float]:
+    """Return the coordinates of a cycle at which loads are not smooth, its ends included."""
+    found = {0.0, cycle, *stations_between(machine, 0.0, cycle)}
     for rows, periodic in machine._core.tables:
         first, period = rows[0], rows[-1] - rows[0]
-        require_whole_periods(period if periodic else None, turn)
-        steps = range(math.floor(-first / period) - 1, math.ceil((turn - first) / period) + 1)
+        require_whole_periods(period if periodic else None, cycle)
+        steps = range(math.floor(-first / period) - 1, math.ceil((cycle - first) / period) + 1)
         for shift in steps:
             found |= {q + shift * period for q in rows}
             if len(found) > MAX_KNOTS:
-                message = f"a table's period of {period:g} rad has too many knots in a turn"
+                message = f"a table's period of {period:g} rad has too many knots in a cycle"
                 raise InputError(message, value=period)
-    knots = sorted(q for q in found if 0.0 <= q <= turn)
+    knots = sorted(q for q in found if 0.0 <= q <= cycle)
     # Knots closer than this are the same but for rounding.
     kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > PERIOD_RTOL]
-    return [*(q for q in kept if q < turn - PERIOD_RTOL), turn]
+    return [*(q for q in kept if q < cycle - PERIOD_RTOL), cycle]
 
 
 def _table_rows(knots: list[float], jumps: list[bool], rows: int) -> tuple[Any, Any, list[int]]:

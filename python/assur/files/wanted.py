@@ -104,7 +104,13 @@ WANTED: dict[str, dict[str, Callable[[Node], Any]]] = {
         "max_steps": whole,
         "max_seconds": number,
     },
-    "flywheel": {"fluctuation": number, "mean_speed": number, "mean": MEANS, "on_error": ERRORS},
+    "flywheel": {
+        "fluctuation": number,
+        "mean_speed": number,
+        "mean": MEANS,
+        "on_error": ERRORS,
+        "turns": whole,
+    },
 }
 NEEDED = {"flywheel": ("fluctuation",)}
 # Which of two is given: exactly one.

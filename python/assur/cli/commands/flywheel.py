@@ -11,7 +11,7 @@ from assur.cli.named import EXAMPLE
 from assur.cli.output import Output, add_output
 from assur.cli.source import STDIN, read, require_machine
 from assur.cli.source_arguments import add_source
-from assur.cli.units import ROTARY, argument, numbers
+from assur.cli.units import ROTARY, argument, numbers, ratio
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -35,7 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_source(parser, others=False)
     one = parser.add_mutually_exclusive_group()
-    one.add_argument("--fluctuation", type=argument(numbers), help="coefficient δ wanted")
+    one.add_argument(
+        "--fluctuation", type=argument(ratio), help="coefficient δ wanted: 0.04, or 1/25"
+    )
     one.add_argument(
         "--flywheel",
         type=argument(numbers),
@@ -45,6 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--mean-speed", metavar="SPEED", type=argument(numbers), help="rad/s, or 143rpm"
     )
     parser.add_argument("--mean", choices=flywheel.MEANS, help="definition of it; extremes")
+    parser.add_argument("--turns", type=int, help="of a machine: turns of a cycle; 1")
     parser.add_argument("--spline", choices=flywheel.SPLINES, help="of a table; not-a-knot")
     parser.add_argument(
         "--degrees", action="store_true", help="phi of the table, q of --out, in degrees"
@@ -102,6 +105,7 @@ def _of_machine(given: argparse.Namespace) -> Flywheel:
         "fluctuation": _number(given.fluctuation, "", "--fluctuation"),
         "mean_speed": _number(given.mean_speed, ROTARY, "--mean-speed"),
         "mean": given.mean,
+        "turns": given.turns,
     }
     asked.update({name: value for name, value in flags.items() if value is not None})
     if "fluctuation" not in asked:

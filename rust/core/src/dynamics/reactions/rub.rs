@@ -99,7 +99,11 @@ impl<R: Real> Scene<R> {
         self.respond(plan, rubbing, |_| ());
         let undetermined = self.undetermined(plan, rubbing, size);
         (self.link_force, self.link_moment) = loads;
-        let found = self.solve_friction(rubbing, undetermined, (solution, asks_safety));
+        let mut is_determined = Vec::with_capacity(R::LANES);
+        for lane in 0..R::LANES {
+            is_determined.push(!undetermined.lane(lane));
+        }
+        let found = self.solve_friction(rubbing, &is_determined, (solution, asks_safety));
         self.rubs.solutions = R::from_lanes(|lane| found[lane].solutions);
         self.rubs.safety = R::from_lanes(|lane| found[lane].safety);
         self.rubs.residual = R::from_lanes(|lane| found[lane].residual);
@@ -114,12 +118,11 @@ impl<R: Real> Scene<R> {
     fn solve_friction(
         &self,
         rubbing: &[Rubbing],
-        undetermined: R::Mask,
+        is_determined: &[bool],
         (solution, asks_safety): (usize, bool),
     ) -> Vec<LaneFriction> {
-        let lane_friction = |lane: usize| {
+        let lane_friction = |(lane, &is_determined): (usize, &bool)| {
             let (problem, used) = self.problem(rubbing, lane);
-            let is_determined = !undetermined.lane(lane);
             let is_known = is_determined && problem.pairs.iter().all(RubbingPair::is_finite);
             let solved = if is_known { problem.solve() } else { Ok(Vec::new()) };
             let solutions = match &solved {
@@ -145,7 +148,7 @@ impl<R: Real> Scene<R> {
                 residual: asked.map_or(f64::NAN, |friction| problem.missed(friction)),
             }
         };
-        (0..R::LANES).map(lane_friction).collect()
+        is_determined.iter().enumerate().map(lane_friction).collect()
     }
 
     /// Adds viscous friction to the loads.

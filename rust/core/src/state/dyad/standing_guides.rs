@@ -19,7 +19,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let [a, b] = own.guides;
         let determinant = a.cross(b);
         let inverse = R::splat(1.0 / determinant);
-        let [a, b] = [a, b].map(Vector::splat);
+        let (a, b) = (Vector::splat(a), Vector::splat(b));
         let offset = Vector::splat(own.offset);
         let sine2 = R::splat(determinant * determinant);
         let bounds = &mut self.conditions.bounds[op.dyad];
