@@ -226,8 +226,16 @@ class Tabular:
 
 def angle_column(name: str, values: npt.NDArray[Any], degrees: bool) -> Column:
     """Return a column of angles that says which row it is, rad or deg."""
-    shown, unit = (np.degrees(values), "deg") if degrees else (values, "rad")
+    shown, unit = (in_degrees(values), "deg") if degrees else (values, "rad")
     return Column(name, shown, unit, None)
+
+
+def in_degrees(angles: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return angles in degrees: the few digits that someone typed, where they give these bits."""
+    degrees = np.degrees(angles)
+    typed = np.round(degrees, 9)
+    shown: npt.NDArray[Any] = np.where(typed * (np.pi / 180.0) == angles, typed, degrees)
+    return shown
 
 
 def design_columns(shape: tuple[int, ...], designs: int) -> list[Column]:

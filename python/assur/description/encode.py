@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from assur._arrays import real_array, short
+from assur._callers import level_of_caller
 from assur._core import Mechanism as Core
 from assur._trig import arctan2
 from assur._validate import checked_name
 from assur.description.words import Cylinder, Drive, Slide
-from assur.errors import InputError
+from assur.errors import AssurWarning, InputError
 
 DriverLike: TypeAlias = str | Drive
 
@@ -61,22 +63,50 @@ def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
     return (name, float(point[0]), float(point[1]))
 
 
-def slide(name: str, slide: Any) -> Slide:
-    """Check a slide: link, guide and origin are names, the angle is a number."""
+def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> Slide:
+    """Check a slide: link, guide and origin are names; its angle is a number or along joints."""
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {short(slide)}: an assur.Slide is needed"
         raise InputError(message, slide=name)
     for what, word in (("link", slide.link), ("on", slide.on), ("origin", slide.origin)):
         if what != "origin" or word is not None:
             _checked(word, f"slide {name!r}, {what}", slide=name)
+    if slide.along is not None:
+        if slide.angle == slide.angle:
+            message = f"slide {name!r} has both angle and along: give one"
+            raise InputError(message, slide=name)
+        return Slide(slide.link, slide.on, _direction(name, slide.along, joints), slide.origin)
     try:
         angle = real_array(slide.angle, "angle")
     except InputError:
         angle = np.empty(0)
     if angle.ndim:
-        message = f"slide {name!r} has angle {short(slide.angle)}: a number (rad) is needed"
+        message = (
+            f"slide {name!r} has angle {short(slide.angle)}: a number (rad) is needed, or "
+            'along=("A", "B")'
+        )
         raise InputError(message, slide=name)
+    if abs(float(angle)) > 2.0 * np.pi:
+        message = f"slide {name!r} has an angle of {float(angle):g} rad: is it in degrees?"
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     return Slide(slide.link, slide.on, float(angle), slide.origin)
+
+
+def _direction(name: str, ends: Any, joints: Sequence[tuple[str, float, float]]) -> float:
+    """Return the direction from one joint of the drawing to another."""
+    at = {joint: (x, y) for joint, x, y in joints}
+    is_pair = isinstance(ends, tuple | list) and len(ends) == 2
+    if not is_pair or any(not isinstance(end, str) or end not in at for end in ends):
+        message = (
+            f"slide {name!r} is along {short(ends)}: two joints of the drawing are needed, "
+            '("A", "B")'
+        )
+        raise InputError(message, slide=name)
+    (x, y), (u, v) = at[ends[0]], at[ends[1]]
+    if (x, y) == (u, v):
+        message = f"slide {name!r}: {ends[0]!r} and {ends[1]!r} are in one place"
+        raise InputError(message, slide=name)
+    return float(arctan2(v - y, u - x))
 
 
 def cylinder(

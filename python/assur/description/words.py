@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 __all__ = ["Cylinder", "Drive", "Slide", "Status"]
@@ -53,22 +54,30 @@ class Slide:
     on : str
         The link that carries the guide; the guide turns with it.
     angle : float
-        Direction of the guide in the drawing, rad.
+        Direction of the guide in the drawing, rad. The guide passes through the sliding point as it
+        is drawn.
     origin : str, optional
         The joint of `on` from which the value is measured; without it the value
         is 0 in the drawing.
+    along : (str, str), optional
+        In place of `angle`: the direction from one joint of the drawing to another.
 
     Examples
     --------
     >>> import assur
     >>> assur.Slide("piston", on="ground", angle=0.0, origin="O")
     Slide(link='piston', on='ground', angle=0.0, origin='O')
+
+    A block in a slot along a lever:
+
+    >>> slot = assur.Slide("block", on="lever", along=("D", "E"), origin="D")
     """
 
     link: str
     on: str
-    angle: float
+    angle: float = math.nan
     origin: str | None = None
+    along: tuple[str, str] | None = field(default=None, repr=False)
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,7 @@ from assur.dynamics.options import (
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
 from assur.errors import AssurWarning, InputError
+from assur.kinematics.solve import warn_if_degrees
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -178,5 +179,7 @@ def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[flo
     if array.shape not in ((), (n,)):
         message = f"{name} has the shape {array.shape}: {n} numbers are needed"
         raise InputError(message)
+    if name == "q0" and machine.mechanism is not None:
+        warn_if_degrees(machine.mechanism, array)
     numbers: list[float] = array.tolist() if array.ndim else [float(array)] * n
     return numbers

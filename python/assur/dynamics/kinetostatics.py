@@ -17,6 +17,7 @@ from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions, links_
 from assur.dynamics.reduce import checked_senses, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
+from assur.kinematics.solve import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -235,6 +236,8 @@ def broadcast_motion(
     n, designs = machine._drivers, machine.shape
     q, speed, acceleration, _ = motion
     x = real_array(q, "q")
+    if machine.mechanism is not None:
+        warn_if_degrees(machine.mechanism, x)
     v, a = real_array(speed, "speed"), real_array(acceleration, "acceleration")
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"

@@ -66,8 +66,8 @@ def require_whole_periods(period: float | None, span: float) -> None:
     ratio = span / period
     if abs(ratio - round(ratio)) > PERIOD_RTOL * ratio or round(ratio) < 1:
         message = (
-            f"a table's period of {period:g} rad does not fit {span:g} rad a whole number of times: "
-            "pass turns= if the cycle is longer"
+            f"a table's period of {period:g} rad does not fit {span:g} rad a whole number of "
+            "times: pass turns= if the cycle is longer"
         )
         raise InputError(message, value=period)
 

@@ -13,6 +13,7 @@ from assur._validate import one_of
 from assur.description.words import Status
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
+from assur.kinematics.solve import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,6 +37,8 @@ def reduce(
     one_of(on_error, ("raise", "nan"), "on_error")
     n, designs = machine._drivers, machine.shape
     x, v = real_array(q, "q"), finite_array(0.0 if speed is None else speed, "speed")
+    if machine.mechanism is not None:
+        warn_if_degrees(machine.mechanism, x)
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -10,11 +11,16 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import Float, flag, not_negative, real_array, real_number
+from assur._callers import level_of_caller
 from assur._validate import checked_name, one_of, require_rows
-from assur.errors import InputError
+from assur.errors import AssurWarning, InputError
 from assur.flywheel import SPLINES, Spline
 
 __all__ = ["Table", "checked_ratio", "replace_fields"]
+
+# Warn if a spline leaves the range of its rows by more than this part of it, at so many places.
+OVERSHOOT = 0.5
+CHECKED_BETWEEN_ROWS = 8
 
 
 def replace_fields(instance: Any, **values: Any) -> None:
@@ -109,6 +115,7 @@ class Table:
             rotor_inertia=not_negative(rotor_inertia, "Table: rotor_inertia"),
             over=own,
         )
+        _warn_of_overshoot(self)
 
     def at(self, x: npt.ArrayLike) -> Any:
         """Return the value at coordinates, of their shape; at a jump the value behind it.
@@ -207,3 +214,22 @@ def checked_ratio(value: Any, what: str) -> float:
         message = f"{what} is 0, the motor would not turn"
         raise InputError(message, value=ratio)
     return ratio
+
+
+def _warn_of_overshoot(table: Table) -> None:
+    """Warn if the curve leaves the range of its rows by far: their values are not meant then."""
+    if table.spline == "linear" or (table.periodic and table.value[0] != table.value[-1]):
+        return
+    parts = np.linspace(0.0, 1.0, CHECKED_BETWEEN_ROWS, endpoint=False)[1:]
+    between = (table.q[:-1, None] + np.diff(table.q)[:, None] * parts).ravel()
+    values = table.at(between[np.isfinite(between)])
+    least, most = float(table.value.min()), float(table.value.max())
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    beyond = max(least - low, high - most)
+    if beyond > OVERSHOOT * (most - least):
+        worst = high if high - most == beyond else low
+        message = (
+            f"the {table.spline} spline reaches {worst:.6g} between rows of {least:g} … {most:g}: "
+            'spline="linear" joins them by straight lines'
+        )
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())

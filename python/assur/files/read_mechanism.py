@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from assur.files.node import Node
     from assur.files.positions import KeyPath
 
-SLIDE = ("link", "on", "angle", "origin")
+SLIDE = ("link", "on", "angle", "origin", "along")
 CYLINDER = ("base", "end", "barrel", "rod")
 
 
@@ -67,9 +67,17 @@ def read_slide(node: Node) -> Slide | Cylinder:
     if "base" in entries or "end" in entries:
         entries = node.keys(CYLINDER, required=CYLINDER[:2])
         return Cylinder(**{key: entry.text() for key, entry in entries.items()})
-    entries = node.keys(SLIDE, required=SLIDE[:3])
-    given: dict[str, Any] = {key: one.text() for key, one in entries.items() if key != "angle"}
-    return Slide(angle=entries["angle"].number(), **given)
+    entries = node.keys(SLIDE, required=SLIDE[:2])
+    if ("angle" in entries) == ("along" in entries):
+        raise node.error("needs either angle, rad, or along, two joints")
+    texts = ("link", "on", "origin")
+    given: dict[str, Any] = {key: entries[key].text() for key in texts if key in entries}
+    if "angle" in entries:
+        return Slide(angle=entries["angle"].number(), **given)
+    ends = entries["along"].names()
+    if len(ends) != 2:
+        raise entries["along"].error('needs two joints, ["A", "B"]')
+    return Slide(along=(ends[0], ends[1]), **given)
 
 
 def read_driver(node: Node) -> DriverLike | list[DriverLike]:

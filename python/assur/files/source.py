@@ -26,6 +26,10 @@ PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 SUBJECT = re.compile(r'(?:joint|link|slide|cylinder|driver|dimension) (["\'])(.+?)\1:? ')
 
 
+# What follows the first sign of equality of a line.
+ASSIGNED = re.compile(r"[^=]*=\s*(.*)")
+
+
 class Source:
     """A TOML file: its data, and where each key is.
 
@@ -84,8 +88,19 @@ class Source:
                 message = message[: place.start()]
                 if place[1]:
                     line, column = int(place[1]), int(place[2])
-            message = f"not TOML: {message[:1].lower()}{message[1:]}"
+            message = f"not TOML: {message[:1].lower()}{message[1:]}{self._hint(line)}"
             raise self._at(line, column, message) from error
+
+    def _hint(self, line: int) -> str:
+        """Return what may be meant by a line that is not TOML."""
+        lines = self.text.split("\n")
+        found = ASSIGNED.match(lines[line - 1]) if line <= len(lines) else None
+        if found is None:
+            known = "assur.importers.read reads files of other programs"
+            return "" if "=" in self.text else f"; {known}"
+        if found[1].startswith("("):
+            return "; a place is written [0, 0]"
+        return '; a text is written in quotes, "…"' if found[1][:1].isalpha() else ""
 
     def _at(self, line: int, column: int, message: str, key: str | None = None) -> FileError:
         named = f"{key}: " if key else ""

@@ -6,16 +6,18 @@ are the answers. Of a joint's x and y, sliders are added that carry it.
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import astuple
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import counted
+from assur._callers import level_of_caller
 from assur._validate import checked_name, real_array
 from assur.description import encode
 from assur.description.words import Slide
-from assur.errors import InputError, StructureError
+from assur.errors import AssurWarning, InputError, StructureError
 from assur.kinematics.assembly import Assembly, Place
 from assur.kinematics.extremes import coordinate
 from assur.kinematics.place import place_of, place_vector, size_of
@@ -48,6 +50,10 @@ def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembl
         need = "a finite number" if drivers == 1 else "finite numbers (x, y) of a joint"
         message = f"value is {value!r}: with {counted(drivers, 'driver')} {need} is needed"
         raise InputError(message)
+    if drivers == 1 and name in mechanism.links and abs(float(wanted[0])) > 4.0 * np.pi:
+        turns = abs(float(wanted[0])) / (2.0 * np.pi)
+        message = f"{name} = {wanted[0]:g} is in rad, {turns:.3g} turns; for degrees: np.radians()"
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     other, coordinates = _driven_by(mechanism, name, wanted)
     size = size_of(mechanism)
     found: list[tuple[Any, Assembly]] = []

@@ -135,7 +135,7 @@ class Mechanism:
                 slide, parts = encode.cylinder(name, own, points)
                 members += parts
             else:
-                slide = encode.slide(name, own)
+                slide = encode.slide(name, own, points)
             guides.append((name, slide))
         description = encode.Description(
             joints=points,

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import short
+from assur._callers import level_of_caller
 from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
 from assur.errors import AssurWarning, InputError
 from assur.kinematics.assembly import Assembly, drawn_in
@@ -50,7 +51,7 @@ def solve(
     coordinates, positions, per_design = checked_coordinates(mechanism, q)
     coordinates.flags.writeable = False
     if is_typed:
-        _warn_if_degrees(mechanism, coordinates)
+        warn_if_degrees(mechanism, coordinates)
     own_signs = assembly is None
     signs = mechanism._signs if own_signs else checked_assembly(mechanism, assembly)
     threads = checked_threads(threads)
@@ -86,7 +87,7 @@ def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float
     return real_array(deg, "deg") * (np.pi / 180.0)
 
 
-def _warn_if_degrees(mechanism: Mechanism, q: Float) -> None:
+def warn_if_degrees(mechanism: Mechanism, q: Float) -> None:
     """Warn if the coordinates of a driven angle look like degrees."""
     # Quickly, because every call comes here: few coordinates are whole numbers.
     last = q.item(-1) if q.size else 0.5
@@ -100,8 +101,11 @@ def _warn_if_degrees(mechanism: Mechanism, q: Float) -> None:
         return
     if bool((q == np.floor(q)).all()):
         turns = most / (2.0 * np.pi)
-        message = f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: solve(deg=...)"
-        warnings.warn(message, AssurWarning, stacklevel=4)
+        message = (
+            f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: solve(deg=...), or "
+            "np.radians(q)"
+        )
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
 
 
 def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:

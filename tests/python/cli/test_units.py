@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.cli.units import UNITS, evenly, numbers, split_number
+from assur.cli.units import UNITS, evenly, numbers, ratio, split_number
 from command_line import same
 
 # What one of each unit is, written independently (exact fractions of π or decimals).
@@ -104,3 +104,11 @@ def test_every_float_comes_back() -> None:
     for value in rng.integers(0, 2**64, 500, dtype=np.uint64).view(np.float64).tolist():
         if math.isfinite(value):
             assert split_number(repr(value)).si(None) == value
+
+
+def test_ratios() -> None:
+    assert ratio("1/25").one("", "x") == 1 / 25
+    assert ratio("0.04").one("", "x") == 0.04
+    for text in ("1/0", "1/", "/3", "1/2/3", "1mm/2"):
+        with pytest.raises(assur.InputError):
+            ratio(text)

@@ -317,5 +317,5 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     path.write_text("")
     assert main([*asked, "--fluctuation", "0.1"]) == 1
     assert "0 rows" in capsys.readouterr().err
-    assert main(["flywheel", str(path), "--mean-speed", "15"]) == 1
+    assert main(["flywheel", str(path), "--mean-speed", "15"]) == 2
     assert "a table needs --fluctuation" in capsys.readouterr().err

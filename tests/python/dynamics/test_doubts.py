@@ -1,0 +1,83 @@
+"""Machines doubt degrees, splines that leave their rows, and coordinates that never change."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import assur
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+TURN = math.tau
+
+
+def press(*loads: Any) -> assur.Machine:
+    return assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(20.0)}, loads)
+
+
+CALLS: dict[str, Callable[[Any], Any]] = {
+    "reactions": lambda q: press().reactions(q, 6.0),
+    "effort": lambda q: press().effort(q, 6.0),
+    "reduced_moment": lambda q: press().reduced_moment(q),
+    "reduced_inertia": lambda q: press().reduced_inertia(q),
+    "run": lambda q: press().run(0.1, q0=q[1], speed0=1.0),
+    "find": lambda q: assur.FourBar(1.0, 3.0, 2.5, 3.0).find("rocker", q[1]),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_degrees(name: str) -> None:
+    with pytest.warns(assur.AssurWarning, match=r"np\.radians") as seen:
+        CALLS[name]([0, 90, 180])
+    assert seen[0].filename == __file__
+
+
+def test_a_spline_that_leaves_its_rows() -> None:
+    rows = np.radians([0, 330, 350, 360]), [0, -9000, -9000, 0]
+    with pytest.warns(assur.AssurWarning, match='between rows of -9000 … 0: spline="linear"'):
+        table = assur.Table(*rows)
+    assert table.at(np.linspace(0.0, TURN, 1000)).max() > 9000.0
+    assur.Table(*rows, "linear")
+    # Enough rows of a smooth curve do not leave their range by far.
+    q = np.linspace(0.0, TURN, 13)
+    assur.Table(q, np.append(np.sin(q)[:-1], 0.0))
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        assur.Force("B", (9.0, 0.0), while_="forward", over="piston"),
+        assur.Torque("rod", assur.Table([-9.0, 9.0], [1.0, 1.0], over="piston")),
+    ],
+)
+def test_a_link_that_never_turns(load: Any) -> None:
+    with pytest.raises(assur.InputError, match='does not turn: its travel is the slide "bore"'):
+        press(load)
+    press(assur.Torque("rod", 1.0, while_="forward", over="rod"))
+
+
+def test_the_flywheel_of_four_strokes() -> None:
+    """The same as from the table over two turns, which one turn does not fit."""
+    q = np.linspace(0.0, 2.0 * TURN, 25)
+    gas = assur.Table(q, np.append(np.sin(q / 2.0)[:-1] ** 2 * 900.0, 0.0), "linear")
+    machine = press(assur.Force("B", (gas, 0.0)))
+    with pytest.raises(assur.InputError, match="pass turns="):
+        machine.flywheel(0.05, 20.0)
+    own = machine.flywheel(0.05, 20.0, turns=2)
+    at = np.linspace(0.0, 2.0 * TURN, 24 * 200 + 1)
+    moment, inertia = machine.reduced_moment(at, 20.0), machine.reduced_inertia(at).value
+    moment[-1], inertia[-1] = moment[0], inertia[0]
+    table = assur.flywheel.from_table(at, moment, inertia, 0.05, 20.0, spline="linear")
+    assert own.inertia == pytest.approx(table.inertia, rel=1e-4)
+    assert own.delta == pytest.approx(0.05, rel=1e-12)
+
+
+def test_degrees_come_back_as_they_were_typed() -> None:
+    degrees = np.array([0.0, 30.0, 60.0, 90.5, 240.0, 359.99])
+    motion = assur.SliderCrank(0.1, 0.4).solve(deg=degrees)
+    assert motion.to_dataframe(degrees=True)["q"].tolist() == degrees.tolist()
