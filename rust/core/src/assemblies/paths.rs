@@ -92,7 +92,7 @@ impl<'h, R: Real> Paths<'h, R> {
             to_y.fill(Vector::ZERO);
             let mut rate = Vector::ZERO;
             for entry in form {
-                let [a, b, c] = entry.factor.map(Vector::<R>::splat);
+                let [a, b, c] = on_lanes(entry.factor);
                 let factor = a + (b + c.scale(s)).scale(s);
                 let (x, y) = (x[entry.row], y[entry.column]);
                 to_x[entry.row] += factor * y;
@@ -120,7 +120,7 @@ impl<'h, R: Real> Paths<'h, R> {
                 row.fill(Vector::ZERO);
                 let mut right = Vector::ZERO;
                 for (i, factor) in factors.iter().enumerate() {
-                    let [a, b, c] = factor.map(Vector::<R>::splat);
+                    let [a, b, c] = on_lanes(*factor);
                     let value = a + (b + c.scale(s)).scale(s);
                     if i > 0 {
                         row[side * n + i - 1] = value;
@@ -228,4 +228,11 @@ impl<R: Real> Task<R> for Paths<'_, R> {
             step = R::select(active, safe * own, step);
         }
     }
+}
+
+/// The same factor on every lane. (Through `map` it would not be compiled with the level's
+/// instructions.)
+#[inline(always)]
+fn on_lanes<R: Real>([a, b, c]: [Vector; 3]) -> [Vector<R>; 3] {
+    [Vector::splat(a), Vector::splat(b), Vector::splat(c)]
 }
