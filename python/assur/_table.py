@@ -82,8 +82,8 @@ def _workbook(book: Any, listed: list[Column]) -> Any:
         sheet = book.create_sheet(_sheet_name(quantity, names))
         sheet.freeze_panes = "A3"
         shown = [*common, *own]
-        sheet.append([column.name for column in shown])
-        sheet.append([column.unit for column in shown])
+        for texts in ([column.name for column in shown], [column.unit for column in shown]):
+            sheet.append([_text(sheet, text) for text in texts])
         for row in zip(*(column.values.tolist() for column in shown), strict=True):
             sheet.append([_cell(value) for value in row])
     return book
@@ -105,8 +105,19 @@ def _sheet_name(quantity: str, names: set[str]) -> str:
         count += 1
         tail = f"~{count}"
         name = plain[: MAX_SHEET_NAME - len(tail)] + tail
+    # Excel keeps this name for itself.
+    name = "History~" if name.lower() == "history" else name
     names.add(name.lower())
     return name
+
+
+def _text(sheet: Any, text: str) -> Any:
+    """Return a cell that Excel takes for text: a name may begin like a formula."""
+    from openpyxl.cell import WriteOnlyCell
+
+    cell = WriteOnlyCell(sheet, text)
+    cell.data_type = "s"
+    return cell
 
 
 def _cell(value: Any) -> Any:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import Float, real_array, require_finite
+from assur._arrays import Float, real_array, require_finite, short
 from assur._core import spline_pieces
 from assur._splines import SPLINES, Spline
 from assur._trig import sin_cos
@@ -490,9 +490,10 @@ class Sequence(Law):
     laws: tuple[Law, ...]
 
     def __post_init__(self) -> None:
-        laws = tuple(self.laws)
+        given: Any = self.laws
+        laws = tuple(given) if isinstance(given, list | tuple) else ()
         if not laws or not all(isinstance(one, Law) for one in laws):
-            message = f"Sequence: {laws!r}: one law or more are needed"
+            message = f"Sequence: {short(given)}: one law or more are needed, in a list"
             raise InputError(message)
         for one, other in itertools.pairwise(laws):
             if other.span[0] < one.span[1]:

@@ -29,7 +29,7 @@ PLAIN = {
     "…": "...",
 }
 # What the package tells Python users, in words of the command line.
-IN_DEGREES = ("solve(deg=...)", "write --q 0:360:1deg")
+IN_DEGREES = ("solve(deg=...), or np.radians(q)", "write --q 0:360:1deg")
 
 
 def reworded(message: object) -> str:

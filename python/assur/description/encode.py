@@ -18,6 +18,9 @@ from assur.errors import AssurWarning, InputError
 
 DriverLike: TypeAlias = str | Drive
 
+# Guides beyond two turns are in degrees, as far as anyone meant them.
+LIKE_DEGREES = 4.0 * np.pi
+
 
 class Description(NamedTuple):
     """A description that is checked: names with coordinates, members, slides; drivers; signs."""
@@ -86,7 +89,7 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
             'along=("A", "B")'
         )
         raise InputError(message, slide=name)
-    if abs(float(angle)) > 2.0 * np.pi:
+    if abs(float(angle)) > LIKE_DEGREES:
         message = f"slide {name!r} has an angle of {float(angle):g} rad: is it in degrees?"
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     return Slide(slide.link, slide.on, float(angle), slide.origin)

@@ -10,6 +10,7 @@ import numpy as np
 from assur.dynamics.along import DrivenMotion, motion_of
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
+from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -20,6 +21,8 @@ __all__ = ["BESIDE", "driven_motion", "jumps_between", "stations_between"]
 
 # How far beside a jump loads are evaluated, rad (relative beyond 1 rad): beyond its rounding.
 BESIDE = 1e-10
+# Most jumps of a table that are looked for.
+MAX_JUMPS = 1_000_000
 # A coordinate this near to a jump is at it.
 AT_JUMP = 1e-11
 
@@ -39,6 +42,9 @@ def jumps_between(machine: MachineModel, low: float, high: float) -> Float:
             continue
         period = rows[-1] - rows[0]
         first, last = (low - own[-1]) / period, (high - own[0]) / period
+        if periodic and not (last - first) * len(own) < MAX_JUMPS:
+            message = f"a table's period of {period:g} has too many jumps from {low:g} to {high:g}"
+            raise InputError(message, value=period)
         shifts = range(math.floor(first), math.ceil(last) + 1) if periodic else (0,)
         found += [q + shift * period for shift in shifts for q in own]
     every = np.unique(found)

@@ -16,7 +16,7 @@ from assur.dynamics.friction import checked_friction
 from assur.dynamics.functions import check_functions
 from assur.dynamics.loads import checked_load
 from assur.dynamics.options import as_list
-from assur.dynamics.over import require_turning
+from assur.dynamics.over import check_over
 from assur.errors import InputError
 from assur.flywheel import SPLINES
 from assur.flywheel.sizing import warn_if_degrees
@@ -102,7 +102,7 @@ class MachineModel:
             motors=motors,
             friction=list(self.friction.items()),
         )
-        require_turning(mechanism, self.loads)
+        check_over(mechanism, self.loads)
         check_functions(self.loads, motors, np.ravel(mechanism.q0).tolist())
         if mechanism.driver not in mechanism.slides:
             for rows, periodic in self._core.tables:

@@ -8,34 +8,53 @@ import numpy as np
 
 from assur.dynamics.table import Table
 from assur.errors import InputError
+from assur.kinematics.place import size_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from assur.kinematics.mechanism import Mechanism
 
-__all__ = ["require_turning"]
+__all__ = ["check_over"]
 
+# Shortest period of a table over another coordinate, rad or sizes: all of its rows are found.
+SHORTEST_PERIOD = 1e-3
 # Coordinates beside the drawing's, rad or m, at which a link that never turns has the same angle.
 BESIDE = (-1e-3, 0.0, 1e-3)
 
 
-def require_turning(mechanism: Mechanism, loads: Sequence[Any]) -> None:
-    """Refuse loads over the angle of a link that never turns: it would never act, or always."""
+def check_over(mechanism: Mechanism, loads: Sequence[Any]) -> None:
+    """Refuse loads over the angle of a link that never turns, and tables of far too many periods.
+
+    The former would never act, or always.
+    """
     for load in loads:
-        for name in _named(load):
+        tables = list(_tables(load))
+        names = [load.over] if getattr(load, "over", None) is not None else []
+        for name in (*names, *(table.over for table in tables)):
             if name in mechanism.links and not _turns(mechanism, name):
                 raise InputError(_message(mechanism, load, name), link=name)
+        for table in tables:
+            _require_long_period(mechanism, load, table)
 
 
-def _named(load: Any) -> Iterator[str]:
-    if getattr(load, "over", None) is not None:
-        yield load.over
+def _tables(load: Any) -> Iterator[Table]:
     values = (getattr(load, part, None) for part in ("force", "torque", "pressure"))
     for value in values:
         for one in value if isinstance(value, tuple) else (value,):
             if isinstance(one, Table) and one.over is not None:
-                yield one.over
+                yield one
+
+
+def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:
+    period = float(table.q[-1] - table.q[0])
+    unit = size_of(mechanism) if table.over in mechanism.slides else 1.0
+    if table.periodic and not period >= SHORTEST_PERIOD * unit:
+        message = (
+            f"{type(load).__name__}: a table over {table.over!r} has a period of {period:g}: it "
+            f"must be at least {SHORTEST_PERIOD * unit:g}"
+        )
+        raise InputError(message, value=period)
 
 
 def _turns(mechanism: Mechanism, link: str) -> bool:

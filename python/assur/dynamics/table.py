@@ -18,8 +18,8 @@ from assur.flywheel import SPLINES, Spline
 
 __all__ = ["Table", "checked_ratio", "replace_fields"]
 
-# Warn if a spline leaves the range of its rows by more than this part of it, at so many places.
-OVERSHOOT = 0.5
+# Warn if a spline leaves the range of its rows by more than this range, at so many places.
+OVERSHOOT = 1.0
 CHECKED_BETWEEN_ROWS = 8
 
 

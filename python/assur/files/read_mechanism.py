@@ -68,8 +68,10 @@ def read_slide(node: Node) -> Slide | Cylinder:
         entries = node.keys(CYLINDER, required=CYLINDER[:2])
         return Cylinder(**{key: entry.text() for key, entry in entries.items()})
     entries = node.keys(SLIDE, required=SLIDE[:2])
-    if ("angle" in entries) == ("along" in entries):
-        raise node.error("needs either angle, rad, or along, two joints")
+    if "angle" not in entries and "along" not in entries:
+        raise node.missing("angle", ": a number, rad, or along, two joints, is needed")
+    if "angle" in entries and "along" in entries:
+        raise node.error("has both angle and along: give one")
     texts = ("link", "on", "origin")
     given: dict[str, Any] = {key: entries[key].text() for key in texts if key in entries}
     if "angle" in entries:

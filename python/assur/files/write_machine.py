@@ -11,6 +11,7 @@ from assur._arrays import finite_array
 from assur.dynamics.pressure import Gas
 from assur.dynamics.table import Table
 from assur.errors import InputError
+from assur.files.limits import MOST_ITEMS
 from assur.files.parts import PARTS, ROWS
 from assur.files.ranges import Range
 from assur.files.read_machine import NO_MOTOR
@@ -28,6 +29,9 @@ def machine_sections(machine: MachineModel) -> list[str]:
     """Return the sections of a machine."""
     bodies = [(key_text(link), part(b, f"bodies[{link!r}]")) for link, b in machine.bodies.items()]
     sections = [table_text("[bodies]", bodies)]
+    if len(machine.loads) > MOST_ITEMS:
+        message = f"the machine has {len(machine.loads)} loads: a file may have {MOST_ITEMS}"
+        raise InputError(message)
     for i, load in enumerate(machine.loads):
         sections.append(table_text("[[loads]]", _typed(load, f"loads[{i}]").items()))
     if isinstance(machine.motor, tuple):

@@ -75,10 +75,11 @@ def driven_angles(mechanism: Mechanism) -> list[bool]:
 
 
 def _quantities(motion: Motion, taken: set[str]) -> Iterator[_Quantity]:
-    """Joints, links, slides; a link or slide whose name is taken is shown with its kind."""
+    """Joints, links, slides; one whose name is taken is shown with its kind."""
     results = motion._results
     for name in results.joints:
-        yield _Quantity("joint", name, name, motion.joint(name))
+        shown = f"joint {name}" if name in taken else name
+        yield _Quantity("joint", name, shown, motion.joint(name))
     for kind, held, of in (
         ("link", results.links, motion.link),
         ("slide", results.slides, motion.slide),

@@ -81,3 +81,14 @@ def test_degrees_come_back_as_they_were_typed() -> None:
     degrees = np.array([0.0, 30.0, 60.0, 90.5, 240.0, 359.99])
     motion = assur.SliderCrank(0.1, 0.4).solve(deg=degrees)
     assert motion.to_dataframe(degrees=True)["q"].tolist() == degrees.tolist()
+
+
+def test_periods_far_too_short_are_refused() -> None:
+    """They would be searched for minutes."""
+    short = 1e-10
+    rows = [0.0, short / 2, short / 2, short], [0.0, 1.0, 2.0, 0.0]
+    with pytest.raises(assur.InputError, match="over 'bore' has a period of 1e-10"):
+        press(assur.Force("B", (assur.Table(*rows, "linear", True, over="bore"), 0.0)))
+    machine = press(assur.Torque("crank", assur.Table(*rows, "linear")))
+    with pytest.raises(assur.InputError, match="too many jumps"):
+        machine.duty(np.linspace(0.0, 6.0, 50), 3.0)

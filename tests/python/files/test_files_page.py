@@ -70,6 +70,7 @@ def test_the_other_pieces_load(tmp_path: Path) -> None:
     pieces = [source for language, source in BLOCK.findall(PAGE) if language == "toml"]
     press = pieces[0]
     whole = [
+        press.partition("[motor]")[0],
         BY_HAND["crank_rocker"].partition("[dimensions]")[0],
         BOOM,
         press.partition("[motor]")[0],
@@ -82,4 +83,4 @@ def test_the_other_pieces_load(tmp_path: Path) -> None:
         shapes.append(contents.mechanism.shape)
         for name in contents.wanted:
             contents.result(name)
-    assert shapes == [(3,), (), (), ()]
+    assert shapes == [(), (3,), (), (), ()]

@@ -147,3 +147,28 @@ def test_dimensions_from_tables() -> None:
     refused(assur.InputError, "roker", partial(m.with_dimensions, pd.DataFrame({"roker": [1.0]})))
     words = pd.DataFrame({"rocker.length": ["long"]})
     refused(assur.InputError, "rocker.length", partial(m.with_dimensions, words))
+
+
+def test_names_like_formulas_are_text_in_a_workbook(tmp_path: Path) -> None:
+    m = assur.Mechanism(
+        {"O": (0, 0), "A": (0, 1), "B": (3, 2.5), "C": (4, 0)},
+        {"ground": "OC", "=1+1": "OA", "=A1+B2": "AB", "History": "BC"},
+        "=1+1",
+    )
+    m.solve([0.0, 1.0]).to_excel(tmp_path / "names.xlsx")
+    book = load_workbook(tmp_path / "names.xlsx")
+    assert "History" not in book.sheetnames
+    kinds = {cell.data_type for sheet in book for cell in sheet[1]}
+    assert kinds == {"s"}
+    assert "=A1+B2" in [cell.value for sheet in book for cell in sheet[1]]
+
+
+def test_joints_may_be_called_like_coordinates() -> None:
+    m = assur.Mechanism(
+        {"q": (0, 0), "status": (0, 1), "B": (3, 2.5), "C": (4, 0)},
+        {"ground": ["q", "C"], "a": ["q", "status"], "b": ["status", "B"], "c": "BC"},
+        "a",
+    )
+    motion = m.solve([0.0, 1.0])
+    data = motion.to_xarray()
+    np.testing.assert_array_equal(data["joint status"], motion.joint("status").value)

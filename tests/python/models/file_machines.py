@@ -11,7 +11,7 @@ from machines import TURN, cylinder, five_bar, four_bar
 
 THIRD = 1.0 / 3.0
 WORK = Table([0.0, 3.5, 5.0, TURN], [0.0, -0.0, -1500.0 * THIRD, 0.0], "linear")
-OPEN = Table([-1.0, 0.1, 1e22], [5e-324, THIRD, -0.0], "natural", periodic=False)
+OPEN = Table([-1.0, 0.1, 1e22], [5e-324, THIRD, -0.0], "linear", periodic=False)
 
 LOADS: dict[str, Any] = {
     "gravity": assur.Gravity(),
@@ -39,7 +39,9 @@ IN_PRACTICE: list[Any] = [
         "P", (Table([0.1, 0.9, 0.9, 9.0], [1.0, 2.0, -0.0, THIRD], "linear", over="ram"), -THIRD)
     ),
     assur.Force("P", (0.0, -9.0), while_="forward", over="ram"),
-    assur.Torque("arm", Table([-9.0, 9.0, 9.5], [0.0, THIRD, 0.0], over="arm"), while_="backward"),
+    assur.Torque(
+        "arm", Table([-9.0, 9.0, 9.5], [0.0, THIRD, 0.0], "linear", over="arm"), while_="backward"
+    ),
 ]
 
 MOTORS: dict[str, Any] = {

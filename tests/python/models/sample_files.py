@@ -66,4 +66,5 @@ fluctuation = 0.1
 mean_speed = 15
 mean = "extremes"
 on_error = "raise"
+turns = 1
 """

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from assur.cli.coordinates import add_coordinates, coordinates, plain, speeds
-from assur.cli.failures import report
+from assur.cli.failures import INCOMPLETE, report
 from assur.cli.help import describe
 from assur.cli.output import Output, add_output
 from assur.cli.source import read, require_machine
 from assur.cli.source_arguments import add_source
+from assur.cli.terminal import note
 from assur.cli.units import argument, numbers
 from assur.description.words import Status
 
@@ -69,4 +72,10 @@ def run(given: argparse.Namespace) -> int:
         place = {"q": in_radians(mechanism, None, place["deg"])}
     found = machine.reactions(**place, **{**asked, "on_error": "nan"})
     output.write(found._columns(given.degrees))
-    return report(found.status, Status.SINGULAR)
+    unknown = np.isnan(found.driver).reshape(*found.status.shape, -1).any(axis=-1)
+    failed = report(found.status, Status.SINGULAR)
+    if failed or not unknown.any():
+        return failed
+    why = "a load has no value there, or friction locks the machine"
+    note(f"{int(unknown.sum())} of {unknown.size} positions have no reactions: {why}")
+    return INCOMPLETE
