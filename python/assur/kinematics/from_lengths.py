@@ -51,14 +51,39 @@ def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str,
             sketch._core.require("joint", name)
         link = next((link for link, on in sketch.links.items() if set(names) <= set(on)), None)
         if link is None or names[0] == names[1]:
+            slide = _between(sketch, names)
+            if slide is not None:
+                message = (
+                    f"lengths: {names[0]}-{names[1]} is the coordinate of the slide {slide!r}, "
+                    "not a length of a link: leave it out, solve() takes it or gives it"
+                )
+                raise InputError(message, slide=slide)
             message = f"lengths: no link has both joints {names[0]!r} and {names[1]!r}"
             raise InputError(message)
         value = real_number(length, f"length {names[0]}-{names[1]}")
         if not (value > 0.0 and math.isfinite(value)):
             message = f"length {names[0]}-{names[1]} is {value!r}: a positive length is needed"
             raise InputError(message, value=value)
+        twice = found.get(frozenset(names))
+        if twice is not None and twice[1] != value:
+            one, other = names
+            message = (
+                f"length {other}-{one} is {twice[1]:.10g} m and {one}-{other} is {value:.10g} m: "
+                "give it once"
+            )
+            raise InputError(message, link=link, value=value)
         found[frozenset(names)] = (link, value)
     return found
+
+
+def _between(sketch: Mechanism, names: tuple[str, ...]) -> str | None:
+    """Return the slide whose value is the distance of two joints, as that of a cylinder is."""
+    links = sketch.links
+    for name, slide in sketch.slides.items():
+        ends = [slide.origin, *links[slide.link][:1]]
+        if len(links[slide.on]) == 1 and sorted(map(str, ends)) == sorted(names):
+            return name
+    return None
 
 
 def _dimensions(

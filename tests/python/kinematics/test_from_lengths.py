@@ -74,3 +74,22 @@ def test_refusals() -> None:
     ask = partial(assur.Mechanism.from_lengths, joints, links, "crank", lengths)
     refused(assur.InputError, "coupler 0.7", ask)
     refused(assur.PositionError, "position", partial(made, {"BC": 30.0}))
+
+
+def test_a_length_given_twice_must_agree() -> None:
+    message = "length C-D is 2.5 m and D-C is 2.4 m: give it once"
+    refused(assur.InputError, message, partial(made, {"AB": 1, "CD": 2.5, "DC": 2.4}))
+    assert made({"CD": 2.5, "DC": 2.5}) == made({"CD": 2.5})
+
+
+@pytest.mark.parametrize("pair", [("base", "eye"), ("eye", "base")])
+def test_the_length_of_a_cylinder_is_a_coordinate(pair: tuple[str, str]) -> None:
+    ask = partial(
+        assur.Mechanism.from_lengths,
+        {"foot": (0, 0), "eye": (2, 1), "base": (1, -1)},
+        {"ground": ["foot", "base"], "boom": ["foot", "eye"]},
+        "lift",
+        {pair: 3.0},
+        {"lift": assur.Cylinder("base", "eye")},
+    )
+    refused(assur.InputError, f"{pair[0]}-{pair[1]} coordinate slide 'lift'", ask)
