@@ -11,13 +11,19 @@ import numpy as np
 
 from assur._arrays import counted
 from assur.errors import InputError
+from assur.kinematics.named_dimensions import columns_of_designs
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from assur._arrays import Float
 
 
-def read_designs(path: str) -> dict[str, Float]:
-    """Return the dimensions of a table, a column each: the header has their names."""
+def read_designs(path: str, known: Iterable[str]) -> dict[str, Float]:
+    """Return the dimensions of a table, a column each: the header has their names.
+
+    Of a table that ``assur sweep`` wrote, the columns of results are left out.
+    """
     try:
         with Path(path).open(encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(file)
@@ -32,16 +38,21 @@ def read_designs(path: str) -> dict[str, Float]:
     if len(set(names)) < len(names):
         message = f"{path}: the header has a name twice: {', '.join(names)[:200]}"
         raise InputError(message)
-    values = np.array([_numbers(path, line, row, len(names)) for line, row in lines[1:]])
-    return dict(zip(names, values.T, strict=True))
+    wanted = columns_of_designs(names, known)
+    if not wanted:
+        message = f"{path}: no column is a dimension: {', '.join(names)[:200]}"
+        raise InputError(message)
+    places = [names.index(name) for name in wanted]
+    values = np.array([_numbers(path, line, row, len(names), places) for line, row in lines[1:]])
+    return dict(zip(wanted, values.T, strict=True))
 
 
-def _numbers(path: str, line: int, row: list[str], count: int) -> list[float]:
+def _numbers(path: str, line: int, row: list[str], count: int, places: list[int]) -> list[float]:
     try:
-        found = [float(cell) for cell in row]
+        found = [float(row[place]) for place in places] if len(row) == count else []
     except ValueError:
         found = []
-    if len(found) != count or not all(map(math.isfinite, found)):
+    if not found or not all(map(math.isfinite, found)):
         message = f"{path}, line {line}: {','.join(row)[:80]!r} is not {counted(count, 'number')}"
         raise InputError(message)
     return found

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import Float, short
 from assur._core import KnownSigns
 from assur._validate import checked_index, checked_name, checked_signs, real_array
 from assur.description import encode
@@ -25,12 +23,14 @@ from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.curve import search as curves
 from assur.kinematics.dimensions import Dimensions
+from assur.kinematics.named_dimensions import dimensions_by_name
 from assur.kinematics.pose import redrive
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
     from os import PathLike
 
+    from assur._arrays import Float
     from assur._core import Mechanism as Core
     from assur.description.encode import Description, DriverLike
     from assur.description.words import Slide
@@ -459,7 +459,9 @@ class Mechanism:
         dimensions : mapping of str to array_like
             New values, m or rad; arrays broadcast by NumPy's rules, with each
             other and with the designs of this mechanism, to the design shape S.
-            A pandas DataFrame has a design in each row, an xarray Dataset its variables.
+            A pandas DataFrame has a design in each row, a Series is one; variables of an xarray
+            Dataset broadcast by the names of their axes. Of a table of results
+            (`Measures.to_dataframe`) the dimensions are taken.
         **by_name : array_like
             The same by keyword, for names without a dot.
 
@@ -484,7 +486,7 @@ class Mechanism:
         >>> m.with_dimensions({"coupler.length": np.linspace(2.8, 3.2, 5)}).shape
         (5,)
         """
-        given = _by_name(dimensions)
+        given = dimensions_by_name(dimensions, self._core.dimension_names)
         wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
         indices = [self._core.dimension(name) for name in wanted]
         new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
@@ -1070,21 +1072,6 @@ class Mechanism:
         from assur._plot import mechanism_picture
 
         return mechanism_picture(self, q, ax, assembly)
-
-
-def _by_name(dimensions: Any) -> Mapping[Any, Any]:
-    """Return dimensions by name: of a mapping, a DataFrame's columns or a Dataset's variables."""
-    if dimensions is None:
-        return {}
-    # pandas and xarray need not be installed; a Dataset is a mapping, of its coordinates too.
-    if hasattr(dimensions, "data_vars"):
-        return {name: dimensions[name].to_numpy() for name in dimensions.data_vars}
-    if hasattr(dimensions, "columns") and hasattr(dimensions, "itertuples"):
-        return {name: dimensions[name].to_numpy() for name in dimensions.columns}
-    if isinstance(dimensions, Mapping):
-        return dimensions
-    message = f"dimensions is {short(dimensions)}: a mapping of names to values is needed"
-    raise InputError(message)
 
 
 def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:

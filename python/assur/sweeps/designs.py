@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -12,6 +11,7 @@ from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
 from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.named_dimensions import dimensions_by_name
 from assur.sweeps.grid import Grid
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -24,13 +24,11 @@ class Designs:
         if not isinstance(mechanism, Mechanism):
             message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
             raise InputError(message)
-        if not isinstance(dimensions, Mapping):
-            message = f"dimensions is {short(dimensions)}: a mapping of names to values is needed"
-            raise InputError(message)
         self.mechanism = mechanism
-        names = [checked_name(name, "dimensions") for name in dimensions]
+        given = dimensions_by_name(dimensions, mechanism._core.dimension_names)
+        names = [checked_name(name, "dimensions") for name in given]
         indices = [mechanism._core.dimension(name) for name in names]
-        new = [real_array(dimensions[n], f"dimension {n!r}", copy=False) for n in names]
+        new = [real_array(given[n], f"dimension {n!r}", copy=False) for n in names]
         # Designs are asked for later, when the caller may have changed his arrays (no grid's).
         if not isinstance(dimensions, Grid):
             new = _copied(new)

@@ -32,7 +32,7 @@ __all__ = ["sweep"]
 @overload
 def sweep(
     mechanism: Mechanism,
-    dimensions: Mapping[str, npt.ArrayLike],
+    dimensions: Mapping[str, npt.ArrayLike] | Any,
     q: npt.ArrayLike,
     outputs: Iterable[str] | None = ...,
     order: int | None = ...,
@@ -49,7 +49,7 @@ def sweep(
 @overload
 def sweep(
     mechanism: Mechanism | Machine,
-    dimensions: Mapping[str, npt.ArrayLike],
+    dimensions: Mapping[str, npt.ArrayLike] | Any,
     q: npt.ArrayLike,
     *,
     assembly: Mapping[str, int] | None = ...,
@@ -61,7 +61,7 @@ def sweep(
 ) -> Measures: ...
 def sweep(
     mechanism: Mechanism | Machine,
-    dimensions: Mapping[str, npt.ArrayLike],
+    dimensions: Mapping[str, npt.ArrayLike] | Any,
     q: npt.ArrayLike,
     outputs: Iterable[str] | None = None,
     order: int | None = None,
@@ -82,8 +82,9 @@ def sweep(
     mechanism : Mechanism or Machine
         Of any class; a machine for the metrics of forces, `assur.metric.peak_reaction`.
     dimensions : mapping of str to array_like
-        Dimensions of the designs, m or rad, as for `Mechanism.with_dimensions`: arrays of
-        one length pair, an `assur.Grid` makes every combination.
+        Dimensions of the designs, m or rad, as for `Mechanism.with_dimensions` (a pandas
+        DataFrame or an xarray Dataset too): arrays of one length pair, an `assur.Grid` makes
+        every combination.
     q : array_like
         Coordinate of the driver, rad or m: as for `Mechanism.solve`; with `metrics` of
         shape (N,), n drivers add a last axis of n.

@@ -78,6 +78,18 @@ def test_designs_of_a_table(tmp_path: Path) -> None:
     assert same(found["rocker.length"], pairs["rocker.length"])
 
 
+def test_designs_of_a_sweeps_own_table(tmp_path: Path) -> None:
+    path = tmp_path / "best.csv"
+    words = (*ROCKER, *GRID, *GAMMA, "--best", 4, "--out", path)
+    assert assur_command(*words).code == 0
+    assert "True" in path.read_text(encoding="utf-8")
+    first = columns(path.read_text(encoding="utf-8"))
+    again = table(*ROCKER, "--designs", path, *GAMMA, "--metric", "span(P.x)")
+    assert list(again)[:3] == ["design", "coupler.length", "rocker.length"]
+    for name in ("coupler.length", "rocker.length", "gamma"):
+        assert same(again[name], first[name])
+
+
 def test_metrics_of_a_machine() -> None:
     machine = assur.load(PRESS)
     lengths = {"rod.length": np.linspace(0.35, 0.45, 3)}
@@ -168,6 +180,7 @@ def test_wrong_command_lines(words: tuple[str, ...]) -> None:
         ("coupler.length\n1,2\n", "line 2: '1,2' is not 1 number"),
         ("coupler.length\nnan\n", "is not 1 number"),
         ("speed\n1\n", "speed"),
+        ("design,status,kept,gamma\n0,0,True,1\n", "no column is a dimension"),
         ("coupler.length\n\xff", "the designs cannot be read"),
     ],
 )

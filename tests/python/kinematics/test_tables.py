@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ import xarray as xr
 from openpyxl import load_workbook
 
 import assur
+from assur import metric
 from refusals import refused
 
 if TYPE_CHECKING:
@@ -172,3 +174,53 @@ def test_joints_may_be_called_like_coordinates() -> None:
     motion = m.solve([0.0, 1.0])
     data = motion.to_xarray()
     np.testing.assert_array_equal(data["joint status"], motion.joint("status").value)
+
+
+def test_variables_of_a_dataset_broadcast_by_name() -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    rows = {
+        "coupler.length": ("c", [2.9, 3.0]),
+        "rocker.length": ("r", [2.4, 2.5]),
+        "ground.D.y": (("r", "c"), [[0.0, 0.1], [0.2, 0.3]]),
+    }
+    data = xr.Dataset(rows)
+    for found in (m.with_dimensions(data), assur.sweep(m, data, Q).mechanism):
+        assert found.shape == (2, 2)
+        # Axes in the order in which they first appear.
+        assert found.dimensions["coupler.length"].tolist() == [[2.9, 2.9], [3.0, 3.0]]
+        assert found.dimensions["rocker.length"].tolist() == [[2.4, 2.5], [2.4, 2.5]]
+        assert found.dimensions["ground.D.y"].tolist() == [[0.0, 0.2], [0.1, 0.3]]
+
+
+def test_sweeps_take_tables() -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    table = pd.DataFrame({"rocker.length": [2.4, 2.5, 2.6], "coupler.length": [2.9, 3.0, 3.1]})
+    assert assur.sweep(m, table, Q).mechanism == m.with_dimensions(table)
+    one = table.iloc[1]
+    assert m.with_dimensions(one) == m.with_dimensions(one.to_dict())
+    assert assur.sweep(m, one, Q).mechanism == m.with_dimensions(one)
+    for ask in (m.with_dimensions, lambda of: assur.sweep(m, of, Q)):
+        refused(assur.InputError, "DataFrame Series Dataset", partial(ask, 3.0))
+        twice = pd.concat([table, table], axis=1)
+        refused(assur.InputError, "'rocker.length' twice", partial(ask, twice))
+
+
+def test_tables_of_results_are_read_back() -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    space = {"coupler.length": [2.8, 3.0, 3.1], "rocker.length": [2.4, 2.5, 9.9]}
+    asked = {"swing": metric.span("rocker"), "P.x": metric.span("C.x")}
+    found = assur.sweep(m, space, Q, metrics=asked)
+    table = found.to_dataframe()
+    assert m.with_dimensions(table) == found.designs([0, 1, 2])
+    assert m.with_dimensions(table.iloc[[2, 0]]) == found.designs([2, 0])
+    assert m.with_dimensions(table.iloc[1]) == found.designs(1)
+    read = m.with_dimensions(pd.read_csv(io.StringIO(table.to_csv()))).dimensions
+    for name, values in space.items():
+        np.testing.assert_allclose(read[name], values, rtol=1e-15)
+    # A dimension behind the results counts, and one that is misspelt is no metric.
+    more = table.assign(**{"crank.length": 0.9})
+    assert m.with_dimensions(more).dimensions["crank.length"].tolist() == [0.9] * 3
+    wrong = table.assign(**{"crnk.length": 0.9})
+    refused(assur.InputError, "crnk.length crank.length", partial(m.with_dimensions, wrong))
+    apart = table[["swing", "coupler.length"]]
+    refused(assur.InputError, "swing", partial(m.with_dimensions, apart))

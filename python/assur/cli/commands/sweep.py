@@ -21,7 +21,7 @@ from assur.errors import InputError
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -119,7 +119,7 @@ def run(given: argparse.Namespace) -> int:
     where = [condition(text) for text in given.where]
     contents = read(given)
     require_one(contents.mechanism, given.file)
-    dimensions = _dimensions(given)
+    dimensions = _dimensions(given, contents.mechanism._core.dimension_names)
     rows = math.prod(np.broadcast_shapes(*map(np.shape, dimensions.values())))
     output.require_few(rows if given.best is None else min(rows, given.best))
     found: Measures = sweep(
@@ -149,13 +149,13 @@ def _by(given: argparse.Namespace, names: list[str]) -> str:
     return str(given.by)
 
 
-def _dimensions(given: argparse.Namespace) -> Mapping[str, npt.ArrayLike]:
+def _dimensions(given: argparse.Namespace, known: Sequence[str]) -> Mapping[str, npt.ArrayLike]:
     from assur.sweeps.grid import Grid
 
     if given.designs is not None:
         if given.vary:
             given.parser.error("--designs is in place of --vary")
-        return read_designs(given.designs)
+        return read_designs(given.designs, known)
     if not given.vary:
         given.parser.error("the designs are missing: --vary, or --designs")
     axes: dict[str, Float] = {}

@@ -1,0 +1,72 @@
+"""Dimensions by name: of a mapping, or of a table of pandas or xarray."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from assur._arrays import short
+from assur.errors import InputError
+
+__all__ = ["columns_of_designs", "dimensions_by_name"]
+
+# Columns of this package's own tables of results that are no dimensions.
+LABELS = re.compile(r"design\d*|status|kept")
+# A column of row numbers, as pandas writes and reads it.
+UNNAMED = re.compile(r"(Unnamed: 0)?")
+# A name with one of these is meant to be a dimension.
+ENDINGS = (".length", ".angle", ".offset")
+
+
+def dimensions_by_name(dimensions: Any, known: Iterable[str]) -> Mapping[Any, Any]:
+    """Return dimensions by name: of a mapping, a DataFrame, a Series or a Dataset.
+
+    A DataFrame has a design in each row, a Series is one of them. Variables of a Dataset
+    broadcast by the names of their axes.
+    """
+    if dimensions is None:
+        return {}
+    # pandas and xarray need not be installed; a Dataset is a mapping, of its coordinates too.
+    if hasattr(dimensions, "data_vars"):
+        names = columns_of_designs(dimensions.data_vars, known)
+        import xarray as xr
+
+        arrays = xr.broadcast(*(dimensions[name] for name in names))
+        return {name: array.to_numpy() for name, array in zip(names, arrays, strict=True)}
+    if hasattr(dimensions, "columns") and hasattr(dimensions, "itertuples"):
+        names = columns_of_designs(dimensions.columns, known)
+        return {name: dimensions[name].to_numpy() for name in names}
+    if hasattr(dimensions, "index") and hasattr(dimensions, "to_dict"):
+        return {name: dimensions[name] for name in columns_of_designs(dimensions.index, known)}
+    if isinstance(dimensions, Mapping):
+        return dimensions
+    message = (
+        f"dimensions is {short(dimensions)}: a mapping of names to values, a DataFrame, a Series "
+        "or a Dataset is needed"
+    )
+    raise InputError(message)
+
+
+def columns_of_designs(names: Iterable[Any], known: Iterable[str]) -> list[Any]:
+    """Return the names of a table's columns that are dimensions, or are meant to be.
+
+    In a table of results, the metrics stand behind the columns ``status`` and ``kept``.
+    """
+    listed, dimensions = list(names), set(known)
+    if len(set(listed)) < len(listed):
+        twice = next(name for name in listed if listed.count(name) > 1)
+        message = f"dimensions: the table has {short(twice)} twice"
+        raise InputError(message)
+    ends = [listed.index(word) for word in ("status", "kept") if word in listed]
+    metrics = max(ends) if len(ends) == 2 else len(listed)
+    return [
+        name
+        for place, name in enumerate(listed)
+        if name in dimensions
+        or not (
+            (isinstance(name, str) and LABELS.fullmatch(name))
+            or (place == 0 and UNNAMED.fullmatch("" if name is None else str(name)))
+            or (place > metrics and not str(name).endswith(ENDINGS))
+        )
+    ]
