@@ -249,12 +249,18 @@ def in_degrees(angles: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return shown
 
 
-def design_columns(shape: tuple[int, ...], designs: int) -> list[Column]:
-    """Return the indices of designs, the first axes of a shape, for each row."""
+def design_columns(
+    shape: tuple[int, ...], designs: int, kept: npt.NDArray[np.intp] | None = None
+) -> list[Column]:
+    """Return the indices of designs, the first axes of a shape, for each row.
+
+    Designs that a sweep has `kept` have the indices that they had among all.
+    """
     columns = []
     for axis in range(designs):
         name = "design" if designs == 1 else f"design{axis}"
-        index = np.arange(shape[axis]).reshape((-1,) + (1,) * (len(shape) - axis - 1))
+        own = np.arange(shape[axis]) if kept is None else kept
+        index = own.reshape((-1,) + (1,) * (len(shape) - axis - 1))
         columns.append(Column(name, np.broadcast_to(index, shape).reshape(-1), "", None))
     return columns
 

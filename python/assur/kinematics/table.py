@@ -61,7 +61,7 @@ def _rows(motion: Motion, degrees: bool) -> list[Column]:
     """Designs, coordinates and statuses."""
     angles = driven_angles(motion.mechanism)
     return [
-        *design_columns(motion.shape, len(motion.mechanism.shape)),
+        *design_columns(motion.shape, len(motion.mechanism.shape), motion.kept),
         *coordinate_columns(motion.q, angles, motion.shape, degrees),
         Column("status", motion.status.reshape(-1), "", None),
     ]
@@ -188,6 +188,8 @@ def dataset(motion: Motion) -> Any:
         "status": (rows, motion.status),
         "component": ("component", ["x", "y"]),
     }
+    if motion.kept is not None and designs:
+        coordinates["design"] = ("design", motion.kept)
     names, values = motion.mechanism._core.dimension_names, motion.mechanism._values
     for name, value in zip(names, values, strict=True):
         if designs and (value != value.flat[0]).any():

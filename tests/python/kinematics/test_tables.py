@@ -224,3 +224,26 @@ def test_tables_of_results_are_read_back() -> None:
     refused(assur.InputError, "crnk.length crank.length", partial(m.with_dimensions, wrong))
     apart = table[["swing", "coupler.length"]]
     refused(assur.InputError, "swing", partial(m.with_dimensions, apart))
+
+
+def test_tables_of_designs_that_move_have_their_indices(tmp_path: Path) -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    lengths = {"rocker.length": [[0.1, 2.5, 2.6], [9.9, 2.7, 2.8]]}
+    moved = assur.sweep(m, lengths, Q, on_error="drop")
+    own = [1, 2, 4, 5]
+    table = moved.to_dataframe()
+    assert table["design"].tolist() == np.repeat(own, len(Q)).tolist()
+    moved.to_parquet(tmp_path / "moved.parquet")
+    assert pd.read_parquet(tmp_path / "moved.parquet")["design"].equals(table["design"])
+    moved.to_excel(tmp_path / "moved.xlsx")
+    sheet = load_workbook(tmp_path / "moved.xlsx").worksheets[0]
+    assert [row[0].value for row in sheet.iter_rows(min_row=3)] == table["design"].tolist()
+    data = moved.to_xarray()
+    assert data["design"].values.tolist() == own
+    one = assur.sweep(m, {"rocker.length": 2.7}, Q)["C"].value
+    np.testing.assert_array_equal(data["C"].sel(design=4).values, one)
+    # Parts of it keep them.
+    assert moved[2:].to_xarray()["design"].values.tolist() == own[2:]
+    assert moved[[3, 0]].to_dataframe()["design"].unique().tolist() == [5, 1]
+    assert "design" not in moved[0].to_xarray().coords
+    assert assur.sweep(m, lengths, Q).to_dataframe()["design1"].max() == 2
