@@ -11,7 +11,7 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
-from assur.kinematics.solve import checked_assembly
+from assur.kinematics.solve import checked_assembly, solve
 from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
@@ -63,7 +63,7 @@ class Measuring:
         self.metrics = {
             checked_name(name, "metrics"): _metric(name, m) for name, m in metrics.items()
         }
-        conditions = _conditions(where)
+        self.conditions = conditions = _conditions(where)
         self.assembly = assembly
         self.threads = threads
         self.signs = checked_assembly(mechanism, assembly)
@@ -157,9 +157,8 @@ class Measuring:
                 yield function, self._of_motion(function, batch)
 
     def _of_motion(self, function: Function, batch: Mechanism) -> Float:
-        motion = batch.solve(
-            self.q, function.order, function.outputs, self.assembly, "nan", self.threads
-        )
+        wanted = function.outputs, self.assembly
+        motion = solve(batch, self.q, function.order, *wanted, "nan", self.threads, None)
         return real_array(function.function(motion), f"the values of {function!r}")
 
 

@@ -43,7 +43,8 @@ class Solving:
     def solve(self, task: Task, out: Motion | None = None) -> Motion:
         """Solve a batch."""
         some, q = task
-        return some.solve(q, self.order, self.outputs, self.assembly, "nan", self.threads, out)
+        wanted = self.order, self.outputs, self.assembly
+        return solver.solve(some, q, *wanted, "nan", self.threads, out)
 
     def arrays(self, task: Task) -> Arrays:
         """Solve a batch and return its arrays alone."""
@@ -52,7 +53,7 @@ class Solving:
     def moves(self, task: Task) -> npt.NDArray[np.bool_]:
         """Whether each design of a batch moves over all of its positions."""
         some, q = task
-        status = some.solve(q, 0, (), self.assembly, "nan", self.threads).status
+        status = solver.solve(some, q, 0, (), self.assembly, "nan", self.threads, None).status
         moves = (status < Status.UNREACHABLE).reshape(some.shape[0], -1)
         every: npt.NDArray[np.bool_] = np.logical_and.reduce(moves, axis=-1)
         return every

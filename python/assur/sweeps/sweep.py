@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from assur._validate import checked_order, checked_threads, one_of
+from assur._validate import checked_order, checked_threads, one_of, real_array
 from assur.description.words import Status
 from assur.dynamics.machine import Machine
 from assur.errors import InputError
+from assur.kinematics import solve as solver
+from assur.sweeps.degrees import warn_if_degrees
 from assur.sweeps.designs import Designs
 from assur.sweeps.engine import checked_engine
 from assur.sweeps.measuring import Measuring
@@ -174,6 +176,7 @@ def sweep(
             raise InputError(message)
         every = checked_order(2 if order is None else order)
         solving = Solving(every, outputs, assembly, threads)
+        warn_if_degrees(designs.mechanism, real_array(q, "q", copy=False))
         with reporter(progress, designs.count) as report:
             return _motions(designs, q, solving, on_error, out, report, engine)
     _refuse_for_metrics(outputs=outputs, order=order, out=out)
@@ -184,6 +187,7 @@ def sweep(
         )
         raise InputError(message)
     measuring = Measuring(designs.mechanism, machine, q, metrics, where, assembly, threads)
+    warn_if_degrees(designs.mechanism, measuring.q, measuring)
     with reporter(progress, designs.count) as report:
         return measuring.run(designs, report, engine)
 
@@ -219,7 +223,8 @@ def _motions(
         report(designs.count)
     if on_error == "raise" and (motion.status >= Status.SINGULAR).any():
         # It raises what it finds first, and counts the others.
-        every.solve(q, solving.order, (), solving.assembly, "raise", solving.threads)
+        wanted = solving.order, (), solving.assembly
+        solver.solve(every, q, *wanted, "raise", solving.threads, None)
     return motion
 
 

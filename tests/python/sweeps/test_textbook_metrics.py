@@ -114,6 +114,23 @@ def test_strokes_of_offset_slider_cranks() -> None:
     np.testing.assert_allclose(found["ratio"], slow / (2 * np.pi - slow), rtol=1e-3)
 
 
+@pytest.mark.parametrize("count", [36, 360])
+def test_places_and_ratios_are_off_by_what_the_manual_says(count: int) -> None:
+    offset = np.random.default_rng(5).uniform(-1.2, 1.2, 40)
+    m = assur.SliderCrank(1.0, 3.0)
+    asked = {"ratio": metric.time_ratio("bore"), "place": metric.place_of_greatest("bore")}
+    even = np.linspace(0.0, 2 * np.pi, count, endpoint=False)
+    found = assur.sweep(m, {"bore.offset": offset}, even, metrics=asked)
+    exact = [m.with_dimensions({"bore.offset": one}).extremes("bore") for one in offset]
+    ratio = np.array([one.time_ratio for one in exact], dtype=float)
+    error = np.abs(found["ratio"] - ratio) * count / (1.0 + ratio) ** 2
+    # Not better either: nothing is interpolated.
+    assert 0.4 < error.max() < 1.0
+    away = found["place"] - [one.greatest.q for one in exact]
+    away = np.abs((away + np.pi) % (2 * np.pi) - np.pi) * count / (2 * np.pi)
+    assert 0.4 < away.max() < 0.51
+
+
 @pytest.mark.parametrize("shape", ["line", "circle"])
 @pytest.mark.parametrize("part", [0.1, 0.5, 1.0])
 def test_deviation_of_every_stretch(shape: Any, part: float) -> None:
