@@ -68,6 +68,14 @@ class Equilibria(NamedTuple):
     stiffness: Float
     indifferent: Float
 
+    def __repr__(self) -> str:
+        lines = ["<assur.Equilibria>"]
+        for q, is_stable, frequency in zip(self.q, self.stable, self.frequency, strict=True):
+            swing = f", {frequency:.6g} rad/s" if is_stable and np.isfinite(frequency) else ""
+            lines.append(f"q = {q:.6g}: {'stable' if is_stable else 'not stable'}{swing}")
+        lines += [f"q = {low:.6g} … {high:.6g}: indifferent" for low, high in self.indifferent]
+        return "\n".join(lines if len(lines) > 1 else ["<assur.Equilibria: none>"])
+
 
 def equilibria(machine: MachineModel, between: Any) -> Equilibria:
     """Return the positions of rest of a machine; see `Machine.equilibria`."""

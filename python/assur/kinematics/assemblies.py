@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._validate import checked_threads
 from assur.errors import AssurWarning, InputError
-from assur.kinematics.assembly import Assemblies, Assembly, Place
+from assur.kinematics.assembly import Assemblies, Assembly, Place, joints_that_differ
 from assur.kinematics.solve import checked_coordinates
 
 if TYPE_CHECKING:
@@ -52,8 +52,10 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
 
 def _named(mechanism: Mechanism, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
     count = found["complex_count"]
+    shown = joints_that_differ(mechanism._joint_names, found["assemblies"])
     named = [
-        Assembly._found(Place(mechanism, q, numbers), count) for numbers in found["assemblies"]
+        Assembly._found(Place(mechanism, q, numbers), count, shown)
+        for numbers in found["assemblies"]
     ]
     if not found["is_complete"]:
         message = f"assemblies at q = {q}: the list may be incomplete: {found['failures'][0]}"

@@ -13,7 +13,7 @@ from assur._validate import checked_signs
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from assur._arrays import Float
     from assur._core import Mechanism as Core
@@ -23,6 +23,8 @@ __all__ = ["Assemblies", "Assembly", "Place"]
 
 # How near (relative to the size) two positions of the same assembly are; others are farther.
 SAME = 1e-6
+# Joints in a repr.
+SHOWN = 2
 
 
 class AssemblyNumbers(TypedDict):
@@ -97,7 +99,7 @@ class Assembly(Mapping[str, int]):
     (1, Assembly({'C': -1}))
     """
 
-    __slots__ = ("_complex_count", "_core", "_place", "_signs")
+    __slots__ = ("_complex_count", "_core", "_place", "_shown", "_signs")
 
     def __init__(self, signs: Mapping[str, int]) -> None:
         self._signs = checked_signs(signs)
@@ -105,12 +107,17 @@ class Assembly(Mapping[str, int]):
         self._complex_count: tuple[int, ...] = ()
         # The mechanism drawn in it, made when first needed.
         self._core: Core | None = None
+        # Joints that tell it from the others it was found with.
+        self._shown: tuple[str, ...] = ()
 
     @classmethod
-    def _found(cls, place: Place, complex_count: Iterable[int]) -> Assembly:
+    def _found(
+        cls, place: Place, complex_count: Iterable[int], shown: tuple[str, ...] = ()
+    ) -> Assembly:
         names = [name for name, _ in place.mechanism._core.assembly]
         found = cls(dict(zip(names, place.numbers["signs"], strict=True)))
         found._place = place
+        found._shown = shown
         found._complex_count = tuple(complex_count)
         return found
 
@@ -195,15 +202,30 @@ class Assembly(Mapping[str, int]):
         return Assembly({name: -sign for name, sign in self._signs})
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (dict(self._signs), self._place, self._complex_count))
+        return (_rebuild, (dict(self._signs), self._place, self._complex_count, self._shown))
 
     def __repr__(self) -> str:
         if self._place is None or not self._place.is_traced:
             return f"Assembly({dict(self._signs)!r})"
         q = ", ".join(f"{q:.6g}" for q in self._place.q)
         signs = f"{dict(self._signs)!r}, " if self._signs else ""
-        x, y = self._place.numbers["joints"][-1]
-        return f"<assur.Assembly {signs}q={q}, {list(self.joints or ())[-1]}=({x:.4g}, {y:.4g})>"
+        at = dict(self.joints or {})
+        fixed = dict(self._place.mechanism._description.links).get("ground", ())
+        moving = [name for name in at if name not in fixed]
+        shown = self._shown or moving[-1:]
+        places = "".join(f", {name}=({at[name][0]:.4g}, {at[name][1]:.4g})" for name in shown)
+        return f"<assur.Assembly {signs}q={q}{places}>"
+
+
+def joints_that_differ(names: Sequence[str], found: Sequence[AssemblyNumbers]) -> tuple[str, ...]:
+    """Return the first joints whose places differ among the assemblies of a position."""
+    if not found:
+        return ()
+    at = np.array([one["joints"] for one in found])
+    spans = np.ptp(at, axis=0).max(axis=1, initial=0.0)
+    size = max(np.ptp(at.reshape(-1, 2), axis=0).max(initial=0.0), 1e-300)
+    differ = [name for name, span in zip(names, spans, strict=True) if span > SAME * size]
+    return tuple(differ[:SHOWN])
 
 
 def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
@@ -227,9 +249,13 @@ def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
 
 
 def _rebuild(
-    signs: dict[str, int], place: Place | None, complex_count: tuple[int, ...]
+    signs: dict[str, int],
+    place: Place | None,
+    complex_count: tuple[int, ...],
+    shown: tuple[str, ...] = (),
 ) -> Assembly:
     assembly = Assembly(signs)
+    assembly._shown = shown
     assembly._place = place
     assembly._complex_count = complex_count
     return assembly

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 
 import assur
@@ -39,3 +41,44 @@ def test_short_reprs() -> None:
     run = assur.Machine(m, bodies={"crank": assur.Body(inertia=1.0)}).run(1.0, 0.0, 1.0)
     assert repr(run.at(0.5)) == "<State t=0.5, q=0.5, speed=1, acceleration=0>"
     assert repr(run.at(np.array([0.1, 0.2]))) == "<State at 2 times>"
+
+
+def test_an_assembly_shows_joints_in_which_it_differs() -> None:
+    found = examples.loom().assemblies(examples.loom().q0)
+    assert len(found) > 1
+    shown = [repr(one) for one in found]
+    assert len(set(shown)) == len(found)
+    fixed = set(found[0]._place.mechanism.links["ground"]) if found[0]._place else {""}
+    named = [part.partition("=(")[0] for part in shown[0].split(", ") if "=(" in part]
+    assert len(named) == 2
+    for name in named:
+        assert name not in fixed
+        assert len({one.joints[name] for one in found if one.joints}) > 1
+    # A copy shows the same; one alone its last joint that moves.
+    assert repr(pickle.loads(pickle.dumps(found[0]))) == shown[0]
+    alone = examples.loom().assembly
+    assert repr(alone) == "Assembly({})"
+
+
+def test_motions_along_a_circuit_print_in_a_line() -> None:
+    motion = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve().motion(samples=90)
+    assert repr(motion) == (
+        "<assur.CircuitMotion of 179 positions, 2 branches, q = -1.37156 … 1.37156>"
+    )
+
+
+def test_equilibria_print_line_by_line() -> None:
+    pendulum = assur.Mechanism(
+        {"O": (0, 0), "A": (0.2, 0)}, {"ground": ["O"], "rod": ["O", "A"]}, "rod"
+    )
+    bob = {"rod": assur.Body(mass=3.0, at="A")}
+    rest = assur.Machine(pendulum, bob, [assur.Gravity()]).equilibria()
+    assert repr(rest).splitlines() == [
+        "<assur.Equilibria>",
+        "q = -1.5708: stable, 7.00357 rad/s",
+        "q = 1.5708: not stable",
+    ]
+    free = assur.Machine(pendulum, bob).equilibria()
+    assert repr(free).splitlines()[1].endswith(": indifferent")
+    pushed = assur.Machine(pendulum, bob, [assur.Torque("rod", 5.0)]).equilibria()
+    assert repr(pushed) == "<assur.Equilibria: none>"

@@ -65,6 +65,12 @@ class CircuitMotion:
     links: dict[str, Float]
     slides: dict[str, Float]
 
+    def __repr__(self) -> str:
+        positions, count = counted(len(self.q), "position"), len(np.unique(self.branch))
+        branches = "1 branch" if count == 1 else f"{count} branches"
+        ends = f", q = {self.q.min():.6g} … {self.q.max():.6g}" if len(self.q) else ""
+        return f"<assur.CircuitMotion of {positions}, {branches}{ends}>"
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ConfigurationCurve:
