@@ -75,8 +75,11 @@ class Extremes:
     least: ValueAt
     greatest: ValueAt
     time_ratio: float | None
-    # The design in its assembly, and the coordinate: for `dwells`.
-    _of: tuple[Mechanism, list[int], tuple[str, int, int], int] = field(repr=False, compare=False)
+    # The design in its assembly, the coordinate and its order, turns after which the motion closes:
+    # for `dwells`.
+    _of: tuple[Mechanism, list[int], tuple[str, int, int], int, int | None] = field(
+        repr=False, compare=False
+    )
 
     def __repr__(self) -> str:
         ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.least, self.greatest))
@@ -99,7 +102,8 @@ class Extremes:
         Returns
         -------
         least, greatest : list of [float, float]
-            Stretches of q over which it stays that near to the least and to the greatest value.
+            Stretches of q over which it stays that near to the least and to the greatest value; if
+            the driver goes round, within half a period of the place of that value.
 
         Examples
         --------
@@ -117,7 +121,7 @@ class Extremes:
         if size < finest:
             message = f"tolerance is {size!r}: rounding decides below {finest:.3g}"
             raise InputError(message, value=size)
-        mechanism, signs, tracked, order = self._of
+        mechanism, signs, tracked, order, turns = self._of
         ends = ((self.least.value + size, False), (self.greatest.value - size, True))
         values = mechanism._values.tolist()
         least, greatest = (
@@ -126,7 +130,19 @@ class Extremes:
             else []
             for end in ends
         )
-        return least, greatest
+        period = None if turns is None else turns * math.tau
+        return _near(least, self.least.q, period), _near(greatest, self.greatest.q, period)
+
+
+def _near(stretches: list[list[float]], place: float, period: float | None) -> list[list[float]]:
+    """Return stretches in the turn about a place: one that has it, modulo a turn, contains it."""
+    if period is None:
+        return stretches
+    found = []
+    for low, high in stretches:
+        turns = round((place - 0.5 * (low + high)) / period)
+        found.append([low + turns * period, high + turns * period] if turns else [low, high])
+    return sorted(found)
 
 
 def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
@@ -177,4 +193,4 @@ def extremes(
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, tracked, order))
+    return Extremes(least, greatest, ratio, (mechanism, signs, tracked, order, limits.period))

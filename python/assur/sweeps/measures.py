@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -110,9 +111,14 @@ class Measures(Mapping[str, Float]):
         >>> found.best(2, by="angle", greatest=True)
         array([0, 1])
         """
+        first: object = n
+        if isinstance(first, str):
+            message = f"best({n!r}, {short(by)}): the number comes first: best(10, by={n!r})"
+            raise InputError(message)
         wanted = whole_number(n, "n", 1)
         if by not in self._values:
-            message = f"by={short(by)}: one of {', '.join(map(repr, self._values))} is needed"
+            names = ", ".join(map(repr, self._values))
+            message = f"by={short(by)}: one of {names} is needed{self._near(by)}"
             raise InputError(message)
         values = self._values[by].reshape(-1)
         indices = np.flatnonzero(~np.isnan(values))
@@ -237,12 +243,79 @@ class Measures(Mapping[str, Float]):
             columns[taken] = values.reshape(-1)
         return pd.DataFrame(columns)
 
+    def to_xarray(self) -> Any:
+        """Return an xarray Dataset over the axes of S (needs xarray).
+
+        Dimensions that the sweep changes are coordinates. An axis along which one of them changes
+        alone, as in an `assur.Grid`, is named like it; others are ``design``, or ``design0``, ….
+        Columns `status` and `kept` and every metric are variables.
+
+        Returns
+        -------
+        xarray.Dataset
+            Units are those of the metrics.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> grid = assur.Grid({"crank.length": [0.1, 0.2], "rod.length": [0.3, 0.4, 0.5]})
+        >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+        >>> asked = {"stroke": assur.metric.span("bore")}
+        >>> found = assur.sweep(assur.SliderCrank(0.1, 0.4), grid, q, metrics=asked)
+        >>> data = found.to_xarray()
+        >>> round(float(data["stroke"].sel({"crank.length": 0.2, "rod.length": 0.5})), 6)
+        0.4
+        """
+        from assur.sweeps.measures_dataset import dataset
+
+        return dataset(self)
+
     # As a mapping it would compare arrays.
     __eq__ = object.__eq__
     __hash__ = object.__hash__
 
     def __getitem__(self, name: str) -> Float:
+        if name not in self:
+            names = ", ".join(map(repr, self._values))
+            message = (
+                f"[{short(name)}]: no metric is called so; there are {names}{self._near(name)}"
+            )
+            raise InputError(message)
         return self._values[name]
+
+    # `Mapping` asks for a KeyError.
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name in self._values
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return the values of a metric, or the default if there is no such metric.
+
+        Parameters
+        ----------
+        name : str
+            Name of the metric.
+        default : object
+            What is returned otherwise.
+
+        Returns
+        -------
+        ndarray or object
+            Of shape S.
+
+        Examples
+        --------
+        >>> import assur
+        >>> asked = {"stroke": assur.metric.span("bore")}
+        >>> found = assur.sweep(assur.SliderCrank(0.1, 0.4), {}, [0.0, 3.0], metrics=asked)
+        >>> found.get("stroke").shape, found.get("time") is None
+        ((), True)
+        """
+        return self._values[name] if name in self else default
+
+    def _near(self, name: object) -> str:
+        """Return a question that suggests what was meant, or nothing."""
+        near = get_close_matches(name, self._values, n=1) if isinstance(name, str) else []
+        return f"; did you mean {near[0]!r}?" if near else ""
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)

@@ -11,6 +11,7 @@ import pytest
 
 import assur
 from assembly_models import CASES
+from assur import examples
 from refusals import refused
 
 # Printed numbers have twelve digits.
@@ -273,3 +274,24 @@ def test_an_assembly_is_drawn() -> None:
         x, y = assembly.joints["R"]
         assert np.hypot(drawn[:, 0] - x, drawn[:, 1] - y).min() < 1e-9
         plt.close(ax.figure)
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "stephenson_1", "jansen_leg", "loom", "shaper"])
+def test_dwells_contain_their_extreme(name: str) -> None:
+    m = examples.ALL[name]()
+    assert isinstance(m, assur.Mechanism)
+    of = [*m.slides, *(link for link in m.links if link not in ("ground", "crank"))]
+    count = 0
+    for coordinate in of:
+        found = m.extremes(coordinate)
+        for tolerance in (0.002, 0.02, 0.2):
+            dwells = found.dwells(tolerance)
+            for end, stretches in zip((found.least, found.greatest), dwells, strict=True):
+                assert stretches == sorted(stretches)
+                if math.isfinite(end.value) and stretches:
+                    low, high = min(stretches, key=lambda one: abs(sum(one) / 2.0 - end.q))
+                    assert low <= end.q <= high, (coordinate, tolerance)
+                    values = m.solve(np.linspace(low, high, 9))[coordinate].value
+                    assert (np.abs(values - end.value) < tolerance * (1.0 + 1e-6)).all()
+                    count += 1
+    assert count > 5

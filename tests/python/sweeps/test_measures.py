@@ -73,6 +73,8 @@ def test_the_best() -> None:
     for arguments, message in [
         ({"n": 0, "by": "swing"}, "n is 0"),
         ({"n": 1, "by": "off"}, "by='off': one of 'swing', 'angle', 'turns'"),
+        ({"n": 1, "by": "swin"}, "did you mean 'swing'"),
+        ({"n": "swing", "by": 10}, r"best\(10, by='swing'\)"),
         ({"n": 1, "by": "swing", "greatest": 1}, "greatest is 1"),
     ]:
         with pytest.raises(assur.InputError, match=message):
@@ -135,6 +137,40 @@ def test_a_table() -> None:
     assert list(of_one.to_dataframe()) == ["coupler.length", "status", "kept", "metric status"]
     batch = assur.sweep(four_bar(), {"coupler.length": [3.0, 2.0]}, Q, metrics={"swing": SWING})
     assert batch.to_dataframe()["design"].tolist() == [0, 1]
+
+
+def test_metrics_by_name() -> None:
+    some = found()
+    for name in ("swnig", "status", 3):
+        assert name not in some
+        assert some.get(name) is None  # type: ignore[arg-type]
+    assert some.get("swing") is some["swing"]
+    with pytest.raises(assur.InputError, match=r"'swnig'.*did you mean 'swing'\?"):
+        some["swnig"]
+    with pytest.raises(assur.InputError, match=r"3\]: no metric.*'swing', 'angle', 'turns'$"):
+        some[3]  # type: ignore[index]
+    assert dict(some).keys() == {"swing", "angle", "turns"}
+
+
+def test_a_dataset() -> None:
+    pytest.importorskip("xarray")
+    some = found()
+    data = some.to_xarray()
+    assert data["swing"].dims == tuple(GRID)
+    for name, values in GRID.items():
+        assert data[name].values.tolist() == list(values)
+        assert data[name].attrs["units"] == "m"
+    assert np.array_equal(data["swing"].values, some["swing"], equal_nan=True)
+    assert np.flatnonzero(data["kept"].values).tolist() == some.kept.tolist()
+    assert np.array_equal(data["status"].values, some.status)
+    pairs = {"coupler.length": [3.0, 2.0], "rocker.length": [2.4, 2.5], "ground.D.y": 0.1}
+    asked = {"swing": SWING, "kept": SWING}
+    data = assur.sweep(four_bar(), pairs, Q, metrics=asked).to_xarray()
+    assert data["swing"].dims == data["coupler.length"].dims == ("design",)
+    assert data["ground.D.y"].dims == ()
+    assert np.array_equal(data["metric kept"].values, data["swing"].values)
+    one = assur.sweep(four_bar(), {"coupler.length": 3.0}, Q, metrics=asked).to_xarray()
+    assert dict(one.sizes) == {}
 
 
 def test_the_caller_may_change_his_arrays() -> None:

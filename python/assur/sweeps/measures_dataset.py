@@ -1,0 +1,53 @@
+"""The metrics of a sweep as an xarray Dataset."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from assur.sweeps.designs import Designs
+    from assur.sweeps.measures import Measures
+
+
+def dataset(found: Measures) -> Any:
+    """See `Measures.to_xarray`."""
+    try:
+        import xarray as xr
+    except ImportError as error:  # pragma: no cover
+        message = "to_xarray needs xarray: pip install assur[xarray]"
+        raise ImportError(message) from error
+    designs, shape = found._designs, found.shape
+    axes = {name: _axes(designs, name) for name in designs.changed}
+    names = _axis_names(axes, len(shape))
+    coordinates = {}
+    for name, own in axes.items():
+        values = designs.values(name).reshape(shape)
+        at = tuple(slice(None) if axis in own else 0 for axis in range(len(shape)))
+        unit = {"units": "rad" if name.endswith(".angle") else "m"}
+        coordinates[name] = ([names[axis] for axis in own], values[at], unit)
+    kept = np.isin(np.arange(found.status.size), found.kept).reshape(shape)
+    variables: dict[str, Any] = {"status": (names, found.status), "kept": (names, kept)}
+    taken = {*names, *coordinates, *variables}
+    for name, values in found.items():
+        variables[f"metric {name}" if name in taken else name] = (names, values)
+    return xr.Dataset(variables, coordinates)
+
+
+def _axes(designs: Designs, name: str) -> list[int]:
+    """Return the axes of the designs along which a dimension was given."""
+    column = np.asarray(designs._columns[designs.changed[name]])
+    # Along the others it is broadcast.
+    return [axis for axis, step in enumerate(column.strides) if step and column.shape[axis] > 1]
+
+
+def _axis_names(axes: dict[str, list[int]], count: int) -> list[str]:
+    """Return the name of each axis: that of the dimension that changes along it alone."""
+    along = Counter(axis for own in axes.values() for axis in own)
+    names = ["design"] if count == 1 else [f"design{axis}" for axis in range(count)]
+    for name, own in axes.items():
+        if len(own) == 1 and along[own[0]] == 1:
+            names[own[0]] = name
+    return names
