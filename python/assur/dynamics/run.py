@@ -426,7 +426,8 @@ class Run(Tabular):
         sentences = {
             "reached": "reached its end",
             "event": f"{event} at {place}",
-            "dead point": f"a dead point at {place}: this assembly has no motion beyond it",
+            "dead point": f"a dead point at {place}: this assembly has no motion beyond it; "
+            "another driver (with_driver) may lead past it",
             "locked": f"friction locks the machine at {place}: no acceleration agrees with it",
             "lost": f"the branch cannot be tracked beyond {place}: {ending['why']}",
             "rest": f"the machine came to rest at {place}",

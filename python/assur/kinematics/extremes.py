@@ -168,7 +168,10 @@ def extremes(
 ) -> Extremes:
     """See `Mechanism.extremes`."""
     if mechanism.shape:
-        message = f"extremes() is for one design, this is a batch {mechanism.shape}: use sweep()"
+        message = (
+            f"extremes() is for one design, this is a batch {mechanism.shape}: use design(i) (or "
+            "assur.sweep, whose metrics are those of the positions alone)"
+        )
         raise InputError(message)
     if mechanism._driver_count > 1:
         message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"

@@ -138,7 +138,8 @@ class Limits:
 def limits(mechanism: Mechanism, assembly: Mapping[str, int] | None, threads: int | None) -> Limits:
     """See `Mechanism.limits`."""
     if mechanism._driver_count > 1:
-        message = f"limits() is for one driver; this mechanism has {mechanism._driver_count}"
+        count = mechanism._driver_count
+        message = f"limits() is for one driver; this mechanism has {count}: see workspace()"
         raise InputError(message)
     if isinstance(assembly, Assembly):
         drawn = drawn_in(mechanism, assembly)

@@ -19,6 +19,7 @@ from assur.kinematics.request import SolveRequest
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from assur.errors import AssurError
     from assur.kinematics.held import Buffers
     from assur.kinematics.mechanism import Mechanism
 
@@ -29,6 +30,12 @@ Names: TypeAlias = tuple[dict[str, int], dict[str, int], dict[str, int]]
 # Whole numbers, the greatest of them between two turns and those of a hundred in degrees, look like
 # degrees.
 LIKE_DEGREES = (4.0 * np.pi, 36_000.5)
+
+# By kind of error: what tells of the motion up to a dead point of the driver and past it.
+PAST_DEAD_POINTS = {
+    "beyond_dead_point": "configuration_curve().motion() goes past it",
+    "not_closed": "see limits() and configuration_curve().motion()",
+}
 
 
 def solve(
@@ -43,6 +50,9 @@ def solve(
     is_typed: bool = False,
 ) -> Motion:
     """See `Mechanism.solve`; `is_typed`: whether a user wrote the coordinates, in rad."""
+    if on_error == "drop":
+        message = 'on_error is "drop": that is for assur.sweep; one of "raise", "nan" is needed'
+        raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
     order = checked_order(order)
     if isinstance(assembly, Assembly):
@@ -70,8 +80,20 @@ def solve(
         motion = out
         motion._replace_with(request, results, status)
     if failure is not None:
-        raise failure
+        raise _with_advice(mechanism, failure)
     return motion
+
+
+def _with_advice(mechanism: Mechanism, failure: AssurError) -> AssurError:
+    """Say of a position beyond a dead point what goes past it, or where to look."""
+    advice = PAST_DEAD_POINTS.get(failure.kind or "")
+    # A configuration curve is of one design.
+    if advice is None or mechanism._driver_count > 1 or mechanism.shape:
+        return failure
+    link = "; " if failure.hint is None else ", and "
+    failure.args = (f"{failure}{link}{advice}",)
+    failure.hint = advice if failure.hint is None else f"{failure.hint}{link}{advice}"
+    return failure
 
 
 def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float:

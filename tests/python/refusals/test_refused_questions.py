@@ -49,6 +49,32 @@ def test_assemblies_refuse_other_signs() -> None:
     refused(assur.InputError, "C 2 +1 -1", lambda: assur.Assembly({"C": 2}), joint="C")
 
 
+def test_refusals_say_what_to_ask_instead() -> None:
+    five = assur.examples.five_bar()
+    refused(assur.InputError, "drop assur.sweep", lambda: M.solve(1.0, on_error="drop"))  # type: ignore[arg-type]
+    refused(assur.InputError, "2 workspace()", five.limits)
+    batch = M.with_dimensions({"rocker.length": [3.2, 3.3]})
+    refused(assur.InputError, "design(i) assur.sweep", lambda: batch.extremes("rocker"))
+    rocker = assur.FourBar(3.0, 2.5, 2.0, 4.0)
+    words = "assembled limits() configuration_curve().motion()"
+    error = refused(assur.PositionError, words, lambda: rocker.solve(2.0), q=2.0)
+    assert str(error).endswith(f"; {error.hint}")
+    # It goes past the dead point, which is where limits() has it.
+    _, high = rocker.limits().intervals[0]
+    assert rocker.configuration_curve().motion().q.max() == pytest.approx(high, abs=1e-9)
+    loom = assur.examples.loom().with_driver("l95")
+    words = "with_driver configuration_curve().motion()"
+    error = refused(assur.PositionError, words, lambda: loom.solve(loom.q0 + 2.0))
+    assert str(error).endswith(f"; {error.hint}")
+    # A curve is of one design.
+    with pytest.raises(assur.PositionError) as caught:
+        rocker.with_dimensions({"rocker.length": [2.0, 2.1]}).solve(2.0)
+    assert "configuration_curve" not in str(caught.value)
+    machine = assur.Machine(rocker, {"crank": assur.Body(inertia=1.0)})
+    ran = machine.run(1.0, 0.0, 10.0)
+    assert "another driver (with_driver)" in ran.message
+
+
 # -- methods of a motion --------------------------------------------------------------------------
 
 
