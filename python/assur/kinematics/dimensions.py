@@ -55,9 +55,40 @@ class Dimensions(Mapping[str, Any]):
         numbers = {name: _shown(value) for name, value in self._values.items()}
         width = max(map(len, numbers.values()), default=0)
         return "\n".join(
-            f"{name:<{names}}  {number:>{width}}  {'rad' if name.endswith('angle') else 'm'}"
-            for name, number in numbers.items()
+            f"{name:<{names}}  {number:>{width}}  {_unit(name)}" for name, number in numbers.items()
         )
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame with a row for each design (needs pandas).
+
+        Columns are the design's index (one for each axis of S) and the dimensions;
+        ``attrs["units"]`` has the units. `Mechanism.with_dimensions` takes such a table.
+
+        Returns
+        -------
+        pandas.DataFrame
+            m and rad.
+
+        Examples
+        --------
+        >>> import assur
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"rocker.length": [2.4, 2.5]})
+        >>> m.dimensions.to_dataframe()[["design", "rocker.length"]].values.tolist()
+        [[0.0, 2.4], [1.0, 2.5]]
+        """
+        # `import assur` does without tables.
+        from assur._table import Column, design_columns, frame
+
+        values = {name: np.asarray(value) for name, value in self._values.items()}
+        shape = np.broadcast_shapes(*(one.shape for one in values.values()))
+        columns = design_columns(shape, len(shape))
+        for name, one in values.items():
+            columns.append(Column(name, one.reshape(-1), _unit(name), "dimensions"))
+        return frame(columns)
+
+
+def _unit(name: str) -> str:
+    return "rad" if name.endswith("angle") else "m"
 
 
 def _shown(value: Any) -> str:

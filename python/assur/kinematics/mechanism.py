@@ -434,7 +434,7 @@ class Mechanism:
         return self._make(description, np.array(self._values))
 
     @property
-    def dimensions(self) -> Mapping[str, Any]:
+    def dimensions(self) -> Dimensions:
         """The dimensions by name, m or rad: floats, or arrays of shape S.
 
         Examples

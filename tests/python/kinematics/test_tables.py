@@ -247,3 +247,19 @@ def test_tables_of_designs_that_move_have_their_indices(tmp_path: Path) -> None:
     assert moved[[3, 0]].to_dataframe()["design"].unique().tolist() == [5, 1]
     assert "design" not in moved[0].to_xarray().coords
     assert assur.sweep(m, lengths, Q).to_dataframe()["design1"].max() == 2
+
+
+def test_dimensions_as_a_table() -> None:
+    m = assur.SliderCrank(0.05, 0.2)
+    grid = m.with_dimensions({"crank.length": [[0.05], [0.06]], "rod.length": [0.2, 0.3, 0.4]})
+    table = grid.dimensions.to_dataframe()
+    assert list(table) == ["design0", "design1", *m.dimensions]
+    assert table["design0"].tolist() == [0, 0, 0, 1, 1, 1]
+    assert table["crank.length"].tolist() == [0.05] * 3 + [0.06] * 3
+    assert table["rod.length"].tolist() == [0.2, 0.3, 0.4] * 2
+    assert table.attrs["units"]["bore.angle"] == "rad"
+    # It is read back, the axes of designs made one.
+    again = m.with_dimensions(table)
+    assert again.shape == (6,)
+    assert again.design(4) == grid.design((1, 1))
+    assert len(m.dimensions.to_dataframe()) == 1
