@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.errors import AssurWarning
-from assur.kinematics.solve import LIKE_DEGREES, _warn_if_degrees
+from assur.kinematics.solve import LIKE_DEGREES, warn_if_degrees
 from assur.kinematics.table import driven_angles
 from assur.sweeps.terms import Combination, Leaf
 
@@ -23,9 +23,9 @@ IN_ITS_UNIT = ("span", "least", "greatest", "mean", "rms")
 PLACES = ("place_of_least", "place_of_greatest")
 
 
-def warn_if_degrees(mechanism: Mechanism, q: Float, measuring: Measuring | None = None) -> None:
+def doubt_degrees(mechanism: Mechanism, q: Float, measuring: Measuring | None = None) -> None:
     """Warn of angles in rad that look like degrees; `sweep` calls it."""
-    _warn_if_degrees(mechanism, q)
+    warn_if_degrees(mechanism, q)
     if measuring is None:
         return
     for leaf in measuring.leaves:
