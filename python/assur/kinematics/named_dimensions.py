@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from assur._arrays import short
@@ -19,26 +19,29 @@ UNNAMED = re.compile(r"(Unnamed: 0)?")
 ENDINGS = (".length", ".angle", ".offset")
 
 
-def dimensions_by_name(dimensions: Any, known: Iterable[str]) -> Mapping[Any, Any]:
+def dimensions_by_name(dimensions: Any, known: Collection[str]) -> Mapping[Any, Any]:
     """Return dimensions by name: of a mapping, a DataFrame, a Series or a Dataset.
 
     A DataFrame has a design in each row, a Series is one of them. Variables of a Dataset
-    broadcast by the names of their axes.
+    broadcast by the names of their axes, coordinates that are named like dimensions too.
     """
     if dimensions is None:
         return {}
     # pandas and xarray need not be installed; a Dataset is a mapping, of its coordinates too.
     if hasattr(dimensions, "data_vars"):
-        names = columns_of_designs(dimensions.data_vars, known)
         import xarray as xr
+
+        # Dimensions of a grid are coordinates.
+        axes = [name for name in known if name in dimensions.coords]
+        names = _of_table([*axes, *dimensions.data_vars], known)
 
         arrays = xr.broadcast(*(dimensions[name] for name in names))
         return {name: array.to_numpy() for name, array in zip(names, arrays, strict=True)}
     if hasattr(dimensions, "columns") and hasattr(dimensions, "itertuples"):
-        names = columns_of_designs(dimensions.columns, known)
+        names = _of_table(dimensions.columns, known)
         return {name: dimensions[name].to_numpy() for name in names}
     if hasattr(dimensions, "index") and hasattr(dimensions, "to_dict"):
-        return {name: dimensions[name] for name in columns_of_designs(dimensions.index, known)}
+        return {name: dimensions[name] for name in _of_table(dimensions.index, known)}
     if isinstance(dimensions, Mapping):
         return dimensions
     message = (
@@ -46,6 +49,16 @@ def dimensions_by_name(dimensions: Any, known: Iterable[str]) -> Mapping[Any, An
         "or a Dataset is needed"
     )
     raise InputError(message)
+
+
+def _of_table(names: Iterable[Any], known: Collection[str]) -> list[Any]:
+    """Return the names that are dimensions; a table without any is refused."""
+    listed = list(names)
+    wanted = columns_of_designs(listed, known)
+    if listed and not wanted:
+        message = f"dimensions: no column is a dimension: {short(listed)}"
+        raise InputError(message)
+    return wanted
 
 
 def columns_of_designs(names: Iterable[Any], known: Iterable[str]) -> list[Any]:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._callers import level_of_caller
 from assur._validate import checked_order, checked_signs, checked_threads, one_of, real_array
-from assur.errors import AssurWarning, InputError
+from assur.errors import AssurError, AssurWarning, InputError
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.motion import Motion
 from assur.kinematics.request import SolveRequest
@@ -19,7 +19,6 @@ from assur.kinematics.request import SolveRequest
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from assur.errors import AssurError
     from assur.kinematics.held import Buffers
     from assur.kinematics.mechanism import Mechanism
 
@@ -80,20 +79,32 @@ def solve(
         motion = out
         motion._replace_with(request, results, status)
     if failure is not None:
-        raise _with_advice(mechanism, failure)
+        raise _with_advice(mechanism, assembly, failure)
     return motion
 
 
-def _with_advice(mechanism: Mechanism, failure: AssurError) -> AssurError:
+def _with_advice(
+    mechanism: Mechanism, assembly: Mapping[str, int] | None, failure: AssurError
+) -> AssurError:
     """Say of a position beyond a dead point what goes past it, or where to look."""
     advice = PAST_DEAD_POINTS.get(failure.kind or "")
     # A configuration curve is of one design.
     if advice is None or mechanism._driver_count > 1 or mechanism.shape:
         return failure
+    if failure.kind == "not_closed" and not _moves_somewhere(mechanism, assembly):
+        return failure
     link = "; " if failure.hint is None else ", and "
     failure.args = (f"{failure}{link}{advice}",)
     failure.hint = advice if failure.hint is None else f"{failure.hint}{link}{advice}"
     return failure
+
+
+def _moves_somewhere(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> bool:
+    """Whether a design of dyads can be assembled at other coordinates."""
+    try:
+        return mechanism._core.cls <= 2 and len(mechanism.limits(assembly).intervals) > 0
+    except AssurError:
+        return False
 
 
 def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float:

@@ -249,6 +249,17 @@ def test_tables_of_designs_that_move_have_their_indices(tmp_path: Path) -> None:
     assert assur.sweep(m, lengths, Q).to_dataframe()["design1"].max() == 2
 
 
+def test_datasets_of_results_are_read_back() -> None:
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    grid = assur.Grid({"coupler.length": [2.8, 3.0, 3.1], "rocker.length": [2.4, 2.5]})
+    data = assur.sweep(m, grid, Q, metrics={"swing": metric.span("rocker")}).to_xarray()
+    assert m.with_dimensions(data) == m.with_dimensions(grid)
+    one = m.with_dimensions({"coupler.length": 3.1, "rocker.length": 2.4})
+    assert m.with_dimensions(data.isel({"coupler.length": 2, "rocker.length": 0})) == one
+    for table in (data.drop_vars(list(grid)), pd.DataFrame({"status": [0], "kept": [True]})):
+        refused(assur.InputError, "no column status", partial(m.with_dimensions, table))
+
+
 def test_dimensions_as_a_table() -> None:
     m = assur.SliderCrank(0.05, 0.2)
     grid = m.with_dimensions({"crank.length": [[0.05], [0.06]], "rod.length": [0.2, 0.3, 0.4]})

@@ -66,6 +66,9 @@ def test_refusals_say_what_to_ask_instead() -> None:
     words = "with_driver configuration_curve().motion()"
     error = refused(assur.PositionError, words, lambda: loom.solve(loom.q0 + 2.0))
     assert str(error).endswith(f"; {error.hint}")
+    # Of a design that closes nowhere there is no curve.
+    with pytest.raises(assur.PositionError, match=r"by 4\.5 m$"):
+        assur.FourBar(1.0, 9.0, 2.5, 3.0).solve(0.0)
     # A curve is of one design.
     with pytest.raises(assur.PositionError) as caught:
         rocker.with_dimensions({"rocker.length": [2.0, 2.1]}).solve(2.0)
