@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 __all__ = ["level_of_caller"]
 
-PACKAGE = str(Path(__file__).parent)
+PACKAGE = __file__[: -len("_callers.py")]
 
 
 def level_of_caller() -> int:

@@ -48,7 +48,7 @@ def _tables(load: Any) -> Iterator[Table]:
 
 def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:
     period = float(table.q[-1] - table.q[0])
-    unit = size_of(mechanism) if table.over in mechanism.slides else 1.0
+    unit = size_of(mechanism, drawn=True) if table.over in mechanism.slides else 1.0
     if table.periodic and not period >= SHORTEST_PERIOD * unit:
         message = (
             f"{type(load).__name__}: a table over {table.over!r} has a period of {period:g}: it "

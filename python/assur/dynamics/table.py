@@ -18,8 +18,9 @@ from assur.flywheel import SPLINES, Spline
 
 __all__ = ["Table", "checked_ratio", "replace_fields"]
 
-# Warn if a spline leaves the range of its rows by more than this range, at so many places.
-OVERSHOOT = 1.0
+# Warn if a spline leaves the range of its rows by more than so many times this range; where it is
+# looked at.
+OVERSHOOT = 3.0
 CHECKED_BETWEEN_ROWS = 8
 
 

@@ -75,11 +75,10 @@ def driven_angles(mechanism: Mechanism) -> list[bool]:
 
 
 def _quantities(motion: Motion, taken: set[str]) -> Iterator[_Quantity]:
-    """Joints, links, slides; one whose name is taken is shown with its kind."""
+    """Joints, links, slides; a link or slide whose name is taken is shown with its kind."""
     results = motion._results
     for name in results.joints:
-        shown = f"joint {name}" if name in taken else name
-        yield _Quantity("joint", name, shown, motion.joint(name))
+        yield _Quantity("joint", name, name, motion.joint(name))
     for kind, held, of in (
         ("link", results.links, motion.link),
         ("slide", results.slides, motion.slide),
@@ -173,12 +172,15 @@ def dataset(motion: Motion) -> Any:
     angles = driven_angles(motion.mechanism)
     named: dict[str, Any] = {}
     units = ["rad" if angle else "m" for angle in angles]
-    for quantity in _quantities(motion, {"q", "status", *rows, "component"}):
+    taken = {"q", "status", *rows, "component"}
+    for quantity in _quantities(motion, taken):
         unit = "rad" if quantity.kind == "link" else "m"
         point = ["component"] if quantity.kind == "joint" else []
         for order, array in enumerate(quantity.analogues._arrays):
             by = [f"driver{k}" for k in range(order)] if drivers > 1 else []
-            name = f"{quantity.shown}.d{order}" if order else quantity.shown
+            clashes = quantity.kind == "joint" and quantity.shown in taken
+            shown = f"joint {quantity.shown}" if clashes else quantity.shown
+            name = f"{shown}.d{order}" if order else shown
             per = f"/{units[0]}" * order if drivers == 1 else "/unit of the driver" * order
             named[name] = ([*rows, *point, *by], array, {"units": unit + per})
     q_rows = rows if motion._request.per_design else rows[designs:]

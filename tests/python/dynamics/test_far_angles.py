@@ -17,7 +17,7 @@ MOMENT = 100.0 * np.sin(PHI) + 20.0 * np.cos(2.0 * PHI)
 INERTIA = 5.0 + np.cos(PHI)
 for column in (MOMENT, INERTIA):
     column[-1] = column[0]
-FAR = [7.0, -3.0, 1e3, -1e6, 1e9, 1e15, -1e16, 1e17, 1e18, -1e18, 1e22, 1e100, 1e300, -1e308]
+FAR = [7.0, -3.0, 1000.5, -1e6, 1e9, 1e15, -1e16, 1e17, 1e18, -1e18, 1e22, 1e100, 1e300, -1e308]
 
 
 def remainder(q: float) -> float:
