@@ -25,6 +25,7 @@ OK, FAILED, USAGE, INTERRUPTED = 0, 1, 2, 130
 COMMANDS = {
     "solve": "positions and their derivatives, as a table",
     "structure": "mobility, Assur groups, dimensions",
+    "extremes": "stroke or swing of a coordinate, time ratio",
     "limits": "where the driver can move, dead points, assemblies",
     "reactions": "forces in joints and slides, and of the drive, as a table",
     "flywheel": "the flywheel of a machine, or of a table of moment and inertia",

@@ -1,4 +1,4 @@
-"""What reactions and efforts accept as a motion: numbers, a run, a steady state, a state."""
+"""What reactions and efforts accept as a motion: numbers, a run, a state, a motion by a law."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ from assur._arrays import finite_array
 from assur.dynamics.run import Run, State
 from assur.dynamics.steady import SteadyState
 from assur.errors import InputError
+from assur.kinematics.timed import TimedMotion
 
 if TYPE_CHECKING:
     from assur._arrays import Float
 
 # Coordinates, or a motion that has been computed.
-MotionLike: TypeAlias = "npt.ArrayLike | Run | SteadyState | State"
+MotionLike: TypeAlias = "npt.ArrayLike | Run | SteadyState | State | TimedMotion"
 
 
 class DrivenMotion(NamedTuple):
@@ -30,7 +31,7 @@ class DrivenMotion(NamedTuple):
 
 def motion_of(q: Any, speed: Any, acceleration: Any, t: Any) -> DrivenMotion:
     """Return the motion given by numbers, or that of a run at the ends of its steps."""
-    if not isinstance(q, Run | SteadyState | State):
+    if not isinstance(q, Run | SteadyState | State | TimedMotion):
         return DrivenMotion(q, speed, acceleration, t)
     what = type(q).__name__
     for name, value in (("speed", speed), ("acceleration", acceleration), ("t", t)):

@@ -105,10 +105,11 @@ class Machine(MachineModel):
 
         Parameters
         ----------
-        q : array_like, Run, SteadyState or State
+        q : array_like, Run, SteadyState, State or TimedMotion
             Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
             drivers (..., n). Or a motion with its times, speeds and accelerations: a run or
-            steady state at the ends of its steps, or what its `at` returns.
+            steady state at the ends of its steps, what its `at` returns, or what
+            `Mechanism.follow` returns.
         speed, acceleration : array_like
             Of the drivers, rad/s and rad/s² (slides: m/s and m/s²), broadcast to q. Zero by
             default: statics.

@@ -244,3 +244,22 @@ def test_conversions(tmp_path: Path) -> None:
     own = assur.importers.read(expression, drivers=[(0, 1)]).mechanism
     assert assur.load(target) == own
     assert "format is 'x': one of 'pmks'" in refused("convert", source, "-", "--format", "x")
+
+
+def test_extremes(tmp_path: Path) -> None:
+    own = assur.examples.shaper().extremes("bed")
+    lines = printed("extremes", "example:shaper", "bed")
+    assert lines == [
+        f"least       {own.least.value!r} m at q = {own.least.q!r} rad",
+        f"greatest    {own.greatest.value!r} m at q = {own.greatest.q!r} rad",
+        f"stroke      {own.stroke!r} m",
+        f"time ratio  {own.time_ratio!r}",
+    ]
+    rocker = assur.examples.crank_rocker().extremes("rocker")
+    asked = "extremes", "example:crank_rocker", "rocker", "--degrees"
+    assert printed(*asked)[2] == f"stroke      {float(np.degrees(rocker.stroke))!r} deg"
+    path = tmp_path / "speed.csv"
+    assert printed("extremes", "example:engine", "bore", "--order", 1, "--out", path)
+    speed = assur.examples.engine().extremes("bore", order=1)
+    assert columns(path.read_text())["value"].tolist() == [speed.least.value, speed.greatest.value]
+    assert 'there is no link "bor"' in refused("extremes", "example:engine", "bor")

@@ -186,3 +186,20 @@ def test_a_table_drives_a_mechanism_through_its_points() -> None:
 def test_bad_tables_are_refused(t: list[float], value: list[float], words: str) -> None:
     with pytest.raises(assur.InputError, match=re.escape(words)):
         laws.Tabulated(t, value)
+
+
+def test_forces_along_a_law() -> None:
+    engine = assur.SliderCrank(0.1, 0.4)
+    machine = assur.Machine(engine, {"piston": assur.Body(mass=20.0)})
+    motion = engine.follow(laws.Cycloidal(0.3, 2.0, 0.5), np.linspace(0.0, 0.5, 11))
+    of_law = machine.reactions(motion)
+    numbers = motion.q, motion.speed, motion.acceleration
+    np.testing.assert_array_equal(of_law.driver, machine.reactions(*numbers, t=motion.t).driver)
+    np.testing.assert_array_equal(machine.effort(motion), machine.effort(*numbers))
+    # The drive gives the piston its kinetic energy and takes it back.
+    power = machine.effort(motion) * motion.speed
+    speed = motion.slide("bore").velocity
+    gained = motion.slide("bore").acceleration * speed * 20.0
+    np.testing.assert_allclose(power, gained, rtol=1e-12, atol=1e-12)
+    with pytest.raises(assur.InputError, match="speed is given with a TimedMotion"):
+        machine.reactions(motion, 3.0)
