@@ -79,8 +79,8 @@ class Here:
     def _repeats(self, name: str) -> int:
         """How often a short call is repeated; none is cold afterwards."""
         once = self.seconds(name, 1)
-        if once < LONG:  # the first call of a short one says little
-            once = self.seconds(name, 1)
+        if once < LONG:  # the first calls of a short one say little
+            once = min(self.seconds(name, 1) for _ in range(5))
         return max(1, int(SHORT / max(once, 1e-7)))
 
     def seconds(self, name: str, repeats: int | None = None) -> float:
