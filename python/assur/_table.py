@@ -62,13 +62,14 @@ def write_excel(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     except ImportError as error:  # pragma: no cover
         message = "to_excel needs openpyxl: pip install assur[excel]"
         raise ImportError(message) from error
+    path = _checked_path(path, "to_excel")
     listed = list(columns)
     rows = max((len(column.values) for column in listed), default=0)
     if rows + 2 > MAX_ROWS:
         message = f"to_excel: {rows} rows; a sheet holds {MAX_ROWS - 2}: use to_parquet"
         raise InputError(message)
     # Opened first: what cannot be written is refused before sheets are made.
-    with Path(path).open("wb") as file:
+    with path.open("wb") as file:
         _workbook(Workbook(write_only=True), listed).save(file)
 
 
@@ -94,7 +95,19 @@ def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     if find_spec("pyarrow") is None:  # pragma: no cover
         message = "to_parquet needs pyarrow: pip install assur[parquet]"
         raise ImportError(message)
-    frame(columns).to_parquet(Path(path), index=False)
+    frame(columns).to_parquet(_checked_path(path, "to_parquet"), index=False)
+
+
+def _checked_path(path: Any, what: str) -> Path:
+    """Return a path; what is none is refused before a table is made."""
+    try:
+        checked = Path(path)
+    except TypeError:
+        checked = None
+    if checked is None or "\0" in str(checked):
+        message = f"{what}: {short(path)} is not a path of a file"
+        raise InputError(message)
+    return checked
 
 
 def _sheet_name(quantity: str, names: set[str]) -> str:

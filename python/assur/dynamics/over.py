@@ -9,6 +9,7 @@ import numpy as np
 from assur.dynamics.table import Table
 from assur.errors import InputError
 from assur.kinematics.place import size_of
+from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -19,7 +20,7 @@ __all__ = ["check_over"]
 
 # Shortest period of a table over another coordinate, rad or sizes: all of its rows are found.
 SHORTEST_PERIOD = 1e-3
-# Coordinates beside the drawing's, rad or m, at which a link that never turns has the same angle.
+# Where a link that never turns has the same angle: beside the drawing's q, rad or sizes.
 BESIDE = (-1e-3, 0.0, 1e-3)
 
 
@@ -59,7 +60,9 @@ def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:
 
 def _turns(mechanism: Mechanism, link: str) -> bool:
     drawn = mechanism._with_values(np.array(mechanism._core.drawing))
-    q = drawn._q0_array() + np.multiply.outer(BESIDE, np.ones(drawn._driver_count))
+    size = size_of(mechanism, drawn=True)
+    units = [1.0 if is_angle else size for is_angle in driven_angles(mechanism)]
+    q = drawn._q0_array() + np.multiply.outer(BESIDE, units)
     places = q if drawn._driver_count > 1 else q[:, 0]
     angles = drawn.solve(places, order=0, outputs=[link], on_error="nan").link(link).value
     return not (np.isfinite(angles).all() and bool((angles == angles[0]).all()))

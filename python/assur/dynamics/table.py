@@ -168,6 +168,11 @@ def _check_rows(q: Float, value: Float, least: int) -> None:
             wrong = float(column[bad[0]])
             message = f"Table: {name}[{bad[0]}] is {wrong}, it must be finite"
             raise InputError(message, kind="not_finite", value=wrong)
+    with np.errstate(over="ignore"):
+        is_too_wide = not np.isfinite(q[-1] - q[0])
+    if is_too_wide:
+        message = f"Table: q from {q[0]!s} to {q[-1]!s} is wider than the greatest number"
+        raise InputError(message, value=float(q[-1]))
     back = np.flatnonzero(np.diff(q) < 0.0)
     if back.size:
         row = int(back[0]) + 1
@@ -222,10 +227,12 @@ def _warn_of_overshoot(table: Table) -> None:
     if table.spline == "linear" or (table.periodic and table.value[0] != table.value[-1]):
         return
     parts = np.linspace(0.0, 1.0, CHECKED_BETWEEN_ROWS, endpoint=False)[1:]
-    between = (table.q[:-1, None] + np.diff(table.q)[:, None] * parts).ravel()
-    values = table.at(between[np.isfinite(between)])
+    values = table.at((table.q[:-1, None] + np.diff(table.q)[:, None] * parts).ravel())
+    if not np.isfinite(values).all():
+        # Its numbers are beyond what can be computed with: whatever reads it says so.
+        return
     least, most = float(table.value.min()), float(table.value.max())
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    low, high = float(values.min()), float(values.max())
     beyond = max(least - low, high - most)
     if beyond > OVERSHOOT * (most - least):
         worst = high if high - most == beyond else low

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from assur._arrays import short
 from assur._validate import one_of
+from assur.dynamics.machine import Machine
 from assur.errors import InputError
 from assur.files.node import Node
 from assur.files.read_machine import SECTIONS, read_machine
 from assur.files.read_mechanism import read_mechanism
 from assur.files.source import Source
 from assur.files.wanted import WANTED, read_wanted
+from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.solve import in_radians
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from os import PathLike
 
-    from assur.dynamics.machine import Machine
     from assur.files.wanted import Result
-    from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Contents", "load", "read"]
 
@@ -64,6 +65,18 @@ class Contents:
     )
 
     def __post_init__(self) -> None:
+        mechanism, machine, wanted = (getattr(self, n) for n in ("mechanism", "machine", "wanted"))
+        if not isinstance(mechanism, Mechanism):
+            message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
+            raise InputError(message)
+        if not isinstance(machine, Machine | None):
+            message = f"machine is {short(machine)}: an assur.Machine is needed"
+            raise InputError(message)
+        if not isinstance(wanted, Mapping) or not all(
+            isinstance(arguments, Mapping) for arguments in wanted.values()
+        ):
+            message = f"wanted is {short(wanted)}: arguments by the name of the method are needed"
+            raise InputError(message)
         if self.machine is not None and self.machine.mechanism != self.mechanism:
             message = "mechanism is not that of the machine"
             raise InputError(message)

@@ -48,6 +48,30 @@ def test_a_spline_that_leaves_its_rows() -> None:
     assur.Table(q, np.append(np.sin(q)[:-1], 0.0))
 
 
+@pytest.mark.parametrize("q", [[0.0, 5e-324, 1e-323], [0.0, 1.0, 2.0]])
+def test_a_spline_beyond_all_numbers_is_not_doubted(q: list[float]) -> None:
+    """No warning of NumPy: what reads the curve says that it is not finite."""
+    assur.Table(q, [0.0, 1e308, 0.0])
+
+
+def test_a_table_wider_than_all_numbers() -> None:
+    for spline in ("linear", "natural"):
+        with pytest.raises(assur.InputError, match="from -1e\\+308 to 1e\\+308 is wider"):
+            assur.Table([-1e308, 0.0, 1e308], [0.0, 1.0, 0.0], spline)
+
+
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e14])
+def test_links_of_any_size_turn(size: float) -> None:
+    """A cylinder's rocker: beside the drawing by parts of its size, not by millimetres."""
+    m = assur.Mechanism(
+        {"A": (0, 0), "B": (1.1 * size, 0.9 * size), "R": (0.9 * size, 0)},
+        {"ground": "AR", "arm": "AB"},
+        "ram",
+        {"ram": assur.Cylinder("R", "B")},
+    )
+    assur.Machine(m, loads=[assur.Torque("arm", 1.0, while_="forward", over="arm")])
+
+
 @pytest.mark.parametrize(
     "load",
     [

@@ -181,3 +181,17 @@ def test_motors_of_files_drive(tmp_path: Path) -> None:
             m.run(t_end=0.02, q0=0.5, speed0=1.0) for m in (own, assur.load(tmp_path / "m.toml"))
         ]
         assert runs[0].speed.tobytes() == runs[1].speed.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((5,), "mechanism is 5"),
+        ((four_bar(), 5), "machine is 5"),
+        ((four_bar(), None, None), "wanted is None"),
+        ((four_bar(), None, {"solve": None}), "wanted is"),
+    ],
+)
+def test_contents_are_checked(arguments: tuple[Any, ...], words: str) -> None:
+    with pytest.raises(assur.InputError, match=words):
+        Contents(*arguments)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import io
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+import pytest
 import xarray as xr
 from openpyxl import load_workbook
 
@@ -274,3 +275,10 @@ def test_dimensions_as_a_table() -> None:
     assert again.shape == (6,)
     assert again.design(4) == grid.design((1, 1))
     assert len(m.dimensions.to_dataframe()) == 1
+
+
+@pytest.mark.parametrize("path", [12345, None, "a\0b"])
+def test_what_is_no_path_is_refused(path: Any) -> None:
+    motion = assur.SliderCrank(1.0, 3.0).solve([0.0, 1.0])
+    for write in (motion.to_excel, motion.to_parquet):
+        refused(assur.InputError, "is not a path of a file", partial(write, path))
