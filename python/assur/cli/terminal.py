@@ -28,7 +28,7 @@ PLAIN = {
     "°": "deg",
     "…": "...",
 }
-# What the package tells Python users, in words of the command line.
+# Advice for Python users, in words of the command line.
 IN_DEGREES = ("solve(deg=...), or np.radians(q)", "write --q 0:360:1deg")
 
 

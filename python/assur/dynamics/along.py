@@ -35,7 +35,7 @@ def motion_of(q: Any, speed: Any, acceleration: Any, t: Any) -> DrivenMotion:
         return DrivenMotion(q, speed, acceleration, t)
     what = type(q).__name__
     for name, value in (("speed", speed), ("acceleration", acceleration), ("t", t)):
-        # A number that is the default cannot be told from it.
+        # A given 0.0 looks like the default.
         if not (isinstance(value, float) and value == 0.0):
             message = f"{name} is given with a {what}, which has its own: leave it out"
             raise InputError(message)

@@ -66,7 +66,7 @@ def read(
     source : str or path-like
         A file, a text or an address.
     format : str, optional
-        One of ``FORMATS``; without it the text tells.
+        One of ``FORMATS``; by default found from the text.
     scale : float
         The file's unit of length, m.
     drivers : sequence of (int, int), optional
@@ -84,7 +84,7 @@ def read(
     InputError
         A file that cannot be read, with its line or part; what cannot be described.
     StructureError
-        A linkage that is no mechanism.
+        A linkage that is not a mechanism.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def detect(path: Any, text: str) -> str | None:
     Parameters
     ----------
     path : str, path-like or None
-        The file it is from: its ending tells where it is a program's own.
+        The file it is from; an ending of one program decides.
     text : str
         The text.
 

@@ -116,8 +116,8 @@ def _build(
     driver = drivers[0] if len(drivers) == 1 else drivers
     mechanism = Mechanism(joints, links, driver, slides, assembly)
     speeds = tuple(_speed(driven, scale) for driven in sketch.inputs)
-    told = any(speed is not None for speed in speeds)
-    speed = speeds[0] if len(speeds) == 1 else speeds if told else None
+    is_known = any(speed is not None for speed in speeds)
+    speed = speeds[0] if len(speeds) == 1 else speeds if is_known else None
     return Imported(mechanism, source_format, (*sketch.omitted, *names.changed), speed)
 
 

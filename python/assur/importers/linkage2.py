@@ -55,9 +55,9 @@ def read(
     Raises
     ------
     InputError
-        What is no such text, with its line; gears, curved slots.
+        Text that is not in this format, with its line; gears, curved slots.
     StructureError
-        What is no mechanism.
+        A linkage that is not a mechanism.
 
     Examples
     --------

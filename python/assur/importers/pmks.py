@@ -41,9 +41,9 @@ def read(
     Raises
     ------
     InputError
-        What is no such text, with its line; gears.
+        Text that is not in this format, with its line; gears.
     StructureError
-        What is no mechanism.
+        A linkage that is not a mechanism.
 
     Examples
     --------

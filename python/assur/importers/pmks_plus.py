@@ -44,9 +44,9 @@ def read(
     Raises
     ------
     InputError
-        What is no such text, or was cut; joints and links that do not exist.
+        Text that is not in this format, or was cut; joints and links that do not exist.
     StructureError
-        What is no mechanism.
+        A linkage that is not a mechanism.
 
     Examples
     --------

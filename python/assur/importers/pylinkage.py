@@ -56,9 +56,9 @@ def read(
     Raises
     ------
     InputError
-        What is no such text; joints that do not exist; dyads whose links do not meet.
+        Text that is not in this format; joints that do not exist; dyads whose links do not meet.
     StructureError
-        What is no mechanism.
+        A linkage that is not a mechanism.
 
     Examples
     --------

@@ -53,7 +53,7 @@ def read(
     InputError
         What is no expression, with its line; drivers that turn nothing.
     StructureError
-        What is no mechanism.
+        A linkage that is not a mechanism.
 
     Examples
     --------

@@ -73,7 +73,7 @@ def open_source(source: Any) -> Source:
     Raises
     ------
     InputError
-        If there is no such file, or it is too long or no text.
+        If the file is missing, too long, or not text.
     """
     if isinstance(source, Source):
         return source

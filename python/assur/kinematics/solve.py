@@ -30,7 +30,7 @@ Names: TypeAlias = tuple[dict[str, int], dict[str, int], dict[str, int]]
 # degrees.
 LIKE_DEGREES = (4.0 * np.pi, 36_000.5)
 
-# By kind of error: what tells of the motion up to a dead point of the driver and past it.
+# Advice by kind of error: how to find the motion up to a dead point of the driver, and past it.
 PAST_DEAD_POINTS = {
     "beyond_dead_point": "configuration_curve().motion() goes past it",
     "not_closed": "see limits() and configuration_curve().motion()",
