@@ -1,9 +1,10 @@
 //! Maps indices to results on several threads.
 
-use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
+
+use assur::available_threads;
 
 /// Results of `one` for every index below `count`, on at most one thread for every
 /// `min_per_thread` indices. After a cancellation the rest of each thread's results is missing.
@@ -14,10 +15,9 @@ pub(crate) fn parallel_map<T: Send>(
     cancel: &AtomicBool,
     one: &(impl Fn(usize) -> T + Sync),
 ) -> Vec<T> {
-    // Asking the system for the number of cores takes longer than small work.
     let most = count.div_ceil(min_per_thread).max(1);
-    let available = || thread::available_parallelism().map_or(1, NonZero::get);
-    let threads = if most == 1 { 1 } else { threads.unwrap_or_else(available).min(most).max(1) };
+    let threads =
+        if most == 1 { 1 } else { threads.unwrap_or_else(available_threads).min(most).max(1) };
     let share = count.div_ceil(threads);
     let run_share = |first: usize| -> Vec<T> {
         let indices = first..(first + share).min(count);
