@@ -1045,33 +1045,60 @@ class Mechanism:
         # Through the package: files are a floor above.
         assur.files.save(self, path)
 
-    def plot(self, q: float | None = None, ax: Any = None, assembly: Assembly | None = None) -> Any:
-        """Draw the mechanism at one position (needs matplotlib).
+    def plot(
+        self,
+        q: npt.ArrayLike | None = None,
+        ax: Any = None,
+        assembly: Assembly | None = None,
+        labels: Literal["all", "first", "none"] = "all",
+        groups: bool = False,
+        dark: bool = False,
+    ) -> Any:
+        """Draw the mechanism at one position or at many (needs matplotlib).
+
+        The frame of the picture is that of the whole motion, whatever the position. Artists carry
+        names: ``artist.get_gid()`` is ``"link coupler"``, ``"joint B"``, ``"slide bore"`` …
 
         Parameters
         ----------
-        q : float, optional
-            Coordinate; the drawing's by default, or where the assembly was found.
+        q : float or array_like, optional
+            Coordinate; the drawing's by default, or where the assembly was found. Of several the
+            first is drawn bold, the others light.
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure by default.
         assembly : Assembly, optional
             As for `solve`; the drawing's by default.
+        labels : {"all", "first", "none"}
+            Names of joints and numbers of positions; with "first" one of three numbers is
+            written.
+        groups : bool
+            Each Assur group in a colour of its own, and the structural formula.
+        dark : bool
+            For dark backgrounds.
 
         Returns
         -------
         matplotlib.axes.Axes
             Those drawn on.
 
+        Raises
+        ------
+        InputError
+            A batch of designs, or no matplotlib axes.
+        PositionError
+            If a position does not exist.
+
         Examples
         --------
-        >>> import assur
+        >>> import assur, numpy as np
         >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).plot(q=1.0)
-        >>> axes.get_xlabel(), axes.get_aspect()
-        ('x, m', 1.0)
+        >>> sorted({artist.get_gid() for artist in axes.patches})[:3]
+        ['driver', 'link coupler', 'link crank']
+        >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).plot(np.arange(0.0, 6.0, 0.5))
         """
-        from assur._plot import mechanism_picture
+        from assur.pictures.mechanism import mechanism_picture
 
-        return mechanism_picture(self, q, ax, assembly)
+        return mechanism_picture(self, q, ax, assembly, labels, groups, dark)
 
 
 def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:

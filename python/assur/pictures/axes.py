@@ -1,0 +1,162 @@
+"""Axes of pictures: a frame in true proportion without axes, and a scale bar."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import InputError
+from assur.pictures import style as sizes
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.pictures.style import Style
+
+# A new figure: its width and the limits of its height, inches; one that is too tall gets narrow.
+WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 6.4, 2.6, 6.4
+# About the mechanism, points: for names, pivots, drivers; and below for the scale bar.
+MARGIN, FOOT = 30.0, 30.0
+# The scale bar is about so long, points.
+SCALE_BAR = 55.0
+TEXT = 9.0
+
+
+def pyplot() -> Any:
+    """Return matplotlib's pyplot."""
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:  # pragma: no cover
+        message = 'drawing needs matplotlib: pip install "assur[plot]"'
+        raise ImportError(message) from error
+    return plt
+
+
+def checked_axes(ax: Any) -> Any:
+    """Return axes to draw on, which must be plain ones."""
+    if not hasattr(ax, "add_artist") or not hasattr(ax, "transData"):
+        message = f"ax is {type(ax).__name__}, no matplotlib axes"
+        raise InputError(message)
+    if getattr(ax, "name", "rectilinear") != "rectilinear":
+        message = f"ax has the projection {ax.name!r}: mechanisms are drawn on plain axes"
+        raise InputError(message)
+    return ax
+
+
+@dataclass(frozen=True)
+class Canvas:
+    """Axes whose scale is fixed.
+
+    Attributes
+    ----------
+    ax : matplotlib.axes.Axes
+        Where to draw.
+    style : Style
+        Its colours.
+    scale : float
+        Points to a metre.
+    size : float
+        Points to a px of the symbols: they shrink where links are short.
+    low, high : ndarray
+        Corners of what is seen, m.
+    """
+
+    ax: Any
+    style: Style
+    scale: float
+    size: float
+    low: Float
+    high: Float
+
+    def points(self, at: Any) -> Float:
+        """Return points of the drawing in points of print."""
+        own: Float = np.asarray(at, dtype=np.float64) * self.scale
+        return own
+
+
+def canvas(ax: Any, extent: tuple[Float, Float], style: Style, link: float) -> Canvas:
+    """Return axes in true proportion that show `extent`; `link` is the usual length of a link, m.
+
+    Axes that have something drawn on keep it in sight.
+    """
+    low, high = extent
+    if ax is None:
+        ax = _new_axes(high - low, style)
+    else:
+        ax = checked_axes(ax)
+        if ax.has_data() or getattr(ax, "_assur_drawn", False):
+            (x0, x1), (y0, y1) = sorted(ax.get_xlim()), sorted(ax.get_ylim())
+            low, high = np.minimum(low, (x0, y0)), np.maximum(high, (x1, y1))
+    ax._assur_drawn = True
+    figure = ax.figure.get_figure(root=True) if hasattr(ax.figure, "get_figure") else ax.figure
+    box = ax.get_position(original=True)
+    inches = figure.get_size_inches() * (box.width, box.height)
+    width, height = np.maximum(72.0 * inches, 1.0)
+    span = np.maximum(high - low, 1e-300)
+    inner = np.array(
+        [max(width - 2.0 * MARGIN, width / 2.0), max(height - 2.0 * MARGIN - FOOT, height / 2.0)]
+    )
+    scale = float((inner / span).min())
+    middle = (low + high) / 2.0
+    half = np.array([width, height]) / (2.0 * scale)
+    # The foot lies below.
+    down = min(FOOT, height / 4.0) / (2.0 * scale)
+    low, high = middle - half - (0.0, down), middle + half - (0.0, down)
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    ax.set_axis_off()
+    density = scale * link / sizes.POINTS_PER_PX / sizes.USUAL_LINK
+    size = sizes.POINTS_PER_PX * float(np.clip(density, sizes.LEAST_DENSITY, 1.0))
+    return Canvas(ax, style, scale, size, low, high)
+
+
+def _new_axes(span: Float, style: Style) -> Any:
+    """Return axes that fill a new figure in the proportion of what is drawn."""
+    margins = np.array([2.0 * MARGIN, 2.0 * MARGIN + FOOT]) / 72.0
+    width, height = np.maximum(span, 1e-300)
+    tall = (WIDTH - margins[0]) * height / width + margins[1]
+    figure_height = float(np.clip(tall, LEAST_HEIGHT, GREATEST_HEIGHT))
+    figure_width = WIDTH
+    if tall > GREATEST_HEIGHT:
+        narrow = (GREATEST_HEIGHT - margins[1]) * width / height + margins[0]
+        figure_width = float(np.clip(narrow, GREATEST_HEIGHT / 2.0, WIDTH))
+    figure = pyplot().figure(figsize=(figure_width, figure_height), facecolor=style.canvas)
+    return figure.add_axes((0.0, 0.0, 1.0, 1.0), facecolor=style.canvas)
+
+
+def nice_length(length: float) -> float:
+    """Return the greatest 1, 2 or 5 times a power of ten up to a length."""
+    power = 10.0 ** np.floor(np.log10(length))
+    return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length))
+
+
+def length_text(length: float) -> str:
+    """Write a length in m with the unit that suits it."""
+    units = (("km", 1e3, 1e-3), ("m", 0.2, 1.0), ("mm", 2e-4, 1e3), ("µm", 0.0, 1e6))
+    unit, factor = next((unit, factor) for unit, least, factor in units if length >= least)
+    return f"{length * factor:.6g} {unit}"
+
+
+def scale_bar(on: Canvas) -> None:
+    """Draw a scale bar in the lower left corner."""
+    length = nice_length(SCALE_BAR * 1.4 / on.scale)
+    x, y = on.low + 0.45 * FOOT / on.scale
+    tick = 3.0 / on.scale
+    ends = np.array([[x, y + tick], [x, y - tick], [x, y], [x + length, y], [x + length, y + tick]])
+    ends = np.vstack([ends, [x + length, y - tick]])
+    from matplotlib.lines import Line2D
+    from matplotlib.text import Text
+
+    line = Line2D(*ends.T, color=on.style.second, linewidth=1.0, gid="scale")
+    text = Text(
+        x + length + 5.0 / on.scale,
+        y,
+        length_text(length),
+        color=on.style.second,
+        fontsize=TEXT,
+        verticalalignment="center_baseline",
+        gid="scale",
+    )
+    on.ax.add_artist(line)
+    on.ax.add_artist(text)

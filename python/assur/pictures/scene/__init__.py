@@ -1,0 +1,1 @@
+"""Mechanisms as symbols, without a drawing library."""

@@ -1,0 +1,81 @@
+"""The scene of a mechanism: its links, pairs and drivers as symbols."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.pictures import style
+from assur.pictures.scene.geometry import at
+from assur.pictures.scene.links import link_parts
+from assur.pictures.scene.pairs import joint_part, pivot_parts, sliding_arrow, turning_arrow
+from assur.pictures.scene.parts import Line, Name, Part, Scene
+from assur.pictures.scene.slides import Slides
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+    from assur.pictures.scene.frames import Frames
+
+
+def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
+    """Return what is drawn of a mechanism; `frames` are those of its whole motion."""
+    angles, sliding = _drivers(mechanism)
+    driven = frozenset(link for link, _ in angles)
+    slides = Slides(mechanism, frames, driven, frozenset(sliding))
+    moving = [link for link in frames.links if link != "ground"]
+    at_joint: dict[str, list[str]] = {}
+    for link in frames.links:
+        for joint in frames.local[link]:
+            at_joint.setdefault(joint, []).append(link)
+    pivots = [
+        part
+        for joint, point in frames.local.get("ground", {}).items()
+        if len(at_joint[joint]) > 1
+        for part in pivot_parts(joint, point)
+    ]
+    bodies: list[Line] = [
+        part for link in moving for part in link_parts(link, frames.local[link], link in driven)
+    ]
+    lines = [*bodies, *slides.parts()]
+    arrows = [part for link, relative_to in angles for part in _turning(frames, link, relative_to)]
+    arrows += [part for name in sliding for part in sliding_arrow(slides.axis(name))]
+    joints, names = [], []
+    for joint, links in at_joint.items():
+        point = frames.local[links[0]][joint]
+        joints.append(joint_part(joint, links[0], point, len(links), "ground" in links))
+        on_block = any(slides.is_block(link, joint) for link in links)
+        radius = style.BLOCK_LENGTH / 2.0 if on_block else style.PIVOT
+        names.append(Name(joint, links[0], at(point), radius))
+    return Scene(
+        frames.links,
+        # Plates lie under bars, guides under blocks, everything under the joints.
+        (*sorted(lines, key=lambda part: part.floor), *pivots, *arrows, *joints),
+        tuple(names),
+        driven,
+        {link: i for i, group in enumerate(mechanism.structure.groups) for link in group.links},
+    )
+
+
+def _drivers(mechanism: Mechanism) -> tuple[list[tuple[str, str]], list[str]]:
+    """Return the driven links, each with the one it is measured from, and the driven slides."""
+    drivers = mechanism.driver if isinstance(mechanism.driver, tuple) else (mechanism.driver,)
+    sliding = [one for one in drivers if isinstance(one, str) and one in mechanism.slides]
+    angles = [
+        (one, "ground") if isinstance(one, str) else (one.link, one.relative_to)
+        for one in drivers
+        if one not in sliding
+    ]
+    return angles, sliding
+
+
+def _turning(frames: Frames, link: str, relative_to: str) -> list[Part]:
+    """Draw the arrow of a driven angle: about the joint of both links if they share one."""
+    own = frames.local[link]
+    shared = [joint for joint in own if joint in frames.local.get(relative_to, {})]
+    pivot: Float = own[shared[0]] if shared else next(iter(own.values()), np.zeros(2))
+    arms = [point - pivot for point in own.values()]
+    longest = max(arms, key=lambda arm: float(np.hypot(*arm)), default=np.zeros(2))
+    toward = float(np.arctan2(longest[1], longest[0])) if longest.any() else 0.0
+    return turning_arrow(link, pivot, toward)

@@ -1,0 +1,114 @@
+"""Frames of the links over a motion: where each is, and how it is turned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.motion import Motion
+
+# Joints farther from the middle of the drawing than so many times its size are out of sight.
+FAR = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Places of the links' frames over positions of one design.
+
+    Attributes
+    ----------
+    links : tuple of str
+        The links.
+    values : tuple of ndarray
+        (N, links, 3) with x, y in m and the angle in rad: the value, then derivatives by q.
+    local : dict of str to dict of str to ndarray
+        Coordinates of each link's joints in its frame, m.
+    """
+
+    links: tuple[str, ...]
+    values: tuple[Float, ...]
+    local: dict[str, dict[str, Float]]
+
+    @property
+    def is_known(self) -> npt.NDArray[np.bool_]:
+        """Whether there is a position, (N,)."""
+        return np.asarray(np.isfinite(self.values[0]).all(axis=(1, 2)))
+
+    def world(self, link: str, point: Float | tuple[float, float]) -> Float:
+        """Return a point of a link in the drawing's axes at every position, (N, 2)."""
+        x, y, angle = np.moveaxis(self.values[0][:, self.links.index(link)], -1, 0)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        px, py = point
+        return np.stack([x + cosine * px - sine * py, y + sine * px + cosine * py], axis=-1)
+
+    def seen_from(self, link: str, points: Float) -> Float:
+        """Return points of the drawing's axes, one at each position, in a link's frame."""
+        x, y, angle = np.moveaxis(self.values[0][:, self.links.index(link)], -1, 0)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        dx, dy = points[:, 0] - x, points[:, 1] - y
+        return np.stack([cosine * dx + sine * dy, cosine * dy - sine * dx], axis=-1)
+
+    def angle(self, link: str) -> Float:
+        """Return the angle of a link at every position, rad."""
+        angles: Float = self.values[0][:, self.links.index(link), 2]
+        return angles
+
+    def joints(self) -> dict[str, Float]:
+        """Return the path of every joint, (N, 2)."""
+        return {
+            joint: self.world(link, at)
+            for link, joints in self.local.items()
+            for joint, at in joints.items()
+        }
+
+
+def frames_of(motion: Motion) -> Frames:
+    """Return the frames of all links of one design."""
+    mechanism = motion.mechanism
+    if mechanism.shape:
+        message = f"a batch of designs {mechanism.shape} is not drawn: take one with design(i)"
+        raise InputError(message)
+    links = tuple(mechanism.links)
+    values = []
+    for order in range(motion.order + 1):
+        own = np.zeros((motion.status.size, len(links), 3))
+        for i, link in enumerate(links):
+            origin, angle = motion._reference_point(link), motion.link(link)
+            own[:, i, :2] = origin._arrays[order].reshape(-1, 2)
+            own[:, i, 2] = angle._arrays[order].reshape(-1)
+        values.append(own)
+    frames = Frames(links, tuple(values), {})
+    known = np.flatnonzero(frames.is_known)
+    if not known.size:
+        message = f"there is no position to draw: {motion.explain(() if not motion.shape else 0)}"
+        raise InputError(message)
+    row = int(known[0])
+    for link, joints in mechanism.links.items():
+        frames.local[link] = {
+            joint: frames.seen_from(link, motion.joint(joint).value.reshape(-1, 2))[row]
+            for joint in joints
+        }
+    return frames
+
+
+def nearby(whole: Frames, at: Frames) -> Frames:
+    """Return the positions of both; of the whole motion those near the drawing.
+
+    Where a joint goes toward infinity no picture can follow.
+    """
+    joints = np.stack(list(at.joints().values()), axis=1)
+    centre = np.nanmean(joints, axis=(0, 1))
+    reach = FAR * float(np.nanmax(np.abs(joints - centre)))
+    paths = np.stack(list(whole.joints().values()), axis=1)
+    with np.errstate(invalid="ignore"):
+        near = whole.is_known & (np.abs(paths - centre) <= reach).all(axis=(1, 2))
+    values = np.concatenate([whole.values[0][near], at.values[0][at.is_known]])
+    return Frames(whole.links, (values,), at.local)

@@ -1,0 +1,100 @@
+"""Colours and sizes of pictures: one palette on white paper, one on a dark canvas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+# Sizes below are those of a screen's px, of which an inch has 96, a point of print 72.
+POINTS_PER_PX = 0.75
+
+JOINT = 5.0  # radius
+PIVOT = 5.5
+PIVOT_WIDTH, PIVOT_HEIGHT, PIVOT_BASE = 19.0, 15.0, 30.0
+GROUND_SPACING = 6.0
+BAR = 3.5
+DRIVEN_BAR = 4.5
+PLATE = 2.5
+PLATE_SPACING = 9.0
+OUTLINE = 1.9
+BLOCK_LENGTH, BLOCK_WIDTH = 30.0, 19.0
+GUIDE = 1.75
+GUIDE_SPACING = 7.0
+SLEEVE_LENGTH, SLEEVE_GAP = 34.0, 13.0
+BARREL = 15.0
+ROD = 4.5
+PISTON = 3.5
+HATCH = 1.0
+BRIDGE = 18.0
+ARROW_RADIUS, ARROW, ARROW_HEAD, ARROW_HEAD_WIDTH = 24.0, 2.25, 10.0, 9.0
+DRIVE_LENGTH, DRIVE_DISTANCE = 30.0, 12.0
+MASS_CENTRE = 7.0
+# Where links are shorter than this, all symbols shrink, to no less than that part.
+USUAL_LINK, LEAST_DENSITY = 60.0, 0.6
+
+
+@dataclass(frozen=True)
+class Style:
+    """Colours by their meaning, as ``#rrggbb``.
+
+    Attributes
+    ----------
+    canvas, ink, second, faint, grid : str
+        The ground of the picture, links and text, lesser text, other positions, lines of a grid.
+    driver, path, velocity, acceleration, force, error : str
+        What they are called; `error` is also for dead points.
+    groups : tuple of str
+        Assur groups in solving order, repeated beyond the last.
+    """
+
+    canvas: str
+    ink: str
+    second: str
+    faint: str
+    grid: str
+    driver: str
+    path: str
+    velocity: str
+    acceleration: str
+    force: str
+    error: str
+    groups: tuple[str, ...]
+
+    def group(self, number: int) -> str:
+        """Return the colour of a group."""
+        return self.groups[number % len(self.groups)]
+
+
+LIGHT = Style(
+    canvas="#FFFFFF",
+    ink="#17202A",
+    second="#55616D",
+    faint="#C4CCD4",
+    grid="#DDE2E7",
+    driver="#1D5FB8",
+    path="#0E94A4",
+    velocity="#0E4A2A",
+    acceleration="#5E1A73",
+    force="#B5820F",
+    error="#BE4230",
+    groups=("#8B4A9C", "#B0641A", "#3A7D44", "#B8336A", "#6A6A1E", "#4B5FA8"),
+)
+
+DARK = Style(
+    canvas="#0F1419",
+    ink="#E9EEF3",
+    second="#A3AFBA",
+    faint="#46525E",
+    grid="#2A333C",
+    driver="#3F8CFF",
+    path="#9BE9FF",
+    velocity="#79BF98",
+    acceleration="#C183B8",
+    force="#F7CC2A",
+    error="#F0714B",
+    groups=("#C183B8", "#E59A4C", "#79BF98", "#F08BAF", "#C9C25A", "#93A8F0"),
+)
+
+
+def style(dark: bool) -> Style:
+    """Return the palette."""
+    return DARK if dark else LIGHT

@@ -1,0 +1,119 @@
+"""What is drawn of a mechanism: its scene, its positions, and the frame they fit into."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import InputError
+from assur.pictures.axes import Canvas, canvas
+from assur.pictures.scene.build import scene_of
+from assur.pictures.scene.course import course
+from assur.pictures.scene.frames import Frames, frames_of, nearby
+from assur.pictures.scene.parts import Disc, Hatching
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from assur._arrays import Float
+    from assur.kinematics.assembly import Assembly
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+    from assur.pictures.scene.parts import Part, Scene, Vertex
+    from assur.pictures.style import Style
+
+
+class Subject:
+    """A mechanism to draw.
+
+    Attributes
+    ----------
+    scene : Scene
+        Its symbols.
+    frames : ndarray
+        (N, links, 3), the positions asked for.
+    whole : Frames
+        Those of the whole motion, which fix the frame of the picture.
+    """
+
+    def __init__(self, motion: Motion, assembly: Assembly | None = None) -> None:
+        self.mechanism: Mechanism = motion.mechanism
+        at = frames_of(motion)
+        self.frames = at.values[0]
+        whole = course(self.mechanism, assembly)
+        self.whole: Frames = nearby(frames_of(whole), at) if (whole.status < 3).any() else at
+        self.scene: Scene = scene_of(self.mechanism, self.whole)
+
+    def canvas(self, ax: Any, style: Style, others: Iterable[Float] = ()) -> Canvas:
+        """Return axes that show the whole motion, and other points."""
+        paths = [self.whole.world(link, (x, y)) for link, x, y in self._corners()]
+        points = np.concatenate([*paths, *others])
+        points = points[np.isfinite(points).all(axis=1)]
+        return canvas(ax, (points.min(axis=0), points.max(axis=0)), style, self._usual_link())
+
+    def _corners(self) -> set[tuple[str, float, float]]:
+        """Return every point of the scene, with the link it is fixed to."""
+        return {
+            (part.link, vertex.x, vertex.y)
+            for part in self.scene.parts
+            for vertex in vertices(part)
+        }
+
+    def _usual_link(self) -> float:
+        """Return the median length of the links."""
+        lengths = [
+            float(np.hypot(*(one - other)))
+            for link, joints in self.whole.local.items()
+            if link != "ground"
+            for i, one in enumerate(joints.values())
+            for other in list(joints.values())[:i]
+        ]
+        if lengths:
+            return float(np.median(lengths))
+        joints = np.concatenate(list(self.whole.joints().values()))
+        return float(np.ptp(joints, axis=0).max())
+
+    def lines(self, on: Canvas, frames: Float) -> list[Float]:
+        """Return all lines of the scene at one position, m."""
+        return [
+            line
+            for part in self.scene.parts
+            if (line := outline(part, on, self, frames)) is not None
+        ]
+
+    def places(self, frames: Float) -> Float:
+        """Return where the named joints are, (names, 2)."""
+        return np.array([self.world(frames, name.link, name.at) for name in self.scene.names])
+
+    def world(self, frames: Float, link: str, vertex: Vertex, per: float = 0.0) -> Float:
+        """Return a vertex in the drawing's axes; `per` is the length of a px, m."""
+        x, y, angle = frames[self.scene.links.index(link)]
+        cosine, sine = np.cos(angle), np.sin(angle)
+        px, py = vertex.x + per * vertex.dx, vertex.y + per * vertex.dy
+        return np.array([x + cosine * px - sine * py, y + sine * px + cosine * py])
+
+
+def vertices(part: Part) -> tuple[Vertex, ...]:
+    """Return the points of a part."""
+    if isinstance(part, Disc):
+        return (part.centre,)
+    return (part.start, part.end) if isinstance(part, Hatching) else part.vertices
+
+
+def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | None:
+    """Return a part's line in the drawing's axes; none of a disc."""
+    if isinstance(part, Disc):
+        return None
+    per = on.size / on.scale
+    points = [subject.world(frames, part.link, vertex, per) for vertex in vertices(part)]
+    closed = getattr(part, "closed", False)
+    return np.array([*points, points[0]] if closed else points)
+
+
+def require_positions(frames: Float) -> None:
+    """Refuse positions that do not exist."""
+    missing = np.flatnonzero(~np.isfinite(frames).all(axis=(1, 2)))
+    if missing.size:
+        message = f"position {missing[0]} of {len(frames)} does not exist: nothing is drawn there"
+        raise InputError(message)
