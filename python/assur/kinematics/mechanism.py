@@ -1050,7 +1050,7 @@ class Mechanism:
         q: npt.ArrayLike | None = None,
         ax: Any = None,
         assembly: Assembly | None = None,
-        labels: Literal["all", "first", "none"] = "all",
+        labels: Literal["first", "all", "none"] = "first",
         groups: bool = False,
         dark: bool = False,
     ) -> Any:
@@ -1063,14 +1063,13 @@ class Mechanism:
         ----------
         q : float or array_like, optional
             Coordinate; the drawing's by default, or where the assembly was found. Of several the
-            first is drawn bold, the others light.
+            first is drawn bold, the others light and numbered.
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure by default.
         assembly : Assembly, optional
             As for `solve`; the drawing's by default.
-        labels : {"all", "first", "none"}
-            Names of joints and numbers of positions; with "first" one of three numbers is
-            written.
+        labels : {"first", "all", "none"}
+            Names the joints of the first position, or of all; positions are numbered from 0.
         groups : bool
             Each Assur group in a colour of its own, and the structural formula.
         dark : bool

@@ -669,29 +669,93 @@ class Motion:
 
         return dataset(self)
 
-    def plot(self, joint: str, ax: Any = None) -> Any:
-        """Draw a joint's path with the mechanism at the first position (needs matplotlib).
+    def plot(
+        self,
+        joint: str | Sequence[str] | None = None,
+        ax: Any = None,
+        at: int | None = None,
+        groups: bool = False,
+        dark: bool = False,
+    ) -> Any:
+        """Draw paths of joints with the mechanism at one position (needs matplotlib).
 
         Parameters
         ----------
-        joint : str
-            The joint.
+        joint : str or sequence of str, optional
+            The joint, or several; without it the mechanism alone. Dots stand at equal steps of q.
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure by default.
+        at : int, optional
+            Index of the position; the first that exists by default.
+        groups : bool
+            Each Assur group in a colour of its own, and the structural formula.
+        dark : bool
+            For dark backgrounds.
 
         Returns
         -------
         matplotlib.axes.Axes
             Those drawn on.
 
+        Raises
+        ------
+        InputError
+            An unknown joint, a batch of designs, a position that does not exist.
+
         Examples
         --------
         >>> import assur, numpy as np
         >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0, 6.0, 61))
         >>> axes = motion.plot("C")
-        >>> axes.get_xlabel(), axes.get_ylabel()
-        ('x, m', 'y, m')
+        >>> [line.get_gid() for line in axes.lines if line.get_gid().startswith("path")]
+        ['path C']
         """
-        from assur._plot import path_picture
+        from assur.pictures.path import path_picture
 
-        return path_picture(self, joint, ax)
+        return path_picture(self, joint, ax, at, groups, dark)
+
+    def animate(
+        self,
+        path: str | PathLike[str],
+        joint: str | Sequence[str] | None = None,
+        frames: int = 72,
+        seconds: float = 3.0,
+        groups: bool = False,
+        dark: bool = False,
+    ) -> None:
+        """Write a moving picture of the mechanism (needs matplotlib).
+
+        A motion that closes is shown round and round, another one to and fro.
+
+        Parameters
+        ----------
+        path : path-like
+            The file: ``.gif``, ``.webp``, or ``.mp4`` (needs the program ffmpeg).
+        joint : str or sequence of str, optional
+            Joints whose paths are shown.
+        frames : int
+            Most pictures of one round; no more than there are positions.
+        seconds : float
+            How long one round takes, s.
+        groups : bool
+            Each Assur group in a colour of its own, and the structural formula.
+        dark : bool
+            For dark backgrounds.
+
+        Raises
+        ------
+        InputError
+            A batch of designs, a motion of fewer than two positions, a file that cannot be written.
+
+        Examples
+        --------
+        >>> import assur, numpy as np, pathlib, tempfile
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0, 2 * np.pi, 13))
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "four_bar.gif"
+        >>> motion.animate(path, "C")
+        >>> path.read_bytes()[:6]
+        b'GIF89a'
+        """
+        from assur.pictures.animate import animate
+
+        animate(self, path, joint, frames, seconds, groups, dark)

@@ -92,11 +92,12 @@ class Drawn:
     def _stroke(self, part: Stroke, colour: str, transform: Any) -> list[Any]:
         points = np.array([self._at(vertex) for vertex in part.vertices])
         width = part.width * self._on.size
-        faces = {
+        faces: dict[Any, Any] = {
             None: "none",
             "canvas": self._on.style.canvas,
             "solid": colour,
-            "tint": blend(colour, self._on.style.canvas, TINT),
+            # Paths and other links are seen through plates.
+            "tint": (*to_rgb(colour), TINT),
         }
         codes = None
         if part.closed:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.pictures.style import Style
 
 # A new figure: its width and the limits of its height, inches; one that is too tall gets narrow.
-WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 6.4, 2.6, 6.4
+WIDTH, LEAST_WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 6.4, 3.6, 2.4, 6.4
 # About the mechanism, points: for names, pivots, drivers; and below for the scale bar.
 MARGIN, FOOT = 30.0, 30.0
 # The scale bar is about so long, points.
@@ -75,52 +75,55 @@ class Canvas:
         return own
 
 
-def canvas(ax: Any, extent: tuple[Float, Float], style: Style, link: float) -> Canvas:
+def canvas(
+    ax: Any,
+    extent: tuple[Float, Float],
+    style: Style,
+    link: float,
+    margins: tuple[float, float] = (MARGIN, MARGIN),
+) -> Canvas:
     """Return axes in true proportion that show `extent`; `link` is the usual length of a link, m.
 
-    Axes that have something drawn on keep it in sight.
+    Margins on both sides and above are in points. Axes that have something drawn on keep it in
+    sight.
     """
     low, high = extent
+    # Left, below, right, above.
+    border = np.array([margins[0], MARGIN + FOOT, margins[0], margins[1]])
     if ax is None:
-        ax = _new_axes(high - low, style)
+        ax = _new_axes(high - low, border[:2] + border[2:], style)
     else:
         ax = checked_axes(ax)
-        if ax.has_data() or getattr(ax, "_assur_drawn", False):
+        if ax.has_data() or ax.artists or ax.patches or ax.texts:
             (x0, x1), (y0, y1) = sorted(ax.get_xlim()), sorted(ax.get_ylim())
             low, high = np.minimum(low, (x0, y0)), np.maximum(high, (x1, y1))
-    ax._assur_drawn = True
-    figure = ax.figure.get_figure(root=True) if hasattr(ax.figure, "get_figure") else ax.figure
-    box = ax.get_position(original=True)
-    inches = figure.get_size_inches() * (box.width, box.height)
-    width, height = np.maximum(72.0 * inches, 1.0)
-    span = np.maximum(high - low, 1e-300)
-    inner = np.array(
-        [max(width - 2.0 * MARGIN, width / 2.0), max(height - 2.0 * MARGIN - FOOT, height / 2.0)]
-    )
-    scale = float((inner / span).min())
-    middle = (low + high) / 2.0
-    half = np.array([width, height]) / (2.0 * scale)
-    # The foot lies below.
-    down = min(FOOT, height / 4.0) / (2.0 * scale)
-    low, high = middle - half - (0.0, down), middle + half - (0.0, down)
     ax.set_aspect("equal", adjustable="datalim")
-    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     ax.set_axis_off()
+    box = ax.get_position(original=True)
+    figure = ax.figure.get_figure(root=True) if hasattr(ax.figure, "get_figure") else ax.figure
+    size = np.maximum(72.0 * figure.get_size_inches() * (box.width, box.height), 1.0)
+    # In small axes margins take no more than half.
+    border *= np.minimum(1.0, size / 2.0 / (border[:2] + border[2:]))[[0, 1, 0, 1]]
+    inner = size - border[:2] - border[2:]
+    scale = float((inner / np.maximum(high - low, 1e-300)).min())
+    # What remains of the room lies on both sides.
+    free = (inner - (high - low) * scale) / 2.0
+    low, high = low - (border[:2] + free) / scale, high + (border[2:] + free) / scale
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     density = scale * link / sizes.POINTS_PER_PX / sizes.USUAL_LINK
-    size = sizes.POINTS_PER_PX * float(np.clip(density, sizes.LEAST_DENSITY, 1.0))
-    return Canvas(ax, style, scale, size, low, high)
+    px = sizes.POINTS_PER_PX * float(np.clip(density, sizes.LEAST_DENSITY, 1.0))
+    return Canvas(ax, style, scale, px, low, high)
 
 
-def _new_axes(span: Float, style: Style) -> Any:
+def _new_axes(span: Float, margins: Float, style: Style) -> Any:
     """Return axes that fill a new figure in the proportion of what is drawn."""
-    margins = np.array([2.0 * MARGIN, 2.0 * MARGIN + FOOT]) / 72.0
+    border = margins / 72.0
     width, height = np.maximum(span, 1e-300)
-    tall = (WIDTH - margins[0]) * height / width + margins[1]
-    figure_height = float(np.clip(tall, LEAST_HEIGHT, GREATEST_HEIGHT))
-    figure_width = WIDTH
+    tall = float((WIDTH - border[0]) * height / width + border[1])
+    figure_height, figure_width = float(np.clip(tall, LEAST_HEIGHT, GREATEST_HEIGHT)), WIDTH
     if tall > GREATEST_HEIGHT:
-        narrow = (GREATEST_HEIGHT - margins[1]) * width / height + margins[0]
-        figure_width = float(np.clip(narrow, GREATEST_HEIGHT / 2.0, WIDTH))
+        narrow = (GREATEST_HEIGHT - border[1]) * width / height + border[0]
+        figure_width = float(np.clip(narrow, LEAST_WIDTH, WIDTH))
     figure = pyplot().figure(figsize=(figure_width, figure_height), facecolor=style.canvas)
     return figure.add_axes((0.0, 0.0, 1.0, 1.0), facecolor=style.canvas)
 

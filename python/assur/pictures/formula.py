@@ -7,46 +7,51 @@ from typing import TYPE_CHECKING
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
 
-from assur.pictures.axes import MARGIN, TEXT
+from assur.pictures.axes import TEXT
 from assur.pictures.text import text_size
 
 if TYPE_CHECKING:
+    from assur.kinematics.mechanism import Mechanism
     from assur.pictures.axes import Canvas
-    from assur.pictures.subject import Subject
 
 ARROW = " → "
-LINE_HEIGHT = 1.5
+# Of the formula, points.
+SIZE, LINE, BORDER, GAP = TEXT + 1.0, 15.0, 10.0, 5.0
 
 
-def write_formula(subject: Subject, on: Canvas) -> None:
-    """Write the formula in the upper left corner, each group in its colour."""
-    font = FontProperties(size=TEXT + 1.0)
-    # The driver, then the groups in solving order.
-    pieces = subject.mechanism.structure.formula.split(ARROW)
-    left, top = on.low[0] + 10.0 / on.scale, on.high[1] - 8.0 / on.scale
-    right = on.high[0] - 10.0 / on.scale
-    x, y = left, top
-    for i, piece in enumerate(pieces):
+def formula_lines(mechanism: Mechanism, width: float) -> list[list[tuple[int, str, float]]]:
+    """Return the formula in lines no wider than a width, points.
+
+    Each piece with its number, 0 for the drivers, then the groups in solving order, and its x.
+    """
+    font = FontProperties(size=SIZE)
+    lines: list[list[tuple[int, str, float]]] = [[]]
+    x = 0.0
+    for i, piece in enumerate(mechanism.structure.formula.split(ARROW)):
         text = piece if i == 0 else f"→ {piece}"
-        width = text_size(text + " ", font)[0] / on.scale
-        if x > left and x + width > right:
-            x, y = left, y - LINE_HEIGHT * font.get_size_in_points() / on.scale
-        colour = on.style.driver if i == 0 else on.style.group(i - 1)
-        artist = Text(
-            x,
-            y,
-            text,
-            fontproperties=font,
-            color=colour,
-            verticalalignment="top",
-            parse_math=False,
-            zorder=6.0,
-            gid="formula",
-        )
-        on.ax.add_artist(artist)
-        x += width + 2.0 / on.scale
+        own = text_size(text, font)[0]
+        if lines[-1] and x + own > width - 2.0 * BORDER:
+            lines.append([])
+            x = 0.0
+        lines[-1].append((i, text, x))
+        x += own + GAP
+    return lines
 
 
-def formula_height(subject: Subject) -> float:
-    """Return what the formula needs above the mechanism, points; at least the usual margin."""
-    return max(MARGIN, (len(subject.mechanism.structure.groups) + 1) * 0.0)
+def write_formula(mechanism: Mechanism, on: Canvas) -> None:
+    """Write the formula in the upper left corner, each group in its colour."""
+    width = float((on.high[0] - on.low[0]) * on.scale)
+    for row, line in enumerate(formula_lines(mechanism, width)):
+        for i, text, x in line:
+            artist = Text(
+                on.low[0] + (BORDER + x) / on.scale,
+                on.high[1] - (BORDER + row * LINE) / on.scale,
+                text,
+                fontproperties=FontProperties(size=SIZE),
+                color=on.style.group(i - 1) if i else on.style.driver,
+                verticalalignment="top",
+                parse_math=False,
+                zorder=6.0,
+                gid="formula",
+            )
+            on.ax.add_artist(artist)

@@ -6,22 +6,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.errors import InputError
-from assur.pictures.axes import Canvas, canvas
+from assur.pictures.axes import MARGIN, WIDTH, Canvas, canvas
+from assur.pictures.formula import LINE, formula_lines
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.course import course
 from assur.pictures.scene.frames import Frames, frames_of, nearby
 from assur.pictures.scene.parts import Disc, Hatching
+from assur.pictures.text import name_font, text_size
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from assur._arrays import Float
-    from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
     from assur.pictures.scene.parts import Part, Scene, Vertex
     from assur.pictures.style import Style
+
+# Between names and the border, points.
+ROOM = 8.0
 
 
 class Subject:
@@ -33,24 +36,37 @@ class Subject:
         Its symbols.
     frames : ndarray
         (N, links, 3), the positions asked for.
+    assembly : dict of str to int
+        The signs of the dyads.
     whole : Frames
         Those of the whole motion, which fix the frame of the picture.
     """
 
-    def __init__(self, motion: Motion, assembly: Assembly | None = None) -> None:
+    def __init__(self, motion: Motion) -> None:
         self.mechanism: Mechanism = motion.mechanism
+        self.assembly = assembly_of(motion)
         at = frames_of(motion)
         self.frames = at.values[0]
-        whole = course(self.mechanism, assembly)
+        whole = course(self.mechanism, self.assembly)
         self.whole: Frames = nearby(frames_of(whole), at) if (whole.status < 3).any() else at
         self.scene: Scene = scene_of(self.mechanism, self.whole)
 
-    def canvas(self, ax: Any, style: Style, others: Iterable[Float] = ()) -> Canvas:
-        """Return axes that show the whole motion, and other points."""
+    def canvas(
+        self, ax: Any, style: Style, others: Iterable[Float] = (), groups: bool = False
+    ) -> Canvas:
+        """Return axes that show the whole motion, other points, and the formula of the groups."""
         paths = [self.whole.world(link, (x, y)) for link, x, y in self._corners()]
         points = np.concatenate([*paths, *others])
         points = points[np.isfinite(points).all(axis=1)]
-        return canvas(ax, (points.min(axis=0), points.max(axis=0)), style, self._usual_link())
+        extent = points.min(axis=0), points.max(axis=0)
+        font = name_font()
+        longest = max((text_size(name.text, font)[0] for name in self.scene.names), default=0.0)
+        # A long name that stands above its joint goes half its length beyond.
+        sides = max(MARGIN, longest / 2.0 + ROOM)
+        # New figures may be narrower.
+        lines = len(formula_lines(self.mechanism, 0.75 * 72.0 * WIDTH)) if groups else 0
+        top = MARGIN + lines * LINE
+        return canvas(ax, extent, style, self._usual_link(), (sides, top))
 
     def _corners(self) -> set[tuple[str, float, float]]:
         """Return every point of the scene, with the link it is fixed to."""
@@ -94,6 +110,12 @@ class Subject:
         return np.array([x + cosine * px - sine * py, y + sine * px + cosine * py])
 
 
+def assembly_of(motion: Motion) -> dict[str, int]:
+    """Return the assembly in which a motion was solved."""
+    names = (name for name, _ in motion.mechanism._core.assembly)
+    return dict(zip(names, motion._request.signs, strict=True))
+
+
 def vertices(part: Part) -> tuple[Vertex, ...]:
     """Return the points of a part."""
     if isinstance(part, Disc):
@@ -109,11 +131,3 @@ def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | 
     points = [subject.world(frames, part.link, vertex, per) for vertex in vertices(part)]
     closed = getattr(part, "closed", False)
     return np.array([*points, points[0]] if closed else points)
-
-
-def require_positions(frames: Float) -> None:
-    """Refuse positions that do not exist."""
-    missing = np.flatnonzero(~np.isfinite(frames).all(axis=(1, 2)))
-    if missing.size:
-        message = f"position {missing[0]} of {len(frames)} does not exist: nothing is drawn there"
-        raise InputError(message)

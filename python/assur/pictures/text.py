@@ -9,7 +9,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
 from matplotlib.textpath import text_to_path
 
-from assur.pictures.scene.labels import along, placed
+from assur.pictures.scene.labels import along, chosen
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -42,28 +42,63 @@ def write_names(
     radii: Float,
     lines: list[Float],
     gids: Sequence[str],
-    zorder: float = 5.0,
+    others: Float | None = None,
+    light: list[Float] | None = None,
 ) -> list[Any]:
-    """Write names beside points, m; `radii` of their symbols are in points, `lines` in m."""
-    font = name_font()
-    boxes = np.array([text_size(text, font) for text in texts]).reshape(-1, 2)
-    obstacles = along([on.points(line) for line in lines], STEP)
-    bounds = (on.points(on.low), on.points(on.high))
-    middles = placed(on.points(points), boxes, radii, obstacles, bounds) / on.scale
-    written = []
-    for text, (x, y), gid in zip(texts, middles, gids, strict=True):
-        artist = Text(
-            x,
-            y,
-            text,
-            fontproperties=font,
-            color=on.style.ink,
-            horizontalalignment="center",
-            verticalalignment="center",
-            zorder=zorder,
-            gid=gid,
-            parse_math=False,
+    """Write names beside points, m.
+
+    `radii` of their symbols are in points, `lines` in m; `others` are boxes that are there
+    already: their middles and halves in points, (k, 2, 2); `light` are lines to be covered first.
+    """
+    names = Names(on, texts, radii, gids)
+    names.place(points, lines, others, light)
+    return names.artists
+
+
+class Names:
+    """Names on a canvas, placed beside their points; in motion they stay where they were."""
+
+    def __init__(self, on: Canvas, texts: Sequence[str], radii: Float, gids: Sequence[str]) -> None:
+        font = name_font()
+        self._on = on
+        self._boxes = np.array([text_size(text, font) for text in texts]).reshape(-1, 2)
+        self._radii = radii
+        self._kept: Any = None
+        self.artists: list[Any] = []
+        for text, gid in zip(texts, gids, strict=True):
+            artist = Text(
+                0.0,
+                0.0,
+                text,
+                fontproperties=font,
+                color=on.style.ink,
+                horizontalalignment="center",
+                verticalalignment="center",
+                zorder=5.0,
+                gid=gid,
+                parse_math=False,
+            )
+            on.ax.add_artist(artist)
+            self.artists.append(artist)
+
+    def place(
+        self,
+        points: Float,
+        lines: list[Float],
+        others: Float | None = None,
+        light: list[Float] | None = None,
+    ) -> None:
+        """Move the names to points, m, clear of lines."""
+        on = self._on
+        middles, self._kept = chosen(
+            on.points(points),
+            self._boxes,
+            self._radii,
+            along([on.points(line) for line in lines], STEP),
+            (on.points(on.low), on.points(on.high)),
+            others,
+            along([on.points(line) for line in light or []], STEP),
+            self._kept,
         )
-        on.ax.add_artist(artist)
-        written.append(artist)
-    return written
+        for artist, (x, y) in zip(self.artists, middles / on.scale, strict=True):
+            artist.set_position((x, y))

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur._arrays import Float
-    from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -21,14 +22,16 @@ END_GAP = 1e-6
 
 
 def course(
-    mechanism: Mechanism, assembly: Assembly | None = None, rows: int = ROWS, order: int = 0
+    mechanism: Mechanism,
+    assembly: Mapping[str, int] | None = None,
+    rows: int = ROWS,
+    order: int = 0,
 ) -> Motion:
     """Solve the driver's turn, or what of it can be reached; of several drivers the drawing alone.
 
     Positions that do not exist are NaN.
     """
-    q0 = getattr(assembly, "q", None)
-    q0 = mechanism._q0_array() if q0 is None else np.asarray(q0)
+    q0 = mechanism._q0_array()
     if mechanism._driver_count > 1:
         return mechanism.solve(q0, order=order, assembly=assembly, on_error="nan")
     turns = mechanism.driver not in mechanism.slides
@@ -42,7 +45,7 @@ def course(
 
 
 def _reachable(
-    mechanism: Mechanism, assembly: Assembly | None, q0: float, rows: int, turns: bool
+    mechanism: Mechanism, assembly: Mapping[str, int] | None, q0: float, rows: int, turns: bool
 ) -> Float:
     """Return rows of q over the interval that holds q0."""
     intervals = mechanism.limits(assembly).intervals

@@ -81,6 +81,9 @@ def frames_of(motion: Motion) -> Frames:
     for order in range(motion.order + 1):
         own = np.zeros((motion.status.size, len(links), 3))
         for i, link in enumerate(links):
+            # The ground's frame is the drawing's.
+            if link == "ground":
+                continue
             origin, angle = motion._reference_point(link), motion.link(link)
             own[:, i, :2] = origin._arrays[order].reshape(-1, 2)
             own[:, i, 2] = angle._arrays[order].reshape(-1)
