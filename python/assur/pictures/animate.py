@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 SUFFIXES = (".gif", ".webp", ".mp4")
 # A thousand frames of the usual size take 1 GiB.
 MOST_FRAMES = 1000
-# Lines on plain ground need few colours.
-COLOURS = 64
+# Of a GIF: from the ground to each colour in so many steps, for the edges of lines.
+SHADES = 18
 
 
 def animate(
@@ -91,17 +91,23 @@ def _write_image(out: Path, film: Film, rows: list[int], seconds: float) -> None
     images = [Image.fromarray(film.show(row)[..., :3]) for row in rows]
     options: dict[str, Any] = {"loop": 0, "duration": round(1e3 * seconds / len(rows))}
     if out.suffix.lower() == ".gif":
-        # One palette for all, from the whole film: no colour flickers.
-        sample = Image.fromarray(
-            np.vstack([np.asarray(one) for one in images[:: len(images) // 4]])
-        )
-        palette = sample.quantize(COLOURS, dither=Image.Dither.NONE)
+        palette = Image.new("P", (1, 1))
+        palette.putpalette(_palette(film.colours))
         images = [
-            _with_canvas(one.quantize(palette=palette, dither=Image.Dither.NONE), film.canvas)
+            _with_canvas(one.quantize(palette=palette, dither=Image.Dither.NONE), film.colours[0])
             for one in images
         ]
         options["optimize"] = False
     images[0].save(out, save_all=True, append_images=images[1:], **options)
+
+
+def _palette(colours: list[tuple[int, ...]]) -> list[int]:
+    """Return the ground, which is the first colour, and its mixtures with every other one."""
+    ground, *others = (np.array(colour) for colour in colours)
+    steps = np.linspace(1.0, 0.0, SHADES, endpoint=False)[:, None]
+    mixed = [ground[None], *(ground + steps * (other - ground) for other in others)]
+    entries: list[int] = np.rint(np.concatenate(mixed)).astype(int).reshape(-1).tolist()
+    return entries[: 3 * 256]
 
 
 def _with_canvas(image: Any, colour: tuple[int, ...]) -> Any:

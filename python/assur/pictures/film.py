@@ -32,6 +32,7 @@ class Film:
 
     def __init__(self, motion: Motion, joints: Sequence[str], groups: bool, style: Style) -> None:
         # Solved again: the motion may hold some joints alone.
+        self._groups = groups
         whole = motion.mechanism.solve(motion.q, 0, assembly=assembly_of(motion), on_error="nan")
         self._subject = Subject(whole)
         frames = frames_of(whole)
@@ -65,9 +66,14 @@ class Film:
         return bool(np.abs(ends[0] - ends[1]).max() <= CLOSES * float(np.ptp(ends[0])))
 
     @property
-    def canvas(self) -> tuple[int, ...]:
-        """The colour of the ground, red, green and blue from 0 to 255."""
-        return tuple(int(self._on.style.canvas[i : i + 2], 16) for i in (1, 3, 5))
+    def colours(self) -> list[tuple[int, ...]]:
+        """The ground and the colours on it: red, green and blue from 0 to 255."""
+        style = self._on.style
+        used = [style.canvas, style.ink, style.driver, style.second, style.path]
+        if self._groups:
+            count = len(self._subject.mechanism.structure.groups)
+            used += [style.group(i) for i in range(min(count, len(style.groups)))]
+        return [tuple(int(colour[i : i + 2], 16) for i in (1, 3, 5)) for colour in used]
 
     def show(self, row: int) -> npt.NDArray[np.uint8]:
         """Draw a position; return its pixels, (height, width, 4)."""

@@ -48,7 +48,9 @@ class Subject:
         at = frames_of(motion)
         self.frames = at.values[0]
         whole = course(self.mechanism, self.assembly)
-        self.whole: Frames = nearby(frames_of(whole), at) if (whole.status < 3).any() else at
+        drawing = np.array(list(self.mechanism.joints.values()))
+        drawn = np.isfinite(drawing).all() and (whole.status < 3).any()
+        self.whole: Frames = nearby(frames_of(whole), at, drawing) if drawn else at
         self.scene: Scene = scene_of(self.mechanism, self.whole)
 
     def canvas(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,10 +30,23 @@ def name_font(size: float = NAME_SIZE) -> FontProperties:
     return FontProperties(family=NAME_FONT, style="italic", size=size)
 
 
+@lru_cache(maxsize=1024)
+def _measured(text: str, font: FontProperties) -> tuple[float, float, float]:
+    """Return width, height and descent of a text, points."""
+    measured = text_to_path.get_text_width_height_descent(text, font, ismath=False)
+    width, height, descent = (float(length) for length in measured)
+    return width, height, descent
+
+
 def text_size(text: str, font: FontProperties) -> tuple[float, float]:
     """Return width and height of a text, points."""
-    width, height, _ = text_to_path.get_text_width_height_descent(text, font, ismath=False)
-    return float(width), float(height)
+    return _measured(text, font)[:2]
+
+
+def baseline(text: str, font: FontProperties) -> float:
+    """Return how far a text's baseline is above the middle of its box, points; mostly negative."""
+    _, height, descent = _measured(text, font)
+    return descent - height / 2.0
 
 
 def write_names(
@@ -62,6 +76,7 @@ class Names:
         font = name_font()
         self._on = on
         self._boxes = np.array([text_size(text, font) for text in texts]).reshape(-1, 2)
+        self._baselines = [baseline(text, font) for text in texts]
         self._radii = radii
         self._kept: Any = None
         self.artists: list[Any] = []
@@ -73,7 +88,7 @@ class Names:
                 fontproperties=font,
                 color=on.style.ink,
                 horizontalalignment="center",
-                verticalalignment="center",
+                verticalalignment="baseline",
                 zorder=5.0,
                 gid=gid,
                 parse_math=False,
@@ -100,5 +115,5 @@ class Names:
             along([on.points(line) for line in light or []], STEP),
             self._kept,
         )
-        for artist, (x, y) in zip(self.artists, middles / on.scale, strict=True):
-            artist.set_position((x, y))
+        for artist, drop, (x, y) in zip(self.artists, self._baselines, middles, strict=True):
+            artist.set_position((x / on.scale, (y + drop) / on.scale))

@@ -131,7 +131,7 @@ def test_names_that_are_not_there(kind: str, name: str) -> None:
             {"joint": "C"},
         ),
         (lambda: M.assemblies("x"), "q 'x' real numbers", {}),
-        (lambda: M.plot([1.0, 2.0]), "one position q (2,)", {}),  # type: ignore[arg-type]
+        (lambda: M.plot(labels="both"), "labels 'both' first all none", {}),  # type: ignore[arg-type]
     ],
 )
 def test_questions_refused(

@@ -10,7 +10,7 @@ from assur.pictures import style
 from assur.pictures.scene.geometry import at
 from assur.pictures.scene.links import link_parts
 from assur.pictures.scene.pairs import joint_part, pivot_parts, sliding_arrow, turning_arrow
-from assur.pictures.scene.parts import Line, Name, Part, Scene
+from assur.pictures.scene.parts import Line, Name, Part, Scene, Stroke
 from assur.pictures.scene.slides import Slides
 
 if TYPE_CHECKING:
@@ -41,12 +41,17 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
     lines = [*bodies, *slides.parts()]
     arrows = [part for link, relative_to in angles for part in _turning(frames, link, relative_to)]
     arrows += [part for name in sliding for part in sliding_arrow(slides.axis(name))]
+    blocks = {
+        (part.link, *part.vertices[0][:2])
+        for part in lines
+        if isinstance(part, Stroke) and part.fill == "canvas"
+    }
     joints, names = [], []
     for joint, links in at_joint.items():
         point = frames.local[links[0]][joint]
         joints.append(joint_part(joint, links[0], point, len(links), "ground" in links))
-        on_block = any(slides.is_block(link, joint) for link in links)
-        radius = style.BLOCK_LENGTH / 2.0 if on_block else style.PIVOT
+        own = [(link, *frames.local[link][joint].tolist()) for link in links]
+        radius = style.BLOCK_LENGTH / 2.0 if blocks.intersection(own) else style.PIVOT
         names.append(Name(joint, links[0], at(point), radius))
     return Scene(
         frames.links,

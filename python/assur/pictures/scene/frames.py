@@ -102,14 +102,13 @@ def frames_of(motion: Motion) -> Frames:
     return frames
 
 
-def nearby(whole: Frames, at: Frames) -> Frames:
-    """Return the positions of both; of the whole motion those near the drawing.
+def nearby(whole: Frames, at: Frames, drawing: Float) -> Frames:
+    """Return the positions of both; of the whole motion those near the joints of the drawing.
 
     Where a joint goes toward infinity no picture can follow.
     """
-    joints = np.stack(list(at.joints().values()), axis=1)
-    centre = np.nanmean(joints, axis=(0, 1))
-    reach = FAR * float(np.nanmax(np.abs(joints - centre)))
+    centre = drawing.mean(axis=0)
+    reach = FAR * float(np.abs(drawing - centre).max())
     paths = np.stack(list(whole.joints().values()), axis=1)
     with np.errstate(invalid="ignore"):
         near = whole.is_known & (np.abs(paths - centre) <= reach).all(axis=(1, 2))

@@ -104,11 +104,6 @@ class Slides:
         free = FREE_STROKE * self._size
         return replace(axis, low=axis.low - free, high=axis.high + free)
 
-    def is_block(self, link: str, joint: str) -> bool:
-        """Whether a link slides at a joint."""
-        first = next(iter(self._joints(link)), None)
-        return joint == first and any(s.link == link for s in self._mechanism.slides.values())
-
     def _angle(self, name: str) -> Float:
         """Return the direction of the guide at every position, rad."""
         own = float(self._mechanism.dimensions.get(f"{name}.angle", 0.0))
