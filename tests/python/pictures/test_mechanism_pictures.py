@@ -43,7 +43,10 @@ def places(ax: Any, gid: str) -> np.ndarray[Any, Any]:
 
 def mechanism(name: str) -> Mechanism:
     made = ALL[name]()
-    return made.mechanism if isinstance(made, assur.Machine) else made
+    if not isinstance(made, assur.Machine):
+        return made
+    assert made.mechanism is not None
+    return made.mechanism
 
 
 def test_links_and_joints_are_drawn_where_they_are() -> None:

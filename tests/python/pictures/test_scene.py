@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 
 def mechanism(name: str) -> Mechanism:
     made = ALL[name]()
-    return made.mechanism if isinstance(made, assur.Machine) else made
+    if not isinstance(made, assur.Machine):
+        return made
+    assert made.mechanism is not None
+    return made.mechanism
 
 
 ONE_DRIVER = [name for name in ALL if not isinstance(mechanism(name).driver, tuple)]

@@ -84,7 +84,10 @@ def frames_of(motion: Motion) -> Frames:
             # The ground's frame is the drawing's.
             if link == "ground":
                 continue
-            origin, angle = motion._reference_point(link), motion.link(link)
+            # A link's frame is at its first joint; without one it takes another solution.
+            joints = mechanism.links[link]
+            origin = motion.joint(joints[0]) if joints else motion._reference_point(link)
+            angle = motion.link(link)
             own[:, i, :2] = origin._arrays[order].reshape(-1, 2)
             own[:, i, 2] = angle._arrays[order].reshape(-1)
         values.append(own)
@@ -93,10 +96,12 @@ def frames_of(motion: Motion) -> Frames:
     if not known.size:
         message = f"there is no position to draw: {motion.explain(() if not motion.shape else 0)}"
         raise InputError(message)
+    # Links are rigid: one position tells where their joints are.
     row = int(known[0])
+    at = Frames(links, (values[0][row : row + 1],), {})
     for link, joints in mechanism.links.items():
         frames.local[link] = {
-            joint: frames.seen_from(link, motion.joint(joint).value.reshape(-1, 2))[row]
+            joint: at.seen_from(link, motion.joint(joint).value.reshape(-1, 2)[row : row + 1])[0]
             for joint in joints
         }
     return frames

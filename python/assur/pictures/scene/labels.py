@@ -78,49 +78,56 @@ def chosen(
     angles = np.arange(PLACES) * (2.0 * np.pi / PLACES) + np.pi / 4.0
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     habit = HABIT * (1.0 - directions.sum(axis=1) / np.sqrt(2.0)) / 2.0
-    middles, taken_places = np.empty_like(points), np.zeros(len(points), dtype=np.intp)
-    taken = [] if others is None else [(middle, half) for middle, half in others]
+    count = len(points)
+    middles, places = np.empty_like(points), np.zeros(count, dtype=np.intp)
+    boxes = np.zeros((0, 2, 2)) if others is None else others
+    # Whatever is in the way, a row each: its middle, half its size, how bad it is to cover it.
+    symbols = np.column_stack([points, np.full((count, 2), radius.max()), np.full(count, ON_NAME)])
+    things = np.concatenate(
+        [
+            _rows(obstacles, ON_LINE),
+            _rows(light if light is not None else points[:0], 1.0),
+            np.column_stack([boxes.reshape(-1, 4), np.full(len(boxes), ON_NAME)]),
+            symbols,
+            np.empty((count, 5)),
+        ]
+    )
+    first = len(things) - 2 * count
     for i, (point, size) in enumerate(zip(points, sizes, strict=True)):
         half = size / 2.0
         # The box touches a circle about the point.
         gap = radius[i] + GAP
         centres = point + directions * (gap + np.abs(directions) @ half)[:, None]
-        near = gap + 2.0 * size.max() + ENOUGH
-        clearance = _clearance(centres, half, _within(obstacles, point, near), ON_LINE)
-        if light is not None:
-            faint = _clearance(centres, half, _within(light, point, near))
-            clearance = np.minimum(clearance, faint)
+        known = things[: first + count + i]
+        near = (np.abs(known[:, :2] - point) < gap + size + known[:, 2:4] + ENOUGH).all(axis=1)
+        near[first + i] = False
+        clearance = _clearance(centres, half, known[near])
         border = np.minimum(centres - half - bounds[0], bounds[1] - centres - half).min(axis=1)
         clearance = np.minimum(clearance, np.where(border < 0.0, ON_NAME * border, border))
-        for other, own in taken:
-            apart = np.abs(centres - other) - half - own
-            gaps = np.maximum(apart[:, 0], apart[:, 1])
-            clearance = np.minimum(clearance, np.where(gaps < 0.0, ON_NAME * gaps, gaps))
-        rest = np.delete(points, i, axis=0)
-        if len(rest):
-            joints = _clearance(centres, half, rest, ON_NAME) - radius.max()
-            clearance = np.minimum(clearance, joints)
         worth = np.minimum(clearance, ENOUGH) - habit
         best = int(np.argmax(worth))
         if kept is not None and worth[kept[i]] > worth[best] - WORSE:
             best = int(kept[i])
-        middles[i], taken_places[i] = centres[best], best
-        taken.append((centres[best], half))
-    return middles, taken_places
+        middles[i], places[i] = centres[best], best
+        things[first + count + i] = (*centres[best], *half, ON_NAME)
+    return middles, places
 
 
-def _within(points: Float, of: Float, reach: float) -> Float:
-    near: Float = points[(np.abs(points - of) < reach).all(axis=1)]
-    return near
+def _rows(points: Float, weight: float) -> Float:
+    """Return points as things in the way."""
+    rows = np.zeros((len(points), 5))
+    rows[:, :2], rows[:, 4] = points, weight
+    return rows
 
 
-def _clearance(centres: Float, half: Float, obstacles: Float, weight: float = 1.0) -> Float:
-    """Return the distance of each box from the nearest obstacle, negative inside, by a weight."""
-    if not len(obstacles):
+def _clearance(centres: Float, half: Float, things: Float) -> Float:
+    """Return the distance of each box from the nearest thing, negative inside, by its weight."""
+    if not len(things):
         return np.full(len(centres), np.inf)
-    apart = np.abs(obstacles[None] - centres[:, None]) - half
-    outside = np.hypot(*np.moveaxis(np.maximum(apart, 0.0), -1, 0))
-    inside = weight * np.minimum(apart.max(axis=-1), 0.0)
+    dx = np.abs(things[:, 0] - centres[:, :1]) - (things[:, 2] + half[0])
+    dy = np.abs(things[:, 1] - centres[:, 1:]) - (things[:, 3] + half[1])
+    inside = things[:, 4] * np.minimum(np.maximum(dx, dy), 0.0)
+    outside = np.sqrt(np.maximum(dx, 0.0) ** 2 + np.maximum(dy, 0.0) ** 2)
     distance: Float = (outside + inside).min(axis=1)
     return distance
 
