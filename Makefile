@@ -27,7 +27,7 @@ export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run check test rust-test python-test docs wheel bench campaign fuzz clean rust-tools lint-tools
+.PHONY: help run check test rust-test python-test docs gallery wheel bench campaign fuzz clean rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
@@ -36,7 +36,8 @@ help:
 	@echo "make test         format, lints, types, unit, integration and documentation tests"
 	@echo "make rust-test    the Rust half of it"
 	@echo "make python-test  the Python half of it"
-	@echo "make docs         these pages and the API as a site: docs/_build/html/index.html"
+	@echo "make docs         these pages, the API and the gallery: docs/_build/html/index.html"
+	@echo "make gallery      the gallery's pages and pictures alone: docs/gallery"
 	@echo "make wheel        a wheel for release in dist/, audited, installed and tested"
 	@echo "make bench        benchmarks, beside NumPy and numba; docs/speed.md"
 	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
@@ -84,11 +85,14 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m pytest -q -n auto
 
 # Warnings are errors: of broken links and of names without a page, too.
-docs: rust-tools $(EXTENSION)
+docs: gallery
 	@$(PY) -m pip install --quiet --group docs
 	@rm -rf docs/_build docs/api/generated
 	$(PY) -m sphinx -b html -n -W --keep-going -q -j auto docs docs/_build/html
 	@echo "docs/_build/html/index.html"
+
+gallery: rust-tools $(EXTENSION)
+	$(PY) tools/gallery
 
 # As released: without test-hooks, audited, installed away from the checkout and tested there.
 wheel: rust-tools $(RUN_STAMP)
@@ -125,7 +129,7 @@ fuzz: rust-tools
 
 clean:
 	cargo clean
-	rm -rf $(VENV) out dist docs/_build docs/api/generated .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) out dist docs/_build docs/api/generated docs/gallery .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	rm -f python/assur/_core*.so
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 

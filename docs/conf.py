@@ -38,7 +38,7 @@ extensions = [
     "sphinx.ext.viewcode",
 ]
 templates_path = ["_templates"]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "gallery/_live"]
 language = "en"
 smartquotes = False  # {"open", "crossed"} are to be typed
 highlight_options = {"python": {"stripnl": True}}  # README ends its sessions with an empty line
@@ -88,6 +88,7 @@ numpydoc_validation_exclude = {r"Error$", r"\.Defect$", r"\.Status$"}
 html_theme = "pydata_sphinx_theme"
 html_title = f"assur {version}"
 html_static_path = ["_static"]
+html_extra_path = ["gallery/_live"]  # pages that play, as they are
 html_css_files = ["assur.css"]
 html_show_sourcelink = False
 html_copy_source = False

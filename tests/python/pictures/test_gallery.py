@@ -1,0 +1,59 @@
+"""The gallery's pages: code that runs, numbers that are those of the mechanisms."""
+
+from __future__ import annotations
+
+import re
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import pytest
+
+import assur
+
+TOOL = Path(__file__).resolve().parents[3] / "tools" / "gallery"
+
+
+@pytest.fixture(scope="module")
+def gallery() -> Any:
+    if not TOOL.exists():
+        pytest.skip("the tools of the repository are not here")
+    backend = mpl.get_backend()
+    loader = SourceFileLoader("gallery", str(TOOL))
+    spec = spec_from_loader("gallery", loader)
+    assert spec is not None
+    module = module_from_spec(spec)
+    loader.exec_module(module)
+    mpl.use(backend)
+    return module
+
+
+@pytest.mark.parametrize("name", list(assur.examples.ALL))
+def test_the_code_shown_makes_the_example(gallery: Any, name: str) -> None:
+    space: dict[str, Any] = {}
+    exec(gallery.code(name), space)
+    made = space[name]()
+    own = assur.examples.ALL[name]()
+    if isinstance(own, assur.Machine):
+        assert made.mechanism == own.mechanism
+    else:
+        assert made == own
+
+
+def test_a_page_has_picture_code_numbers_and_source(gallery: Any) -> None:
+    shaper = assur.examples.shaper()
+    page = gallery.page("shaper", shaper)
+    assert re.findall(r"^#+ (.+)$", page, re.MULTILINE) == ["Shaper", "Code", "Numbers", "Source"]
+    assert "shaper-light.svg" in page
+    assert "shaper-dark.svg" in page
+    # Crank 100 mm, OD 200 mm: the lever swings by 30 degrees to either side (asin 1/2).
+    assert "| lever | from 60° to 120° |" in page
+    assert f"| structure | {shaper.structure.formula} |" in page
+
+
+def test_paths_worth_seeing_are_those_of_points_on_no_circle(gallery: Any) -> None:
+    assert gallery.points(assur.examples.crank_rocker()) == ["P"]
+    assert gallery.points(assur.examples.klann_leg()) == ["F"]
+    assert gallery.points(assur.examples.engine()) == ["B"]
