@@ -54,7 +54,7 @@ def write(name: str, path: Path) -> None:
 def test_pictures_are_those_that_were_looked_at(name: str, tmp_path: Path) -> None:
     drawn = tmp_path / f"{name}.png"
     write(name, drawn)
-    difference = compare_images(str(BASELINE / f"{name}.png"), str(drawn), TOLERANCE)  # type: ignore[call-overload]
+    difference = compare_images(str(BASELINE / f"{name}.png"), str(drawn), TOLERANCE)
     assert difference is None, difference
 
 
@@ -66,7 +66,7 @@ def test_a_moved_bar_is_seen(tmp_path: Path) -> None:
     moved = tmp_path / "moved.png"
     ax.figure.savefig(moved, dpi=50, facecolor=ax.figure.get_facecolor())
     plt.close(ax.figure)
-    assert compare_images(str(BASELINE / "shaper.png"), str(moved), TOLERANCE)  # type: ignore[call-overload]
+    assert compare_images(str(BASELINE / "shaper.png"), str(moved), TOLERANCE)
 
 
 if __name__ == "__main__":
