@@ -1099,6 +1099,75 @@ class Mechanism:
 
         return mechanism_picture(self, q, ax, assembly, labels, groups, dark)
 
+    def to_html(
+        self,
+        path: str | PathLike[str],
+        q: npt.ArrayLike | None = None,
+        omega: float | None = None,
+        paths: Sequence[str] | None = None,
+        diagrams: Sequence[str] | None = None,
+        title: str | None = None,
+        dark: bool | None = None,
+    ) -> None:
+        """Write one self-contained page that plays the mechanism in a browser.
+
+        The whole turn of the driver (or what can be reached) is computed beforehand; nothing is
+        fetched. On the page the mechanism is dragged or played, paths, velocities, accelerations,
+        groups and other positions are switched, diagrams have a cursor. A notebook shows the same.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that exists is replaced.
+        q : float or array_like, optional
+            Where to begin, rad or m: the drawing by default. Several coordinates are played in
+            their order, as by `Motion.to_html`.
+        omega : float, optional
+            Speed of the driver, rad/s or m/s: for arrows, diagrams and the clock.
+        paths : sequence of str, optional
+            Joints whose paths and vectors are shown at first.
+        diagrams : sequence of str, optional
+            Up to three, by the names of `Motion.to_dataframe`: ``"rocker"``, ``"rocker.omega"``,
+            ``"C.x"``, ``"bore.a"`` …; ``"C.v"`` and ``"C.a"`` are magnitudes. By default the
+            output with its speed and acceleration.
+        title : str, optional
+            Above the page; the name of the file by default.
+        dark : bool, optional
+            As the reader's system by default.
+
+        Raises
+        ------
+        InputError
+            A batch of designs, several drivers without `q`, an unknown name, a file that cannot be
+            written.
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     page = pathlib.Path(folder, "press.html")
+        ...     assur.SliderCrank(0.05, 0.2).to_html(page, omega=10.0, diagrams=["bore", "bore.v"])
+        ...     page.stat().st_size < 150_000
+        True
+        """
+        from assur.pictures.page.html import write_page
+
+        write_page(
+            self, path, q=q, speed=omega, paths=paths, diagrams=diagrams, title=title, dark=dark
+        )
+
+    def _repr_svg_(self) -> str | None:
+        """Return a static picture for notebooks; none of a batch."""
+        from assur.pictures.page.html import notebook_svg
+
+        return notebook_svg(self)
+
+    def _repr_html_(self) -> str | None:
+        """Return what a notebook shows; none of a batch."""
+        from assur.pictures.page.html import notebook_html
+
+        return notebook_html(self)
+
 
 def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:
     mechanism = Mechanism._make(description, values)

@@ -759,3 +759,66 @@ class Motion:
         from assur.pictures.animate import animate
 
         animate(self, path, joint, frames, seconds, groups, dark)
+
+    def to_html(
+        self,
+        path: str | PathLike[str],
+        omega: float | None = None,
+        duration: float | None = None,
+        paths: Sequence[str] | None = None,
+        diagrams: Sequence[str] | None = None,
+        title: str | None = None,
+        dark: bool | None = None,
+    ) -> None:
+        """Write one self-contained page that plays these positions in a browser.
+
+        Of one driver whose coordinate only grows or only falls, they are played along the
+        coordinate; else (several drivers, to and fro) along time, at equal steps of it.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that exists is replaced.
+        omega : float, optional
+            Speed along the coordinate, rad/s or m/s.
+        duration : float, optional
+            Of all positions, s: they are then played along time; 4 s for several drivers.
+        paths, diagrams, title, dark
+            As for `Mechanism.to_html`.
+
+        Raises
+        ------
+        InputError
+            A batch of designs, fewer than two positions, an unknown name, a file that cannot be
+            written.
+
+        Examples
+        --------
+        >>> import assur, numpy as np, pathlib, tempfile
+        >>> low, high = np.array(assur.examples.RANGES["excavator"])
+        >>> parts = (1.0 - np.cos(np.linspace(0.0, 2.0 * np.pi, 61)[:, np.newaxis])) / 2.0
+        >>> motion = assur.examples.excavator().solve(low + parts * (high - low))
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     page = pathlib.Path(folder, "dig.html")
+        ...     motion.to_html(page, duration=8.0, paths=["tip"])
+        ...     page.read_text(encoding="utf-8")[:15]
+        '<!doctype html>'
+        """
+        from assur.pictures.page.html import write_page
+
+        write_page(
+            self,
+            path,
+            speed=omega,
+            duration=duration,
+            paths=paths,
+            diagrams=diagrams,
+            title=title,
+            dark=dark,
+        )
+
+    def _repr_html_(self) -> str | None:
+        """Return what a notebook shows; none of a batch or of one position."""
+        from assur.pictures.page.html import notebook_html
+
+        return notebook_html(self)

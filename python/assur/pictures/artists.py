@@ -12,6 +12,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from assur.pictures import style as sizes
+from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
 from assur.pictures.scene.parts import Disc, Hatching, Stroke
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 TINT = 0.10
 HATCH_INK = 0.38
-# Points of a hatching stroke across its line.
-HATCH_DEPTH = 7.0
 
 
 class Drawn:
@@ -151,7 +150,7 @@ class Drawn:
             np.array(self._at(part.start)),
             np.array(self._at(part.end)),
             part.spacing * self._on.size / self._on.scale,
-            HATCH_DEPTH * self._on.size / self._on.scale,
+            DEPTH * self._on.size / self._on.scale,
         )
         return PathPatch(
             _segments(lines),
@@ -172,36 +171,3 @@ def _segments(lines: Float) -> Path:
     """Return a path of separate segments, (n, 2, 2)."""
     codes = np.tile(np.array([Path.MOVETO, Path.LINETO], dtype=np.uint8), len(lines))
     return Path(lines.reshape(-1, 2), codes)
-
-
-def hatched_line(start: Float, end: Float, spacing: float, depth: float) -> Float:
-    """Return strokes of hatching on the right of a line, (n, 2, 2)."""
-    along = end - start
-    length = float(np.hypot(*along))
-    if not length:
-        return np.zeros((0, 2, 2))
-    unit = along / length
-    right = np.array([unit[1], -unit[0]])
-    # Each leans back from its foot by its depth, and none beyond the line's ends.
-    feet = np.arange(spacing, length + 1e-9 * spacing, spacing)[:, None]
-    near = start + feet * unit
-    lean = np.minimum(depth * 0.7, feet)
-    return np.stack([near, near + lean * (right - unit)], axis=1)
-
-
-def hatched_area(corners: Float, spacing: float) -> Float:
-    """Return strokes at 45° inside a convex area, (n, 2, 2)."""
-    direction = np.array([1.0, 1.0]) / np.sqrt(2.0)
-    normal = np.array([-1.0, 1.0]) / np.sqrt(2.0)
-    heights = corners @ normal
-    ends = []
-    closed = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
-    for level in np.arange(heights.min() + spacing / 2.0, heights.max(), spacing):
-        cuts = []
-        for a, b in closed:
-            ha, hb = float(a @ normal) - level, float(b @ normal) - level
-            if (ha < 0.0) != (hb < 0.0):
-                cuts.append(a + (b - a) * (ha / (ha - hb)))
-        if len(cuts) == 2:
-            ends.append(sorted(cuts, key=lambda cut: float(cut @ direction)))
-    return np.array(ends).reshape(-1, 2, 2)

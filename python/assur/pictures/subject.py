@@ -10,8 +10,9 @@ from assur.pictures.axes import MARGIN, WIDTH, Canvas, canvas
 from assur.pictures.formula import LINE, formula_lines
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.course import course
+from assur.pictures.scene.extent import corners, usual_link, vertices
 from assur.pictures.scene.frames import Frames, frames_of, nearby
-from assur.pictures.scene.parts import Disc, Hatching
+from assur.pictures.scene.parts import Disc
 from assur.pictures.text import name_font, text_size
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ class Subject:
         self, ax: Any, style: Style, others: Iterable[Float] = (), groups: bool = False
     ) -> Canvas:
         """Return axes that show the whole motion, other points, and the formula of the groups."""
-        paths = [self.whole.world(link, (x, y)) for link, x, y in self._corners()]
+        paths = [self.whole.world(link, (x, y)) for link, x, y in corners(self.scene)]
         points = np.concatenate([*paths, *others])
         points = points[np.isfinite(points).all(axis=1)]
         extent = points.min(axis=0), points.max(axis=0)
@@ -68,29 +69,7 @@ class Subject:
         # New figures may be narrower.
         lines = len(formula_lines(self.mechanism, 0.75 * 72.0 * WIDTH)) if groups else 0
         top = MARGIN + lines * LINE
-        return canvas(ax, extent, style, self._usual_link(), (sides, top))
-
-    def _corners(self) -> set[tuple[str, float, float]]:
-        """Return every point of the scene, with the link it is fixed to."""
-        return {
-            (part.link, vertex.x, vertex.y)
-            for part in self.scene.parts
-            for vertex in vertices(part)
-        }
-
-    def _usual_link(self) -> float:
-        """Return the median length of the links."""
-        lengths = [
-            float(np.hypot(*(one - other)))
-            for link, joints in self.whole.local.items()
-            if link != "ground"
-            for i, one in enumerate(joints.values())
-            for other in list(joints.values())[:i]
-        ]
-        if lengths:
-            return float(np.median(lengths))
-        joints = np.concatenate(list(self.whole.joints().values()))
-        return float(np.ptp(joints, axis=0).max())
+        return canvas(ax, extent, style, usual_link(self.whole), (sides, top))
 
     def lines(self, on: Canvas, frames: Float) -> list[Float]:
         """Return all lines of the scene at one position, m."""
@@ -116,13 +95,6 @@ def assembly_of(motion: Motion) -> dict[str, int]:
     """Return the assembly in which a motion was solved."""
     names = (name for name, _ in motion.mechanism._core.assembly)
     return dict(zip(names, motion._request.signs, strict=True))
-
-
-def vertices(part: Part) -> tuple[Vertex, ...]:
-    """Return the points of a part."""
-    if isinstance(part, Disc):
-        return (part.centre,)
-    return (part.start, part.end) if isinstance(part, Hatching) else part.vertices
 
 
 def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | None:

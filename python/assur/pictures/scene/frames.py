@@ -78,7 +78,8 @@ def frames_of(motion: Motion) -> Frames:
         raise InputError(message)
     links = tuple(mechanism.links)
     values = []
-    for order in range(motion.order + 1):
+    # Derivatives by several coordinates are not of frames along a motion.
+    for order in range(motion.order + 1 if mechanism._driver_count == 1 else 1):
         own = np.zeros((motion.status.size, len(links), 3))
         for i, link in enumerate(links):
             # The ground's frame is the drawing's.

@@ -1,0 +1,52 @@
+"""The page's modules as one script: imports between them resolved by inlining.
+
+Names at the top of all modules differ from each other (a test holds that), so that the modules
+can stand one after another.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib.resources import files
+
+# Who is imported comes first.
+MODULES = (
+    *("elements", "numbers", "words", "turn", "quantities", "view", "draw", "labels"),
+    *("paths", "vectors", "dial", "chart", "player", "drag", "stage", "panel", "main"),
+)
+
+_IMPORT = re.compile(r"^import \{[^}]*\} from \"\./(\w+)\.js\";\n", re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=function|class|const|async)", re.MULTILINE)
+_BLOCK_COMMENT = re.compile(r"^[ ]*/\*\*.*?\*/\n", re.MULTILINE | re.DOTALL)
+_LINE_COMMENT = re.compile(r"^[ ]*//.*\n", re.MULTILINE)
+_INDENT = re.compile(r"^[ ]+", re.MULTILINE)
+_BLANK = re.compile(r"\n{2,}")
+
+
+def module(name: str) -> str:
+    """Return the source of a module."""
+    return files(__package__).joinpath(f"{name}.js").read_text(encoding="utf-8")
+
+
+@cache
+def script() -> str:
+    """Return all modules as one script without comments, which defines `mount`."""
+    return "".join(_inlined(module(name)) for name in MODULES)
+
+
+def _inlined(source: str) -> str:
+    source = _EXPORT.sub("", _IMPORT.sub("", source))
+    return _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", source)))
+
+
+@cache
+def stylesheet() -> str:
+    """Return the page's style without needless blanks; colours are added by `html`."""
+    source = files(__package__).joinpath("page.css").read_text(encoding="utf-8")
+    return _tidy(source)
+
+
+def _tidy(source: str) -> str:
+    # No text and no template runs over lines (a test holds that), so indents mean nothing.
+    return _BLANK.sub("\n", _INDENT.sub("", source)).lstrip("\n")

@@ -1,0 +1,226 @@
+"""The numbers of a page: the scene of a mechanism, and the frames of its links, as JSON."""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.pictures.page.quantities import checked_diagrams, checked_paths
+from assur.pictures.scene.build import scene_of
+from assur.pictures.scene.extent import corners, usual_link
+from assur.pictures.scene.frames import Frames
+from assur.pictures.scene.parts import Disc, Hatching
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+    from assur.pictures.page.turn import Turn
+    from assur.pictures.scene.parts import Part, Scene, Stroke, Vertex
+
+ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+ARROW = " → "
+# A page turns once in so many seconds, if no speed is given.
+SECONDS = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Played:
+    """What a page shows: a mechanism, its scene, and what is played."""
+
+    mechanism: Mechanism
+    turn: Turn
+    scene: Scene
+
+    @property
+    def frames(self) -> Frames:
+        """The positions, with derivatives by the grid's parameter."""
+        return self.turn.frames
+
+    def bounds(self) -> tuple[Float, Float]:
+        """Return the corners of the whole motion, m."""
+        points = [self.frames.world(link, (x, y)) for link, x, y in corners(self.scene)]
+        every = np.concatenate(points)
+        every = every[np.isfinite(every).all(axis=1)]
+        return every.min(axis=0), every.max(axis=0)
+
+    def row(self) -> int:
+        """Return the row next to where the page begins."""
+        grid = self.turn.grid
+        parameter = np.linspace(grid.get("low", 0.0), grid.get("high", 1.0), len(self.known()))
+        if grid["kind"] == "cosine":
+            q = grid["middle"] - grid["half"] * np.cos(parameter)
+        else:
+            q = np.asarray(grid.get("q", parameter))
+        return int(np.argmin(np.where(self.known(), np.abs(q - self.turn.at), np.inf)))
+
+    def known(self) -> Any:
+        """Whether there is a position at each row."""
+        return self.frames.is_known
+
+
+def played_of(turn: Turn) -> Played:
+    """Return a mechanism with its scene over what is played."""
+    mechanism = turn.mechanism
+    known = turn.frames.is_known
+    values = (turn.frames.values[0][known],)
+    scene = scene_of(mechanism, Frames(turn.frames.links, values, turn.frames.local))
+    return Played(mechanism, turn, scene)
+
+
+def payload(
+    played: Played,
+    title: str,
+    speed: float | None = None,
+    paths: Any = None,
+    diagrams: Any = None,
+) -> dict[str, Any]:
+    """Return what the page is told, ready for `json.dumps`."""
+    mechanism, scene, turn = played.mechanism, played.scene, played.turn
+    links = ["ground", *(link for link in scene.links if link != "ground")]
+    index = {link: i for i, link in enumerate(links)}
+    low, high = played.bounds()
+    groups = mechanism.structure.groups
+    return {
+        "title": title,
+        "formula": mechanism.structure.formula.split(ARROW),
+        "driver": _driver(mechanism),
+        "links": links,
+        "driven": [index[link] for link in links if link in scene.driven],
+        "groups": [scene.groups.get(link, -1) for link in links],
+        "classes": [ROMAN[g.cls] if g.cls < len(ROMAN) else str(g.cls) for g in groups],
+        "joints": list(_joints(played, index)),
+        "slides": list(_slides(played, index)),
+        "parts": [_part(part, index) for part in scene.parts],
+        "bounds": _short([*low, *high]),
+        "usual": _short([usual_link(turn.frames)])[0],
+        "speed": speed if speed is not None else _usual_speed(turn),
+        "paths": checked_paths(mechanism, paths),
+        "diagrams": checked_diagrams(mechanism, diagrams),
+        "turn": {
+            "grid": turn.grid,
+            "closes": turn.closes,
+            "unit": turn.unit,
+            "at": turn.at,
+            "dead": [{"q": q, "group": group} for q, group in turn.dead_points],
+            "orders": len(turn.frames.values),
+            "rows": len(turn.frames.values[0]),
+            "ground": _ground(turn.frames),
+            "values": _binary(turn.frames, links[1:]),
+        },
+    }
+
+
+def _binary(frames: Frames, moving: list[str]) -> str:
+    """Return [order][row][link][x, y, angle] of all links but the ground: Float32 as base64."""
+    columns = [frames.links.index(link) for link in moving]
+    array = np.stack([values[:, columns] for values in frames.values]).astype("<f4")
+    return base64.b64encode(array.tobytes()).decode("ascii")
+
+
+def _ground(frames: Frames) -> list[float]:
+    """Return the frame of the ground, which may lie at its first joint."""
+    row = int(np.flatnonzero(frames.is_known)[0])
+    return _short(frames.values[0][row, frames.links.index("ground")])
+
+
+def _driver(mechanism: Mechanism) -> str:
+    drivers = mechanism.driver if isinstance(mechanism.driver, tuple) else (mechanism.driver,)
+    return ", ".join(d if isinstance(d, str) else f"{d.link} − {d.relative_to}" for d in drivers)
+
+
+def _usual_speed(turn: Turn) -> float:
+    if turn.unit == "angle":
+        return round(2.0 * np.pi / SECONDS, 2)
+    if turn.unit == "time":
+        return 1.0
+    q = turn.grid.get("q")
+    stroke = q[-1] - q[0] if q else 2.0 * turn.grid.get("half", 0.5)
+    return float(f"{2.0 * stroke / SECONDS:.2g}")
+
+
+def _joints(played: Played, index: dict[str, int]) -> Iterable[dict[str, Any]]:
+    local = played.frames.local
+    for name in played.scene.names:
+        yield {
+            "name": name.text,
+            "link": index[name.link],
+            "links": [index[link] for link, on in local.items() if name.text in on],
+            "at": _short(name.at[:2]),
+            "radius": name.radius,
+        }
+
+
+def _slides(played: Played, index: dict[str, int]) -> Iterable[dict[str, Any]]:
+    """Slides as projections: of a point of the sliding link on a direction of the other."""
+    mechanism, frames = played.mechanism, played.frames
+    for name, slide in mechanism.slides.items():
+        own = next(iter(frames.local[slide.link].values()), np.zeros(2))
+        origin = np.zeros(2)
+        angle = float(mechanism.dimensions.get(f"{name}.angle", 0.0))
+        origin_joint = slide.origin
+        if origin_joint is not None:
+            origin = frames.local[slide.on][origin_joint]
+            offset = 0.0
+        else:
+            # Zero is the drawing's place.
+            offset = _drawn_value(played, name, own, angle)
+        yield {
+            "name": name,
+            "link": index[slide.link],
+            "on": index[slide.on],
+            "at": _short(own),
+            "origin": _short(origin),
+            "angle": angle,
+            "offset": float(f"{offset:.9g}"),
+        }
+
+
+def _drawn_value(played: Played, name: str, own: Float, angle: float) -> float:
+    """Return what the projection gives where the slide's value is zero."""
+    mechanism = played.mechanism
+    motion = mechanism.solve(mechanism._q0_array(), order=0)
+    slide = mechanism.slides[name]
+    places = []
+    for link in (slide.link, slide.on):
+        place = motion._reference_point(link).value.reshape(2)
+        places.append((place, float(motion.link(link).value)))
+    (at, turned), (base, guide) = places
+    cosine, sine = np.cos(turned), np.sin(turned)
+    arm = np.array([cosine * own[0] - sine * own[1], sine * own[0] + cosine * own[1]])
+    along = (np.cos(guide + angle), np.sin(guide + angle))
+    return float((at + arm - base) @ along) - float(motion.slide(name).value)
+
+
+def _part(part: Part, index: dict[str, int]) -> dict[str, Any]:
+    own: dict[str, Any] = {"link": index[part.link], "name": part.name}
+    if part.colour != "link":
+        own["colour"] = part.colour
+    if isinstance(part, Disc):
+        return {**own, "disc": part.radius, "at": _flat([part.centre]), "width": part.width,
+                "fill": part.fill}  # fmt: skip
+    if isinstance(part, Hatching):
+        return {**own, "hatching": part.spacing, "at": _flat([part.start, part.end])}
+    return {**own, **_stroke(part)}
+
+
+def _stroke(part: Stroke) -> dict[str, Any]:
+    own: dict[str, Any] = {"at": _flat(part.vertices), "width": part.width}
+    for key in ("closed", "fill", "hatched", "dashes", "floor"):
+        if value := getattr(part, key):
+            own[key] = value
+    return own
+
+
+def _flat(vertices: Iterable[Vertex]) -> list[float]:
+    """Return x, y, dx, dy of each vertex."""
+    return _short([number for vertex in vertices for number in vertex])
+
+
+def _short(numbers: Iterable[float]) -> list[float]:
+    """Return numbers to seven digits, as many as Float32 has."""
+    return [int(x) if x == int(x) else x for x in (float(f"{number:.7g}") for number in numbers)]

@@ -1,0 +1,241 @@
+"""Frames of all links over a turn, over what can be reached, or over given positions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from assur._arrays import real_number
+from assur.errors import InputError
+from assur.pictures.scene.course import FREE_STROKE
+from assur.pictures.scene.frames import FAR, Frames, frames_of
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.kinematics.limits import Limits
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+
+ROWS = 181
+TURN = 2.0 * np.pi
+# Motions that close only after more turns than this are shown over one, to and fro.
+MOST_TURNS = 4
+# q = middle − half · cos u: dense at dead points, where everything is smooth in u, not in q. So
+# near 0 and π u begins and ends.
+GAP = 2e-3
+
+Unit = Literal["angle", "length", "time"]
+
+
+@dataclass(frozen=True, eq=False)
+class Turn:
+    """What is played.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What moves.
+    frames : Frames
+        Values and two derivatives by the grid's parameter, at each row.
+    grid : dict
+        How the coordinate goes along the rows: ``linear`` from low to high, ``cosine``
+        (middle − half · cos of a parameter from low to high), or ``rows`` with its values.
+    closes : bool
+        Whether the last position is the first.
+    unit : {"angle", "length", "time"}
+        What the coordinate is.
+    at : float
+        Where to begin.
+    dead_points : list of (float, str)
+        Ends where the driver cannot go on, each with the group that is flat there.
+    """
+
+    mechanism: Mechanism
+    frames: Frames
+    grid: dict[str, Any]
+    closes: bool
+    unit: Unit
+    at: float
+    dead_points: list[tuple[float, str]] = field(default_factory=list)
+
+
+def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
+    """Return the whole turn of the driver, or what can be reached from the drawing."""
+    require_one(mechanism)
+    if mechanism._driver_count > 1:
+        message = (
+            f"to_html plays one coordinate, this mechanism has {mechanism._driver_count} drivers: "
+            "solve its positions, then motion.to_html()"
+        )
+        raise InputError(message)
+    q0 = float(mechanism._q0_array()) if at is None else real_number(at, "q")
+    turns = mechanism.driver not in mechanism.slides
+    limits = mechanism.limits()
+    low, high = _interval(limits, q0, turns)
+    if not low < high:
+        places = " ".join(f"[{a:.6g}, {b:.6g}]" for a, b in limits.intervals.tolist())
+        message = f"q is {q0:g}, beyond what can be reached: {places or 'nothing'}"
+        raise InputError(message)
+    unit: Unit = "angle" if turns else "length"
+    if turns and np.isinf(low) and np.isinf(high):
+        period = limits.period
+        closes = period is not None and period <= MOST_TURNS
+        count = period if closes else 1
+        frames = _linear(mechanism, 0.0, TURN * count, (rows - 1) * count + 1)
+        if frames is not None:
+            grid = {"kind": "linear", "low": 0.0, "high": TURN * count}
+            return Turn(mechanism, frames, grid, closes, unit, q0 % (TURN * count))
+    size = float(np.ptp(np.array(list(mechanism.joints.values())), axis=0).max())
+    free = TURN / 2.0 if turns else FREE_STROKE * size or FREE_STROKE
+    low, high = max(low, q0 - free), min(high, q0 + free)
+    # No picture can follow where something goes toward infinity.
+    low, high = _nearby(mechanism, q0, low, high, rows)
+    frames, grid = _cosine(mechanism, low, high, rows)
+    dead = [
+        (point.q + shift, point.group)
+        for point in limits.dead_points
+        for shift in ((-TURN, 0.0, TURN) if turns else (0.0,))
+        if point.group is not None and min(abs(point.q + shift - end) for end in (low, high)) < 1e-9
+    ]
+    return Turn(mechanism, frames, grid, False, unit, q0, dead)
+
+
+def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
+    """Return the positions of a motion, in their order.
+
+    Of one driver whose coordinate only grows, or only falls, it is played along the coordinate;
+    else along time, as if the positions were equally far apart in time.
+    """
+    mechanism = motion.mechanism
+    require_one(mechanism)
+    if len(motion.shape) != 1 or motion.shape[0] < 2:
+        message = f"to_html plays positions (N,), at least 2; this motion has shape {motion.shape}"
+        raise InputError(message)
+    signs: dict[str, int] | None = None
+    if motion._request.signs != mechanism._signs:
+        names = (name for name, _ in mechanism._core.assembly)
+        signs = dict(zip(names, motion._request.signs, strict=True))
+    q = motion.q
+    steps = np.diff(q, axis=0)
+    along_q = mechanism._driver_count == 1 and ((steps > 0).all() or (steps < 0).all())
+    if along_q and steps[0] < 0:
+        q = q[::-1]
+    # Again: this motion may keep fewer outputs and orders.
+    again = mechanism.solve(q, order=2, assembly=signs, on_error="nan")
+    if along_q and duration is None:
+        unit: Unit = "length" if mechanism.driver in mechanism.slides else "angle"
+        grid = {"kind": "rows", "q": q.tolist()}
+        return Turn(
+            mechanism,
+            frames_of(again),
+            grid,
+            _closes(q, unit, again),
+            unit,
+            float(motion.q[0]),
+        )
+    duration = 4.0 if duration is None else duration
+    t = np.linspace(0.0, duration, len(q))
+    speed = _slope(q, t)
+    acceleration = _slope(speed, t)
+    frames = frames_in_time(again, speed, acceleration)
+    grid = {"kind": "linear", "low": 0.0, "high": duration}
+    values = frames.values[0]
+    # Angles may differ by turns.
+    apart = values[-1] - values[0]
+    apart[:, 2] -= TURN * np.round(apart[:, 2] / TURN)
+    return Turn(mechanism, frames, grid, bool((np.abs(apart) < 1e-9).all()), "time", 0.0)
+
+
+def _slope(values: Float, t: Float) -> Float:
+    """Return derivatives along evenly spaced times; of a motion that comes back, across its end."""
+    if (np.abs(values[-1] - values[0]) > 1e-9 * np.abs(values).max()).any():
+        return np.asarray(np.gradient(values, t, axis=0, edge_order=2 if len(t) > 2 else 1))
+    step = t[1] - t[0]
+    around = np.concatenate([values[-2:-1], values, values[1:2]])
+    slopes: Float = (around[2:] - around[:-2]) / (2.0 * step)
+    return slopes
+
+
+def frames_in_time(motion: Motion, speed: Float, acceleration: Float) -> Frames:
+    """Return frames with derivatives by time, of drivers with these speeds and accelerations."""
+    rows, drivers = len(motion.q), motion.mechanism._driver_count
+    speed, acceleration = speed.reshape(rows, drivers), acceleration.reshape(rows, drivers)
+    position = frames_of(motion)
+    first, second = np.zeros_like(position.values[0]), np.zeros_like(position.values[0])
+    for i, link in enumerate(position.links):
+        origin, angle = motion._reference_point(link)._arrays, motion.link(link)._arrays
+        for columns, arrays in ((slice(0, 2), origin), (slice(2, 3), angle)):
+            d1 = arrays[1].reshape(rows, -1, drivers)
+            d2 = arrays[2].reshape(rows, -1, drivers, drivers)
+            first[:, i, columns] = np.einsum("ncd,nd->nc", d1, speed)
+            bent = np.einsum("ncde,nd,ne->nc", d2, speed, speed)
+            second[:, i, columns] = bent + np.einsum("ncd,nd->nc", d1, acceleration)
+    return Frames(position.links, (position.values[0], first, second), position.local)
+
+
+def require_one(mechanism: Mechanism) -> None:
+    """Refuse a batch."""
+    if mechanism.shape:
+        message = (
+            f"to_html plays one mechanism, this is a batch {mechanism.shape}: take one with "
+            "design(i)"
+        )
+        raise InputError(message)
+
+
+def _closes(q: Float, unit: Unit, motion: Motion) -> bool:
+    """Whether rows go round a whole turn."""
+    if unit != "angle" or abs(q[-1] - q[0] - TURN) > 1e-9:
+        return False
+    joints = (motion.joint(name).value for name in motion.mechanism.joints)
+    return all(bool(np.abs(joint[-1] - joint[0]).max() < 1e-9) for joint in joints)
+
+
+def _interval(limits: Limits, q0: float, turns: bool) -> tuple[float, float]:
+    """Return the interval that holds q0."""
+    for own_low, own_high in limits.intervals.tolist():
+        # Intervals lie about (−π, π], q0 wherever it was typed.
+        middle = (own_low + own_high) / 2.0
+        shift = TURN * round((q0 - middle) / TURN) if turns and np.isfinite(middle) else 0.0
+        low, high = own_low + shift, own_high + shift
+        if low - 1e-9 <= q0 <= high + 1e-9:
+            return low, high
+    return q0, q0
+
+
+def _linear(mechanism: Mechanism, low: float, high: float, rows: int) -> Frames | None:
+    motion = mechanism.solve(np.linspace(low, high, rows), order=2, on_error="nan")
+    return frames_of(motion) if bool((motion.status < 3).all()) else None
+
+
+def _nearby(
+    mechanism: Mechanism, q0: float, low: float, high: float, rows: int
+) -> tuple[float, float]:
+    """Return the part of an interval about q0 in which all joints are near the drawing."""
+    joints = np.array(list(mechanism.joints.values()))
+    centre = joints.mean(axis=0)
+    reach = FAR * float(np.abs(joints - centre).max())
+    q = np.linspace(low, high, rows)
+    motion = mechanism.solve(q, order=0, on_error="nan")
+    paths = motion.joint(list(mechanism.joints)).value
+    with np.errstate(invalid="ignore"):
+        far = (np.abs(paths - centre) > reach).any(axis=(0, 2))
+    below, above = q[far & (q < q0)], q[far & (q > q0)]
+    return float(below.max(initial=low)), float(above.min(initial=high))
+
+
+def _cosine(
+    mechanism: Mechanism, low: float, high: float, rows: int
+) -> tuple[Frames, dict[str, Any]]:
+    """Return frames with derivatives by u, q = middle − half · cos u."""
+    middle, half = (low + high) / 2.0, (high - low) / 2.0
+    u = np.linspace(GAP, np.pi - GAP, rows)
+    motion = mechanism.solve(middle - half * np.cos(u), order=2, on_error="nan")
+    by_q = frames_of(motion).values
+    first, second = (half * f(u)[:, None, None] for f in (np.sin, np.cos))
+    values = (by_q[0], by_q[1] * first, by_q[2] * first**2 + by_q[1] * second)
+    grid = {"kind": "cosine", "middle": middle, "half": half, "low": GAP, "high": np.pi - GAP}
+    frames = frames_of(motion)
+    return Frames(frames.links, values, frames.local), grid

@@ -1,0 +1,49 @@
+// All texts, by language. `{name}` is replaced.
+
+const WORDS = {
+  en: {
+    play: "Play",
+    pause: "Pause",
+    home: "To the drawing",
+    speed: "Speed of the driver",
+    slower: "shown {n} times slower",
+    fit: "Fit",
+    scheme: "Light or dark",
+    names: "Names",
+    paths: "Paths",
+    velocity: "Velocity",
+    acceleration: "Acceleration",
+    positions: "Positions",
+    groups: "Groups",
+    points: "Points",
+    pointsHint: "Points with paths and arrows",
+    show: "What is shown",
+    diagram: "Quantity of diagram {n}",
+    picture: "{title}: {links} moving links, driver {driver}, at {q}",
+    mechanism: "Mechanism",
+    dial: "Position of the driver {driver}",
+    turn: "turn {n}",
+    of: "{low} to {high}",
+    atDeadPoint: "Dead point at {q}: {group} is stretched flat, the driver cannot go on.",
+    nothing: "There is no position at {q}.",
+    playing: "Playing",
+    paused: "Paused at {q}",
+    angle: "angle",
+    omega: "speed",
+    alpha: "acceleration",
+    value: "position",
+    v: "speed",
+    a: "acceleration",
+  },
+};
+
+/**
+ * Return a text.
+ * @param {string} key
+ * @param {Object<string, string|number>} [values]
+ * @param {string} [language]
+ */
+export function say(key, values = {}, language = "en") {
+  const text = WORDS[language]?.[key] ?? WORDS.en[key] ?? key;
+  return text.replace(/\{(\w+)\}/g, (whole, name) => String(values[name] ?? whole));
+}
