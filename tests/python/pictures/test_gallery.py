@@ -45,7 +45,13 @@ def test_the_code_shown_makes_the_example(gallery: Any, name: str) -> None:
 def test_a_page_has_picture_code_numbers_and_source(gallery: Any) -> None:
     shaper = assur.examples.shaper()
     page = gallery.page("shaper", shaper)
-    assert re.findall(r"^#+ (.+)$", page, re.MULTILINE) == ["Shaper", "Code", "Numbers", "Source"]
+    assert re.findall(r"^#+ (.+)$", page, re.MULTILINE) == [
+        "Shaper",
+        "Moving",
+        "Code",
+        "Numbers",
+        "Source",
+    ]
     assert "shaper-light.svg" in page
     assert "shaper-dark.svg" in page
     # Crank 100 mm, OD 200 mm: the lever swings by 30 degrees to either side (asin 1/2).
