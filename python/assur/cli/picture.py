@@ -19,7 +19,7 @@ def save_figure(draw: Callable[[], Any], path: str) -> None:
         raise InputError(message) from error
     figure = draw().figure
     try:
-        figure.savefig(path)
+        figure.savefig(path, facecolor=figure.get_facecolor())
     except (OSError, ValueError) as error:
         message = f"{path}: the picture cannot be written ({error})"
         raise InputError(message) from error

@@ -189,7 +189,15 @@ def test_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert Path("m.svg").read_text("utf-8") != first
     printed("plot", "example:crank_rocker", "--joint", "P", "--out", "path.png")
     assert Path("path.png").read_bytes().startswith(b"\x89PNG")
-    assert "one position" in refused("plot", "example:crank_rocker", "--q", "0:60:10deg")
+    many = ("plot", "example:crank_rocker", "--q", "0:330:30deg", "--groups", "--dark")
+    assert printed(*many, "--out", "many.svg") == ["many.svg"]
+    assert Path("many.svg").read_text("utf-8").count('id="position"') == 33
+    printed("plot", "example:crank_rocker", "--q", "0:60:10deg", "--joint", "P", "--out", "f.gif")
+    assert Path("f.gif").read_bytes().startswith(b"GIF89a")
+    for q in ((), ("--q", "60deg"), ("--q", "0:60:10deg")):
+        printed("plot", "example:crank_rocker", *q, "--joint", "P", "--out", "page.html")
+        assert Path("page.html").read_text("utf-8").startswith("<!doctype html>")
+    assert "a switch" in refused("plot", "example:engine", "--groups", "--out", "p.html")
     assert "cannot be written" in refused("plot", "example:engine", "--out", "no/p.svg")
     assert "cannot be written" in refused("plot", "example:engine", "--out", "p.nothing")
     assert "no joint" in refused("plot", "example:engine", "--joint", "X", "--out", "p.svg")

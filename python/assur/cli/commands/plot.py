@@ -1,41 +1,56 @@
-"""``assur plot``: a picture of a mechanism."""
+"""``assur plot``: a picture of a mechanism, a film, or a page that plays it."""
 
 from __future__ import annotations
 
 from pathlib import PurePath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from assur.cli.coordinates import add_coordinates, coordinates
 from assur.cli.help import describe
 from assur.cli.named import EXAMPLE
 from assur.cli.source import STDIN, read, require_one
 from assur.cli.source_arguments import add_source
+from assur.errors import InputError
 
 if TYPE_CHECKING:
     import argparse
+
+    from assur.kinematics.mechanism import Mechanism
+
+FILMS = (".gif", ".webp", ".mp4")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     describe(
         parser,
-        "Draw the mechanism at one position, or with --joint the path of a joint over the turn.\n"
-        "A picture that exists is replaced.",
+        "Draw the mechanism at one position or at many, or with --joint the paths of joints over\n"
+        "the turn. A name in .gif, .webp or .mp4 gives a film, .html a page that plays. A file\n"
+        "that exists is replaced.",
         "assur plot example:klann_leg --out klann.png",
-        "assur plot example:crank_rocker --q 60deg --out at60.svg",
+        "assur plot example:crank_rocker --q 0:330:30deg --groups --out positions.svg",
         "assur plot example:crank_rocker --joint P --out path.svg",
+        "assur plot example:crank_rocker --joint P --out rocker.gif",
+        "assur plot example:shaper --out shaper.html",
     )
     add_source(parser)
     add_coordinates(parser)
-    parser.add_argument("--joint", metavar="NAME", help="draw the path of this joint")
     parser.add_argument(
-        "--out", metavar="PICTURE", help=".png, .svg, .pdf …; by default FILE's name with .svg"
+        "--joint", metavar="NAME", action="append", help="draw the path of this joint (again: more)"
+    )
+    parser.add_argument("--groups", action="store_true", help="each Assur group in its colour")
+    parser.add_argument("--dark", action="store_true", help="for dark backgrounds")
+    parser.add_argument(
+        "--out",
+        metavar="PICTURE",
+        help=".png, .svg, .pdf, .gif, .html …; by default FILE's name with .svg",
     )
 
 
 def run(given: argparse.Namespace) -> None:
     """Run the command."""
-    from assur.cli.picture import save_figure
     from assur.cli.written import refuse_same, require_writable
 
     out = given.out or f"{_stem(given.file)}.svg"
@@ -44,14 +59,44 @@ def run(given: argparse.Namespace) -> None:
     contents = read(given)
     mechanism = contents.mechanism
     require_one(mechanism, given.file)
+    suffix = PurePath(out).suffix.lower()
+    wanted = contents.wanted.get("solve", {})
+    if suffix == ".html":
+        _write_page(given, mechanism, wanted, out)
+    elif suffix in FILMS:
+        motion = mechanism.solve(**coordinates(mechanism, given.q, wanted), order=0, on_error="nan")
+        motion.animate(out, given.joint, groups=given.groups, dark=given.dark)
+    else:
+        _draw(given, mechanism, wanted, out)
+    print(out)
+
+
+def _draw(given: argparse.Namespace, mechanism: Mechanism, wanted: Any, out: str) -> None:
+    from assur.cli.picture import save_figure
+
+    shown = {"groups": given.groups, "dark": given.dark}
     if given.joint is not None:
-        place = coordinates(mechanism, given.q, contents.wanted.get("solve", {}))
+        place = coordinates(mechanism, given.q, wanted)
         motion = mechanism.solve(**place, order=0, on_error="nan")
-        save_figure(lambda: motion.plot(given.joint), out)
+        save_figure(lambda: motion.plot(given.joint, **shown), out)
     else:
         q = None if given.q is None else coordinates(mechanism, given.q, {})["q"]
-        save_figure(lambda: mechanism.plot(q), out)
-    print(out)
+        save_figure(lambda: mechanism.plot(q, **shown), out)
+
+
+def _write_page(given: argparse.Namespace, mechanism: Mechanism, wanted: Any, out: str) -> None:
+    if given.groups:
+        message = "--groups: a page has a switch for them"
+        raise InputError(message)
+    shown = {"paths": given.joint, "dark": True if given.dark else None}
+    if given.q is None and not isinstance(mechanism.driver, tuple):
+        mechanism.to_html(out, **shown)
+        return
+    place = coordinates(mechanism, given.q, wanted)
+    if np.ndim(place.get("q", [])) == 0:
+        mechanism.to_html(out, **place, **shown)
+        return
+    mechanism.solve(**place, on_error="nan").to_html(out, **shown)
 
 
 def _stem(file: str) -> str:
