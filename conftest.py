@@ -1,6 +1,8 @@
 """Makes doctests print the same everywhere."""
 
 import os
+import sys
+from collections.abc import Iterator
 
 os.environ.setdefault("MPLBACKEND", "Agg")  # before anything imports matplotlib
 
@@ -9,6 +11,10 @@ import pytest
 
 
 @pytest.fixture(autouse=True)
-def _stable_examples(doctest_namespace: dict[str, object]) -> None:
+def _stable_examples(doctest_namespace: dict[str, object]) -> Iterator[None]:
     doctest_namespace["np"] = np
     np.set_printoptions(precision=6, suppress=True, linewidth=88)
+    yield
+    # Figures that stay open are a warning beyond twenty.
+    if "matplotlib.pyplot" in sys.modules:
+        sys.modules["matplotlib.pyplot"].close("all")

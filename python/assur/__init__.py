@@ -41,7 +41,17 @@ from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
-    from assur import balance, events, examples, files, flywheel, importers, laws, metric
+    from assur import (
+        balance,
+        events,
+        examples,
+        files,
+        flywheel,
+        importers,
+        laws,
+        metric,
+        pictures,
+    )
     from assur.dynamics.friction import JointFriction, SlideFriction
     from assur.dynamics.loads import (
         Body,
@@ -131,6 +141,7 @@ __all__ = [
     "laws",
     "load",
     "metric",
+    "pictures",
     "slider_crank",
     "sweep",
 ]
@@ -139,7 +150,17 @@ __version__ = version()
 
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
-    "assur": ("balance", "events", "examples", "files", "flywheel", "importers", "laws", "metric"),
+    "assur": (
+        "balance",
+        "events",
+        "examples",
+        "files",
+        "flywheel",
+        "importers",
+        "laws",
+        "metric",
+        "pictures",
+    ),
     "assur.dynamics.friction": ("JointFriction", "SlideFriction"),
     "assur.dynamics.loads": (
         "Body",

@@ -68,12 +68,15 @@ class Acting(NamedTuple):
     joint: str | None
 
 
-def acting_on(at: Positions, link: str) -> Iterator[Acting]:
-    """Yield all that acts on a link but its weight and inertia."""
+def acting_on(at: Positions, link: str, couples: bool = False) -> Iterator[Acting]:
+    """Yield all that acts on a link but its weight and inertia.
+
+    Couples whose place is unknown are refused, unless `couples` wants them at the link's origin.
+    """
     yield from _pins(at, link)
     yield from _slides(at, link)
-    yield from _drivers(at, link)
-    yield from _loads(at, link)
+    yield from _drivers(at, link, couples)
+    yield from _loads(at, link, couples)
 
 
 def _mechanism(at: Positions) -> Mechanism:
@@ -114,7 +117,7 @@ def _slides(at: Positions, link: str) -> Iterator[Acting]:
         yield Acting(f"slide {name!r}", place, sign * force, sign * moment, joint)
 
 
-def _drivers(at: Positions, link: str) -> Iterator[Acting]:
+def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
     """Yield the torques of driven angles, which act where their two links meet."""
     mechanism = _mechanism(at)
     for index, driver in enumerate(mechanism._description.drivers):
@@ -125,30 +128,28 @@ def _drivers(at: Positions, link: str) -> Iterator[Acting]:
             continue
         other = mechanism.links[drive.relative_to]
         shared = [joint for joint in mechanism.links[drive.link] if joint in other]
-        if not shared:
+        if not shared and not couples:
             message = (
                 f"the drive of {drive.link!r} acts on {link!r} with a torque, but the link shares "
                 f"no joint with {drive.relative_to!r}: where it acts is unknown"
             )
             raise InputError(message, link=link)
         sign = 1.0 if link == drive.link else -1.0
-        place = at.motion.joint(shared[0]).value
+        pivot = at.motion.joint(shared[0]) if shared else at.motion._reference_point(link)
+        place = pivot.value
         torque = sign * _effort(at, index)
-        yield Acting("the drive", place, np.zeros(place.shape), torque, shared[0])
+        joint = shared[0] if shared else None
+        yield Acting("the drive", place, np.zeros(place.shape), torque, joint)
 
 
-def _loads(at: Positions, link: str) -> Iterator[Acting]:
+def _loads(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
     for load in at.machine.loads:
         if isinstance(load, Gravity):
             continue
         what = f"a {type(load).__name__}"
         if isinstance(load, Torque | TorsionSpring | TorsionDamper):
             if link in (load.link, load.on):
-                message = (
-                    f"{what} acts on {link!r}, at no place that is known: loads inside the link "
-                    "depend on it; replace it by two forces"
-                )
-                raise InputError(message, link=link)
+                yield _torque(at, load, link, couples)
         elif isinstance(load, Pressure):
             yield from _pressure(at, load, link)
         elif isinstance(load, Force):
@@ -163,6 +164,35 @@ def _loads(at: Positions, link: str) -> Iterator[Acting]:
                 if taker == link:
                     place, force = _pull(at, load, end, other)
                     yield Acting(what, place, force, _nothing(at), _joint(end))
+
+
+def _torque(
+    at: Positions, load: Torque | TorsionSpring | TorsionDamper, link: str, couples: bool
+) -> Acting:
+    """Return a couple on a link, at its origin."""
+    what = f"a {type(load).__name__}"
+    if not couples:
+        message = (
+            f"{what} acts on {link!r}, at no place that is known: loads inside the link "
+            "depend on it; replace it by two forces"
+        )
+        raise InputError(message, link=link)
+    place = at.motion._reference_point(link).value
+    sign = 1.0 if link == load.link else -1.0
+    return Acting(what, place, np.zeros(place.shape), sign * _couple(at, load), None)
+
+
+def _couple(at: Positions, load: Torque | TorsionSpring | TorsionDamper) -> Float:
+    """Return the moment of a load on its first link."""
+    if isinstance(load, Torque):
+        torque = values_at(load.torque, at.q, at.speed, at.t, lambda name: _measure(at, name))
+        return np.asarray(np.where(_acts(at, load, None), torque, 0.0))
+    own, other = at.motion.link(load.link), at.motion.link(load.on)
+    if isinstance(load, TorsionSpring):
+        twist = own.value - other.value - load.angle
+        return np.asarray(-load.stiffness * twist - load.preload)
+    speeds = at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
+    return np.asarray(-load.damping * (own.velocity(speeds) - other.velocity(speeds)))
 
 
 def _joint(point: PointLike) -> str | None:
@@ -184,7 +214,7 @@ def _measure(at: Positions, name: str) -> Float:
     return both
 
 
-def _acts(at: Positions, load: Force | Pressure, default: str | None) -> Any:
+def _acts(at: Positions, load: Force | Pressure | Torque, default: str | None) -> Any:
     """Return where a load acts: everywhere, or where its coordinate moves in its direction."""
     if load.while_ is None:
         return np.True_

@@ -12,6 +12,7 @@ from assur._arrays import in_range, real_number
 from assur._extreme import Extreme
 from assur.dynamics.options import positive_number
 from assur.errors import InputError
+from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -56,6 +57,10 @@ class Bearing:
     relative_speed: Any
     q: Any
     _designs: tuple[int, ...] = ()
+    # Of the frame: the link, its angle; and what the force acts on.
+    _frame: tuple[str, Any] = ("ground", 0.0)
+    _what: tuple[str, str] = ("", "")
+    _is_angle: bool = True
 
     @property
     def mean(self) -> Any:
@@ -141,6 +146,43 @@ class Bearing:
         with in_range("pressure times velocity"):
             return pressure * np.abs(self.relative_speed) * (float(diameter) / 2.0)
 
+    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+        """Draw the polar load diagram: the ends of the forces laid off from one pole.
+
+        Once as the ground sees them, once as the link does in whose frame they are given; the
+        greatest force is drawn and written (needs matplotlib).
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes or sequence of two, optional
+            Where to draw: on one only the own frame's diagram; a new figure by default.
+        dark : bool
+            Light lines on a dark ground.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of two
+            Those drawn on; one if the frame is the ground's. Artists are named ``force``,
+            ``greatest``, ``position 3``.
+
+        Raises
+        ------
+        InputError
+            A batch of designs, no position with a force.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> found = machine.reactions(np.linspace(0.0, 2 * np.pi, 73), speed=10.0)
+        >>> axes = found.bearing("A", on="crank").plot()
+        >>> axes.shape
+        (2,)
+        """
+        from assur.pictures.polar_load import polar_load
+
+        return polar_load(self, ax, dark)
+
     def _rows(self, what: str) -> Float:
         """Return the sizes with positions on the last axis, also of one coordinate."""
         size = np.asarray(self.size)
@@ -192,6 +234,9 @@ def bearing(
         relative_speed=None if other is None else (speeds[on] - speeds[other])[()],
         q=found.q,
         _designs=found._mechanism.shape,
+        _frame=(own_frame, angles[own_frame]),
+        _what=(name, on),
+        _is_angle=driven_angles(found._mechanism)[0],
     )
 
 

@@ -13,7 +13,8 @@ from assur._validate import checked_threads, one_of
 from assur.description.words import Status
 from assur.dynamics.along import times
 from assur.dynamics.friction import SlideFriction
-from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions, links_at
+from assur.dynamics.places import links_at
+from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions
 from assur.dynamics.reduce import checked_senses, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
@@ -131,7 +132,8 @@ def reactions(
     # Not a closure, which could not be pickled.
     again = partial(_again, machine, motion, threads, sense)
     rubs = again if machine.friction and SOLUTIONS in found else None
-    return Reactions(mechanism, given_motion, found, status.reshape(shape), rubs)
+    source = machine, times(motion.t, shape)
+    return Reactions(mechanism, given_motion, found, status.reshape(shape), rubs, source)
 
 
 def _again(

@@ -1,4 +1,4 @@
-"""Where joints and centres of mass are in the frames of links, as complex numbers."""
+"""Where joints and centres of mass are: in the frames of links, as complex numbers."""
 
 from __future__ import annotations
 
@@ -29,3 +29,11 @@ def mass_centre(mechanism: Mechanism, link: str, body: Body) -> complex:
         joints = mechanism.links[link]
         return joint_place(mechanism, link, joints[0]) if joints else 0j
     return joint_place(mechanism, link, body.at) if isinstance(body.at, str) else complex(*body.at)
+
+
+def links_at(mechanism: Mechanism) -> dict[str, list[str]]:
+    """Return the links of every joint, in the order of the description."""
+    return {
+        joint: [link for link, joints in mechanism.links.items() if joint in joints]
+        for joint in mechanism._joint_names
+    }

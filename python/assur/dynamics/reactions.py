@@ -10,18 +10,21 @@ import numpy as np
 from assur._summary import summary
 from assur._table import Column, Tabular, coordinate_columns, design_columns
 from assur._validate import checked_name
+from assur.description.structure import Group
 from assur.description.words import Status
 from assur.dynamics import bearing as bearings
+from assur.dynamics.places import links_at
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import numpy.typing as npt
 
     from assur._arrays import Float
     from assur.dynamics.bearing import Bearing
+    from assur.dynamics.model import MachineModel
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Reactions", "SlideReaction"]
@@ -134,12 +137,21 @@ class Reactions(Tabular):
         found: dict[Key, Float],
         status: npt.NDArray[np.uint8],
         again: Callable[[list[Key], int], Reactions] | None = None,
+        source: tuple[MachineModel, Float] | None = None,
     ) -> None:
         self._mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
         self._found = found
         self._again = again
+        # The machine and the times: with them what acts can be drawn.
+        self._source = source
         self.status = status
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Functions of the user cannot be pickled.
+        source = self._source
+        kept = source is not None and not source[0]._core.load_functions
+        return {**self.__dict__, "_source": source if kept else None}
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return all forces: of a joint on every link but the first, which takes the rest."""
@@ -418,13 +430,102 @@ class Reactions(Tabular):
         friction = self._found.get(Key("friction", index), np.where(np.isnan(normal), np.nan, 0.0))
         return SlideReaction(normal, moment, along, friction[()])
 
+    def plot(
+        self,
+        links: str | Sequence[str] | None = None,
+        at: int | tuple[int, ...] = (),
+        ax: Any = None,
+        dark: bool = False,
+    ) -> Any:
+        """Draw the forces of one position in their places (needs matplotlib).
 
-def links_at(mechanism: Mechanism) -> dict[str, list[str]]:
-    """Return the links of every joint, in the order of the description."""
-    return {
-        joint: [link for link, joints in mechanism.links.items() if joint in joints]
-        for joint in mechanism._joint_names
-    }
+        Parameters
+        ----------
+        links : str or sequence of str, optional
+            Links that are cut free: what acts on them from outside is drawn. By default the whole
+            mechanism with the force in every joint, on the first link there that moves.
+        at : int or tuple of int
+            Index of the position into the shape of `status`.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            Light lines on a dark ground.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on. Artists are named ``reaction B on rod``, ``load B on piston``,
+            ``weight rod``, ``inertia rod`` (dashed: the opposite of mass times acceleration),
+            ``drive crank``; moments are arcs, ``moment`` stands before their names.
+
+        Raises
+        ------
+        InputError
+            An unknown link, an index outside the shape, a position without reactions.
+
+        Examples
+        --------
+        >>> import assur
+        >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> axes = machine.reactions(1.0).plot()
+        >>> "reaction A on crank" in [line.get_gid() for line in axes.lines]
+        True
+        """
+        from assur.dynamics.force_system import force_system
+        from assur.pictures.forces import forces_picture
+
+        return forces_picture(force_system(self, links, at), links, ax, dark)
+
+    def polygon(
+        self,
+        links: str | Sequence[str] | Group,
+        at: int | tuple[int, ...] = (),
+        ax: Any = None,
+        dark: bool = False,
+    ) -> Any:
+        """Draw the force polygon of links that are cut free (needs matplotlib).
+
+        Loads, weights and inertia forces follow each other, then the forces of the links outside:
+        the polygon closes.
+
+        Parameters
+        ----------
+        links : str, sequence of str or Group
+            A link, some links, or an Assur group of ``mechanism.structure.groups``.
+        at : int or tuple of int
+            Index of the position into the shape of `status`.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            Light lines on a dark ground.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on; artists are named as those of `plot`.
+
+        Raises
+        ------
+        InputError
+            An unknown link, an index outside the shape, a position without reactions or without
+            any force.
+
+        Examples
+        --------
+        >>> import assur
+        >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> group = machine.mechanism.structure.groups[0]
+        >>> axes = machine.reactions(1.0).polygon(group)
+        >>> [a.get_gid() for a in axes.lines if "head" not in a.get_gid()][:3]
+        ['load B on piston', 'reaction A on rod', 'reaction bore on piston']
+        """
+        from assur.dynamics.force_system import force_system
+        from assur.pictures.force_polygon import force_polygon
+
+        own = links.links if isinstance(links, Group) else links
+        return force_polygon(force_system(self, own, at), ax, dark)
 
 
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:

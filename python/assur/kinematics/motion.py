@@ -822,3 +822,57 @@ class Motion:
         from assur.pictures.page.html import notebook_html
 
         return notebook_html(self)
+
+    def polygon(
+        self,
+        what: str,
+        at: int | tuple[int, ...] = (),
+        omega: npt.ArrayLike = 1.0,
+        alpha: npt.ArrayLike = 0.0,
+        ax: Any = None,
+        dark: bool = False,
+    ) -> Any:
+        """Draw the plan of velocities or accelerations of one position (needs matplotlib).
+
+        Every joint has its image: vectors from the pole o to them are their velocities. The image
+        of a link is similar to it. Values stand where they have room.
+
+        Parameters
+        ----------
+        what : {"velocity", "acceleration"}
+            Which plan. Accelerations relative to another point of a link are drawn as normal
+            (solid) and tangential parts (dashed), those of slides on moving guides as Coriolis
+            part (solid) and relative acceleration (dashed).
+        at : int or tuple of int
+            Index of the position into `shape`.
+        omega, alpha : array_like
+            Speed and acceleration of the driver, as for `Analogues.velocity`: rad/s and rad/s² or
+            m/s and m/s².
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            Light lines on a dark ground.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on. Artists have names, `get_gid`: ``velocity C``, ``velocity C relative
+            to B``, ``normal C relative to B``, ``sliding A relative to A of lever``.
+
+        Raises
+        ------
+        InputError
+            An index outside the shape, a position without analogues, a mechanism at rest.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0.0, 6.0, 7))
+        >>> axes = motion.polygon("velocity", at=2, omega=10.0)
+        >>> tip = next(a for a in axes.patches if a.get_gid() == "velocity C head")
+        >>> bool(np.allclose(tip.get_path().vertices[0], motion.joint("C").velocity(10.0)[2]))
+        True
+        """
+        from assur.pictures.polygon import polygon_picture
+
+        return polygon_picture(self, what, at, omega, alpha, ax, dark)

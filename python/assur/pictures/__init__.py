@@ -3,3 +3,36 @@
 `Mechanism.plot`, `Motion.plot` and the like draw with good defaults and return the axes; artists
 carry names (`get_gid`): ``link coupler``, ``joint B``, ``slide bore``.
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from assur.pictures.all_centres import instant_centres
+    from assur.pictures.inflection import inflection_circle
+    from assur.pictures.rolling import centrodes
+    from assur.pictures.vector_ends import hodograph
+
+__all__ = ["centrodes", "hodograph", "inflection_circle", "instant_centres"]
+
+# Imported at first use: they need matplotlib (PEP 562).
+_LATER = {
+    "centrodes": "rolling",
+    "hodograph": "vector_ends",
+    "inflection_circle": "inflection",
+    "instant_centres": "all_centres",
+}
+
+
+def __getattr__(name: str) -> object:
+    if name not in _LATER:
+        message = f"module {__name__!r} has no attribute {name!r}"
+        raise AttributeError(message)
+    from assur.pictures.axes import pyplot
+
+    pyplot()
+    return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

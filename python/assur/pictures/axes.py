@@ -11,6 +11,8 @@ from assur.errors import InputError
 from assur.pictures import style as sizes
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from assur._arrays import Float
     from assur.pictures.style import Style
 
@@ -80,16 +82,17 @@ def canvas(
     extent: tuple[Float, Float],
     style: Style,
     link: float,
-    margins: tuple[float, float] = (MARGIN, MARGIN),
+    head: float = 0.0,
+    sides: float = MARGIN,
 ) -> Canvas:
     """Return axes in true proportion that show `extent`; `link` is the usual length of a link, m.
 
-    Margins on both sides and above are in points. Axes that have something drawn on keep it in
-    sight.
+    `head`: points for text above; `sides`: margins on the left and the right. Axes that have
+    something drawn on keep it in sight.
     """
     low, high = extent
     # Left, below, right, above.
-    border = np.array([margins[0], MARGIN + FOOT, margins[0], margins[1]])
+    border = np.array([sides, MARGIN + FOOT, sides, MARGIN + head])
     if ax is None:
         ax = _new_axes(high - low, border[:2] + border[2:], style)
     else:
@@ -141,8 +144,8 @@ def length_text(length: float) -> str:
     return f"{length * factor:.6g} {unit}"
 
 
-def scale_bar(on: Canvas) -> None:
-    """Draw a scale bar in the lower left corner."""
+def scale_bar(on: Canvas, write: Callable[[float], str] = length_text) -> None:
+    """Draw a scale bar in the lower left corner; `write` gives its length with the unit."""
     length = nice_length(SCALE_BAR * 1.4 / on.scale)
     x, y = on.low + 0.45 * FOOT / on.scale
     tick = 3.0 / on.scale
@@ -155,7 +158,7 @@ def scale_bar(on: Canvas) -> None:
     text = Text(
         x + length + 5.0 / on.scale,
         y,
-        length_text(length),
+        write(length),
         color=on.style.second,
         fontsize=TEXT,
         verticalalignment="center_baseline",

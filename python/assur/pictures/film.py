@@ -40,7 +40,7 @@ class Film:
         self.rows = np.flatnonzero(frames.is_known)
         paths = {name: motion.joint(name).value for name in joints}
         known = [path[np.isfinite(path).all(axis=1)] for path in paths.values()]
-        self._on = self._subject.canvas(None, style, known, groups)
+        self._on = self._subject.canvas(None, style, known, groups=groups)
         self.figure = self._on.ax.figure
         self.figure.set_dpi(DOTS_PER_INCH)
         for i, (name, path) in enumerate(paths.items()):

@@ -48,7 +48,7 @@ def path_picture(
     at_row = motion.mechanism.solve(motion.coordinate(row), 0, assembly=assembly_of(motion))
     subject = Subject(at_row)
     known = [path[np.isfinite(path).all(axis=1)] for path in paths]
-    on = subject.canvas(ax, sizes.style(dark), known, groups)
+    on = subject.canvas(ax, sizes.style(dark), known, groups=groups)
     for i, (name, path) in enumerate(zip(joints, paths, strict=True)):
         draw_path(on, path, name, DASHES[i % len(DASHES)], path[row])
     draw_position(subject, on, subject.frames[0], groups=groups, lines=known)

@@ -18,6 +18,8 @@ from assur.pictures.text import name_font, text_size
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    import numpy.typing as npt
+
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
@@ -55,9 +57,17 @@ class Subject:
         self.scene: Scene = scene_of(self.mechanism, self.whole)
 
     def canvas(
-        self, ax: Any, style: Style, others: Iterable[Float] = (), groups: bool = False
+        self,
+        ax: Any,
+        style: Style,
+        others: Iterable[Float] = (),
+        head: float = 0.0,
+        groups: bool = False,
     ) -> Canvas:
-        """Return axes that show the whole motion, other points, and the formula of the groups."""
+        """Return axes that show the whole motion, other points, and the formula of the groups.
+
+        `head`: points for other text above.
+        """
         paths = [self.whole.world(link, (x, y)) for link, x, y in corners(self.scene)]
         points = np.concatenate([*paths, *others])
         points = points[np.isfinite(points).all(axis=1)]
@@ -68,8 +78,16 @@ class Subject:
         sides = max(MARGIN, longest / 2.0 + ROOM)
         # New figures may be narrower.
         lines = len(formula_lines(self.mechanism, 0.75 * 72.0 * WIDTH)) if groups else 0
-        top = MARGIN + lines * LINE
-        return canvas(ax, extent, style, usual_link(self.whole), (sides, top))
+        top = head + lines * LINE
+        return canvas(ax, extent, style, usual_link(self.whole), top, sides)
+
+    def sees(self, points: Float, part: float) -> npt.NDArray[np.bool_]:
+        """Whether points are near the whole motion: within a part of its size."""
+        joints = np.concatenate(list(self.whole.joints().values()))
+        low, high = np.nanmin(joints, axis=0), np.nanmax(joints, axis=0)
+        reach = part * float((high - low).max())
+        with np.errstate(invalid="ignore"):
+            return np.asarray(((points > low - reach) & (points < high + reach)).all(axis=-1))
 
     def lines(self, on: Canvas, frames: Float) -> list[Float]:
         """Return all lines of the scene at one position, m."""

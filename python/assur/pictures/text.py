@@ -58,13 +58,17 @@ def write_names(
     gids: Sequence[str],
     others: Float | None = None,
     light: list[Float] | None = None,
+    font: FontProperties | None = None,
+    colours: Sequence[str] | None = None,
+    sizes: Sequence[tuple[float, float]] | None = None,
 ) -> list[Any]:
     """Write names beside points, m.
 
     `radii` of their symbols are in points, `lines` in m; `others` are boxes that are there
     already: their middles and halves in points, (k, 2, 2); `light` are lines to be covered first.
+    The font and ink of names by default; texts whose `sizes`, points, are given may have formulas.
     """
-    names = Names(on, texts, radii, gids)
+    names = Names(on, texts, radii, gids, font, colours, sizes)
     names.place(points, lines, others, light)
     return names.artists
 
@@ -72,26 +76,39 @@ def write_names(
 class Names:
     """Names on a canvas, placed beside their points; in motion they stay where they were."""
 
-    def __init__(self, on: Canvas, texts: Sequence[str], radii: Float, gids: Sequence[str]) -> None:
-        font = name_font()
+    def __init__(
+        self,
+        on: Canvas,
+        texts: Sequence[str],
+        radii: Float,
+        gids: Sequence[str],
+        font: FontProperties | None = None,
+        colours: Sequence[str] | None = None,
+        sizes: Sequence[tuple[float, float]] | None = None,
+    ) -> None:
+        font = font or name_font()
         self._on = on
-        self._boxes = np.array([text_size(text, font) for text in texts]).reshape(-1, 2)
-        self._baselines = [baseline(text, font) for text in texts]
+        measured = [text_size(text, font) for text in texts] if sizes is None else sizes
+        self._boxes = np.array(measured, dtype=np.float64).reshape(-1, 2)
+        # Formulas are centred: their baselines are not known.
+        plain = sizes is None
+        self._baselines = [baseline(text, font) if plain else 0.0 for text in texts]
         self._radii = radii
         self._kept: Any = None
         self.artists: list[Any] = []
-        for text, gid in zip(texts, gids, strict=True):
+        inks = colours or [on.style.ink] * len(texts)
+        for text, gid, ink in zip(texts, gids, inks, strict=True):
             artist = Text(
                 0.0,
                 0.0,
                 text,
                 fontproperties=font,
-                color=on.style.ink,
+                color=ink,
                 horizontalalignment="center",
-                verticalalignment="baseline",
+                verticalalignment="baseline" if plain else "center",
                 zorder=5.0,
                 gid=gid,
-                parse_math=False,
+                parse_math=not plain,
             )
             on.ax.add_artist(artist)
             self.artists.append(artist)

@@ -101,10 +101,10 @@ def chosen(
         known = things[: first + count + i]
         near = (np.abs(known[:, :2] - point) < gap + size + known[:, 2:4] + ENOUGH).all(axis=1)
         near[first + i] = False
-        clearance = _clearance(centres, half, known[near])
+        clear = _clearance(centres, half, known[near])
         border = np.minimum(centres - half - bounds[0], bounds[1] - centres - half).min(axis=1)
-        clearance = np.minimum(clearance, np.where(border < 0.0, ON_NAME * border, border))
-        worth = np.minimum(clearance, ENOUGH) - habit
+        clear = np.minimum(clear, np.where(border < 0.0, ON_NAME * border, border))
+        worth = np.minimum(clear, ENOUGH) - habit
         best = int(np.argmax(worth))
         if kept is not None and worth[kept[i]] > worth[best] - WORSE:
             best = int(kept[i])
@@ -118,6 +118,11 @@ def _rows(points: Float, weight: float) -> Float:
     rows = np.zeros((len(points), 5))
     rows[:, :2], rows[:, 4] = points, weight
     return rows
+
+
+def clearance(centres: Float, half: Float, points: Float) -> Float:
+    """Return the distance of each box from the nearest of points, negative inside."""
+    return _clearance(centres, half, _rows(points, 1.0))
 
 
 def _clearance(centres: Float, half: Float, things: Float) -> Float:

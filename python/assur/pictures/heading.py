@@ -1,0 +1,84 @@
+"""Text above pictures: what they show, and what their numbers mean."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.font_manager import FontProperties
+from matplotlib.text import Text
+
+from assur.pictures.axes import TEXT
+from assur.pictures.chart import number
+from assur.pictures.text import text_size
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+    from assur.pictures.axes import Canvas
+
+# Height of a line of the heading, points.
+LINE_HEIGHT = 14.0
+
+
+def link_numbers(mechanism: Mechanism) -> dict[str, int]:
+    """Return the numbers of links as mechanicians count them: the ground is 1."""
+    moving = [link for link in mechanism.links if link != "ground"]
+    return {"ground": 1, **{link: i for i, link in enumerate(moving, 2)}}
+
+
+def place_text(one: Motion) -> str:
+    """Write the coordinates of a position."""
+    mechanism = one.mechanism
+    drivers = mechanism.driver if isinstance(mechanism.driver, tuple) else (mechanism.driver,)
+    q = np.atleast_1d(np.asarray(one.coordinate(())))
+    places = [
+        f"{number(float(x))} m"
+        if driver in mechanism.slides
+        else f"{number(float(np.degrees(x)))}°"
+        for x, driver in zip(q, drivers, strict=True)
+    ]
+    return f"q = {listed(places)}"
+
+
+def listed(texts: Sequence[str]) -> str:
+    """Write one text, or several in brackets."""
+    return texts[0] if len(texts) == 1 else f"({', '.join(texts)})"
+
+
+def write_heading(on: Canvas, lines: Sequence[str]) -> None:
+    """Write lines in the upper left corner, the first bold."""
+    x = on.low[0] + 10.0 / on.scale
+    for i, line in enumerate(lines):
+        y = on.high[1] - (8.0 + LINE_HEIGHT * i) / on.scale
+        first = FontProperties(size=TEXT + 1.5, weight="bold")
+        text = Text(
+            x,
+            y,
+            line,
+            fontproperties=FontProperties(size=TEXT) if i else first,
+            color=on.style.second if i else on.style.ink,
+            verticalalignment="top",
+            parse_math=False,
+            zorder=6.0,
+            # Curves go on behind it.
+            bbox={"facecolor": on.style.canvas, "edgecolor": "none", "pad": 1.5, "alpha": 0.85},
+            gid="title" if i == 0 else "heading",
+        )
+        on.ax.add_artist(text)
+
+
+def wrapped(on: Canvas, text: str) -> list[str]:
+    """Break a list with commas into lines that fit a picture's width."""
+    font = FontProperties(size=TEXT)
+    room = (on.high[0] - on.low[0]) * on.scale - 20.0
+    lines: list[str] = []
+    for word in text.split(", "):
+        longer = f"{lines[-1]}, {word}" if lines else word
+        if lines and text_size(longer, font)[0] <= room:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
