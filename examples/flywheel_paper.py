@@ -1,8 +1,8 @@
 """Figures of the paper on flywheels, drawn into a folder (default: out).
 
 I. M. Matsyuk and E. M. Shlyakhov: reduced moment and inertia of a press (figure 2), its speed over
-a turn without a flywheel (3), over the time with the one that keeps it within 1/8 (4); and
-Wittenbauer's diagram of the same, which the paper does not draw.
+a turn without a flywheel (3), over the time with the one that keeps it within 1/8 (4); and what
+the paper does not draw: moments, energies, and Wittenbauer's diagram of the same.
 """
 
 from __future__ import annotations
@@ -34,41 +34,20 @@ def with_flywheel() -> flywheel.Flywheel:
 
 
 def table() -> Any:
-    """Figure 2: reduced moment and inertia over the crank's angle."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
-    q = np.linspace(0.0, 2.0 * np.pi, 361)
-    press = without()
-    curves = (
-        (press.reduced_moment(q), MOMENT, "M, N·m"),
-        (press.reduced_inertia(q), INERTIA, "I, kg·m²"),
-    )
-    for ax, (curve, rows, label) in zip(axes, curves, strict=True):
-        ax.plot(q, curve, color="#0072B2")
-        ax.plot(PHI, rows, "o", color="#D55E00", markersize=4)
-        ax.set(xlabel="φ, rad", ylabel=label)
-    return figure
+    """Figure 2: reduced moment and inertia over the crank's angle, with the rows of the table."""
+    axes = without().plot("reduced")
+    for ax, rows in zip(axes, (MOMENT, INERTIA), strict=True):
+        ax.plot(PHI, rows, "o", color=ax.lines[0].get_color(), markersize=4, gid="rows")
+    return axes
 
 
-def speed_without() -> Any:
-    """Figure 3: the speed over the crank's angle, no flywheel."""
-    return without().plot("speed").figure
-
-
-def speed_with() -> Any:
-    """Figure 4: the speed over the time, δ = 1/8."""
-    return with_flywheel().plot("time").figure
-
-
-def energy_mass() -> Any:
-    """Wittenbauer's diagram and its two tangents."""
-    return with_flywheel().plot("energy-mass").figure
-
-
-FIGURES = {
+FIGURES: dict[str, Any] = {
     "table": table,
-    "speed_without": speed_without,
-    "speed_with": speed_with,
-    "energy_mass": energy_mass,
+    "speed_without": lambda: without().plot("speed"),
+    "speed_with": lambda: with_flywheel().plot("time"),
+    "moment": lambda: with_flywheel().plot("moment"),
+    "energy": lambda: with_flywheel().plot("energy"),
+    "energy_mass": lambda: with_flywheel().plot("energy-mass"),
 }
 
 
@@ -77,7 +56,7 @@ def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, draw in FIGURES.items():
         path = folder / f"flywheel_{name}.png"
-        figure = draw()
+        figure = np.ravel(draw())[0].figure
         figure.savefig(path, dpi=110)
         plt.close(figure)
         print(f"drawn: {path}")

@@ -42,7 +42,7 @@ def draw(machine: assur.Machine) -> Any:
     evened = machine.flywheel(fluctuation=0.05)
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
     start.plot("speed", axes[0])
-    axes[0].set(title="from rest", ylabel="ω of the crank, rad/s")
+    axes[0].set_title("from rest", loc="right")
     steady = machine.steady_state()
     q = np.linspace(0.0, 2 * np.pi, 721)
     for speed, label, delta in (
@@ -50,7 +50,9 @@ def draw(machine: assur.Machine) -> Any:
         (evened.speed(q), f"with a flywheel of {evened.inertia:.2f} kg·m²", evened.delta),
     ):
         axes[1].plot(q, speed, label=f"{label}: δ = {delta:.3g}")
-    axes[1].set(title="periodic", xlabel="q, rad", ylabel="ω, rad/s")
+    axes[1].set_title("Speed, rad/s", loc="left", fontweight="bold")
+    axes[1].set_title("periodic", loc="right")
+    axes[1].set(xlabel="q, rad")
     axes[1].margins(y=0.5)
     axes[1].legend(loc="upper right")
     return figure

@@ -9,20 +9,12 @@ import numpy as np
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from assur.dynamics.run import Run
-    from assur.dynamics.steady import SteadyState
-    from assur.flywheel import Flywheel
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
 # Okabe and Ito's colours (2008): distinct in print and for colour-blind readers.
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-
-# Points of a curve over a run.
-RUN_PLOT_POINTS = 1001
 
 
 def _axes(ax: Any) -> Any:
@@ -143,97 +135,3 @@ def _guide(
     a, b = 0.05 * size * along, 0.03 * size * across
     block = np.array([middle - a - b, middle + a - b, middle + a + b, middle - a + b])
     ax.fill(*block.T, facecolor="0.9", edgecolor="0.3", zorder=1)
-
-
-def flywheel_picture(
-    flywheel: Flywheel, what: str, span: tuple[float, float], points: int, ax: Any
-) -> Any:
-    """See `Flywheel.plot`."""
-    ax = _axes(ax)
-    q = np.linspace(*span, points)
-    if what == "energy-mass":
-        inertia, energy = flywheel.energy_mass(points)
-        ax.plot(inertia, energy, color=_COLOURS[0])
-        # Both tangents meet at minus the flywheel's inertia and energy.
-        start = -flywheel.inertia * flywheel.speed0**2 / 2.0
-        reach = np.array([-flywheel.inertia, inertia.max()])
-        extremes = (("greatest", flywheel.greatest.value), ("least", flywheel.least.value))
-        for colour, (name, speed) in zip(_COLOURS[1:], extremes, strict=False):
-            line = start + speed**2 / 2.0 * (reach + flywheel.inertia)
-            ax.plot(reach, line, color=colour, linewidth=1.0, label=f"{name} speed, slope ω²/2")
-        ax.set(xlabel="reduced inertia I, kg·m²", ylabel="energy, J")
-        ax.legend()
-        return ax
-    speed = flywheel.speed(q)
-    x, label = (q, "q, rad") if what == "speed" else (flywheel.time(q), "t, s")
-    ax.plot(x, speed, color=_COLOURS[0])
-    if what == "speed":
-        _mark_speeds(ax, flywheel, flywheel.speed0)
-    else:
-        _mark_speeds(ax, flywheel, flywheel.speed0, flywheel.time)
-    ax.set(xlabel=label, ylabel="ω, rad/s")
-    return ax
-
-
-def run_picture(run: Run, what: str, ax: Any) -> Any:
-    """See `Run.plot`."""
-    ax = _axes(ax)
-    if what == "energy":
-        for name in ("kinetic", "potential", "work"):
-            ax.plot(run.t, getattr(run.energy, name), label=name)
-        ax.legend()
-    else:
-        t = np.linspace(run.t[0], run.t[-1], RUN_PLOT_POINTS)
-        own = run.t if run._along_q else t
-        values = getattr(run if run._along_q else run.at(t), what)
-        ax.plot(own, values, color=_COLOURS[0] if np.ndim(values) == 1 else None)
-    for one in run.events:
-        ax.axvline(one.t, color="0.7", linewidth=0.8, zorder=0)
-    unit = _unit(run._init_args[1])
-    units = {"q": unit, "speed": f"{unit}/s", "acceleration": f"{unit}/s²", "energy": "J"}
-    ax.set(xlabel="t, s", ylabel=f"{what}, {units[what]}")
-    return ax
-
-
-def _unit(mechanism: Mechanism | None) -> str:
-    """Return the unit of the drivers' coordinates."""
-    if mechanism is None:
-        return "rad"
-    driver = mechanism.driver
-    drivers = driver if isinstance(driver, list | tuple) else [driver]
-    sliding = {isinstance(one, str) and one in mechanism.slides for one in drivers}
-    return "m" if sliding == {True} else "rad" if sliding == {False} else "(rad or m)"
-
-
-def _mark_speeds(
-    ax: Any, motion: Flywheel | SteadyState, speed0: float, along: Callable[[float], float] = float
-) -> None:
-    """Mark extreme and mean speeds, with the sign of the speed at the start."""
-    for extreme in (motion.greatest, motion.least):
-        value = float(np.copysign(extreme.value, speed0))
-        _mark(ax, along(extreme.at), value, (extreme is motion.greatest) == (value > 0.0))
-    ax.axhline(np.copysign(motion.mean_speed, speed0), color="0.6", linewidth=0.8)
-
-
-def _mark(ax: Any, x: float, y: float, above: bool) -> None:
-    """Mark a point of a curve, its value on the side away from the curve."""
-    ax.plot(x, y, "o", color=_COLOURS[1], markersize=5)
-    ax.annotate(
-        f"{y:.4g}",
-        (x, y),
-        xytext=(0, 6 if above else -6),
-        textcoords="offset points",
-        ha="center",
-        va="bottom" if above else "top",
-    )
-    ax.margins(y=0.12)
-
-
-def steady_picture(steady: SteadyState, ax: Any) -> Any:
-    """See `SteadyState.plot`."""
-    ax = _axes(ax)
-    q = np.linspace(steady.q[0], steady.q[-1], RUN_PLOT_POINTS)
-    ax.plot(q, steady.at(q).speed, color=_COLOURS[0])
-    _mark_speeds(ax, steady, steady.speed[0])
-    ax.set(xlabel="q, rad", ylabel="ω, rad/s")
-    return ax

@@ -375,15 +375,17 @@ class Run(Tabular):
             columns.append(Column(name, values, "J", "energy"))
         return columns
 
-    def plot(self, what: str = "speed", ax: Any = None) -> Any:
-        """Draw a quantity over time.
+    def plot(self, what: str = "speed", ax: Any = None, *, dark: bool = False) -> Any:
+        """Draw a quantity over time, with the events (needs matplotlib).
 
         Parameters
         ----------
         what : {"speed", "q", "acceleration", "energy"}
-            The quantity.
+            The quantity of every driver; or the energies with their sum, which is constant.
         ax : matplotlib axes, optional
             Axes to draw on; new ones by default.
+        dark : bool
+            Colours for a dark canvas.
 
         Returns
         -------
@@ -395,13 +397,13 @@ class Run(Tabular):
         >>> import assur
         >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
         >>> axes = machine.run(t_end=1.0, q0=0.0, speed0=3.0).plot("q")
-        >>> axes.get_xlabel(), axes.get_ylabel()
-        ('t, s', 'q, rad')
+        >>> axes.get_xlabel(), axes.get_title(loc="left")
+        ('t, s', 'Coordinate, rad')
         """
-        from assur._plot import run_picture
+        from assur.pictures.run import run_picture
 
         one_of(what, ("speed", "q", "acceleration", "energy"), "what")
-        return run_picture(self, what, ax)
+        return run_picture(self, what, ax, dark)
 
     def _shaped(self, array: Float) -> Float:
         return array if self._drivers == 1 else array.reshape(-1, self._drivers)

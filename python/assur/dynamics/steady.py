@@ -10,6 +10,7 @@ import numpy as np
 from assur._arrays import finite_array
 from assur._extreme import Extreme
 from assur._table import Column, Tabular
+from assur._validate import one_of
 from assur.dynamics.run import Run
 
 if TYPE_CHECKING:
@@ -146,13 +147,26 @@ class SteadyState(Tabular):
         """Return one period, as its `run`."""
         return self.run._columns(degrees)
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draw the speed over the coordinate.
+    def plot(
+        self,
+        what: Literal["speed", "time", "energy"] = "speed",
+        ax: Any = None,
+        *,
+        degrees: bool = False,
+        dark: bool = False,
+    ) -> Any:
+        """Draw one period (needs matplotlib).
 
         Parameters
         ----------
+        what : {"speed", "time", "energy"}
+            The speed over q or over the time, with the band of its fluctuation; or the energies.
         ax : matplotlib axes, optional
             Axes to draw on; new ones by default.
+        degrees : bool
+            Whether q is in degrees.
+        dark : bool
+            Colours for a dark canvas.
 
         Returns
         -------
@@ -168,10 +182,11 @@ class SteadyState(Tabular):
         ...     loads=[assur.Torque("crank", -20.0)],
         ...     motor=assur.LinearMotor(stall=50.0, no_load=15.0),
         ... )
-        >>> axes = driven.steady_state().plot()
-        >>> axes.get_xlabel(), axes.get_ylabel()
-        ('q, rad', 'ω, rad/s')
+        >>> axes = driven.steady_state().plot(degrees=True)
+        >>> axes.get_title(loc="left"), axes.get_xlabel()
+        ('Speed, rad/s: δ = 0.174', 'q')
         """
-        from assur._plot import steady_picture
+        from assur.pictures.steady import steady_picture
 
-        return steady_picture(self, ax)
+        one_of(what, ("speed", "time", "energy"), "what")
+        return steady_picture(self, what, ax, degrees, dark)

@@ -72,6 +72,13 @@ class SteadyFlywheel(Flywheel):
     def _moment(self, q: Float) -> Any:
         return self._machine.reduced_moment(self._remainder(q), self._motion.at(q).speed)
 
+    def _surplus(self, q: Float) -> Any:
+        """Return the moment that changes the kinetic energy, of loads and motor."""
+        state = self._motion.at(q)
+        inertia = self._machine.reduced_inertia(self._remainder(q))
+        whole = inertia.value + self.inertia
+        return whole * state.acceleration + 0.5 * inertia.d1 * np.square(state.speed)
+
     def _machine_inertia(self, q: Float) -> Any:
         return self._machine.reduced_inertia(self._remainder(q)).value
 

@@ -358,19 +358,37 @@ class Flywheel(Tabular, ABC):
             columns.append(Column(name, values, unit, name))
         return columns
 
-    def plot(self, what: Literal["speed", "time", "energy-mass"] = "speed", ax: Any = None) -> Any:
-        """Draw the speed over the turn or over the time, or the energy-mass diagram.
+    def _surplus(self, q: Float) -> Any:
+        """Return the moment of motor and loads together at coordinates, N·m."""
+        return self.reduced_moment(q) + self.motor_moment
+
+    def plot(
+        self,
+        what: Literal["speed", "time", "moment", "energy", "energy-mass", "reduced"] = "speed",
+        ax: Any = None,
+        *,
+        degrees: bool = False,
+        dark: bool = False,
+    ) -> Any:
+        """Draw the motion over a turn, the moments and energies behind it (needs matplotlib).
 
         Parameters
         ----------
-        what : {"speed", "time", "energy-mass"}
-            ω(q), ω(t), or Wittenbauer's diagram with the tangents at the extreme speeds.
+        what : {"speed", "time", "moment", "energy", "energy-mass", "reduced"}
+            The speed over q or over the time, with the band of its fluctuation; the moments of
+            motor and resistance, the areas of surplus and deficit with their energies; the work
+            since the start, and what the flywheel stores of it; Wittenbauer's diagram with the
+            tangents at the extreme speeds; reduced moment and inertia (two axes).
         ax : matplotlib.axes.Axes, optional
             Axes to draw on; a new figure by default.
+        degrees : bool
+            Whether q is in degrees.
+        dark : bool
+            Colours for a dark canvas.
 
         Returns
         -------
-        matplotlib.axes.Axes
+        matplotlib.axes.Axes, or a pair of them
             The axes drawn on.
 
         Examples
@@ -379,14 +397,15 @@ class Flywheel(Tabular, ABC):
         >>> from assur import flywheel
         >>> phi = np.linspace(0.0, 2 * np.pi, 49)
         >>> f = flywheel.from_table(phi, 100.0 * np.sin(phi), fluctuation=0.1, mean_speed=10.0)
-        >>> axes = f.plot("time")
-        >>> axes.get_xlabel(), axes.get_ylabel()
-        ('t, s', 'ω, rad/s')
+        >>> axes = f.plot("speed", degrees=True)
+        >>> axes.get_title(loc="left"), [text.get_text() for text in axes.texts]
+        ('Speed, rad/s: δ = 0.1 with 20 kg·m²', ['10.50 at 180°', '9.50 at 0°', 'mean 10.00'])
         """
-        from assur._plot import flywheel_picture
+        from assur.pictures.flywheel import flywheel_picture
 
         if self.shape:
-            message = "plot is for one table, this is a batch"
+            message = f"plot is for one flywheel, this is a batch {self.shape}: evaluate one alone"
             raise InputError(message)
-        one_of(what, ("speed", "time", "energy-mass"), "what")
-        return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax)
+        kinds = ("speed", "time", "moment", "energy", "energy-mass", "reduced")
+        one_of(what, kinds, "what")
+        return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax, degrees, dark)

@@ -669,6 +669,66 @@ class Motion:
 
         return dataset(self)
 
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        ax: Any = None,
+        *,
+        omega: npt.ArrayLike | None = None,
+        alpha: npt.ArrayLike = 0.0,
+        beta: npt.ArrayLike = 0.0,
+        orders: int | Sequence[int] | None = None,
+        degrees: bool = False,
+        dark: bool = False,
+    ) -> Any:
+        """Draw a quantity and its derivatives over the driver's coordinate (needs matplotlib).
+
+        One diagram an order, the extremes of the curve (not of its samples) marked. A batch of
+        designs is drawn as a band from the least to the greatest, with the median.
+
+        Parameters
+        ----------
+        name : str or sequence of str
+            A joint (x, y and the magnitude), one of its components ("C.x"), a link or a slide;
+            several in the same diagrams.
+        ax : matplotlib axes or array of them, optional
+            Where to draw, one for each order; a new figure by default.
+        omega, alpha, beta : array_like, optional
+            Speed, acceleration and jerk of the driver, as for `Analogues.jerk`; without `omega`
+            analogues are drawn.
+        orders : int or sequence of int, optional
+            0 the value, 1 velocity, 2 acceleration, 3 jerk; all that the motion has by default.
+        degrees : bool
+            Whether q and angles of links are in degrees.
+        dark : bool
+            Colours for a dark canvas.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of them
+            Those drawn on, one for each order.
+
+        Raises
+        ------
+        InputError
+            Names of different units, several drivers, a single position, or designs that have
+            each its own q.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> motion = assur.SliderCrank(0.05, 0.2).solve(np.linspace(0.0, 2 * np.pi, 181))
+        >>> axes = motion.diagram("bore", omega=10.0, degrees=True)
+        >>> [ax.get_title(loc="left") for ax in axes.flat]
+        ['Displacement, m', 'Velocity, m/s', 'Acceleration, m/s²']
+        >>> [text.get_text() for text in axes.flat[1].texts]
+        ['0.515 at 283°', '−0.515 at 77°']
+        """
+        from assur.pictures.diagram import motion_diagram
+
+        speeds = None if omega is None else (omega, alpha, beta)
+        return motion_diagram(self, name, ax, speeds, orders, degrees, dark)
+
     def plot(
         self,
         joint: str | Sequence[str] | None = None,

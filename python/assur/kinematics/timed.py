@@ -179,6 +179,48 @@ class TimedMotion(Tabular):
         """
         return self._in_time(self.motion.point(link, local))
 
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        ax: Any = None,
+        *,
+        orders: int | Sequence[int] | None = None,
+        degrees: bool = False,
+        dark: bool = False,
+    ) -> Any:
+        """Draw a quantity and its derivatives over time, as `Motion.diagram`.
+
+        Parameters
+        ----------
+        name : str or sequence of str
+            A joint, one of its components ("C.x"), a link or a slide, or several.
+        ax : matplotlib axes or array of them, optional
+            Where to draw, one for each order; a new figure by default.
+        orders : int or sequence of int, optional
+            0 the value, 1 velocity, 2 acceleration, 3 jerk; all by default.
+        degrees : bool
+            Whether angles are in degrees.
+        dark : bool
+            Colours for a dark canvas.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of them
+            Those drawn on, one for each order.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Cycloidal(0.0, np.pi, duration=0.5)
+        >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, np.linspace(0.0, 0.5, 101))
+        >>> axes = moved.diagram("crank", orders=1)
+        >>> axes.get_title(loc="left"), [text.get_text() for text in axes.texts]
+        ('Angular velocity, rad/s', ['12.6 at 0.250 s', '0 at 0 s'])
+        """
+        from assur.pictures.diagram import timed_diagram
+
+        return timed_diagram(self, name, ax, orders, degrees, dark)
+
     def _in_time(self, of: Analogues) -> InTime:
         omega, alpha, beta = self.speed, self.acceleration, self.jerk
         return InTime(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.errors import InputError
 from assur.pictures.axes import checked_axes, pyplot
 from assur.pictures.text import text_size
 
@@ -16,26 +17,43 @@ if TYPE_CHECKING:
 # A diagram: its size, inches; the room above and below the curve, relative to its range.
 WIDTH, HEIGHT = 5.2, 3.2
 HEADROOM = 0.18
+# About each of them, inches.
+PAD = 0.08
+# From a diagram to its title, points, where a sentence is between them.
+BELOW = 20.0
 TEXT = 9.0
 CURVE, MARK = 2.2, 6.0
+# Greatest numbers beside an axis, and the least of them, without a power of ten.
+LEAST, MOST = 0.1, 1000.0
 
 
-def chart_axes(ax: Any, style: Style, rows: int = 1, columns: int = 1) -> Any:
+def chart_axes(
+    ax: Any, style: Style, rows: int = 1, columns: int = 1, height: float = HEIGHT
+) -> Any:
     """Return axes for a diagram, or an array of them in one figure, in the colours of a style.
 
     Given axes are used as they are; several may be given as a sequence.
     """
     if ax is None:
-        _, axes = pyplot().subplots(
+        figure, axes = pyplot().subplots(
             rows,
             columns,
-            figsize=(WIDTH * columns, HEIGHT * rows),
+            figsize=(WIDTH * columns, height * rows),
             layout="constrained",
             facecolor=style.canvas,
         )
+        figure.get_layout_engine().set(w_pad=PAD, h_pad=PAD)
     else:
         several = list(np.atleast_1d(np.asarray(ax, dtype=object)).flat)
-        axes = several[0] if rows * columns == 1 else np.array(several).reshape(rows, columns)
+        if len(several) != rows * columns:
+            needed = "one is" if rows * columns == 1 else f"{rows * columns} are"
+            message = f"ax has {len(several)} axes: {needed} needed"
+            raise InputError(message)
+        axes = (
+            several[0]
+            if rows * columns == 1
+            else np.array(several).reshape(rows, columns).squeeze()
+        )
     for one in np.atleast_1d(axes).flat:
         _dress(checked_axes(one), style)
     return axes
@@ -52,9 +70,18 @@ def _dress(ax: Any, style: Style) -> None:
     ax.set_axisbelow(True)
 
 
-def title(ax: Any, text: str, style: Style) -> None:
-    """Write what a diagram shows, with its unit, on the left above it."""
-    ax.set_title(text, loc="left", color=style.ink, fontsize=TEXT + 1.5, fontweight="bold")
+def title(ax: Any, text: str, style: Style, below: str = "") -> None:
+    """Write what a diagram shows, with its unit, on the left above it; `below` is a sentence."""
+    ax.set_title(
+        text, loc="left", color=style.ink, fontsize=TEXT + 1.5, fontweight="bold",
+        pad=BELOW if below else None,
+    )  # fmt: skip
+    if below:
+        ax.annotate(
+            below, (0.0, 1.0), xytext=(0.0, 5.0), xycoords="axes fraction",
+            textcoords="offset points", color=style.second, fontsize=TEXT, gid="sentence",
+            annotation_clip=False, parse_math=False,
+        )  # fmt: skip
 
 
 def degree_ticks(ax: Any, low: float, high: float) -> None:
@@ -68,13 +95,58 @@ def degree_ticks(ax: Any, low: float, high: float) -> None:
     ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}°".replace("-", "−")))
 
 
-def number(x: float) -> str:
-    """Write three digits, with a true minus."""
-    text = f"{x:#.3g}" if 1e-3 <= abs(x) < 1e4 else f"{x:.3g}"
-    return text.rstrip(".").replace("-", "−")
+def number(x: float, span: float = 0.0) -> str:
+    """Write three digits, with a true minus; more where a range between near values needs them."""
+    size = abs(x)
+    if 0.0 < span < 0.5 * size < 1e5:
+        text = f"{x:.{max(int(np.ceil(1.7 - np.log10(span))), 0)}f}"
+    elif 100.0 <= size < 1e5:
+        text = f"{x:.0f}"
+    elif 1e-3 <= size < 1e5:
+        text = f"{x:#.3g}"
+    else:
+        text, _, power = f"{x:.3g}".partition("e")
+        text += f"·{ten(int(power))}" if power else ""
+    return text.replace("-", "−")
 
 
-def headroom(ax: Any, values: Float) -> None:
+def scaled(ax: Any, unit: str, greatest: float) -> tuple[str, float]:
+    """Divide the numbers at the y-axis by a power of ten that suits them.
+
+    Returns the unit with that power, and the power's value. The data stay as they are.
+    """
+    from matplotlib.ticker import ScalarFormatter
+
+    power = 0
+    if np.isfinite(greatest) and greatest > 0.0 and not LEAST <= greatest < MOST:
+        power = 3 * int(np.floor(np.log10(greatest) / 3.0))
+
+    numbers = ScalarFormatter(useOffset=False)
+    numbers.set_scientific(bool(power))
+    numbers.set_powerlimits((power, power))
+    ax.yaxis.set_major_formatter(numbers)
+    # The title has the power.
+    ax.yaxis.get_offset_text().set_visible(False)
+    if not power:
+        return unit, 1.0
+    if power == -3 and unit.startswith("m"):
+        return f"m{unit}", 1e-3
+    return f"{ten(power)} {unit}".rstrip(), 10.0**power
+
+
+def ten(power: int) -> str:
+    """Write a power of ten."""
+    return "10" + str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def zero_line(ax: Any, style: Style) -> None:
+    """Draw the line of zero where it is in sight."""
+    low, high = sorted(ax.get_ylim())
+    if low < 0.0 < high:
+        ax.axhline(0.0, color=style.second, linewidth=0.9, alpha=0.8, zorder=1.0, gid="zero")
+
+
+def headroom(ax: Any, values: Float, part: float = HEADROOM) -> None:
     """Leave room for marks above and below the curve; its middle if it is constant."""
     known = values[np.isfinite(values)]
     if not known.size:
@@ -83,7 +155,7 @@ def headroom(ax: Any, values: Float) -> None:
     span = high - low
     if span <= 1e-9 * max(abs(low), abs(high)):
         span = abs(high) or 1.0
-    ax.set_ylim(low - HEADROOM * span, high + HEADROOM * span)
+    ax.set_ylim(low - part * span, high + part * span)
 
 
 def mark(ax: Any, x: float, y: float, text: str, above: bool, colour: str, style: Style) -> Any:

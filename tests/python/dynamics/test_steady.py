@@ -217,6 +217,7 @@ def test_two_turns_of_a_kite() -> None:
 def test_pictures() -> None:
     steady = press(assur.LinearMotor(90.0, 30.0)).steady_state()
     ax = steady.plot()
+    assert ax.lines[0].get_gid() == "curve speed"
     q, speeds = ax.lines[0].get_data()
     assert np.ptp(q) == pytest.approx(TURN)
     np.testing.assert_allclose(speeds, steady.at(q).speed, rtol=1e-12)
@@ -235,7 +236,7 @@ def test_pictures() -> None:
 def test_the_picture_of_the_example_shows_the_start_and_both_periodic_motions() -> None:
     figure = press_motion.draw(press_motion.press())
     start, periodic = (ax.lines for ax in figure.axes)
-    ((t, speed),) = (line.get_data() for line in start)
+    t, speed = next(line for line in start if line.get_gid() == "curve crank").get_data()
     assert (t[0], t[-1], speed[0]) == (0.0, 3.0, 0.0)
     # It begins at a dead point, where the piston rests: the rod turns 0.08/0.3 as fast as the
     # crank, and its centre of mass moves with 2/3 of the speed of the crank pin. The motor by

@@ -9,6 +9,7 @@ import numpy as np
 import assur
 import bits
 from assur import crank_rocker, slider_crank
+from assur.papers.crank_rocker.theory import TABLE, TABLE_GROUNDS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -49,8 +50,8 @@ def slider_cranks() -> Iterator[tuple[str, Any]]:
 
 
 def crank_rockers() -> Iterator[tuple[str, Any]]:
-    ground = np.array(crank_rocker.TABLE_GROUNDS)[:, np.newaxis]
-    own = crank_rocker.solve(PHI, *crank_rocker.TABLE, ground)
+    ground = np.array(TABLE_GROUNDS)[:, np.newaxis]
+    own = crank_rocker.solve(PHI, *TABLE, ground)
     yield "positions", list(own.__dict__.values())
     yield "margins", list(crank_rocker.crank_turns(1, [2, 4.5], 1.5, 3))
     yield "kinds", np.asarray(crank_rocker.grashof([1, 2, 3, 1], [4.5, 2, 1, 1], 1.5, 4.8)).tolist()

@@ -142,7 +142,11 @@ def along(polylines: list[Float], step: float) -> Float:
     starts = np.concatenate([np.zeros((0, 2)), *(line[:-1] for line in polylines)])
     ends = np.concatenate([np.zeros((0, 2)), *(line[1:] for line in polylines)])
     known = np.isfinite(starts).all(axis=1) & np.isfinite(ends).all(axis=1)
-    starts, ends = starts[known], ends[known]
+    return between(starts[known], ends[known], step)
+
+
+def between(starts: Float, ends: Float, step: float) -> Float:
+    """Return points along segments, no farther apart than a step, (m, 2)."""
     counts = np.ceil(np.hypot(*(ends - starts).T) / step).astype(int) + 1
     first = np.repeat(np.cumsum(counts) - counts, counts)
     parts = (np.arange(len(first)) - first) / np.repeat(np.maximum(counts - 1, 1), counts)

@@ -20,6 +20,7 @@ import numpy.typing as npt
 from assur import _core
 from assur._arrays import Float, finite_array, real_number
 from assur._trig import sin_cos
+from assur._validate import one_of
 from assur.errors import DimensionError, InputError
 
 __all__ = ["JammingEvent", "JammingRun", "run"]
@@ -105,6 +106,49 @@ class JammingRun:
     def __repr__(self) -> str:
         kinds = ", ".join(event.kind for event in self.events) or "no events"
         return f"<assur.crank_rocker.JammingRun of {len(self.t)} positions: {kinds}>"
+
+    def plot(
+        self,
+        what: Literal["positions", "ground", "angle"] = "positions",
+        ax: Any = None,
+        *,
+        degrees: bool = True,
+        dark: bool = False,
+    ) -> Any:
+        """Draw successive positions, or a diagram over the crank's angle (needs matplotlib).
+
+        Parameters
+        ----------
+        what : {"positions", "ground", "angle"}
+            Positions of the first turn, those of the slider-crank in colour, with the path of C;
+            l₄ or the transmission angle over φ₁, with the events.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        degrees : bool
+            Whether φ₁ is in degrees.
+        dark : bool
+            Colours for a dark canvas.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on.
+
+        References
+        ----------
+        Manzhosov and Petrova, figure 8.
+
+        Examples
+        --------
+        >>> import assur
+        >>> run = assur.crank_rocker.run(1.0, 4.5, 1.5, ground=4.995, gamma_min=0.2)
+        >>> [text.get_text() for text in run.plot("ground").texts]
+        ['4.9775 at 360°', 'C jams at 348.3°', 'D is back at 371.7°']
+        """
+        from assur.papers.crank_rocker.pictures import jamming_picture
+
+        one_of(what, ("positions", "ground", "angle"), "what")
+        return jamming_picture(self, what, ax, degrees, dark)
 
 
 def run(

@@ -1,19 +1,9 @@
-"""The crank-rocker with friction, in the convention of its paper.
-
-Crank l₁ turns at A, coupler l₂, rocker l₃ at D, ground l₄ = AD, which may change with time. The
-crank angle φ₁ is 0 where the crank's pin B is farthest from D; with A at the origin, D is at
-(−l₄, 0). Angles are counter-clockwise, rad.
-
-References
-----------
-V. K. Manzhosov, T. E. Petrova, *Modelling of the motion of the crank-rocker mechanism with
-non-ideal constraints* (in Russian).
-"""
+"""Positions, rates and zones of the crank-rocker of the paper."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -22,11 +12,11 @@ from assur import _core
 from assur._arrays import Float, finite_array, flag, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
-from assur.papers.jamming import JammingEvent, JammingRun, Side, run
+
+if TYPE_CHECKING:
+    from assur.papers.crank_rocker.jamming import Side
 
 __all__ = [
-    "JammingEvent",
-    "JammingRun",
     "Solution",
     "Table1",
     "blocked",
@@ -34,7 +24,6 @@ __all__ = [
     "grashof",
     "ground_range",
     "least_transmission_angle",
-    "run",
     "solve",
     "table1",
     "transmission_extremes",

@@ -1,0 +1,445 @@
+"""The figures of the two papers on the slider-crank, each by one call."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from assur._arrays import real_number
+from assur._validate import one_of, whole_number
+from assur.errors import InputError
+from assur.papers.slider_crank.theory import contour, rod_angle, rod_point, stroke
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur._arrays import Float
+    from assur.kinematics.quantity import Analogues
+    from assur.pictures.quantities import Line, Quantity
+
+# Points of a curve over a turn.
+POINTS = 721
+# Points between the dead points, where a relative deviation is defined.
+BETWEEN = 1001
+
+
+def plot_contour(
+    phi: float, crank: float, rod: float, ax: Any = None, *, dark: bool = False
+) -> Any:
+    """Draw the closed vector contour l₁ + l₂ = l₃ at one position (needs matplotlib).
+
+    Parameters
+    ----------
+    phi : float
+        Crank angle, rad.
+    crank, rod : float
+        Lengths, m.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure by default.
+    dark : bool
+        Colours for a dark canvas.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Those drawn on.
+
+    References
+    ----------
+    Chernysh et al. (2021), figure 2.
+
+    Examples
+    --------
+    >>> import assur, math
+    >>> axes = assur.slider_crank.plot_contour(math.pi / 3, 0.11, 0.407)
+    >>> [text.get_text() for text in axes.texts if text.get_text().startswith("l")]
+    ['l₁', 'l₂', 'l₃']
+    """
+    from assur.pictures.axes import canvas, scale_bar
+    from assur.pictures.style import style
+    from assur.pictures.text import name_font, write_names
+
+    corners = contour(phi, crank, rod)
+    o, a, b, _ = corners
+    own = style(dark)
+    on = canvas(ax, (corners.min(axis=0), corners.max(axis=0)), own, crank)
+    lines = []
+    for start, end, name, colour in (
+        (o, a, "l₁", own.driver),
+        (a, b, "l₂", own.ink),
+        (o, b, "l₃", own.path),
+    ):
+        on.ax.annotate(
+            "", end, start, gid=f"vector {name}",
+            arrowprops={
+                "arrowstyle": "-|>", "color": colour, "linewidth": 2.2, "shrinkA": 0.0,
+                "shrinkB": 0.0, "mutation_scale": 16.0,
+            },
+        )  # fmt: skip
+        lines.append(np.array([start, end]))
+        along = end - start
+        across = np.array([-along[1], along[0]]) / math.sqrt(float((along * along).sum()))
+        # Outside the triangle: the middle of it is on the other side.
+        middle = (start + end) / 2.0
+        outward = 1.0 if float(((middle - corners[:3].mean(axis=0)) * across).sum()) > 0.0 else -1.0
+        on.ax.annotate(
+            name, middle, xytext=12.0 * outward * across, textcoords="offset points",
+            fontproperties=name_font(), color=colour, horizontalalignment="center",
+            verticalalignment="center", gid=f"name {name}",
+        )  # fmt: skip
+    write_names(
+        on, ["O", "A", "B"], corners[:3], np.full(3, 4.0), lines, ["name O", "name A", "name B"]
+    )
+    for name, point in zip("OAB", corners[:3], strict=True):
+        on.ax.plot(
+            *point, "o", markersize=7.0, markerfacecolor=own.canvas, markeredgecolor=own.ink,
+            markeredgewidth=1.6, zorder=4.0, gid=f"joint {name}", scalex=False, scaley=False,
+        )  # fmt: skip
+    scale_bar(on)
+    return on.ax
+
+
+def plot_positions(
+    phi: float,
+    crank: float,
+    rod: float,
+    along: float | None = None,
+    across: float = 0.0,
+    ax: Any = None,
+    *,
+    dark: bool = False,
+) -> Any:
+    """Draw the mechanism at one position with the paths of A, B and a point of the rod.
+
+    Parameters
+    ----------
+    phi : float
+        Crank angle, rad.
+    crank, rod : float
+        Lengths, m.
+    along, across : float
+        The point S2, m, as for `rod_point`; the rod's middle by default.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure by default.
+    dark : bool
+        Colours for a dark canvas.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Those drawn on.
+
+    References
+    ----------
+    Chernysh et al. (2021), figure 4.
+
+    Examples
+    --------
+    >>> import assur, math
+    >>> axes = assur.slider_crank.plot_positions(math.pi / 3, 0.11, 0.407)
+    >>> [line.get_gid() for line in axes.lines if str(line.get_gid()).startswith("path")]
+    ['path A', 'path B', 'path S2']
+    """
+    from assur.mechanisms.named import SliderCrank
+    from assur.pictures.style import style
+
+    own = style(dark)
+    place = rod / 2.0 if along is None else real_number(along, "along")
+    ax = SliderCrank(crank, rod).plot(phi, ax, dark=dark)
+    turn = np.linspace(0.0, 2.0 * math.pi, POINTS)
+    for name, at in (("A", 0.0), ("B", rod), ("S2", place)):
+        offset = across if name == "S2" else 0.0
+        path = rod_point(turn, crank, rod, at, offset).value
+        ax.plot(
+            *path.T, color=own.path, linewidth=1.4, zorder=1.5, gid=f"path {name}", scalex=False,
+            scaley=False,
+        )  # fmt: skip
+    point = rod_point(phi, crank, rod, place, across).value
+    ax.plot(
+        *point, "o", markersize=5.0, color=own.path, zorder=6.0, gid="point S2", scalex=False,
+        scaley=False,
+    )  # fmt: skip
+    from assur.pictures.text import name_font
+
+    ax.annotate(
+        "S₂", point, xytext=(7.0, 9.0), textcoords="offset points", fontproperties=name_font(),
+        color=own.path, horizontalalignment="center", verticalalignment="center", gid="name S2",
+    )  # fmt: skip
+    return ax
+
+
+class _Formulas:
+    """A quantity of the papers over the crank's angle; see `assur.pictures.quantities.Source`."""
+
+    titles = {  # noqa: RUF012
+        "stroke": ("Stroke s, {}", "Velocity v, {}", "Acceleration a, {}"),
+        "rod": ("Rod's angle φ₂, {}", "Rod's velocity ω₂, {}", "Rod's acceleration ε₂, {}"),
+    }
+
+    def __init__(
+        self, quantity: str, lengths: tuple[float, float], speeds: Any, degrees: bool
+    ) -> None:
+        self._of = stroke if quantity == "stroke" else rod_angle
+        self._quantity, self._lengths, self._speeds = quantity, lengths, speeds
+        turn = np.linspace(0.0, 2.0 * math.pi, POINTS)
+        self.in_degrees, self.orders = degrees, 2
+        self.x: Float = np.degrees(turn) if degrees else turn
+        self.label = "φ" if degrees else "φ, rad"
+
+    def place(self, x: float) -> str:
+        """Write a crank angle."""
+        from assur.pictures.quantities import degrees_text
+
+        return degrees_text(x, 360.0) if self.in_degrees else f"{x + 0.0:.2f} rad"
+
+    def title(self, kind: str, order: int) -> tuple[str, str]:
+        """Return what a diagram shows, and its unit."""
+        del kind
+        name = self.titles[self._quantity][order].removesuffix(", {}")
+        own = "m" if self._quantity == "stroke" else "rad"
+        if order == 0:
+            return name, "°" if own == "rad" and self.in_degrees else own
+        power = "" if order == 1 else "²"
+        return name, f"{own}/rad{power}" if self._speeds is None else f"{own}/s{power}"
+
+    def lines(self, of: Quantity, order: int) -> list[Line]:
+        """Return the curve."""
+        from assur.pictures.quantities import Line
+
+        del of
+        return [Line("", self._values(self.x, order)[None], None)]
+
+    def again(self, of: Quantity, order: int, part: str, design: int) -> Any:
+        """Return the function itself."""
+        del of, part, design
+        return lambda x: self._values(x, order)
+
+    def _values(self, x: Float, order: int) -> Float:
+        found: Analogues = self._of(np.radians(x) if self.in_degrees else x, *self._lengths)
+        if order == 0:
+            in_degrees = self._quantity == "rod" and self.in_degrees
+            return np.degrees(found.value) if in_degrees else found.value
+        if self._speeds is None:
+            return found.d1 if order == 1 else found.d2
+        speed, alpha = self._speeds
+        return found.velocity(speed) if order == 1 else found.acceleration(speed, alpha)
+
+
+def plot_motion(
+    quantity: Literal["stroke", "rod"],
+    crank: float,
+    rod: float,
+    speed: float | None = None,
+    alpha: float = 0.0,
+    orders: int | Sequence[int] | None = None,
+    ax: Any = None,
+    *,
+    degrees: bool = True,
+    dark: bool = False,
+) -> Any:
+    """Draw the stroke or the rod's angle with its velocity and acceleration over a turn.
+
+    Parameters
+    ----------
+    quantity : {"stroke", "rod"}
+        The slider's stroke, or the angle of the rod.
+    crank, rod : float
+        Lengths, m.
+    speed, alpha : float, optional
+        Of the crank, rad/s, rad/s²; analogues are drawn without a speed.
+    orders : int or sequence of int, optional
+        0 the value, 1 velocity, 2 acceleration; all by default.
+    ax : matplotlib axes or array of them, optional
+        Where to draw, one for each order; a new figure by default.
+    degrees : bool
+        Whether angles are in degrees.
+    dark : bool
+        Colours for a dark canvas.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or ndarray of them
+        Those drawn on, one for each order.
+
+    References
+    ----------
+    Chernysh et al. (2021), figures 5 to 7 (stroke) and 8 to 10 (rod).
+
+    Examples
+    --------
+    >>> import assur
+    >>> axes = assur.slider_crank.plot_motion("stroke", 0.11, 0.407, speed=31.0, orders=1)
+    >>> axes.get_title(loc="left"), [text.get_text() for text in axes.texts]
+    ('Velocity v, m/s', ['3.53 at 76°', '−3.53 at 284°'])
+    """
+    from assur.pictures.diagram import diagrams
+    from assur.pictures.quantities import Quantity
+    from assur.pictures.style import style
+
+    one_of(quantity, ("stroke", "rod"), "quantity")
+    lengths = real_number(crank, "crank"), real_number(rod, "rod")
+    speeds = None
+    if speed is not None:
+        speeds = real_number(speed, "speed"), real_number(alpha, "alpha")
+    source = _Formulas(quantity, lengths, speeds, degrees)
+    # The title has its name.
+    of = Quantity("slide" if quantity == "stroke" else "link", "")
+    return diagrams(source, [of], ax, orders, style(dark))
+
+
+def plot_convergence(
+    k: Sequence[float] = (1.5, 3.0, 5.0), count: int = 8, ax: Any = None, *, dark: bool = False
+) -> Any:
+    """Draw the largest error of the stroke's series over its harmonics, and over its terms.
+
+    Parameters
+    ----------
+    k : sequence of float
+        Ratios rod / crank, above 1.
+    count : int
+        The greatest number of even harmonics, and of terms.
+    ax : pair of matplotlib axes, optional
+        Where to draw; a new figure by default.
+    dark : bool
+        Colours for a dark canvas.
+
+    Returns
+    -------
+    ndarray of matplotlib.axes.Axes
+        Errors per crank length: over the even harmonics kept with all terms, and over the terms
+        kept in each coefficient with all harmonics.
+
+    References
+    ----------
+    Chernysh et al. (2021), equations 11 to 14.
+
+    Examples
+    --------
+    >>> import assur
+    >>> axes = assur.slider_crank.plot_convergence((3.0, 5.0), count=4)
+    >>> [round(float(line.get_ydata()[0]), 6) for line in axes[1].lines]  # formula 14
+    [0.004906, 0.001021]
+    """
+    from assur.pictures import chart
+    from assur.pictures.notes import Named, name_lines, settle
+    from assur.pictures.style import style
+
+    own, last = style(dark), whole_number(count, "count", 1, 100)
+    axes = chart.chart_axes(ax, own, 1, 2)
+    counts = np.arange(1, last + 1)
+    phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
+    named: list[list[Named]] = [[], []]
+    for i, ratio in enumerate(k):
+        exact = stroke(phi, 1.0, ratio).value
+        for which, one in enumerate(axes):
+            errors = np.array([_error(phi, ratio, exact, n, last, which) for n in counts.tolist()])
+            colour = own.group(i)
+            one.semilogy(
+                counts, errors, "o-", color=colour, linewidth=1.8, markersize=4.5,
+                gid=f"curve k = {ratio:g}",
+            )  # fmt: skip
+            named[which].append(Named(counts.astype(float), errors, f"k = {ratio:g}", colour))
+    for one, text in zip(axes, ("even harmonics, all terms", "terms, all harmonics"), strict=True):
+        one.set_xticks(counts)
+        one.set_xlabel(text, color=own.second, fontsize=chart.TEXT)
+        chart.title(one, "Largest error of the stroke / crank", own)
+        one.minorticks_off()
+    settle(axes[0])
+    for one, lines in zip(axes, named, strict=True):
+        name_lines(one, lines)
+    return axes
+
+
+def _error(phi: Float, k: float, exact: Float, n: int, last: int, by_terms: int) -> float:
+    harmonics, terms = (2 * last, n) if by_terms else (2 * n, None)
+    near = stroke(phi, 1.0, k, "series", harmonics=harmonics, terms=terms).value
+    return float(np.abs(near - exact).max())
+
+
+def plot_deviation(
+    lam: float = 1.0 / 3.0,
+    n: Sequence[int] = (1, 2),
+    quantity: Sequence[Literal["stroke", "d1"]] = ("stroke", "d1"),
+    ax: Any = None,
+    *,
+    dark: bool = False,
+) -> Any:
+    """Draw how far approximations of the continued fraction are off, per cent of the exact value.
+
+    Parameters
+    ----------
+    lam : float
+        λ = crank / rod, below 1.
+    n : sequence of int
+        Numbers of the approximations: a column each.
+    quantity : sequence of {"stroke", "d1"}
+        Stroke and velocity analogue: a row each.
+    ax : array of matplotlib axes, optional
+        Where to draw; a new figure by default.
+    dark : bool
+        Colours for a dark canvas.
+
+    Returns
+    -------
+    ndarray of matplotlib.axes.Axes
+        Those drawn on, (quantities, approximations).
+
+    References
+    ----------
+    Ambarcumyanc and Subbotina (2017), figures 2 and 3.
+
+    Examples
+    --------
+    >>> import assur
+    >>> axes = assur.slider_crank.plot_deviation()
+    >>> [ax.texts[0].get_text() for ax in axes.flat]
+    ['−0.473 at 74°', '−0.0132 at 81°', '0.949 at 128°', '0.0297 at 118°']
+    """
+    from assur.pictures import chart
+    from assur.pictures.notes import Note, settle, write_notes
+    from assur.pictures.peaks import peaks
+    from assur.pictures.quantities import degrees_text
+    from assur.pictures.style import style
+
+    own, ratio = style(dark), real_number(lam, "lam")
+    if not 0.0 < ratio < 1.0:
+        message = f"lam is {lam!r}: crank over rod must be above 0 and below 1"
+        raise InputError(message, value=ratio)
+    for one in quantity:
+        one_of(one, ("stroke", "d1"), "quantity")
+    rows, columns = len(quantity), len(n)
+    axes = np.reshape(chart.chart_axes(ax, own, rows, columns, 2.6), (rows, columns))
+    phi = np.linspace(0.0, math.pi, BETWEEN)[1:-1]
+    notes = []
+    for (row, column), panel in np.ndenumerate(axes):
+        order = 0 if quantity[row] == "stroke" else 1
+        number = whole_number(n[column], "n", 1, 1000)
+
+        def off(x: Float, order: int = order, number: int = number) -> Float:
+            near, exact = (
+                stroke(np.radians(x), 1.0, 1.0 / ratio, method, n=number)
+                for method in ("fraction", "exact")
+            )
+            return 100.0 * (near._order(order) / exact._order(order) - 1.0)
+
+        x = np.degrees(phi)
+        values = off(x)
+        colour = own.velocity if order else own.ink
+        panel.plot(x, values, color=colour, linewidth=chart.CURVE, gid="curve deviation")
+        panel.set_xlim(0.0, 180.0)
+        chart.degree_ticks(panel, 0.0, 180.0)
+        chart.headroom(panel, values)
+        name = "Velocity analogue" if order else "Stroke"
+        chart.title(panel, f"{name}, n = {number}: deviation, %", own)
+        chart.zero_line(panel, own)
+        if row == rows - 1:
+            panel.set_xlabel("φ", color=own.second, fontsize=chart.TEXT)
+        largest = max(peaks(x, values, again=off), key=lambda peak: abs(peak.y))
+        text = f"{chart.number(largest.y)} at {degrees_text(largest.x, 180.0)}"
+        notes.append(Note(largest.x, largest.y, text, colour, "extreme"))
+    settle(axes.flat[0])
+    for panel, note in zip(axes.flat, notes, strict=True):
+        write_notes(panel, [note], own)
+    return axes
