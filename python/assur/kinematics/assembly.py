@@ -299,6 +299,37 @@ class Assemblies(list[Assembly]):
         self.failures = tuple(failures)
         self.is_complete = is_complete
 
+    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+        """Draw all assemblies side by side in one scale (needs matplotlib).
+
+        Parameters
+        ----------
+        ax : sequence of matplotlib.axes.Axes, optional
+            Where to draw, axes for each; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+
+        Returns
+        -------
+        ndarray of matplotlib.axes.Axes
+            Those drawn on, one of each assembly; the title has its signs.
+
+        Raises
+        ------
+        InputError
+            If there is no assembly, or too few axes.
+
+        Examples
+        --------
+        >>> import assur
+        >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).assemblies(1.0).plot()
+        >>> [one.get_title() for one in axes]
+        ['1   C +', '2   C −']
+        """
+        from assur.pictures.assemblies import assemblies_picture
+
+        return assemblies_picture(self, ax, dark)
+
     def __reduce__(self) -> tuple[Any, ...]:
         own = (list(self), self.complex_count, self.failures, self.is_complete)
         return (Assemblies, own)

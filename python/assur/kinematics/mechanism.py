@@ -1156,6 +1156,80 @@ class Mechanism:
             self, path, q=q, speed=omega, paths=paths, diagrams=diagrams, title=title, dark=dark
         )
 
+    def to_drawing(
+        self,
+        path: str | PathLike[str],
+        q: npt.ArrayLike | None = None,
+        link: str | None = None,
+        scale: float | str | None = None,
+        *,
+        paper: Literal["A4", "A3", "A2", "A1", "A0"] | None = None,
+        title: str | None = None,
+        outlines: bool = False,
+        width: float | None = None,
+        hole: float | None = None,
+        assembly: Assembly | None = None,
+    ) -> float:
+        """Write a drawing to scale: DXF, SVG or PDF, by the suffix.
+
+        A position, dimensioned, or links as parts: outline, holes and slots, with the dimensions
+        between the holes. Layers are named: ``GROUND``, ``LINK_coupler`` and so on for each link,
+        ``JOINTS``, ``DRIVER``, ``CENTRES``, ``DIMENSIONS``, ``TEXT``, ``HATCHING``, ``SHEET``. DXF
+        is in mm at full size, with a layout that shows the paper (needs ezdxf); SVG and PDF are as
+        large as the paper (need matplotlib).
+
+        Parameters
+        ----------
+        path : path-like
+            The file, ``.dxf``, ``.svg`` or ``.pdf``; one that exists is replaced.
+        q : float or array_like, optional
+            Coordinate of the position; the drawing's by default.
+        link : str, optional
+            One link as a part, in its own frame: the first joint at the origin, the second on x;
+            ``"all"``: a sheet with every link. By default a position is drawn.
+        scale : float or str, optional
+            A length on the paper by that of the mechanism, 0.5 or ``"1:2"``; by default the
+            largest of 1, 2 and 5 times a power of ten that fits.
+        paper : {"A4", "A3", "A2", "A1", "A0"}, optional
+            By default A4, or the smallest on which the given scale fits.
+        title : str, optional
+            Of the sheet; the file's name by default.
+        outlines : bool
+            A position with the links' outlines in place of symbols.
+        width, hole : float, optional
+            Width of the links and diameter of the holes, m; in proportion by default.
+        assembly : Assembly, optional
+            As for `solve`; the drawing's by default.
+
+        Returns
+        -------
+        float
+            The scale.
+
+        Raises
+        ------
+        InputError
+            Another suffix, a path that cannot be written, no such link, a scale that does not
+            fit, a batch of designs.
+        PositionError
+            If the position does not exist.
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> four_bar = assur.FourBar(0.04, 0.12, 0.08, 0.1)
+        >>> four_bar.to_drawing(folder / "press.svg")
+        1.0
+        >>> four_bar.to_drawing(folder / "parts.svg", link="all", scale="1:2")
+        0.5
+        """
+        from assur.pictures.drawing.export import write_drawing
+
+        return write_drawing(
+            self, path, q, link, scale, paper, title, outlines, width, hole, assembly
+        )
+
     def _repr_svg_(self) -> str | None:
         """Return a static picture for notebooks; none of a batch."""
         from assur.pictures.page.html import notebook_svg

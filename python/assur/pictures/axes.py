@@ -137,10 +137,15 @@ def nice_length(length: float) -> float:
     return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length))
 
 
+def length_unit(length: float) -> tuple[str, float]:
+    """Return the unit that suits a length in m, and how many of it a metre has."""
+    units = (("km", 1e3, 1e-3), ("m", 0.2, 1.0), ("mm", 2e-4, 1e3), ("µm", 0.0, 1e6))
+    return next((unit, factor) for unit, least, factor in units if length >= least)
+
+
 def length_text(length: float) -> str:
     """Write a length in m with the unit that suits it."""
-    units = (("km", 1e3, 1e-3), ("m", 0.2, 1.0), ("mm", 2e-4, 1e3), ("µm", 0.0, 1e6))
-    unit, factor = next((unit, factor) for unit, least, factor in units if length >= least)
+    unit, factor = length_unit(length)
     return f"{length * factor:.6g} {unit}"
 
 

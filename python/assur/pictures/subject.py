@@ -41,6 +41,8 @@ class Subject:
         (N, links, 3), the positions asked for.
     assembly : dict of str to int
         The signs of the dyads.
+    at : Frames
+        The same with the joints.
     whole : Frames
         Those of the whole motion, which fix the frame of the picture.
     """
@@ -48,7 +50,8 @@ class Subject:
     def __init__(self, motion: Motion) -> None:
         self.mechanism: Mechanism = motion.mechanism
         self.assembly = assembly_of(motion)
-        at = frames_of(motion)
+        self.at: Frames = frames_of(motion)
+        at = self.at
         self.frames = at.values[0]
         whole = course(self.mechanism, self.assembly)
         drawing = np.array(list(self.mechanism.joints.values()))
@@ -68,8 +71,7 @@ class Subject:
 
         `head`: points for other text above.
         """
-        paths = [self.whole.world(link, (x, y)) for link, x, y in corners(self.scene)]
-        points = np.concatenate([*paths, *others])
+        points = np.concatenate([self.points(), *others])
         points = points[np.isfinite(points).all(axis=1)]
         extent = points.min(axis=0), points.max(axis=0)
         font = name_font()
@@ -80,6 +82,13 @@ class Subject:
         lines = len(formula_lines(self.mechanism, 0.75 * 72.0 * WIDTH)) if groups else 0
         top = head + lines * LINE
         return canvas(ax, extent, style, usual_link(self.whole), top, sides)
+
+    def points(self) -> Float:
+        """Return where the points of the scene are over the whole motion, (N, 2)."""
+        paths = [self.whole.world(link, (x, y)) for link, x, y in corners(self.scene)]
+        points = np.concatenate(paths)
+        known: Float = points[np.isfinite(points).all(axis=1)]
+        return known
 
     def sees(self, points: Float, part: float) -> npt.NDArray[np.bool_]:
         """Whether points are near the whole motion: within a part of its size."""

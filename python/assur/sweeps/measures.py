@@ -5,19 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import flag, short
-from assur._validate import whole_number
+from assur._validate import one_of, whole_number
 from assur.description.words import Status
 from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.sweeps.designs import Designs
+    from assur.sweeps.terms import Condition
 
 __all__ = ["Measures"]
 
@@ -61,11 +62,15 @@ class Measures(Mapping[str, Float]):
         status: npt.NDArray[np.uint8],
         kept: npt.NDArray[np.intp],
         designs: Designs,
+        conditions: tuple[Condition, ...] = (),
+        assembly: Mapping[str, int] | None = None,
     ) -> None:
         self._values = values
         self.status = status
         self.kept = kept
         self._designs = designs
+        self._conditions = conditions
+        self._assembly = assembly
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -200,6 +205,71 @@ class Measures(Mapping[str, Float]):
         for entry, size in zip(entries, shape, strict=True):
             flat = flat * size + entry.astype(np.intp) % max(1, size)
         return np.asarray(flat)
+
+    def plot(
+        self,
+        name: str,
+        ax: Any = None,
+        dark: bool = False,
+        *,
+        at: Mapping[str, float] | None = None,
+        best: Literal["least", "greatest", "both", "none"] = "both",
+        degrees: bool = False,
+    ) -> Any:
+        """Draw a metric over the one or two dimensions of the sweep (needs matplotlib).
+
+        Two dimensions make a map: contours with their values, and hatched, with the reason written
+        in it, where designs have none. One makes a curve with gaps.
+
+        Parameters
+        ----------
+        name : str
+            The metric.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+        at : mapping of str to float, optional
+            Values of the grid's other dimensions, m or rad, where it has more than two.
+        best : {"both", "least", "greatest", "none"}
+            Which design is marked.
+        degrees : bool
+            Whether values of the metric are angles, rad, to be written in degrees.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on. Data are in m and rad; the ticks are written in the units that suit.
+
+        Raises
+        ------
+        InputError
+            An unknown metric; designs that are no grid of one or two dimensions.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> lengths = np.linspace(1.5, 3.5, 9)
+        >>> found = assur.sweep(
+        ...     assur.FourBar(1.0, 3.0, 2.5, 3.0),
+        ...     assur.Grid({"rocker.length": lengths, "ground.D.x": lengths}),
+        ...     np.linspace(0, 2 * np.pi, 72, endpoint=False),
+        ...     metrics={"angle": assur.metric.least_transmission("C")},
+        ... )
+        >>> axes = found.plot("angle", degrees=True)
+        >>> [text.get_text() for text in axes.texts if text.get_gid() == "reason"]
+        ['crank stops']
+        """
+        from assur.pictures.map import metric_picture
+        from assur.sweeps.measures_axes import shown_axes
+        from assur.sweeps.reasons import reasons
+
+        values = self[name]
+        one_of(best, ("both", "least", "greatest", "none"), "best")
+        axes, designs = shown_axes(self, at)
+        shown = values.reshape(-1)[designs]
+        why = [(text, which[designs]) for text, which in reasons(self, values)]
+        return metric_picture(name, axes, shown, why, ax, dark, best, flag(degrees, "degrees"))
 
     def to_dataframe(self) -> Any:
         """Return a pandas DataFrame with one row per design (needs pandas).

@@ -20,8 +20,8 @@ def dataset(found: Measures) -> Any:
         message = "to_xarray needs xarray: pip install assur[xarray]"
         raise ImportError(message) from error
     designs, shape = found._designs, found.shape
-    axes = {name: _axes(designs, name) for name in designs.changed}
-    names = _axis_names(axes, len(shape))
+    axes = {name: axes_of(designs, name) for name in designs.changed}
+    names = axis_names(axes, len(shape))
     coordinates = {}
     for name, own in axes.items():
         values = designs.values(name).reshape(shape)
@@ -36,14 +36,14 @@ def dataset(found: Measures) -> Any:
     return xr.Dataset(variables, coordinates)
 
 
-def _axes(designs: Designs, name: str) -> list[int]:
+def axes_of(designs: Designs, name: str) -> list[int]:
     """Return the axes of the designs along which a dimension was given."""
     column = np.asarray(designs._columns[designs.changed[name]])
     # Along the others it is broadcast.
     return [axis for axis, step in enumerate(column.strides) if step and column.shape[axis] > 1]
 
 
-def _axis_names(axes: dict[str, list[int]], count: int) -> list[str]:
+def axis_names(axes: dict[str, list[int]], count: int) -> list[str]:
     """Return the name of each axis: that of the dimension that changes along it alone."""
     along = Counter(axis for own in axes.values() for axis in own)
     names = ["design"] if count == 1 else [f"design{axis}" for axis in range(count)]

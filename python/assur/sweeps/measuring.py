@@ -104,7 +104,8 @@ class Measuring:
         for array in (*values.values(), status, indices):
             array.flags.writeable = False
         arrays = {name: array.reshape(shape) for name, array in values.items()}
-        return Measures(arrays, status.reshape(shape), indices, designs)
+        asked = (tuple(self.conditions), self.assembly)
+        return Measures(arrays, status.reshape(shape), indices, designs, *asked)
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""

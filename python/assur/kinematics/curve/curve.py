@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -134,6 +134,42 @@ class ConfigurationCurve:
         Defects(circuit=False, branch=False, order=False, branches=(0, 0, 0))
         """
         return defects_of(self, places)
+
+    def plot(self, name: str | None = None, ax: Any = None, dark: bool = False) -> Any:
+        """Draw a coordinate over q along every circuit (needs matplotlib).
+
+        Circuits differ in colour, dead points of the driver are diamonds.
+
+        Parameters
+        ----------
+        name : str, optional
+            A coordinate: a link (its angle), a slide, ``"P.x"`` or ``"P.y"`` of a joint. By
+            default the first slide on the ground, or the last link that turns about it.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on. Data are in rad and m; the ticks are written in the units that suit.
+
+        Raises
+        ------
+        InputError
+            No such coordinate.
+
+        Examples
+        --------
+        >>> import assur
+        >>> axes = assur.FourBar(3.0, 2.5, 2.0, 4.0).configuration_curve().plot("rocker")
+        >>> [line.get_gid() for line in axes.lines]
+        ['circuit 0', 'dead points']
+        """
+        from assur.pictures.curve import curve_picture
+
+        return curve_picture(self, name, ax, dark)
 
     def motion(self, circuit: int = 0, samples: int = 180) -> CircuitMotion:
         """Return positions along a circuit.

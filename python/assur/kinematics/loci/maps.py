@@ -99,6 +99,34 @@ class DesignMap:
     values: npt.NDArray[np.intp]
     boundaries: tuple[Boundary, ...]
 
+    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+        """Draw regions by their number, with names, and the boundaries (needs matplotlib).
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on. Data are in m and rad; the ticks are written in the units that suit.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> lengths = np.linspace(0.5, 5.5, 11)
+        >>> over = {"rocker.length": lengths, "ground.D.x": lengths}
+        >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).map("full_rotation", over).plot()
+        >>> sorted(text.get_text() for text in axes.texts)
+        ['goes round', 'stops']
+        """
+        from assur.pictures.counts import design_map_picture
+
+        return design_map_picture(self, ax, dark)
+
     def __repr__(self) -> str:
         shape = " x ".join(str(n) for n in self.values.shape)
         return f"<assur.DesignMap of {self.of}, {shape}, {len(self.boundaries)} boundaries>"

@@ -101,6 +101,48 @@ class SingularLocus:
     joints: Mapping[str, Float]
     is_closed: bool
     is_complete: bool
+    _mechanism: Mechanism
+
+    def plot(self, joint: str | None = None, ax: Any = None, dark: bool = False) -> Any:
+        """Draw the curve of a joint, or of the drivers' coordinates (needs matplotlib).
+
+        Parameters
+        ----------
+        joint : str, optional
+            The joint whose places are drawn, with the mechanism; by default the coordinates of
+            two drivers.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw, also over a workspace or another curve; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on; data are in m and rad.
+
+        Raises
+        ------
+        InputError
+            No such joint.
+
+        Examples
+        --------
+        >>> import assur
+        >>> five_bar = assur.Mechanism(
+        ...     joints={"A": (0, 0), "B": (0, 1), "P": (0.7, 1.2), "D": (1.4, 0.6), "E": (1, 0)},
+        ...     links={"ground": "AE", "left": "AB", "rod": "BP", "arm": "DP", "right": "ED"},
+        ...     driver=("left", "right"),
+        ... )
+        >>> axes = five_bar.singular_loci(positions=16)[0].plot()
+        >>> axes.get_xlabel(), axes.get_ylabel()
+        ('left', 'right')
+        """
+        from assur.pictures.loci import locus_picture
+
+        if joint is not None:
+            self._mechanism._core.require("joint", checked_name(joint, "plot"))
+        return locus_picture(self, joint, ax, dark)
 
     def __repr__(self) -> str:
         form = "closed" if self.is_closed else "open"
@@ -143,6 +185,43 @@ class Workspace:
     boundary: tuple[SingularLocus, ...]
     _surface: Surface
     _base: tuple[float, float]
+    _mechanism: Mechanism
+
+    def plot(self, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False) -> Any:
+        """Draw where the joint can be, and in how many ways (needs matplotlib).
+
+        Regions are filled by the number of ways; curves are the boundary, where that changes. The
+        mechanism is drawn in it, lightly, as in its drawing.
+
+        Parameters
+        ----------
+        loci : sequence of SingularLocus
+            From `Mechanism.singular_loci`: those of the second kind, dead points, are drawn too.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Those drawn on.
+
+        Examples
+        --------
+        >>> import assur
+        >>> arm = assur.Mechanism(
+        ...     joints={"O": (0, 0), "A": (1, 0), "P": (1.5, 0.5)},
+        ...     links={"ground": "O", "upper": "OA", "fore": "AP"},
+        ...     driver=("upper", "fore"),
+        ... )
+        >>> axes = arm.workspace("P", positions=8).plot()
+        >>> sorted(text.get_text() for text in axes.texts)
+        ['0.5 m', '2 ways', 'A', 'O', 'P', 'limit of reach']
+        """
+        from assur.pictures.loci import workspace_picture
+
+        return workspace_picture(self, loci, ax, dark)
 
     def contains(self, points: npt.ArrayLike) -> Any:
         """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…).
@@ -230,7 +309,7 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     inverse = Surface(other, (0, 1), at, surface.size)
     over = grid_of(inverse, (axes[0] - base[0], axes[1] - base[1]), (False, False))
     boundary = _loci(inverse, own, over, 1)
-    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, base)
+    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, base, own)
 
 
 def _over_drivers(
@@ -373,4 +452,4 @@ def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
     q = _coordinates(mechanism, traced)
     joints = np.array([pose.joints for pose in _round(traced)])
     named = {name: joints[:, i] for i, name in enumerate(mechanism._joint_names)}
-    return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete)
+    return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete, mechanism)

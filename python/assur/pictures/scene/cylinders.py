@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,8 +21,22 @@ BARREL_OF_LEAST, CLEARANCE = 0.86, 0.07
 EYE = 9.0
 
 
-def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
-    """Draw barrel and rod, true to length: within the stroke the piston stays in the barrel."""
+@dataclass(frozen=True, eq=False)
+class Cylinder:
+    """Barrel and rod, true to length: within the stroke the piston stays in the barrel.
+
+    `forward` is the direction from the barrel's joint to the rod's in the barrel's frame,
+    `rod_forward` in the rod's; `barrel` and `rod` are lengths, m.
+    """
+
+    forward: Float
+    rod_forward: Float
+    barrel: float
+    rod: float
+
+
+def cylinder(axis: Axis, base: Float) -> Cylinder:
+    """Return the barrel and the rod of a slide; `base` is the joint of the barrel."""
     angle = axis.angles[1]
     along = np.array([np.cos(angle), np.sin(angle)])
     start = float(base @ along)
@@ -34,6 +49,13 @@ def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
     barrel = BARREL_OF_LEAST * (low or high)
     # Within a stroke longer than the barrel the piston leaves it at the far end.
     rod = min(high - (1.0 - CLEARANCE) * barrel, max(low - CLEARANCE * barrel, 0.0))
+    return Cylinder(forward, rod_forward, barrel, rod)
+
+
+def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
+    """Draw a cylinder."""
+    own = cylinder(axis, base)
+    forward, rod_forward, barrel, rod = own.forward, own.rod_forward, own.barrel, own.rod
     colour: Colour = "driver" if driven else "link"
     left = np.array([-forward[1], forward[0]])
     name = f"slide {axis.name}"

@@ -1,4 +1,4 @@
-"""Strokes of hatching: along a line, and inside a convex area."""
+"""Hatching as strokes: along a line, and inside an area."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from assur._arrays import Float
 
-# Of a stroke across its line, px.
+# Px of a hatching stroke across its line.
 DEPTH = 7.0
 
 

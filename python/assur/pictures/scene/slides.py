@@ -87,6 +87,7 @@ class Slides:
         points = np.concatenate(list(frames.joints().values()))
         self._size = float(np.ptp(points[np.isfinite(points[:, 0])], axis=0).max())
         self._near = ON_LINE * self._size
+        self._axes: dict[str, Axis] = {}
 
     def parts(self) -> list[Line]:
         """Return what is drawn."""
@@ -94,6 +95,11 @@ class Slides:
 
     def axis(self, name: str) -> Axis:
         """Return the axis of a slide, with its sliding link as the block."""
+        if name not in self._axes:
+            self._axes[name] = self._found_axis(name)
+        return self._axes[name]
+
+    def _found_axis(self, name: str) -> Axis:
         slide = self._mechanism.slides[name]
         own = list(self._joints(slide.link).values())
         block = own[0] if own else np.zeros(2)
@@ -103,6 +109,12 @@ class Slides:
         # Of several drivers the drawing tells no stroke.
         free = FREE_STROKE * self._size
         return replace(axis, low=axis.low - free, high=axis.high + free)
+
+    def barrel_joint(self, name: str) -> Float | None:
+        """Return the joint of the barrel if a slide is a cylinder."""
+        axis = self.axis(name)
+        held = self._joint_on(axis)
+        return held if held is not None and self._is_cylinder(name, axis) else None
 
     def _angle(self, name: str) -> Float:
         """Return the direction of the guide at every position, rad."""
@@ -115,8 +127,9 @@ class Slides:
     def _of(self, name: str) -> list[Line]:
         axis = self.axis(name)
         held = self._joint_on(axis)
-        if held is not None and self._is_cylinder(name, axis):
-            return cylinder_parts(axis, held, name in self._sliding)
+        barrel = self.barrel_joint(name)
+        if barrel is not None:
+            return cylinder_parts(axis, barrel, name in self._sliding)
         if self._joints(axis.sliding):
             return self._block(axis)
         if axis.guide == "ground":

@@ -1,0 +1,33 @@
+"""Names of layers that every program reads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+# What DXF forbids in the name of a layer.
+FORBIDDEN = frozenset('<>/\\":;?*|=`,')
+# Of a name; DXF allows 255.
+MOST = 100
+
+
+def valid_text(text: str) -> str:
+    """Return a text on one line, without characters that a file cannot hold."""
+    return "".join(one if one.isprintable() else "_" for one in text)
+
+
+def layer_names(names: Iterable[str]) -> dict[str, str]:
+    """Return a valid name for each, different from the others whatever the case of letters."""
+    given: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        text = "".join("_" if one in FORBIDDEN else one for one in valid_text(name)).strip()
+        text = text[:MOST] or "_"
+        own, number = text, 2
+        while own.casefold() in taken:
+            own, number = f"{text}_{number}", number + 1
+        taken.add(own.casefold())
+        given[name] = own
+    return given

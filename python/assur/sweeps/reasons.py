@@ -1,0 +1,79 @@
+"""Why designs of a sweep have no metric, in a few words for its pictures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.description.words import Status
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.sweeps.measures import Measures
+    from assur.sweeps.terms import Condition
+
+Flags = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+
+WORDS = {
+    Status.SINGULAR: "singular",
+    Status.LOST: "stops",
+    Status.NOT_CONVERGED: "not converged",
+    Status.BAD_DIMENSION: "bad dimension",
+    Status.BAD_INPUT: "bad coordinate",
+}
+
+
+def reasons(found: Measures, values: Float) -> list[tuple[str, Flags]]:
+    """Return every reason that occurs, with the designs that have it, in C order.
+
+    Every design without a value has one.
+    """
+    status = found.status.reshape(-1)
+    left = np.isnan(values.reshape(-1))
+    missed = np.zeros_like(left)
+    missed[found.missed] = True
+    answer = [(_conditions(found._conditions), left & missed)]
+    left = left & ~missed
+    unreachable = left & (status == Status.UNREACHABLE)
+    answer += _unreachable(found, unreachable)
+    left = left & ~unreachable
+    answer += [(_words(found, code), left & (status == code)) for code in WORDS]
+    for code in (Status.UNREACHABLE, *WORDS):
+        left = left & (status != code)
+    answer.append(("no value", left))
+    return [(text, which) for text, which in answer if which.any()]
+
+
+def _conditions(conditions: tuple[Condition, ...]) -> str:
+    """Return what a design misses: of several conditions, one of them at least."""
+    relations = {"<": "≥", "<=": ">", ">": "≤", ">=": "<"}
+    wrong = [f"{c.metric!r} {relations[c.relation]} {c.limit:.6g}" for c in conditions]
+    return " or ".join(wrong).replace("'", "")
+
+
+def _words(found: Measures, code: Status) -> str:
+    text = WORDS[code]
+    return f"{_driver(found)} stops" if code == Status.LOST else text
+
+
+def _driver(found: Measures) -> str:
+    driver = found._designs.mechanism.driver
+    return driver if isinstance(driver, str) else "the driver"
+
+
+def _unreachable(found: Measures, which: Flags) -> list[tuple[str, Flags]]:
+    """Tell designs that cannot be assembled at all from those whose driver stops on its way."""
+    mechanism = found._designs.mechanism
+    indices = np.flatnonzero(which)
+    if not indices.size:
+        return []
+    if mechanism._driver_count > 1 or mechanism._core.cls > 2:
+        # Limits of a higher class take too long.
+        return [("out of reach", which)]
+    limits = found._designs.some(indices).limits(found._assembly)
+    nowhere = np.isnan(limits.intervals).all(axis=(-2, -1))
+    never, stops = np.zeros_like(which), np.zeros_like(which)
+    never[indices[nowhere]] = True
+    stops[indices[~nowhere]] = True
+    return [("cannot be assembled", never), (f"{_driver(found)} stops", stops)]
