@@ -179,7 +179,7 @@ class Bearing:
         >>> axes.shape
         (2,)
         """
-        from assur.pictures.polar_load import polar_load
+        from assur.pictures.forces.polar_load import polar_load
 
         return polar_load(self, ax, dark)
 

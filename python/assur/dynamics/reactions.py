@@ -473,7 +473,7 @@ class Reactions(Tabular):
         True
         """
         from assur.dynamics.force_system import force_system
-        from assur.pictures.forces import forces_picture
+        from assur.pictures.forces.placed import forces_picture
 
         return forces_picture(force_system(self, links, at), links, ax, dark)
 
@@ -522,7 +522,7 @@ class Reactions(Tabular):
         ['load B on piston', 'reaction A on rod', 'reaction bore on piston']
         """
         from assur.dynamics.force_system import force_system
-        from assur.pictures.force_polygon import force_polygon
+        from assur.pictures.forces.polygon import force_polygon
 
         own = links.links if isinstance(links, Group) else links
         return force_polygon(force_system(self, own, at), ax, dark)

@@ -400,7 +400,7 @@ class Run(Tabular):
         >>> axes.get_xlabel(), axes.get_title(loc="left")
         ('t, s', 'Coordinate, rad')
         """
-        from assur.pictures.run import run_picture
+        from assur.pictures.diagrams.run import run_picture
 
         one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax, dark)

@@ -186,7 +186,7 @@ class SteadyState(Tabular):
         >>> axes.get_title(loc="left"), axes.get_xlabel()
         ('Speed, rad/s: δ = 0.174', 'q')
         """
-        from assur.pictures.steady import steady_picture
+        from assur.pictures.diagrams.steady import steady_picture
 
         one_of(what, ("speed", "time", "energy"), "what")
         return steady_picture(self, what, ax, degrees, dark)

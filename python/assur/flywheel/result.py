@@ -401,7 +401,7 @@ class Flywheel(Tabular, ABC):
         >>> axes.get_title(loc="left"), [text.get_text() for text in axes.texts]
         ('Speed, rad/s: δ = 0.1 with 20 kg·m²', ['10.50 at 180°', '9.50 at 0°', 'mean 10.00'])
         """
-        from assur.pictures.flywheel import flywheel_picture
+        from assur.pictures.diagrams.flywheel import flywheel_picture
 
         if self.shape:
             message = f"plot is for one flywheel, this is a batch {self.shape}: evaluate one alone"

@@ -326,7 +326,7 @@ class Assemblies(list[Assembly]):
         >>> [one.get_title() for one in axes]
         ['1   C +', '2   C −']
         """
-        from assur.pictures.assemblies import assemblies_picture
+        from assur.pictures.linkage.assemblies import assemblies_picture
 
         return assemblies_picture(self, ax, dark)
 

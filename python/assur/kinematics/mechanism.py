@@ -1095,7 +1095,7 @@ class Mechanism:
         ['driver', 'link coupler', 'link crank']
         >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).plot(np.arange(0.0, 6.0, 0.5))
         """
-        from assur.pictures.mechanism import mechanism_picture
+        from assur.pictures.linkage.mechanism import mechanism_picture
 
         return mechanism_picture(self, q, ax, assembly, labels, groups, dark)
 

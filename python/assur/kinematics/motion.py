@@ -724,7 +724,7 @@ class Motion:
         >>> [text.get_text() for text in axes.flat[1].texts]
         ['0.515 at 283°', '−0.515 at 77°']
         """
-        from assur.pictures.diagram import motion_diagram
+        from assur.pictures.diagrams.diagram import motion_diagram
 
         speeds = None if omega is None else (omega, alpha, beta)
         return motion_diagram(self, name, ax, speeds, orders, degrees, dark)
@@ -770,7 +770,7 @@ class Motion:
         >>> [line.get_gid() for line in axes.lines if line.get_gid().startswith("path")]
         ['path C']
         """
-        from assur.pictures.path import path_picture
+        from assur.pictures.linkage.path import path_picture
 
         return path_picture(self, joint, ax, at, groups, dark)
 
@@ -816,7 +816,7 @@ class Motion:
         >>> path.read_bytes()[:6]
         b'GIF89a'
         """
-        from assur.pictures.animate import animate
+        from assur.pictures.linkage.animate import animate
 
         animate(self, path, joint, frames, seconds, groups, dark)
 
@@ -933,6 +933,6 @@ class Motion:
         >>> bool(np.allclose(tip.get_path().vertices[0], motion.joint("C").velocity(10.0)[2]))
         True
         """
-        from assur.pictures.polygon import polygon_picture
+        from assur.pictures.plans.polygon import polygon_picture
 
         return polygon_picture(self, what, at, omega, alpha, ax, dark)

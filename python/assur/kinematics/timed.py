@@ -217,7 +217,7 @@ class TimedMotion(Tabular):
         >>> axes.get_title(loc="left"), [text.get_text() for text in axes.texts]
         ('Angular velocity, rad/s', ['12.6 at 0.250 s', '0 at 0 s'])
         """
-        from assur.pictures.diagram import timed_diagram
+        from assur.pictures.diagrams.diagram import timed_diagram
 
         return timed_diagram(self, name, ax, orders, degrees, dark)
 

@@ -8,19 +8,19 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from assur.pictures.all_centres import instant_centres
-    from assur.pictures.inflection import inflection_circle
-    from assur.pictures.rolling import centrodes
-    from assur.pictures.vector_ends import hodograph
+    from assur.pictures.centres.centrodes import centrodes
+    from assur.pictures.centres.inflection import inflection_circle
+    from assur.pictures.centres.instant_centres import instant_centres
+    from assur.pictures.plans.hodograph import hodograph
 
 __all__ = ["centrodes", "hodograph", "inflection_circle", "instant_centres"]
 
 # Imported at first use: they need matplotlib (PEP 562).
 _LATER = {
-    "centrodes": "rolling",
-    "hodograph": "vector_ends",
-    "inflection_circle": "inflection",
-    "instant_centres": "all_centres",
+    "centrodes": "centres.centrodes",
+    "hodograph": "plans.hodograph",
+    "inflection_circle": "centres.inflection",
+    "instant_centres": "centres.instant_centres",
 }
 
 

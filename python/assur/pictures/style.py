@@ -98,3 +98,13 @@ DARK = Style(
 def style(dark: bool) -> Style:
     """Return the palette."""
     return DARK if dark else LIGHT
+
+
+def blend(colour: str, canvas: str, part: float) -> tuple[float, float, float]:
+    """Return a part of a colour on the canvas, opaque: pictures stay small, and print."""
+    mixed = [
+        part * int(colour[i : i + 2], 16) / 255.0
+        + (1.0 - part) * int(canvas[i : i + 2], 16) / 255.0
+        for i in (1, 3, 5)
+    ]
+    return mixed[0], mixed[1], mixed[2]

@@ -260,7 +260,7 @@ class Measures(Mapping[str, Float]):
         >>> [text.get_text() for text in axes.texts if text.get_gid() == "reason"]
         ['crank stops']
         """
-        from assur.pictures.map import metric_picture
+        from assur.pictures.maps.map import metric_picture
         from assur.sweeps.measures_axes import shown_axes
         from assur.sweeps.reasons import reasons
 

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.path import Path
 from matplotlib.text import Text
 
-from assur.pictures.formulas import formula_size
 from assur.pictures.text import text_size
+from assur.pictures.vectors.symbols import formula_size
 
 
 def named(ax: Any, gid: str) -> list[Any]:

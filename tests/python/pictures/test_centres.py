@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur.pictures import centrodes, inflection_circle, instant_centres
-from assur.pictures.centres import centres_of
+from assur.pictures.centres.rate_centres import centres_of
 from picture_reading import gids, named, one, texts, vector
 
 ONE_DRIVER = [

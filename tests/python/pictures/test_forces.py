@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur.dynamics.force_system import force_system
-from assur.pictures.force_polygon import polygon_sides
+from assur.pictures.forces.polygon import polygon_sides
 from assur.pictures.style import DARK
 from picture_reading import gids, named, one, overlapping, texts, vector
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from matplotlib.textpath import text_to_path
 
-from assur.pictures.formulas import formula_font, formula_size, symbol
+from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from matplotlib import pyplot as plt
 
 import assur
 from assur import metric
-from assur.pictures.raster import finer
+from assur.pictures.maps.raster import finer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

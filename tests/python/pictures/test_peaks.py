@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from assur.pictures.peaks import peaks
+from assur.pictures.diagrams.peaks import peaks
 
 X = np.linspace(0.0, 6.0, 13)
 

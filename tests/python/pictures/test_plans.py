@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.pictures.plan import plan_of
+from assur.pictures.plans.plan import plan_of
 from assur.pictures.style import DARK
 from picture_reading import gids, named, one, overlapping, texts, vector
 

@@ -9,9 +9,9 @@ import pytest
 
 import assur
 from assur.pictures import hodograph
+from assur.pictures.linkage.subject import Subject
 from assur.pictures.style import LIGHT
-from assur.pictures.subject import Subject
-from assur.pictures.vectors import LOOKS, arrow, moment_arc, path_vectors
+from assur.pictures.vectors.arrows import LOOKS, arrow, moment_arc, path_vectors
 from picture_reading import named, one, texts, vector
 
 

@@ -167,7 +167,7 @@ class ConfigurationCurve:
         >>> [line.get_gid() for line in axes.lines]
         ['circuit 0', 'dead points']
         """
-        from assur.pictures.curve import curve_picture
+        from assur.pictures.maps.curve import curve_picture
 
         return curve_picture(self, name, ax, dark)
 

@@ -123,7 +123,7 @@ class DesignMap:
         >>> sorted(text.get_text() for text in axes.texts)
         ['goes round', 'stops']
         """
-        from assur.pictures.counts import design_map_picture
+        from assur.pictures.maps.counts import design_map_picture
 
         return design_map_picture(self, ax, dark)
 

@@ -138,7 +138,7 @@ class SingularLocus:
         >>> axes.get_xlabel(), axes.get_ylabel()
         ('left', 'right')
         """
-        from assur.pictures.loci import locus_picture
+        from assur.pictures.maps.loci import locus_picture
 
         if joint is not None:
             self._mechanism._core.require("joint", checked_name(joint, "plot"))
@@ -219,7 +219,7 @@ class Workspace:
         >>> sorted(text.get_text() for text in axes.texts)
         ['0.5 m', '2 ways', 'A', 'O', 'P', 'limit of reach']
         """
-        from assur.pictures.loci import workspace_picture
+        from assur.pictures.maps.loci import workspace_picture
 
         return workspace_picture(self, loci, ax, dark)
 

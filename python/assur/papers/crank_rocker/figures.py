@@ -69,8 +69,8 @@ def plot_zone(
     ['zone', 'zone with friction']
     """
     from assur.pictures import chart
-    from assur.pictures.artists import blend
-    from assur.pictures.notes import Note, settle, write_notes
+    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.style import blend
     from assur.pictures.style import style
 
     own, length = style(dark), real_number(coupler, "coupler")
@@ -237,8 +237,8 @@ def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
     ['γ_min = arcsin f_p', 'blocked', 'moves']
     """
     from assur.pictures import chart
-    from assur.pictures.artists import blend
-    from assur.pictures.notes import Note, settle, write_notes
+    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.style import blend
     from assur.pictures.style import style
 
     own = style(dark)
@@ -305,8 +305,8 @@ def plot_transmission(
     ['curve l₄ = 4.8', 'curve l₄ = 4.9', 'curve l₄ = 4.995', 'least angle']
     """
     from assur.pictures import chart
-    from assur.pictures.artists import blend
-    from assur.pictures.notes import Named, name_lines, settle
+    from assur.pictures.diagrams.notes import Named, name_lines, settle
+    from assur.pictures.style import blend
     from assur.pictures.style import style
 
     own = style(dark)

@@ -100,10 +100,10 @@ def _misleads(artist: Any, run: JammingRun, ax: Any) -> bool:
 def _diagram(run: JammingRun, what: str, ax: Any, degrees: bool, own: Style) -> Any:
     """Draw the ground or the transmission angle over the crank's angle, with the events."""
     from assur.pictures import chart
-    from assur.pictures.artists import blend
-    from assur.pictures.notes import Note, settle, write_notes
-    from assur.pictures.peaks import peaks
-    from assur.pictures.quantities import degrees_text
+    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.diagrams.peaks import peaks
+    from assur.pictures.diagrams.quantities import degrees_text
+    from assur.pictures.style import blend
 
     axes = chart.chart_axes(ax, own)
     x = np.degrees(run.phi1) if degrees else run.phi1

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.kinematics.quantity import Analogues
-    from assur.pictures.quantities import Line, Quantity
+    from assur.pictures.diagrams.quantities import Line, Quantity
 
 # Points of a curve over a turn.
 POINTS = 721
@@ -190,7 +190,7 @@ class _Formulas:
 
     def place(self, x: float) -> str:
         """Write a crank angle."""
-        from assur.pictures.quantities import degrees_text
+        from assur.pictures.diagrams.quantities import degrees_text
 
         return degrees_text(x, 360.0) if self.in_degrees else f"{x + 0.0:.2f} rad"
 
@@ -206,7 +206,7 @@ class _Formulas:
 
     def lines(self, of: Quantity, order: int) -> list[Line]:
         """Return the curve."""
-        from assur.pictures.quantities import Line
+        from assur.pictures.diagrams.quantities import Line
 
         del of
         return [Line("", self._values(self.x, order)[None], None)]
@@ -274,8 +274,8 @@ def plot_motion(
     >>> axes.get_title(loc="left"), [text.get_text() for text in axes.texts]
     ('Velocity v, m/s', ['3.53 at 76°', '−3.53 at 284°'])
     """
-    from assur.pictures.diagram import diagrams
-    from assur.pictures.quantities import Quantity
+    from assur.pictures.diagrams.diagram import diagrams
+    from assur.pictures.diagrams.quantities import Quantity
     from assur.pictures.style import style
 
     one_of(quantity, ("stroke", "rod"), "quantity")
@@ -323,7 +323,7 @@ def plot_convergence(
     [0.004906, 0.001021]
     """
     from assur.pictures import chart
-    from assur.pictures.notes import Named, name_lines, settle
+    from assur.pictures.diagrams.notes import Named, name_lines, settle
     from assur.pictures.style import style
 
     own, last = style(dark), whole_number(count, "count", 1, 100)
@@ -398,9 +398,9 @@ def plot_deviation(
     ['−0.473 at 74°', '−0.0132 at 81°', '0.949 at 128°', '0.0297 at 118°']
     """
     from assur.pictures import chart
-    from assur.pictures.notes import Note, settle, write_notes
-    from assur.pictures.peaks import peaks
-    from assur.pictures.quantities import degrees_text
+    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.diagrams.peaks import peaks
+    from assur.pictures.diagrams.quantities import degrees_text
     from assur.pictures.style import style
 
     own, ratio = style(dark), real_number(lam, "lam")

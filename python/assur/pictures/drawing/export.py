@@ -16,9 +16,9 @@ from assur.pictures.drawing.link_part import MM, Workshop, link_drawing
 from assur.pictures.drawing.names import name_marks
 from assur.pictures.drawing.position import PX, dimensioned, outlines, schematic
 from assur.pictures.drawing.sheet import PAPERS, lay_out
+from assur.pictures.linkage.subject import Subject
 from assur.pictures.scene.extent import usual_link
 from assur.pictures.scene.slides import Slides
-from assur.pictures.subject import Subject
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly

@@ -26,8 +26,8 @@ from assur.pictures.scene.parts import Disc, Hatching, Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.pictures.linkage.subject import Subject
     from assur.pictures.scene.parts import Part, Vertex
-    from assur.pictures.subject import Subject
 
 # A px of the symbols, mm of the paper.
 PX = 25.4 / 96.0

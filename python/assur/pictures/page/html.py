@@ -18,9 +18,9 @@ from assur._arrays import flag, real_number, short
 from assur.errors import AssurError, InputError
 from assur.pictures.page.bundle import script, stylesheet
 from assur.pictures.page.payload import payload, played_of
+from assur.pictures.page.svg import svg_picture
 from assur.pictures.page.turn import require_one, turn_of, turn_of_rows
 from assur.pictures.style import DARK, LIGHT
-from assur.pictures.svg import svg_picture
 
 if TYPE_CHECKING:
     from os import PathLike

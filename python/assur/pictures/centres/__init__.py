@@ -1,0 +1,1 @@
+"""Instant centres, centrodes, the inflection circle."""

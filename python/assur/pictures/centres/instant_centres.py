@@ -1,0 +1,127 @@
+"""All instant centres on the mechanism: see `assur.pictures.instant_centres`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._validate import checked_index, checked_name
+from assur.errors import InputError
+from assur.pictures import style as palettes
+from assur.pictures.axes import scale_bar
+from assur.pictures.centres.marks import CentreMarks
+from assur.pictures.centres.rate_centres import centres_of, kennedy_lines
+from assur.pictures.linkage.position import draw_position
+from assur.pictures.linkage.subject import Subject
+from assur.pictures.vectors.heading import LINE_HEIGHT, link_numbers, wrapped, write_heading
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur.kinematics.motion import Motion
+
+# Centres farther from the mechanism than this part of its size are shown at the border.
+SIGHT = 0.75
+# Lines of Kennedy are drawn by default for so many links.
+FEW = 6
+# A legend of more letters may need two lines.
+LONG = 60
+
+
+def instant_centres(
+    motion: Motion,
+    at: int | tuple[int, ...] = (),
+    links: Sequence[str] | None = None,
+    lines: bool | None = None,
+    ax: Any = None,
+    dark: bool = False,
+) -> Any:
+    """Draw the instant centres of all pairs of links on the mechanism (needs matplotlib).
+
+    Links are numbered, the ground is 1; P24 is the centre of links 2 and 4, about which one turns
+    relative to the other. By the theorem of Aronhold and Kennedy the three centres of three links
+    lie on a line.
+
+    Parameters
+    ----------
+    motion : Motion
+        Of one design and one driver.
+    at : int or tuple of int
+        Index of the position into its shape.
+    links : sequence of str, optional
+        Only the centres of these; all by default.
+    lines : bool, optional
+        Whether to draw lines of Kennedy, two through each centre that is not a joint; by default
+        for up to six links.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure by default.
+    dark : bool
+        Light lines on a dark ground.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        Those drawn on. A centre is named ``centre crank coupler``, one out of sight
+        ``centre crank coupler beyond``: an arrow at the border points to it.
+
+    Raises
+    ------
+    InputError
+        An unknown link, several drivers, a position without analogues.
+
+    Examples
+    --------
+    >>> import assur
+    >>> from assur.pictures import instant_centres
+    >>> axes = instant_centres(assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(1.0))
+    >>> sum(artist.get_gid() == "centre ground coupler" for artist in axes.lines)
+    1
+    """
+    motion._require_one_driver("instant_centres")
+    one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    chosen = _checked_links(one, links)
+    subject = Subject(one)
+    if not all(np.isfinite(one.link(link).d1) for link in chosen):
+        message = f"no instant centres: {one.explain()}"
+        raise InputError(message)
+    centres = centres_of(one, chosen)
+    seen = {
+        pair: centre
+        for pair, centre in centres.items()
+        if centre.at is not None and subject.sees(centre.at, SIGHT).all()
+    }
+    numbers = link_numbers(one.mechanism)
+    points = [centre.at for centre in seen.values()]
+    around = np.array(points, dtype=np.float64).reshape(-1, 2)
+    ordered = sorted(chosen, key=numbers.__getitem__)
+    legend = ", ".join(f"{numbers[link]} {link}" for link in ordered)
+    head = LINE_HEIGHT * (2 if len(legend) < LONG else 3)
+    on = subject.canvas(ax, palettes.style(dark), [around], head)
+    draw_position(subject, on, subject.frames[0], names=False)
+    drawing = CentreMarks(subject, on, numbers, head)
+    if lines if lines is not None else len(chosen) <= FEW:
+        for line in kennedy_lines(centres, chosen):
+            if frozenset(line[0].links) in seen:
+                drawing.kennedy(line)
+    for centre in centres.values():
+        drawing.centre(centre)
+    drawing.write()
+    write_heading(on, ["Instant centres", *wrapped(on, legend)])
+    scale_bar(on)
+    return on.ax
+
+
+def _checked_links(one: Motion, links: Sequence[str] | None) -> list[str]:
+    known = list(one.mechanism.links)
+    if links is None:
+        return known
+    if isinstance(links, str):
+        links = [links]
+    chosen = [checked_name(link, "links") for link in links]
+    for link in chosen:
+        one.mechanism._core.require("link", link)
+    if len(set(chosen)) < 2:
+        message = f"links is {list(links)}: instant centres need two links"
+        raise InputError(message)
+    return [link for link in known if link in chosen]

@@ -1,0 +1,1 @@
+"""Diagrams: quantities over the driver or time, flywheels, runs."""

@@ -1,0 +1,291 @@
+"""Diagrams of a motion's quantities: value, velocity, acceleration, jerk; see `Motion.diagram`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur._validate import whole_number
+from assur.errors import InputError
+from assur.pictures.style import style
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.kinematics.motion import Motion
+    from assur.kinematics.timed import TimedMotion
+    from assur.pictures.diagrams.quantities import Line, Quantity, Source
+    from assur.pictures.style import Style
+
+# Of a column of diagrams one is so high, inches.
+LOW = 2.6
+# A curve whose range is so many times that of its middle nine tenths runs to infinity.
+RUNAWAY, MIDDLE, KEPT = 12.0, (5.0, 95.0), 1.0
+DASHED = (0.0, (4.0, 2.0))
+BAND = 0.22
+# Above and below the curves, relative to their range: for the extremes.
+ROOM = 0.22
+
+
+class Shown(NamedTuple):
+    """A line of a diagram with what tells it from others."""
+
+    of: Quantity
+    line: Line
+    name: str
+    colour: str
+    width: float
+    dashes: Any
+
+
+def motion_diagram(
+    motion: Motion,
+    name: Any,
+    ax: Any,
+    speeds: tuple[Any, Any, Any] | None,
+    orders: Any,
+    degrees: bool,
+    dark: bool,
+) -> Any:
+    """See `Motion.diagram`."""
+    from assur.pictures.diagrams.quantities import AlongDriver, quantities
+
+    source = AlongDriver(motion, speeds, degrees)
+    wanted = quantities(motion, name)
+    return diagrams(source, wanted, ax, orders, style(dark), listed=not isinstance(name, str))
+
+
+def timed_diagram(
+    timed: TimedMotion, name: Any, ax: Any, orders: Any, degrees: bool, dark: bool
+) -> Any:
+    """See `TimedMotion.diagram`."""
+    from assur.pictures.diagrams.quantities import OverTime, quantities
+
+    source = OverTime(timed, degrees)
+    wanted = quantities(timed.motion, name)
+    return diagrams(source, wanted, ax, orders, style(dark), listed=not isinstance(name, str))
+
+
+def diagrams(
+    source: Source, wanted: list[Quantity], ax: Any, orders: Any, own: Style, listed: bool = False
+) -> Any:
+    """Draw one diagram an order; `listed`: several quantities, each with its name beside it."""
+    from assur.pictures.chart import HEIGHT, chart_axes
+    from assur.pictures.diagrams.notes import settle
+
+    chosen = _checked_orders(orders, source.orders)
+    count = len(chosen)
+    rows, columns = (2, 2) if count == 4 else (count, 1)
+    axes = chart_axes(ax, own, rows, columns, HEIGHT if count in (1, 4) else LOW)
+    panels = [_Panel(source, wanted, order, own) for order in chosen]
+    for i, (panel, one) in enumerate(zip(panels, np.atleast_1d(axes).flat, strict=True)):
+        panel.draw(one, listed, last=ax is not None or i >= count - columns)
+    settle(np.atleast_1d(axes).flat[0])
+    for panel, one in zip(panels, np.atleast_1d(axes).flat, strict=True):
+        panel.write(one)
+    return axes
+
+
+def _checked_orders(orders: Any, highest: int) -> list[int]:
+    if orders is None:
+        return list(range(highest + 1))
+    listed = [orders] if np.ndim(orders) == 0 else list(orders)
+    if not listed:
+        message = "orders is empty: at least one of 0 (value), 1, 2, 3 is needed"
+        raise InputError(message)
+    for order in listed:
+        whole_number(order, "orders", 0, 3, needed="0 (value), 1, 2 or 3 is needed")
+        if order > highest:
+            message = (
+                f"orders has {order}: this motion was solved to order {highest}; "
+                f"solve(q, order={order}) has more"
+            )
+            raise InputError(message)
+    return [int(order) for order in listed]
+
+
+class _Panel:
+    """The diagram of one order."""
+
+    def __init__(self, source: Source, wanted: list[Quantity], order: int, own: Style) -> None:
+        self.source, self.wanted, self.order, self.style = source, wanted, order, own
+        self.lines = [shown for k in range(len(wanted)) for shown in self._shown(k)]
+        self.designs = len(self.lines[0].line.values)
+
+    def _shown(self, k: int) -> list[Shown]:
+        of = self.wanted[k]
+        lines = self.source.lines(of, self.order)
+        several = len(self.wanted) > 1
+        sized = any(line.part == "v" for line in lines)
+        batch = len(lines[0].values) > 1
+        if sized and (several or batch):
+            lines = [line for line in lines if line.part == "v"]
+        colours = (self.style.ink, self.style.velocity, self.style.acceleration, self.style.ink)
+        colour = self.style.group(k) if several else colours[self.order]
+        found = []
+        for line in lines:
+            symbol = {"": "", "v": "|{}|".format("pvaj"[self.order])}.get(line.part, line.part)
+            alone = of.axis is not None or line.part == ""
+            name = of.shown if alone else f"{of.name} {symbol}" if several else symbol
+            if several and line.part == "v":
+                name = of.name
+            thin = sized and line.part != "v"
+            dashes = DASHED if line.part == "y" and of.axis is None else "solid"
+            found.append(Shown(of, line, name, colour, 1.3 if thin else 2.2, dashes))
+        return found
+
+    def draw(self, ax: Any, listed: bool, last: bool) -> None:
+        """Draw the curves; their names and extremes come when all axes have their places."""
+        from assur.pictures import chart
+
+        x, own = self.source.x, self.style
+        self.named = listed or len(self.lines) > 1
+        values = np.concatenate([shown.line.values.reshape(-1) for shown in self.lines])
+        kept = _kept(values)
+        for shown in self.lines:
+            gid = f"curve {shown.name or shown.of.name}"
+            middle = _band(ax, x, shown, own) if self.designs > 1 else shown.line.values[0]
+            ax.plot(
+                x, middle, color=shown.colour, linewidth=shown.width, linestyle=shown.dashes,
+                gid=gid, solid_capstyle="round",
+            )  # fmt: skip
+        ax.set_xlim(float(x.min()), float(x.max()))
+        chart.headroom(ax, kept, ROOM)
+        if all(shown.line.part == "v" for shown in self.lines):
+            ax.set_ylim(bottom=0.0)
+        if self.source.in_degrees:
+            chart.degree_ticks(ax, float(x.min()), float(x.max()))
+        known = kept[np.isfinite(kept)]
+        title, unit = self.source.title(self.wanted[0].kind, self.order)
+        unit, self.power = chart.scaled(ax, unit, float(np.abs(known).max(initial=0.0)))
+        chart.title(ax, f"{title}, {unit}", own)
+        if self.order or (known.size and known.min() < 0.0 < known.max()):
+            chart.zero_line(ax, own)
+        self._name(ax, listed)
+        if last:
+            ax.set_xlabel(self.source.label, color=own.second, fontsize=chart.TEXT)
+        else:
+            ax.tick_params(labelbottom=False)
+
+    def _name(self, ax: Any, listed: bool) -> None:
+        """Write what it is of on the right, above the diagram."""
+        from assur.pictures.chart import TEXT
+        from assur.pictures.text import name_font
+
+        designs = f"{self.designs} designs" if self.designs > 1 else ""
+        name = "" if listed else self.wanted[0].shown
+        if designs:
+            text = f"{name}, {designs}" if name else designs
+            ax.set_title(
+                text, loc="right", color=self.style.second, fontsize=TEXT, parse_math=False
+            )
+        elif name:
+            font = name_font() if self.wanted[0].kind == "joint" else None
+            ax.set_title(
+                name, loc="right", color=self.style.second, fontproperties=font, parse_math=False,
+                **({} if font else {"fontsize": TEXT + 1.0}),
+            )  # fmt: skip
+
+    def write(self, ax: Any) -> None:
+        """Write names and extremes clear of the curves."""
+        from assur.pictures.diagrams.notes import Named, name_lines, write_notes
+
+        notes = [note for shown in self.lines for note in self._extremes(ax, shown)]
+        write_notes(ax, notes, self.style)
+        low, high = ax.get_ylim()
+        named = []
+        for shown in self.lines:
+            values = _median(shown.line.values)
+            name = self._written(shown, values)
+            inside = np.where((values >= low) & (values <= high), values, np.nan)
+            if name:
+                named.append(Named(self.source.x, inside, name, shown.colour, self.named))
+        name_lines(ax, named)
+
+    def _written(self, shown: Shown, values: Float) -> str:
+        """Return the name beside a line; of a single line that is constant, its value."""
+        from assur.pictures.chart import number
+        from assur.pictures.diagrams.peaks import is_flat
+
+        if self.named:
+            return shown.name
+        known = values[np.isfinite(values)]
+        if not known.size or self.designs > 1 or not is_flat(values):
+            return ""
+        return f"{number(float(known[0]) / self.power)} throughout"
+
+    def _extremes(self, ax: Any, shown: Shown) -> list[Any]:
+        """Return notes at the greatest and the least value of a line, over all designs."""
+        from assur.pictures.chart import number
+        from assur.pictures.diagrams.notes import Note
+        from assur.pictures.diagrams.peaks import is_flat, peaks
+
+        values, x = shown.line.values, self.source.x
+        thin = shown.width < 2.0
+        if not np.isfinite(values).any() or thin:
+            return []
+        gid = f"extreme {shown.name or shown.of.name}"
+        if self.designs == 1 and is_flat(values[0]):
+            return []
+        notes = []
+        size = float(np.nanmax(np.abs(values)))
+        span = float(np.nanmax(values) - np.nanmin(values)) / self.power
+        low, high = ax.get_ylim()
+        for sign in (1, -1):
+            if shown.line.part == "v" and sign < 0:
+                continue
+            best = np.where(np.isfinite(values), sign * values, -np.inf).max(axis=1)
+            design = int(np.argmax(best))
+            slopes = None if shown.line.slopes is None else shown.line.slopes[design]
+            again = self.source.again(shown.of, self.order, shown.line.part, design)
+            found = peaks(x, values[design], slopes, again)
+            if not found:
+                continue
+            peak = found[0 if sign > 0 else 1]
+            value = 0.0 if abs(peak.y) < 1e-12 * size else peak.y
+            text = f"{number(value / self.power, span)} at {self.source.place(peak.x)}"
+            inside = low <= value <= high
+            marker = "o" if inside else "^" if sign > 0 else "v"
+            y = value if inside else high if sign > 0 else low
+            notes.append(Note(peak.x, y, text, shown.colour, gid, marker, optional=not inside))
+        return notes
+
+
+def _kept(values: Float) -> Float:
+    """Return the values that fix the limits: without those that run to infinity at dead points."""
+    known = values[np.isfinite(values)]
+    if known.size < 3:
+        return known
+    low, high = np.percentile(known, MIDDLE)
+    span = float(high - low)
+    if span <= 0.0 or float(np.ptp(known)) < RUNAWAY * span:
+        return known
+    return np.clip(known, low - KEPT * span, high + KEPT * span)
+
+
+def _median(values: Float) -> Float:
+    """Return the median of the designs that have a position."""
+    if len(values) == 1:
+        alone: Float = values[0]
+        return alone
+    found: Float = np.full(values.shape[1], np.nan)
+    known = np.isfinite(values).any(axis=0)
+    found[known] = np.nanmedian(values[:, known], axis=0)
+    return found
+
+
+def _band(ax: Any, x: Float, shown: Shown, own: Style) -> Float:
+    """Draw from the least to the greatest of the designs; return the median."""
+    from assur.pictures.style import blend
+
+    values = shown.line.values
+    known = np.isfinite(values).any(axis=0)
+    low = np.where(known, np.where(np.isfinite(values), values, np.inf).min(axis=0), np.nan)
+    high = np.where(known, np.where(np.isfinite(values), values, -np.inf).max(axis=0), np.nan)
+    gid = f"band {shown.name or shown.of.name}"
+    ax.fill_between(
+        x, low, high, color=blend(shown.colour, own.canvas, BAND), linewidth=0.0, gid=gid
+    )
+    for edge in (low, high):
+        ax.plot(x, edge, color=shown.colour, linewidth=0.7, alpha=0.6, gid=f"edge {shown.of.name}")
+    return _median(values)

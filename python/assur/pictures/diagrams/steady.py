@@ -1,0 +1,141 @@
+"""The speed of a machine in periodic motion, with its fluctuation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.pictures.style import style
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from assur._arrays import Float
+    from assur.dynamics.steady import SteadyState
+    from assur.flywheel import Flywheel
+    from assur.pictures.style import Style
+
+# Points of a curve over a period.
+POINTS = 1001
+TINT = 0.12
+
+
+def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
+    """See `SteadyState.plot`."""
+    if what == "energy":
+        from assur.pictures.diagrams.run import run_picture
+
+        return run_picture(steady.run, what, ax, dark, named=False)
+    q = np.linspace(steady.q[0], steady.q[-1], POINTS)
+    state = steady.at(q)
+    if what == "speed":
+        abscissa = over_q(q, degrees)
+    else:
+        first = float(state.t[0])
+        abscissa = over_time(state.t - first, lambda at: float(steady.at(at).t) - first)
+    wheel = f" with {steady.inertia:.4g} kg·m²" if steady.inertia else ""
+    return speed_diagram(ax, abscissa, state.speed, steady, wheel, style(dark))
+
+
+class Abscissa:
+    """What a curve over a turn is drawn over: its values, its name, and the places of extremes."""
+
+    def __init__(
+        self, values: Float, label: str, of: Callable[[float], float], place: Callable[[float], str]
+    ) -> None:
+        self.values, self.label, self.of, self.place = values, label, of, place
+
+
+def over_q(q: Float, degrees: bool) -> Abscissa:
+    """Return the driver's coordinate."""
+    from assur.pictures.diagrams.quantities import degrees_text
+
+    if not degrees:
+        return Abscissa(q, "q, rad", float, lambda x: f"{x:.2f} rad".replace("-", "−"))
+    x = np.degrees(q)
+    span = float(np.ptp(x))
+    return Abscissa(x, "q", lambda at: float(np.degrees(at)), lambda at: degrees_text(at, span))
+
+
+def over_time(t: Float, of: Callable[[float], float]) -> Abscissa:
+    """Return the time; `of` gives it at a coordinate."""
+    from assur.pictures.chart import number
+
+    return Abscissa(t, "t, s", of, lambda at: f"{number(at)} s")
+
+
+def speed_diagram(
+    ax: Any,
+    over: Abscissa,
+    speed: Float,
+    of: Flywheel | SteadyState,
+    wheel: str,
+    own: Style,
+) -> Any:
+    """Draw a speed with its extremes and mean, the band of its fluctuation shaded."""
+    from assur.pictures import chart
+    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.style import blend
+
+    axes = chart.chart_axes(ax, own)
+    start(axes, over, own)
+    sign = float(np.copysign(1.0, speed[0]))
+    least, greatest, mean = (
+        sign * float(one) for one in (of.least.value, of.greatest.value, of.mean_speed)
+    )
+    axes.plot(over.values, speed, color=own.driver, linewidth=chart.CURVE, gid="curve speed")
+    axes.axhspan(
+        least, greatest, color=blend(own.driver, own.canvas, TINT), zorder=0.5, linewidth=0.0,
+        gid="fluctuation",
+    )  # fmt: skip
+    axes.axhline(
+        mean, color=own.second, linewidth=0.9, linestyle=(0.0, (5.0, 3.0)), zorder=1.5, gid="mean"
+    )
+    chart.headroom(axes, np.array([least, greatest]))
+    unit, power = chart.scaled(axes, "rad/s", max(abs(least), abs(greatest)))
+    chart.title(axes, f"Speed, {unit}: δ = {of.delta:.3g}{wheel}", own)
+    settle(axes)
+    span = abs(greatest - least) / power
+    notes = [
+        Note(
+            over.of(float(extreme.at)),
+            sign * float(extreme.value),
+            f"{chart.number(sign * float(extreme.value) / power, span)} at "
+            f"{over.place(over.of(float(extreme.at)))}",
+            own.driver,
+            "extreme speed",
+        )
+        for extreme in (of.greatest, of.least)
+    ]
+    write_notes(axes, notes, own)
+    write_mean(axes, over, speed, mean, f"mean {chart.number(mean / power, span)}", own)
+    return axes
+
+
+def write_mean(ax: Any, over: Abscissa, speed: Float, mean: float, text: str, own: Style) -> None:
+    """Write the mean on its line, where the curve is far from it."""
+    from assur.pictures.chart import TEXT
+
+    width = max(len(over.values) // 6, 1)
+    apart = np.abs(speed - mean)
+    clear = np.array([apart[i : i + width].min() for i in range(len(apart) - width)])
+    i = int(np.argmax(clear)) + width // 2
+    above = bool(speed[i] < mean)
+    ax.annotate(
+        text, (over.values[i], mean), xytext=(0.0, 2.0 if above else -2.0),
+        textcoords="offset points", horizontalalignment="center",
+        verticalalignment="bottom" if above else "top", color=own.second, fontsize=TEXT,
+        zorder=5.0, gid="mean text",
+    ).set_in_layout(False)  # fmt: skip
+
+
+def start(ax: Any, over: Abscissa, own: Style) -> None:
+    """Put limits, ticks and name on the abscissa."""
+    from assur.pictures import chart
+
+    low, high = float(over.values.min()), float(over.values.max())
+    ax.set_xlim(low, high)
+    if over.label == "q":
+        chart.degree_ticks(ax, low, high)
+    ax.set_xlabel(over.label, color=own.second, fontsize=chart.TEXT)

@@ -1,0 +1,183 @@
+"""Wittenbauer's diagram: energy over reduced inertia, with the tangents at the extreme speeds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.flywheel import Flywheel
+    from assur.pictures.style import Style
+
+# Beside the loop, relative to it: left for the intercept, right, and above and below.
+LEFT, RIGHT, ABOVE = 0.42, 0.22, 0.16
+# Tangents are steep if they rise so many times the height of the loop from the side to it.
+STEEP = 1.5
+# From the frame to the intercept, relative to the picture.
+INSET = 0.02
+# A loop without width is drawn as wide as that part of the inertia.
+THIN = 0.2
+# Dots and their names are so far apart.
+DOTS, NAMES = np.pi / 6.0, 2
+# From the intercept to its text, points.
+GAP = 6.0
+
+
+def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, own: Style) -> Any:
+    """Draw the loop of one turn and both tangents; they meet at minus the flywheel."""
+    from assur.pictures import chart
+    from assur.pictures.diagrams.notes import Named, Note, name_lines, settle, write_notes
+
+    axes = chart.chart_axes(ax, own)
+    inertia, energy = flywheel.energy_mass(len(q))
+    axes.plot(inertia, energy, color=own.ink, linewidth=chart.CURVE, gid="curve loop", zorder=2.0)
+    corner = -flywheel.inertia, -flywheel.inertia * flywheel.speed0**2 / 2.0
+    low, high, steep = _width(inertia, energy, float(flywheel.greatest.value))
+    reach = np.array([low, high])
+    tangents = []
+    for name, extreme, colour in (
+        ("greatest", flywheel.greatest, own.driver),
+        ("least", flywheel.least, own.error),
+    ):
+        line = corner[1] + float(extreme.value) ** 2 / 2.0 * (reach - corner[0])
+        axes.plot(reach, line, color=colour, linewidth=1.4, gid=f"tangent {name}", zorder=1.8)
+        tangents.append((line, extreme, colour))
+    lines = [line for line, *_ in tangents]
+    axes.set(xlim=(low, high), ylim=_height(energy, [] if steep else lines))
+    unit, _ = chart.scaled(axes, "J", float(np.abs(axes.get_ylim()).max()))
+    title = f"Wittenbauer: energy, {unit}, over inertia, kg·m²"
+    chart.title(axes, title, own, _sentence(flywheel, corner))
+    axes.set_xlabel("reduced inertia, kg·m²", color=own.second, fontsize=chart.TEXT)
+    settle(axes)
+    _intercept(axes, lines, steep, own)
+    notes = []
+    for _, extreme, colour in tangents:
+        at = np.array([extreme.at])
+        point = _point(flywheel, at)
+        notes.append(Note(float(point[0][0]), float(point[1][0]), "", colour, "contact"))
+    write_notes(axes, [note._replace(gid="contact") for note in notes], own)
+    _dots(axes, flywheel, q, own)
+    span = float(flywheel.greatest.value - flywheel.least.value)
+    gap = "\n" if steep else " "
+    named = [
+        Named(
+            np.linspace(low, high, 200),
+            np.linspace(line[0], line[1], 200),
+            f"slope ω²/2{gap}at {chart.number(float(extreme.value), span)} rad/s",
+            colour,
+            italic=False,
+        )
+        for line, extreme, colour in tangents
+    ]
+    name_lines(axes, named)
+    return axes
+
+
+def _width(inertia: Float, energy: Float, speed: float) -> tuple[float, float, bool]:
+    """Return the limits of the abscissa, and whether tangents are too steep to meet its left end.
+
+    Of a flat loop they may be much steeper than it is high.
+    """
+    low, high = float(inertia.min()), float(inertia.max())
+    span = high - low
+    if span <= 1e-9 * abs(high):
+        span = THIN * (abs(high) or 1.0)
+    rise = speed**2 / 2.0 * LEFT * span
+    steep = float(np.ptp(energy)) < rise / STEEP
+    return low - LEFT * span, high + (LEFT if steep else RIGHT) * span, steep
+
+
+def _sentence(flywheel: Flywheel, corner: tuple[float, float]) -> str:
+    from assur.pictures.chart import number
+
+    start = f"δ = {flywheel.delta:.3g}"
+    if not flywheel.inertia:
+        return f"{start} without a flywheel: the tangents meet at I = 0, E = 0"
+    inertia = f"{flywheel.inertia:.4g}"
+    return f"{start}; the tangents meet at I = −{inertia} kg·m², E = {number(corner[1])} J"
+
+
+def _point(flywheel: Flywheel, q: Float) -> tuple[Float, Float]:
+    first = float(flywheel.reduced_inertia(flywheel._turn[0]))
+    energy = np.asarray(flywheel.work(q)) + first * flywheel.speed0**2 / 2.0
+    return np.asarray(flywheel.reduced_inertia(q)), energy
+
+
+def _height(energy: Float, tangents: list[Float]) -> tuple[float, float]:
+    """Return the limits of the ordinate, with what the tangents cut off the left side."""
+    shown = np.array([*energy, *(float(line[0]) for line in tangents)])
+    bottom, top = float(shown.min()), float(shown.max())
+    room = ABOVE * (top - bottom or 1.0)
+    # Steep tangents are measured at the bottom.
+    return bottom - (room if tangents else 2.5 * room), top + room
+
+
+def _intercept(ax: Any, tangents: list[Float], steep: bool, own: Style) -> None:
+    """Draw what the tangents cut off the frame as a length with its value.
+
+    On the left side it is an energy; of steep tangents it is an inertia at the bottom.
+    """
+    from matplotlib.font_manager import FontProperties
+
+    from assur.pictures.chart import TEXT, number
+    from assur.pictures.diagrams.notes import distance, in_points, obstacles
+    from assur.pictures.text import text_size
+
+    (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
+    ends = np.array([float(line[0]) for line in tangents])
+    if not steep:
+        x = x0 + INSET * (x1 - x0)
+        points = np.column_stack([np.full(11, x), np.linspace(ends[0], ends[1], 11)])
+        text, aside = f"{number(ends[0] - ends[1])} J\nat the frame", np.array([1.0, 0.0])
+    else:
+        y = y0 + 2.0 * INSET * (y1 - y0)
+        ends = np.array([x0 + (y - a) / (b - a) * (x1 - x0) for a, b in tangents])
+        points = np.column_stack([np.linspace(ends[0], ends[1], 11), np.full(11, y)])
+        text, aside = f"{number(abs(ends[1] - ends[0]))} kg·m²\nat the frame", np.array([0.0, 1.0])
+    arrow = {
+        "arrowstyle": "<|-|>", "color": own.second, "linewidth": 1.1, "shrinkA": 0.0,
+        "shrinkB": 0.0, "mutation_scale": 9.0,
+    }  # fmt: skip
+    ax.annotate("", points[0], xytext=points[-1], gid="intercept", arrowprops=arrow).set_in_layout(
+        False
+    )
+    width, height = text_size("at the frame", FontProperties(size=TEXT))
+    half = np.array([width + 2.0, 2.6 * height + 2.0]) / 2.0
+    near = in_points(ax, points)[1:-1]
+    middles = near + aside * (GAP + half)
+    clear = [distance(middle, half, obstacles(ax)) for middle in middles]
+    # The middle, if that is clear.
+    best = int(np.argmax(np.minimum(clear, 8.0) - 0.5 * np.abs(np.arange(9) - 4.0)))
+    ax.annotate(
+        text, points[1 + best], xytext=middles[best] - near[best], textcoords="offset points",
+        horizontalalignment="center", verticalalignment="center", color=own.second,
+        fontsize=TEXT, gid="intercept text", zorder=5.0,
+    ).set_in_layout(False)  # fmt: skip
+
+
+def _dots(ax: Any, flywheel: Flywheel, q: Float, own: Style) -> None:
+    """Put a dot on the loop at every 30°, with the angle at some."""
+    from assur.pictures.diagrams.notes import Note, write_notes
+    from assur.pictures.diagrams.quantities import degrees_text
+
+    first, last = float(q[0]), float(q[-1])
+    sign = float(np.copysign(1.0, last - first))
+    start = int(np.ceil(sign * first / DOTS - 1e-6))
+    numbers = np.arange(start, start + int(np.floor(abs(last - first) / DOTS + 1e-6)))
+    places: Float = sign * DOTS * numbers.astype(np.float64)
+    inertia, energy = _point(flywheel, places)
+    ax.plot(
+        inertia, energy, "o", color=own.ink, markersize=3.5, zorder=2.5, gid="dots",
+        scalex=False, scaley=False,
+    )  # fmt: skip
+    notes = [
+        Note(
+            float(inertia[i]), float(energy[i]),
+            degrees_text(float(np.degrees(places[i])), 360.0), own.second, "angle", None,
+            optional=True,
+        )
+        for i in np.flatnonzero(numbers % NAMES == 0).tolist()
+    ]  # fmt: skip
+    write_notes(ax, notes, own)

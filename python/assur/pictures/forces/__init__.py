@@ -1,0 +1,1 @@
+"""Forces in their places, force polygons, polar load diagrams."""

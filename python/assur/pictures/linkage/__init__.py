@@ -1,0 +1,1 @@
+"""Mechanisms drawn by matplotlib: positions, paths, films."""

@@ -1,0 +1,133 @@
+"""Moving pictures: see `Motion.animate`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._validate import real_number, whole_number
+from assur.errors import InputError
+from assur.pictures import style as sizes
+from assur.pictures.axes import pyplot
+from assur.pictures.files import checked_path, writing
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from os import PathLike
+    from pathlib import Path
+
+    from assur.kinematics.motion import Motion
+    from assur.pictures.linkage.film import Film
+
+SUFFIXES = (".gif", ".webp", ".mp4")
+# A thousand frames of the usual size take 1 GiB.
+MOST_FRAMES = 1000
+# Of a GIF: from the ground to each colour in so many steps, for the edges of lines.
+SHADES = 18
+
+
+def animate(
+    motion: Motion,
+    path: str | PathLike[str],
+    joint: str | Sequence[str] | None,
+    frames: int,
+    seconds: float,
+    groups: bool,
+    dark: bool,
+) -> None:
+    """See `Motion.animate`."""
+    out = checked_path(path, SUFFIXES)
+    if motion.mechanism.shape or len(motion.shape) != 1:
+        message = f"animate shows one mechanism over q; this motion has shape {motion.shape}"
+        raise InputError(message)
+    count = whole_number(frames, "frames", 2, MOST_FRAMES)
+    duration = real_number(seconds, "seconds")
+    if not 0.0 < duration < np.inf:
+        message = f"seconds is {seconds}: a positive time is needed"
+        raise InputError(message)
+    pyplot()
+    from assur.pictures.linkage.film import Film
+
+    joints = [] if joint is None else [joint] if isinstance(joint, str) else list(joint)
+    film = Film(motion, joints, groups, sizes.style(dark))
+    try:
+        rows = _rows(film, count)
+        with writing(out):
+            if out.suffix.lower() == ".mp4":
+                _write_mp4(out, film, rows, duration)
+            else:
+                _write_image(out, film, rows, duration)
+    finally:
+        film.close()
+
+
+def _rows(film: Film, count: int) -> list[int]:
+    """Return the positions to show in turn: round and round, or to and fro."""
+    known = film.rows
+    if known.size < 2:
+        message = f"this motion has {known.size} position: nothing moves"
+        raise InputError(message)
+    closes = film.closes
+    if closes:
+        known = known[:-1]
+    # To and fro all but both ends come twice.
+    most = count if closes else count // 2 + 1
+    if known.size > most:
+        known = known[
+            np.linspace(0, known.size - (not closes), most, endpoint=not closes).astype(int)
+        ]
+    rows: list[int] = known.tolist()
+    return rows if closes else [*rows, *rows[-2:0:-1]]
+
+
+def _write_image(out: Path, film: Film, rows: list[int], seconds: float) -> None:
+    """Write an animated GIF or WebP with Pillow, which matplotlib brings."""
+    from PIL import Image, features
+
+    if out.suffix.lower() == ".webp" and not features.check("webp"):
+        message = f"{out}: this Pillow writes no WebP; write .gif"
+        raise InputError(message)
+    images = [Image.fromarray(film.show(row)[..., :3]) for row in rows]
+    options: dict[str, Any] = {"loop": 0, "duration": round(1e3 * seconds / len(rows))}
+    if out.suffix.lower() == ".gif":
+        palette = Image.new("P", (1, 1))
+        palette.putpalette(_palette(film.colours))
+        images = [
+            _with_canvas(one.quantize(palette=palette, dither=Image.Dither.NONE), film.colours[0])
+            for one in images
+        ]
+        options["optimize"] = False
+    images[0].save(out, save_all=True, append_images=images[1:], **options)
+
+
+def _palette(colours: list[tuple[int, ...]]) -> list[int]:
+    """Return the ground, which is the first colour, and its mixtures with every other one."""
+    ground, *others = (np.array(colour) for colour in colours)
+    steps = np.linspace(1.0, 0.0, SHADES, endpoint=False)[:, None]
+    mixed = [ground[None], *(ground + steps * (other - ground) for other in others)]
+    entries: list[int] = np.rint(np.concatenate(mixed)).astype(int).reshape(-1).tolist()
+    return entries[: 3 * 256]
+
+
+def _with_canvas(image: Any, colour: tuple[int, ...]) -> Any:
+    """Return an image whose corner, which is empty, has a colour exactly: quantising shifts it."""
+    palette = image.getpalette()
+    corner = 3 * image.getpixel((0, 0))
+    palette[corner : corner + 3] = colour
+    image.putpalette(palette)
+    return image
+
+
+def _write_mp4(out: Path, film: Film, rows: list[int], seconds: float) -> None:
+    """Write a film with ffmpeg, where there is one."""
+    from matplotlib.animation import FFMpegWriter
+
+    if not FFMpegWriter.isAvailable():
+        message = f"{out}: an MP4 needs the program ffmpeg, which is not found; write .gif"
+        raise InputError(message)
+    writer = FFMpegWriter(fps=max(1, round(len(rows) / seconds)))
+    with writer.saving(film.figure, str(out), film.figure.dpi):
+        for row in rows:
+            film.show(row)
+            writer.grab_frame(facecolor=film.figure.get_facecolor())

@@ -1,0 +1,94 @@
+"""All assemblies of a position side by side: see `Assemblies.plot`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import InputError
+from assur.pictures import style as palettes
+from assur.pictures.axes import FOOT, MARGIN, pyplot
+from assur.pictures.chart import TEXT
+
+if TYPE_CHECKING:
+    from assur.kinematics.assembly import Assemblies, Assembly
+    from assur.pictures.axes import Canvas
+
+# Of a picture: its width, inches; the limits of its height.
+WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 2.6, 1.8, 3.2
+COLUMNS = 4
+# Longer names of joints have no room.
+LONGEST = 3
+
+
+def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
+    """See `Assemblies.plot`."""
+    if not len(found):
+        message = "there is no assembly at this coordinate: nothing to draw"
+        raise InputError(message)
+    pyplot()
+    from assur.pictures.linkage.artists import Drawn
+    from assur.pictures.linkage.position import name_joints
+    from assur.pictures.linkage.subject import Subject
+
+    style = palettes.style(dark)
+    subjects = []
+    for assembly in found:
+        place = assembly._place
+        assert place is not None
+        q = np.array(place.q) if len(place.q) > 1 else place.q[0]
+        motion = place.mechanism.solve(q, order=0, assembly=assembly)
+        subject = Subject(motion)
+        # Here the position alone is seen.
+        subject.whole = subject.at
+        subjects.append(subject)
+    corners = np.concatenate([subject.points() for subject in subjects])
+    extent = np.stack([corners.min(axis=0), corners.max(axis=0)])
+    axes = _axes(len(found), extent, ax, style)
+    for i, (one, subject, assembly) in enumerate(zip(axes, subjects, found, strict=True)):
+        on = subject.canvas(one, style, [extent])
+        Drawn(on, subject.scene, subject.frames[0])
+        if max(len(name.text) for name in subject.scene.names) <= LONGEST:
+            name_joints(subject, on, subject.frames[0])
+        one.set_title(
+            _title(i, assembly, on), color=style.second, fontsize=TEXT, y=0.0,
+            pad=4.0, gid="title", parse_math=False,
+        )  # fmt: skip
+    return axes
+
+
+def _title(index: int, assembly: Assembly, on: Canvas) -> str:
+    """Return a number and the dyads' signs; assemblies of higher groups have numbers alone."""
+    from matplotlib.font_manager import FontProperties
+
+    from assur.pictures.text import text_size
+
+    signs = [(name, "+" if sign > 0 else "−") for name, sign in assembly.items()]
+    whole = "  ".join(f"{name} {sign}" for name, sign in signs)
+    room = float(on.points(on.high - on.low)[0])
+    if text_size(whole, FontProperties(size=TEXT))[0] > 0.8 * room:
+        # In the order of the dyads.
+        whole = " ".join(sign for _, sign in signs)
+    return f"{index + 1}   {whole}".rstrip()
+
+
+def _axes(count: int, extent: Any, ax: Any, style: Any) -> Any:
+    if ax is not None:
+        given = list(np.atleast_1d(np.asarray(ax, dtype=object)).flat)
+        if len(given) < count:
+            message = f"ax has {len(given)} axes, there are {count} assemblies: each needs its own"
+            raise InputError(message)
+        return np.array(given[:count], dtype=object)
+    columns = min(count, COLUMNS)
+    rows = -(-count // columns)
+    span = np.maximum(extent[1] - extent[0], 1e-300)
+    tall = (WIDTH - 2.0 * MARGIN / 72.0) * span[1] / span[0] + (2.0 * MARGIN + FOOT) / 72.0
+    height = float(np.clip(tall, LEAST_HEIGHT, GREATEST_HEIGHT))
+    figure = pyplot().figure(figsize=(WIDTH * columns, height * rows), facecolor=style.canvas)
+    axes = []
+    for i in range(count):
+        row, column = divmod(i, columns)
+        box = (column / columns, 1.0 - (row + 1) / rows, 1.0 / columns, 1.0 / rows)
+        axes.append(figure.add_axes(box, facecolor=style.canvas))
+    return np.array(axes, dtype=object)

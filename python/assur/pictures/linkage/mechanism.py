@@ -1,0 +1,52 @@
+"""A mechanism at one position or at many: see `Mechanism.plot`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from assur.errors import InputError
+from assur.pictures import style as sizes
+from assur.pictures.axes import pyplot, scale_bar
+
+if TYPE_CHECKING:
+    from assur.kinematics.assembly import Assembly
+    from assur.kinematics.mechanism import Mechanism
+
+LABELS = ("first", "all", "none")
+
+
+def mechanism_picture(
+    mechanism: Mechanism,
+    q: Any,
+    ax: Any,
+    assembly: Assembly | None,
+    labels: str,
+    groups: bool,
+    dark: bool,
+) -> Any:
+    """See `Mechanism.plot`."""
+    if mechanism.shape:
+        message = (
+            f"plot draws one mechanism, this is a batch {mechanism.shape}: take one with design(i)"
+        )
+        raise InputError(message)
+    if labels not in LABELS:
+        message = f'labels is {labels!r}: "first" names joints once, "all" everywhere, or "none"'
+        raise InputError(message)
+    pyplot()
+    from assur.pictures.linkage.position import draw_position
+    from assur.pictures.linkage.positions import draw_positions
+    from assur.pictures.linkage.subject import Subject
+
+    found = getattr(assembly, "q", None)
+    places = (q, found, mechanism._q0_array())
+    at = next(place for place in places if place is not None)
+    motion = mechanism.solve(at, order=0, assembly=assembly)
+    subject = Subject(motion)
+    on = subject.canvas(ax, sizes.style(dark), groups=groups)
+    if motion.shape:
+        draw_positions(subject, on, labels, groups)
+    else:
+        draw_position(subject, on, subject.frames[0], labels != "none", groups)
+    scale_bar(on)
+    return on.ax

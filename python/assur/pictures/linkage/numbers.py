@@ -1,0 +1,112 @@
+"""Numbers of positions, outside the circle of the driver."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.font_manager import FontProperties
+from matplotlib.text import Text
+
+from assur.pictures.axes import TEXT
+from assur.pictures.scene.labels import along, placed
+from assur.pictures.text import STEP, text_size
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.pictures.axes import Canvas
+    from assur.pictures.linkage.subject import Subject
+
+# Between the circle of the driver and the numbers, points.
+GAP = 7.0
+# A number moves up to so far along the circle to get clear of lines, rad.
+SHIFTS = np.radians([0.0, 6.0, -6.0, 12.0, -12.0, 18.0, -18.0])
+# So far from lines a number is clear of them, points; a shift must be worth it.
+CLEAR, COST_OF_SHIFT = 2.0, 0.05
+
+
+def write_numbers(subject: Subject, on: Canvas, lines: list[Float]) -> Float:
+    """Number the positions from 0; return the boxes of the numbers, points, (n, 2, 2)."""
+    obstacles = along([on.points(line) for line in lines], STEP)
+    plain = FontProperties(size=TEXT)
+    halves = np.array([text_size(str(i), plain) for i in range(len(subject.frames))]) / 2.0
+    crank = _crank(subject)
+    if crank is not None:
+        middles = _around(subject, on, crank, halves, obstacles)
+    else:
+        points = on.points([_driven_point(subject, frames) for frames in subject.frames])
+        bounds = (on.points(on.low), on.points(on.high))
+        radii = np.full(len(points), GAP)
+        middles = placed(points, 2.0 * halves, radii, obstacles, bounds)
+    bold = FontProperties(size=TEXT, weight="bold")
+    for i, (x, y) in enumerate(middles / on.scale):
+        on.ax.add_artist(
+            Text(
+                x,
+                y,
+                str(i),
+                fontproperties=plain if i else bold,
+                color=on.style.second if i else on.style.driver,
+                horizontalalignment="center",
+                verticalalignment="center",
+                zorder=4.0,
+                gid=f"number {i}",
+            )
+        )
+    return np.stack([middles, halves], axis=1)
+
+
+def _crank(subject: Subject) -> tuple[str, str, str] | None:
+    """Return a driven link that turns about the ground, its pivot, and its farthest joint."""
+    ground = subject.whole.local.get("ground", {})
+    for link in subject.scene.links:
+        local = subject.whole.local[link]
+        fixed = [joint for joint in local if joint in ground]
+        if link in subject.scene.driven and len(fixed) == 1 and len(local) > 1:
+            pivot = local[fixed[0]]
+            tip = max(local, key=lambda joint: float(np.hypot(*(local[joint] - pivot))))
+            return link, fixed[0], tip
+    return None
+
+
+def _driven_point(subject: Subject, frames: Float) -> Float:
+    """Return a joint that moves with the first driver, or any moving joint."""
+    driver = subject.mechanism.driver
+    first = driver[0] if isinstance(driver, tuple) else driver
+    slide = subject.mechanism.slides.get(first) if isinstance(first, str) else None
+    link = slide.link if slide is not None else str(getattr(first, "link", first))
+    of_link = [name for name in subject.scene.names if name.text in subject.whole.local[link]]
+    moving = [name for name in subject.scene.names if name.link != "ground"]
+    name = (of_link or moving or list(subject.scene.names))[-1]
+    return subject.world(frames, name.link, name.at)
+
+
+def _around(
+    subject: Subject,
+    on: Canvas,
+    crank: tuple[str, str, str],
+    halves: Float,
+    obstacles: Float,
+) -> Float:
+    """Return places outside the crank circle, shifted along it off the lines."""
+    link, pivot, tip = crank
+    local = subject.whole.local[link]
+    centre = on.points(subject.whole.local["ground"][pivot])
+    arm = local[tip] - local[pivot]
+    radius = float(np.hypot(*arm)) * on.scale + GAP
+    own = float(np.arctan2(arm[1], arm[0]))
+    index = subject.scene.links.index(link)
+    middles = np.empty_like(halves)
+    for i, (frames, half) in enumerate(zip(subject.frames, halves, strict=True)):
+        angles = float(frames[index, 2]) + own + SHIFTS
+        directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        places = centre + directions * (radius + np.abs(directions) @ half)[:, None]
+        near = obstacles[(np.abs(obstacles - places[0]) < 4.0 * radius).all(axis=1)]
+        apart = (np.abs(near[None] - places[:, None]) - half).max(axis=-1)
+        clear = apart.min(axis=1, initial=np.inf)
+        for j in range(i):
+            gap = (np.abs(middles[j] - places) - half - halves[j]).max(axis=-1)
+            clear = np.minimum(clear, gap)
+        best = int(np.argmax(np.minimum(clear, CLEAR) - COST_OF_SHIFT * np.arange(len(SHIFTS))))
+        middles[i] = places[best]
+    return middles

@@ -1,0 +1,113 @@
+"""Paths of joints with the mechanism at one position: see `Motion.plot`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._validate import checked_index
+from assur.errors import InputError
+from assur.pictures import style as sizes
+from assur.pictures.axes import pyplot, scale_bar
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur._arrays import Float
+    from assur.kinematics.motion import Motion
+    from assur.pictures.axes import Canvas
+
+# Dots on a path stand at equal steps of q: far apart is fast.
+DOTS = 24
+PATH, DOT, NOW = 2.0, 2.4, 5.0
+# Of the first path, the second, and so on.
+DASHES: tuple[Any, ...] = ("solid", (0.0, (5.0, 3.0)), (0.0, (5.0, 2.0, 1.0, 2.0)))
+
+
+def path_picture(
+    motion: Motion,
+    joint: str | Sequence[str] | None,
+    ax: Any,
+    at: int | None,
+    groups: bool,
+    dark: bool,
+) -> Any:
+    """See `Motion.plot`."""
+    if motion.mechanism.shape or len(motion.shape) != 1:
+        message = f"plot draws paths over q of one mechanism; this motion has shape {motion.shape}"
+        raise InputError(message)
+    pyplot()
+    from assur.pictures.linkage.position import draw_position
+    from assur.pictures.linkage.subject import Subject, assembly_of
+
+    joints = [] if joint is None else [joint] if isinstance(joint, str) else list(joint)
+    paths = [motion.joint(name).value for name in joints]
+    row = _row(motion, at)
+    # Solved again: the motion may hold some joints alone.
+    at_row = motion.mechanism.solve(motion.coordinate(row), 0, assembly=assembly_of(motion))
+    subject = Subject(at_row)
+    known = [path[np.isfinite(path).all(axis=1)] for path in paths]
+    on = subject.canvas(ax, sizes.style(dark), known, groups=groups)
+    for i, (name, path) in enumerate(zip(joints, paths, strict=True)):
+        draw_path(on, path, name, DASHES[i % len(DASHES)], path[row])
+    draw_position(subject, on, subject.frames[0], groups=groups, lines=known)
+    scale_bar(on)
+    return on.ax
+
+
+def _row(motion: Motion, at: int | None) -> int:
+    """Return the position drawn: the first that exists, if none is chosen."""
+    if at is not None:
+        (row,) = checked_index(at, motion.shape, "at")
+        if motion.status[row] > 2:
+            raise InputError(motion.explain(row))
+        return row
+    reached = np.flatnonzero(motion.status < 3)
+    if not reached.size:
+        raise InputError(f"there is no position to draw: {motion.explain(0)}")
+    return int(reached[0])
+
+
+def draw_path(on: Canvas, path: Float, name: str, dashes: Any = "solid", now: Any = None) -> None:
+    """Draw a joint's path with dots at equal steps of q, and where the joint is now."""
+    from matplotlib.lines import Line2D
+
+    style, size = on.style, on.size
+    line = Line2D(
+        *path.T,
+        color=style.path,
+        linewidth=PATH * size,
+        linestyle=dashes,
+        zorder=1.6,
+        gid=f"path {name}",
+        solid_capstyle="round",
+        dash_capstyle="butt",
+    )
+    step = max(1, (len(path) - 1) // DOTS)
+    dots = Line2D(
+        *path[::step].T,
+        color=style.path,
+        linestyle="none",
+        marker="o",
+        markersize=2.0 * DOT * size,
+        markeredgewidth=0.0,
+        zorder=1.7,
+        gid=f"dots {name}",
+    )
+    for artist in (line, dots):
+        on.ax.add_artist(artist)
+    if now is not None:
+        point = Line2D(
+            [now[0]],
+            [now[1]],
+            color=style.path,
+            linestyle="none",
+            marker="o",
+            markersize=2.0 * NOW * size,
+            markeredgecolor=style.canvas,
+            markeredgewidth=1.2 * size,
+            zorder=3.0,
+            gid=f"now {name}",
+        )
+        on.ax.add_artist(point)

@@ -1,0 +1,1 @@
+"""Maps of designs, configuration curves, workspaces."""

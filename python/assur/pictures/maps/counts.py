@@ -1,0 +1,128 @@
+"""Regions of a plane by a whole number: design maps and workspaces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.pictures.chart import TEXT, chart_axes, title
+from assur.pictures.maps.quantity_axis import name_axis, settle
+from assur.pictures.maps.raster import finer
+from assur.pictures.maps.regions import hatched_region, roomiest
+from assur.pictures.style import blend
+from assur.pictures.style import style as palette
+from assur.pictures.text import text_size
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.loci.maps import DesignMap
+    from assur.pictures.style import Style
+
+# Of the hue: of the least number that is not 0, and of the greatest.
+PALEST, STRONGEST = 0.16, 0.62
+LINE = 1.6
+NAMES: dict[str, Mapping[int, str]] = {
+    "full_rotation": {0: "stops", 1: "goes round"},
+    "assemblies": {0: "cannot be assembled", 1: "1 assembly"},
+}
+
+
+def fill_counts(
+    ax: Any,
+    x: Float,
+    y: Float,
+    values: npt.NDArray[np.intp],
+    lines: Sequence[Float],
+    style: Style,
+    name: Callable[[int], str],
+    below: float = -0.18,
+    hatched: bool = False,
+) -> None:
+    """Fill regions between lines by the number in them, and write `name(number)` there.
+
+    What has no room is explained in a legend, so far below the axes, relative to their height.
+    With `hatched` regions of 0 are hatched as those that are not feasible.
+    """
+    from matplotlib.colors import ListedColormap
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.patches import Patch
+
+    fine_x, fine_y, fine = finer(x, y, values, lines)
+    kinds = np.unique(values)
+    positive = kinds[kinds > 0]
+    steps = np.linspace(PALEST, STRONGEST, max(len(positive), 2))
+    shades = dict(zip(positive.tolist(), steps.tolist(), strict=False))
+    colours = [blend(style.path, style.canvas, shades.get(int(kind), 0.0)) for kind in kinds]
+    ax.pcolormesh(
+        np.append(_starts(x, len(fine_x)), x[-1]),
+        np.append(_starts(y, len(fine_y)), y[-1]),
+        np.searchsorted(kinds, fine).T,
+        cmap=ListedColormap(colours),
+        vmin=-0.5,
+        vmax=len(kinds) - 0.5,
+        zorder=0.5,
+        rasterized=True,
+        gid="regions",
+    )
+    if hatched and (fine == 0).any():
+        hatched_region(ax, fine_x, fine_y, fine == 0, 0, style, "region 0").set_zorder(0.6)
+    settle(ax)
+    per = ax.transData.inverted().transform([(0.0, 0.0), (1.0, 1.0)])
+    px, py = np.abs(per[1] - per[0]) * ax.get_figure(root=True).dpi / 72.0
+    left = []
+    for kind, colour in zip(kinds.tolist(), colours, strict=True):
+        text = name(kind)
+        if not text:
+            continue
+        width, height = text_size(text, FontProperties(size=TEXT))
+        box = ((width + 6.0) * px, (height + 6.0) * py)
+        at_x, at_y, room = roomiest(fine_x, fine_y, fine == kind, box)
+        if room >= 1.0:
+            ax.text(
+                at_x, at_y, text, ha="center", va="center", color=style.ink, fontsize=TEXT,
+                zorder=4.0, gid=f"region {kind}",
+                bbox={"facecolor": colour, "edgecolor": "none", "pad": 2.5},
+            )  # fmt: skip
+        elif (fine == kind).any():
+            left.append(Patch(facecolor=colour, edgecolor=style.second, label=text))
+    if left:
+        ax.legend(
+            handles=left, loc="upper center", bbox_to_anchor=(0.5, below), ncols=3,
+            frameon=False, fontsize=TEXT, labelcolor=style.ink,
+        ).set_gid("regions")  # fmt: skip
+
+
+def _starts(axis: Float, count: int) -> Float:
+    per = count // (len(axis) - 1)
+    starts: Float = (axis[:-1, None] + np.arange(per) / per * np.diff(axis)[:, None]).reshape(-1)
+    return starts
+
+
+def design_map_picture(found: DesignMap, ax: Any, dark: bool) -> Any:
+    """See `DesignMap.plot`."""
+    style = palette(dark)
+    ax = chart_axes(ax, style)
+    ax.grid(visible=False)
+    ax.set(xlim=(found.x[0], found.x[-1]), ylim=(found.y[0], found.y[-1]))
+    for axis, name, values in zip(
+        (ax.xaxis, ax.yaxis), found.names, (found.x, found.y), strict=True
+    ):
+        name_axis(axis, name, values, name.endswith(".angle"), style)
+    title(ax, found.of.replace("_", " "), style)
+    lines = [boundary.points for boundary in found.boundaries]
+
+    def named(number: int) -> str:
+        return NAMES[found.of].get(number, f"{number} assemblies")
+
+    fill_counts(ax, found.x, found.y, found.values, lines, style, named, hatched=True)
+    for boundary in found.boundaries:
+        ax.plot(
+            *boundary.points.T, color=style.ink, linewidth=LINE, gid=f"boundary {boundary.level}",
+            solid_capstyle="round",
+        )  # fmt: skip
+    return ax

@@ -1,0 +1,159 @@
+"""Singular curves and workspaces."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import InputError
+from assur.pictures.axes import pyplot, scale_bar
+from assur.pictures.chart import chart_axes, title
+from assur.pictures.linkage.artists import Drawn
+from assur.pictures.linkage.position import name_joints
+from assur.pictures.linkage.subject import Subject
+from assur.pictures.maps.callouts import write_along
+from assur.pictures.maps.counts import fill_counts
+from assur.pictures.maps.quantity_axis import name_axis, settle
+from assur.pictures.style import style as palette
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur._arrays import Float
+    from assur.kinematics.loci.singular import SingularLocus, Workspace
+    from assur.kinematics.mechanism import Mechanism
+    from assur.pictures.axes import Canvas
+    from assur.pictures.style import Style
+
+LINE = 2.0
+# The kinds by what they mean; dead points have the colour of errors.
+NAMES = {1: "limit of reach", 2: "dead points"}
+# On dead points at the rim of a workspace the dashes let its boundary be seen.
+DASHES: dict[int, Any] = {1: "solid", 2: (0.0, (4.0, 1.6))}
+
+
+def workspace_picture(found: Workspace, loci: Sequence[SingularLocus], ax: Any, dark: bool) -> Any:
+    """See `Workspace.plot`."""
+    style = palette(dark)
+    lines = [locus.joints[found.joint] for locus in found.boundary]
+    corners = np.array([[found.x[0], found.y[0]], [found.x[-1], found.y[-1]]])
+    seen = [np.clip(line, corners[0], corners[1]) for line in lines]
+    subject, on = _canvas(found._mechanism, [*(seen or [corners])], ax, style)
+
+    def named(number: int) -> str:
+        return "" if number == 0 else "1 way" if number == 1 else f"{number} ways"
+
+    fill_counts(on.ax, found.x, found.y, found.count, lines, style, named, below=0.08)
+    # The boundary may be among the loci.
+    kinds = {1: lines, 2: [one.joints[found.joint] for one in loci if one.kind == 2]}
+    for kind, own in kinds.items():
+        for line in own:
+            _draw(on.ax, line, kind, style)
+    _lightly(subject, on, [line for own in kinds.values() for line in own])
+    _name_lines(on.ax, kinds, style)
+    scale_bar(on)
+    return on.ax
+
+
+def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) -> Any:
+    """See `SingularLocus.plot`."""
+    pyplot()
+    style = palette(dark)
+    if joint is None:
+        return _over_drivers(locus, ax, style)
+    line = locus.joints[joint]
+    if ax is not None and getattr(ax, "_assur_drawn", False):
+        # Into a picture that has the mechanism.
+        _draw(ax, line, locus.kind, style)
+    else:
+        subject, on = _canvas(locus._mechanism, [line], ax, style)
+        ax = on.ax
+        _draw(ax, line, locus.kind, style)
+        _lightly(subject, on, [line])
+        scale_bar(on)
+    _name_lines(ax, {locus.kind: [line]}, style)
+    return ax
+
+
+def _canvas(
+    mechanism: Mechanism, lines: list[Float], ax: Any, style: Style
+) -> tuple[Subject, Canvas]:
+    subject = Subject(mechanism.solve(mechanism._q0_array(), order=0))
+    on = subject.canvas(ax, style, lines)
+    return subject, on
+
+
+def _lightly(subject: Subject, on: Canvas, lines: list[Float]) -> None:
+    """Draw the mechanism as in its drawing, in the colour of lesser text."""
+    style = replace(on.style, ink=on.style.second)
+    pale = replace(on, style=style)
+    Drawn(pale, subject.scene, subject.frames[0], zorder=2.5)
+    name_joints(subject, pale, subject.frames[0], lines)
+
+
+def _draw(ax: Any, line: Float, kind: int, style: Style) -> None:
+    ax.plot(
+        *line.T, color=_colour(kind, style), linewidth=LINE, linestyle=DASHES[kind],
+        scalex=False, scaley=False, zorder=2.0, gid=f"singular kind {kind}",
+    )  # fmt: skip
+
+
+def _colour(kind: int, style: Style) -> str:
+    return style.ink if kind == 1 else style.error
+
+
+def _name_lines(ax: Any, kinds: dict[int, list[Float]], style: Style) -> None:
+    """Write what each kind is beside its longest line, once in a picture."""
+    settle(ax)
+    written = [text.get_text() for text in ax.texts]
+    for kind, lines in kinds.items():
+        text = NAMES[kind]
+        if not lines or text in written:
+            continue
+        longest = max(lines, key=lambda line: float(np.hypot(*np.diff(line, axis=0).T).sum()))
+        others = [
+            np.column_stack(line.get_data())
+            for line in ax.lines
+            if line.get_transform() == ax.transData and len(line.get_xdata()) > 1
+        ]
+        artists = [one for one in ax.get_children() if hasattr(one, "get_text") and one.get_text()]
+        inside = [one for one in artists if one.get_gid()]
+        write_along(
+            ax, [text], [longest], [_colour(kind, style)], [f"name kind {kind}"], others, inside
+        )
+
+
+def _over_drivers(locus: SingularLocus, ax: Any, style: Style) -> Any:
+    """Draw the coordinates of two drivers along a locus."""
+    drivers = locus._mechanism.driver
+    assert isinstance(drivers, tuple)
+    moving = np.flatnonzero(np.ptp(locus.q, axis=0) > 0.0).tolist()
+    if len(moving) > 2:
+        message = f"the curve is over {len(moving)} drivers: plot(joint) draws it in the plane"
+        raise InputError(message)
+    first, second = (moving + [i for i in range(len(drivers)) if i not in moving])[:2]
+    first, second = sorted((first, second))
+    old = ax is not None and bool(ax.lines)
+    limits = (ax.get_xlim(), ax.get_ylim()) if old else None
+    ax = chart_axes(ax, style)
+    line = locus.q[:, [first, second]]
+    ax.plot(
+        *line.T, color=_colour(locus.kind, style), linewidth=LINE, linestyle=DASHES[locus.kind],
+        gid=f"singular kind {locus.kind}",
+    )  # fmt: skip
+    for axis, i, k in ((ax.xaxis, first, 0), (ax.yaxis, second, 1)):
+        driver = drivers[i]
+        is_angle = not isinstance(driver, str) or driver not in locus._mechanism.slides
+        low, high = float(line[:, k].min()), float(line[:, k].max())
+        if limits is not None:
+            low, high = min(low, limits[k][0]), max(high, limits[k][1])
+        else:
+            low, high = low - 0.05 * (high - low), high + 0.05 * (high - low)
+        (ax.set_xlim if k == 0 else ax.set_ylim)(low, high)
+        text = driver if isinstance(driver, str) else f"{driver.link} − {driver.relative_to}"
+        name_axis(axis, text, line[:, k], is_angle, style)
+    title(ax, "singular positions", style)
+    _name_lines(ax, {locus.kind: [line]}, style)
+    return ax

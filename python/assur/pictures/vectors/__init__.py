@@ -1,0 +1,1 @@
+"""Vectors with their names and values, and texts along lines."""
