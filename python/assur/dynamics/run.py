@@ -16,6 +16,9 @@ from assur.errors import InputError, MotionError
 from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from os import PathLike
+
     from typing_extensions import Self
 
     from assur import _core
@@ -404,6 +407,56 @@ class Run(Tabular):
 
         one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax, dark)
+
+    def to_html(
+        self,
+        path: str | PathLike[str],
+        paths: Sequence[str] | None = None,
+        diagrams: Sequence[str] | None = None,
+        title: str | None = None,
+        dark: bool | None = None,
+    ) -> None:
+        """Write one self-contained page that plays the run in a browser, as it goes in time.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that exists is replaced.
+        paths, diagrams, title, dark
+            As for `Mechanism.to_html`.
+
+        Raises
+        ------
+        InputError
+            A machine of tables, a run without duration, an unknown name, a file that cannot be
+            written.
+
+        Examples
+        --------
+        >>> import assur, pathlib, tempfile
+        >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
+        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
+        >>> run = machine.run(t_end=5.0, q0=0.5, speed0=2.0)
+        >>> page = pathlib.Path(tempfile.mkdtemp()) / "run.html"
+        >>> run.to_html(page, paths=["C"])
+        >>> page.read_text(encoding="utf-8")[:15]
+        '<!doctype html>'
+        """
+        from assur.pictures.page.html import write_page
+        from assur.pictures.page.turn_in_time import turn_of_run
+
+        turn = turn_of_run(self)
+        write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
+
+    def _repr_html_(self) -> str | None:
+        """Return what a notebook shows; none of a machine of tables."""
+        from assur.pictures.page.html import notebook_html
+        from assur.pictures.page.turn_in_time import turn_of_run
+
+        try:
+            return notebook_html(turn_of_run(self))
+        except InputError:
+            return None
 
     def _shaped(self, array: Float) -> Float:
         return array if self._drivers == 1 else array.reshape(-1, self._drivers)

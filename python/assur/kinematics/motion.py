@@ -734,6 +734,10 @@ class Motion:
         joint: str | Sequence[str] | None = None,
         ax: Any = None,
         at: int | None = None,
+        *,
+        vectors: str | Sequence[str] | None = None,
+        omega: npt.ArrayLike = 1.0,
+        alpha: npt.ArrayLike = 0.0,
         groups: bool = False,
         dark: bool = False,
     ) -> Any:
@@ -747,6 +751,10 @@ class Motion:
             Where to draw; a new figure by default.
         at : int, optional
             Index of the position; the first that exists by default.
+        vectors : {"velocity", "acceleration"} or both, optional
+            Arrows along the paths, with the value at the position that is drawn.
+        omega, alpha : array_like
+            Speed and acceleration of the driver, as for `Analogues.velocity`.
         groups : bool
             Each Assur group in a colour of its own, and the structural formula.
         dark : bool
@@ -772,7 +780,7 @@ class Motion:
         """
         from assur.pictures.linkage.path import path_picture
 
-        return path_picture(self, joint, ax, at, groups, dark)
+        return path_picture(self, joint, ax, at, vectors, (omega, alpha), groups, dark)
 
     def animate(
         self,

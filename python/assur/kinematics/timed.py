@@ -16,6 +16,7 @@ from assur.laws import Law
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from os import PathLike
 
     import numpy.typing as npt
 
@@ -235,6 +236,55 @@ class TimedMotion(Tabular):
         options = Options(self.speed, self.acceleration, degrees, moving=True, beta=self.jerk)
         first, *rest = motion_columns(self.motion, options)
         return [Column("t", self.t, "s", None), first, *rest]
+
+    def to_html(
+        self,
+        path: str | PathLike[str],
+        paths: Sequence[str] | None = None,
+        diagrams: Sequence[str] | None = None,
+        title: str | None = None,
+        dark: bool | None = None,
+    ) -> None:
+        """Write one self-contained page that plays the motion in a browser, as it goes in time.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that exists is replaced.
+        paths, diagrams, title, dark
+            As for `Mechanism.to_html`.
+
+        Raises
+        ------
+        InputError
+            Times that are not evenly spaced, a batch of designs, an unknown name, a file that
+            cannot be written.
+
+        Examples
+        --------
+        >>> import assur, numpy as np, pathlib, tempfile
+        >>> law = assur.laws.Cycloidal(0.0, np.pi, duration=0.5)
+        >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, np.linspace(0.0, 0.5, 101))
+        >>> page = pathlib.Path(tempfile.mkdtemp()) / "law.html"
+        >>> moved.to_html(page)
+        >>> page.read_text(encoding="utf-8")[:15]
+        '<!doctype html>'
+        """
+        from assur.pictures.page.html import write_page
+        from assur.pictures.page.turn_in_time import turn_of_timed
+
+        turn = turn_of_timed(self)
+        write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
+
+    def _repr_html_(self) -> str | None:
+        """Return what a notebook shows; none of what cannot be played."""
+        from assur.pictures.page.html import notebook_html
+        from assur.pictures.page.turn_in_time import turn_of_timed
+
+        try:
+            return notebook_html(turn_of_timed(self))
+        except InputError:
+            return None
 
 
 def follow(

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from assur._arrays import short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterator
 
 
-def checked_path(path: Any, suffixes: Iterable[str]) -> Path:
-    """Return a path whose ending is one of those known."""
+def checked_path(path: Any, suffixes: Collection[str] = ()) -> Path:
+    """Return a path whose ending is one of those known, if there are such."""
     try:
-        own = Path(path)
-    except TypeError as error:
-        message = f"path is {type(path).__name__}: the name of a file is needed"
+        own = Path(os.fsdecode(os.fspath(path)))
+    except (TypeError, ValueError) as error:
+        message = f"path is {short(path)}: the name of a file is needed"
         raise InputError(message) from error
-    known = list(suffixes)
-    if own.suffix.lower() not in known:
-        message = f"{str(path)!r}: the name must end in {', '.join(known)}"
+    if suffixes and own.suffix.lower() not in suffixes:
+        message = f"{str(own)!r}: the name must end in {', '.join(suffixes)}"
         raise InputError(message)
     return own
 
@@ -31,6 +32,6 @@ def writing(path: Path) -> Iterator[None]:
     """Name the file if it cannot be written."""
     try:
         yield
-    except OSError as error:
-        message = f"{path}: cannot be written: {error.strerror or error}"
+    except (OSError, ValueError) as error:
+        message = f"{path}: cannot be written: {getattr(error, 'strerror', None) or error}"
         raise InputError(message) from error

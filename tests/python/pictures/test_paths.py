@@ -135,3 +135,36 @@ def test_what_cannot_be_filmed_is_refused(tmp_path: Path) -> None:
         with pytest.raises(assur.InputError, match="needs the program ffmpeg"):
             motion.animate(tmp_path / "film.mp4", frames=2)
     assert not list(tmp_path.iterdir())
+
+
+def test_arrows_along_a_path_are_velocities_and_accelerations() -> None:
+    """All to one scale; the value stands at the position that is drawn."""
+    motion = CRANK_ROCKER.solve(TURN)
+    ax = motion.plot("P", at=6, vectors=["velocity", "acceleration"], omega=10.0)
+    for kind, exact in (
+        ("velocity", motion.joint("P").velocity(10.0)),
+        ("acceleration", motion.joint("P").acceleration(10.0)),
+    ):
+        shafts = [a for a in ax.get_children() if (a.get_gid() or "").startswith(f"{kind} P")]
+        shafts = [a for a in shafts if not a.get_gid().endswith(("head", "text"))]
+        assert len(shafts) == 14 - (6 % 4 == 0)
+        ratios = []
+        for shaft in shafts:
+            start = shaft.get_path().vertices[0]
+            row = int(np.argmin(np.abs(motion.joint("P").value - start).max(axis=1)))
+            arrow = shaft.get_path().vertices[-1] - start
+            cross = arrow[0] * exact[row][1] - arrow[1] * exact[row][0]
+            assert abs(cross) <= 1e-9 * np.hypot(*arrow) * np.hypot(*exact[row])
+            ratios.append(np.hypot(*arrow) / np.hypot(*exact[row]))
+        (text,) = (t for t in ax.texts if t.get_gid() == f"{kind} P here text")
+        assert f"{np.hypot(*exact[6]):.3g}"[:4] in text.get_text()
+
+
+def test_arrows_need_a_joint_and_their_order() -> None:
+    motion = CRANK_ROCKER.solve(TURN, order=1)
+    with pytest.raises(assur.InputError, match="solved to 1"):
+        motion.plot("P", vectors="acceleration")
+    with pytest.raises(assur.InputError, match="name a joint"):
+        motion.plot(vectors="velocity")
+    with pytest.raises(assur.InputError, match="'force'"):
+        motion.plot("P", vectors="force")

@@ -70,8 +70,7 @@ def plot_zone(
     """
     from assur.pictures import chart
     from assur.pictures.diagrams.notes import Note, settle, write_notes
-    from assur.pictures.style import blend
-    from assur.pictures.style import style
+    from assur.pictures.style import blend, style
 
     own, length = style(dark), real_number(coupler, "coupler")
     # From the shortest rocker that leaves a zone to one as long as the coupler.
@@ -238,8 +237,7 @@ def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
     """
     from assur.pictures import chart
     from assur.pictures.diagrams.notes import Note, settle, write_notes
-    from assur.pictures.style import blend
-    from assur.pictures.style import style
+    from assur.pictures.style import blend, style
 
     own = style(dark)
     axes = chart.chart_axes(ax, own)
@@ -306,8 +304,7 @@ def plot_transmission(
     """
     from assur.pictures import chart
     from assur.pictures.diagrams.notes import Named, name_lines, settle
-    from assur.pictures.style import blend
-    from assur.pictures.style import style
+    from assur.pictures.style import blend, style
 
     own = style(dark)
     grounds = np.atleast_1d(finite_array(l4, "l4")).tolist()

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 # Dots on a path stand at equal steps of q: far apart is fast.
 DOTS = 24
 PATH, DOT, NOW = 2.0, 2.4, 5.0
+KINDS = ("velocity", "acceleration")
 # Of the first path, the second, and so on.
 DASHES: tuple[Any, ...] = ("solid", (0.0, (5.0, 3.0)), (0.0, (5.0, 2.0, 1.0, 2.0)))
 
@@ -30,6 +31,8 @@ def path_picture(
     joint: str | Sequence[str] | None,
     ax: Any,
     at: int | None,
+    vectors: str | Sequence[str] | None,
+    speeds: tuple[Any, Any],
     groups: bool,
     dark: bool,
 ) -> Any:
@@ -38,6 +41,7 @@ def path_picture(
         message = f"plot draws paths over q of one mechanism; this motion has shape {motion.shape}"
         raise InputError(message)
     pyplot()
+    from assur.pictures.linkage.path_arrows import PathArrows
     from assur.pictures.linkage.position import draw_position
     from assur.pictures.linkage.subject import Subject, assembly_of
 
@@ -48,12 +52,33 @@ def path_picture(
     at_row = motion.mechanism.solve(motion.coordinate(row), 0, assembly=assembly_of(motion))
     subject = Subject(at_row)
     known = [path[np.isfinite(path).all(axis=1)] for path in paths]
-    on = subject.canvas(ax, sizes.style(dark), known, groups=groups)
+    arrows = [
+        PathArrows(motion, joints, kind, speeds, row, subject.size)
+        for kind in _kinds(vectors, joints)
+    ]
+    seen = [*known, *(tips for own in arrows for tips in own.tips())]
+    on = subject.canvas(ax, sizes.style(dark), seen, groups=groups)
     for i, (name, path) in enumerate(zip(joints, paths, strict=True)):
         draw_path(on, path, name, DASHES[i % len(DASHES)], path[row])
     draw_position(subject, on, subject.frames[0], groups=groups, lines=known)
+    lines = [*known, *subject.lines(on, subject.frames[0])]
+    for own in arrows:
+        own.draw(on, lines)
     scale_bar(on)
     return on.ax
+
+
+def _kinds(vectors: str | Sequence[str] | None, joints: list[str]) -> list[str]:
+    """Return the kinds of vectors to draw."""
+    kinds = [] if vectors is None else [vectors] if isinstance(vectors, str) else list(vectors)
+    for kind in kinds:
+        if kind not in KINDS:
+            message = f'vectors has {kind!r}: "velocity" or "acceleration" is needed'
+            raise InputError(message)
+    if kinds and not joints:
+        message = f"vectors={vectors!r} stand on the paths of joints: name a joint"
+        raise InputError(message)
+    return kinds
 
 
 def _row(motion: Motion, at: int | None) -> int:

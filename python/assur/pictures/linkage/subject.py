@@ -90,6 +90,12 @@ class Subject:
         known: Float = points[np.isfinite(points).all(axis=1)]
         return known
 
+    @property
+    def size(self) -> float:
+        """The greatest extent of the mechanism at the first position, m."""
+        joints = np.array([self.world(self.frames[0], *name[1:3]) for name in self.scene.names])
+        return float(np.ptp(joints, axis=0).max())
+
     def sees(self, points: Float, part: float) -> npt.NDArray[np.bool_]:
         """Whether points are near the whole motion: within a part of its size."""
         joints = np.concatenate(list(self.whole.joints().values()))

@@ -6,9 +6,7 @@ import base64
 import hashlib
 import html
 import json
-import os
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
@@ -16,10 +14,11 @@ import numpy as np
 
 from assur._arrays import flag, real_number, short
 from assur.errors import AssurError, InputError
+from assur.pictures.files import checked_path, writing
 from assur.pictures.page.bundle import script, stylesheet
 from assur.pictures.page.payload import payload, played_of
 from assur.pictures.page.svg import svg_picture
-from assur.pictures.page.turn import require_one, turn_of, turn_of_rows
+from assur.pictures.page.turn import Turn, require_one, turn_of, turn_of_rows
 from assur.pictures.style import DARK, LIGHT
 
 if TYPE_CHECKING:
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
     from assur.pictures.page.payload import Played
-    from assur.pictures.page.turn import Turn
     from assur.pictures.style import Style
 
 # What a page has beside the colours of pictures: panels, edges, the ring of the dial.
@@ -42,7 +40,7 @@ NOTEBOOK_HEIGHT = 640
 
 
 def write_page(
-    of: Mechanism | Motion,
+    of: Mechanism | Motion | Turn,
     path: str | PathLike[str],
     *,
     q: Any = None,
@@ -54,23 +52,20 @@ def write_page(
     dark: Any = None,
 ) -> None:
     """Write one self-contained page."""
-    name = _checked_path(path)
+    out = checked_path(path)
     if title is not None and not isinstance(title, str):
         message = f"title is {short(title)}: a text is needed"
         raise InputError(message)
     if dark is not None:
         dark = flag(dark, "dark")
     played, data = _contents(of, q, speed, duration, paths, diagrams)
-    data["title"] = Path(name).stem if title is None else title
+    data["title"] = out.stem if title is None else title
     text = page(played, data, dark)
-    try:
-        Path(name).write_text(text, encoding="utf-8", newline="\n")
-    except (OSError, ValueError) as error:
-        message = f"{name}: cannot be written: {getattr(error, 'strerror', None) or error}"
-        raise InputError(message) from error
+    with writing(out):
+        out.write_text(text, encoding="utf-8", newline="\n")
 
 
-def notebook_html(of: Mechanism | Motion) -> str | None:
+def notebook_html(of: Mechanism | Motion | Turn) -> str | None:
     """Return what a notebook shows: a static picture, alive where scripts run.
 
     None where there is nothing to play: the notebook then shows the repr.
@@ -161,7 +156,7 @@ def _variables(style: Style, panel: dict[str, str]) -> str:
 
 
 def _contents(
-    of: Mechanism | Motion,
+    of: Mechanism | Motion | Turn,
     q: Any = None,
     speed: Any = None,
     duration: Any = None,
@@ -182,6 +177,8 @@ def _contents(
 
 def _turn(of: Any, q: Any, duration: float | None) -> Turn:
     """Return the positions of a motion, or those of a mechanism's turn."""
+    if isinstance(of, Turn):
+        return of
     if not hasattr(of, "solve"):
         return turn_of_rows(of, duration)
     several = of._driver_count > 1
@@ -189,14 +186,6 @@ def _turn(of: Any, q: Any, duration: float | None) -> Turn:
         return turn_of(of, q)
     require_one(of)
     return turn_of_rows(of.solve(q, order=0, on_error="nan"), duration)
-
-
-def _checked_path(path: Any) -> str:
-    try:
-        return os.fsdecode(os.fspath(path))
-    except (TypeError, ValueError) as error:
-        message = f"path is {short(path)}: the name of a file is needed"
-        raise InputError(message) from error
 
 
 def _hash(text: str) -> str:
