@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,9 +11,12 @@ from matplotlib.text import Text
 
 from assur.pictures.axes import TEXT
 from assur.pictures.scene.labels import along, placed
+from assur.pictures.scene.parts import Vertex
 from assur.pictures.text import STEP, text_size
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from assur._arrays import Float
     from assur.pictures.axes import Canvas
     from assur.pictures.linkage.subject import Subject
@@ -26,20 +30,27 @@ CLEAR, COST_OF_SHIFT = 2.0, 0.05
 
 
 def write_numbers(subject: Subject, on: Canvas, lines: list[Float]) -> Float:
-    """Number the positions from 0; return the boxes of the numbers, points, (n, 2, 2)."""
+    """Number the positions from 0; return the boxes of the numbers, points, (n, 2, 2).
+
+    Where positions are close only every second one has its number, or every third …
+    """
     obstacles = along([on.points(line) for line in lines], STEP)
     plain = FontProperties(size=TEXT)
-    halves = np.array([text_size(str(i), plain) for i in range(len(subject.frames))]) / 2.0
     crank = _crank(subject)
+    place = _driven_point if crank is None else partial(_pin, crank=crank)
+    points = on.points([place(subject, frames) for frames in subject.frames])
+    halves = np.array([text_size(str(i), plain) for i in range(len(points))]) / 2.0
+    chosen = _thinned(points, halves)
+    points, halves = points[chosen], halves[chosen]
     if crank is not None:
-        middles = _around(subject, on, crank, halves, obstacles)
+        centre = on.points(subject.whole.local["ground"][crank[1]])
+        middles = _around(centre, points, halves, obstacles)
     else:
-        points = on.points([_driven_point(subject, frames) for frames in subject.frames])
         bounds = (on.points(on.low), on.points(on.high))
         radii = np.full(len(points), GAP)
         middles = placed(points, 2.0 * halves, radii, obstacles, bounds)
     bold = FontProperties(size=TEXT, weight="bold")
-    for i, (x, y) in enumerate(middles / on.scale):
+    for i, (x, y) in zip(chosen.tolist(), middles / on.scale, strict=True):
         on.ax.add_artist(
             Text(
                 x,
@@ -81,24 +92,35 @@ def _driven_point(subject: Subject, frames: Float) -> Float:
     return subject.world(frames, name.link, name.at)
 
 
-def _around(
-    subject: Subject,
-    on: Canvas,
-    crank: tuple[str, str, str],
-    halves: Float,
-    obstacles: Float,
-) -> Float:
+def _pin(subject: Subject, frames: Float, crank: tuple[str, str, str]) -> Float:
+    """Return the crank's farthest joint."""
+    link, _, tip = crank
+    x, y = subject.whole.local[link][tip]
+    return subject.world(frames, link, Vertex(x, y))
+
+
+def _thinned(points: Float, halves: Float) -> npt.NDArray[np.intp]:
+    """Return every k-th index, k the least for which neighbours have room for their numbers."""
+    count = len(points)
+    for step in range(1, count):
+        chosen = np.arange(0, count, step)
+        apart = np.abs(np.diff(points[chosen], axis=0)) - halves[chosen[1:]] - halves[chosen[:-1]]
+        if (apart.max(axis=1) > 0.0).all():
+            return chosen
+    return np.array([0])
+
+
+def _around(centre: Float, points: Float, halves: Float, obstacles: Float) -> Float:
     """Return places outside the crank circle, shifted along it off the lines."""
-    link, pivot, tip = crank
-    local = subject.whole.local[link]
-    centre = on.points(subject.whole.local["ground"][pivot])
-    arm = local[tip] - local[pivot]
-    radius = float(np.hypot(*arm)) * on.scale + GAP
-    own = float(np.arctan2(arm[1], arm[0]))
-    index = subject.scene.links.index(link)
+    radius = float(np.hypot(*(points[0] - centre))) + GAP
     middles = np.empty_like(halves)
-    for i, (frames, half) in enumerate(zip(subject.frames, halves, strict=True)):
-        angles = float(frames[index, 2]) + own + SHIFTS
+    arms = points - centre
+    turns = np.unwrap(np.arctan2(arms[:, 1], arms[:, 0]))
+    # A number stays nearer to its own position than to the next.
+    room = np.abs(np.diff(turns)) / 2.0
+    room = np.minimum(np.append(room, np.inf), np.append(np.inf, room))
+    for i, half in enumerate(halves):
+        angles = turns[i] + np.clip(SHIFTS, -room[i], room[i])
         directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         places = centre + directions * (radius + np.abs(directions) @ half)[:, None]
         near = obstacles[(np.abs(obstacles - places[0]) < 4.0 * radius).all(axis=1)]
