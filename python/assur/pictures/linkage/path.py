@@ -62,6 +62,7 @@ def path_picture(
         draw_path(on, path, name, DASHES[i % len(DASHES)], path[row])
     draw_position(subject, on, subject.frames[0], groups=groups, lines=known)
     lines = [*known, *subject.lines(on, subject.frames[0])]
+    lines += [shaft for own in arrows for shaft in own.shafts()]
     for own in arrows:
         own.draw(on, lines)
     scale_bar(on)

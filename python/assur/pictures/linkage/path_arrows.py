@@ -59,6 +59,14 @@ class PathArrows:
             for points, vectors in zip(self._points, self._vectors, strict=True)
         ]
 
+    def shafts(self) -> list[Float]:
+        """Return the arrows' lines, m."""
+        return [
+            np.array(ends)
+            for points, tips in zip(self._points, self.tips(), strict=True)
+            for ends in zip(points, tips, strict=True)
+        ]
+
     def draw(self, on: Canvas, lines: Sequence[Float]) -> None:
         """Draw them; the values stand at the position that is drawn."""
         scale = self._scale * on.scale

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     Reasons = list[tuple[str, npt.NDArray[np.bool_]]]
 
+# Of the greatest value of a map: what is less is rounding.
+ROUNDING = 1e-12
 # Steps of a map's colours; the least of the hue on the canvas.
 LEVELS, PALEST = 7, 0.14
 MARK = 7.0
@@ -76,7 +78,9 @@ def _map(
     settle(ax)
     _write_reasons(ax, x, y, reasons, style)
     places = [(text, np.unravel_index(i, values.shape)) for text, i in _wanted(values, best)]
-    _mark_best(ax, [(text, x[i], y[j], values[i, j]) for text, (i, j) in places], unit, style)
+    _mark_best(
+        ax, [(text, x[i], y[j], values[i, j]) for text, (i, j) in places], values, unit, style
+    )
 
 
 def _contours(ax: Any, x: Float, y: Float, values: Float, unit: str, style: Style) -> None:
@@ -173,7 +177,9 @@ def _write_reasons(ax: Any, x: Float, y: Float, reasons: Reasons, style: Style) 
         ).set_gid("reasons")  # fmt: skip
 
 
-def _mark_best(ax: Any, places: list[tuple[str, Any, Any, Any]], unit: str, style: Style) -> None:
+def _mark_best(
+    ax: Any, places: list[tuple[str, Any, Any, Any]], values: Float, unit: str, style: Style
+) -> None:
     """Mark designs by a ring with the value beside it; values of contours make room."""
     from matplotlib import patheffects
 
@@ -184,7 +190,7 @@ def _mark_best(ax: Any, places: list[tuple[str, Any, Any, Any]], unit: str, styl
             [x], [y], "o", markersize=MARK, markerfacecolor=style.canvas, clip_on=False,
             markeredgecolor=style.driver, markeredgewidth=2.0, zorder=5.0, gid=f"best {text}",
         )  # fmt: skip
-    said = [f"{text} {number(float(value))}{unit}" for text, _, _, value in places]
+    said = [f"{text} {_written(float(value), values)}{unit}" for text, _, _, value in places]
     points = np.array([(x, y) for _, x, y, _ in places]).reshape(-1, 2)
     reasons = [text for text in ax.texts if text.get_gid() == "reason"]
     written = write_beside(ax, said, points, MARK, style.driver, "best text", avoid=reasons)
@@ -222,7 +228,7 @@ def _curve(
     settle(ax)
     _spans(ax, x, reasons, style)
     for text, i in _wanted(values, best):
-        said = f"{text} {number(float(values[i]))}{unit}"
+        said = f"{text} {_written(float(values[i]), values)}{unit}"
         mark(ax, float(x[i]), float(values[i]), said, text == "greatest", style.path, style)
 
 
@@ -260,3 +266,9 @@ def _write_span(ax: Any, low: float, high: float, text: str, style: Style) -> No
         zorder=4.0, gid="reason", parse_math=False,
         bbox={"facecolor": style.canvas, "edgecolor": "none", "pad": 2.5},
     )  # fmt: skip
+
+
+def _written(value: float, values: Float) -> str:
+    """Write a value of the map; what is only rounding, beside the others, is 0."""
+    greatest = float(np.nanmax(np.abs(values)))
+    return number(0.0 if abs(value) <= ROUNDING * greatest else value)
