@@ -4,7 +4,6 @@
 
 .DELETE_ON_ERROR:
 MAKEFLAGS += --no-builtin-rules
-.NOTPARALLEL:
 
 # How long `make fuzz` runs each target, s.
 SECONDS ?= 60
@@ -21,13 +20,23 @@ DEV_STAMP := $(VENV)/.dev-stamp
 EXTENSION := $(VENV)/.extension-stamp
 SOURCES   := $(shell find rust/core rust/py Cargo.toml $(wildcard Cargo.lock) pyproject.toml -not -name '.*')
 
+# How `make test` runs Rust and Python side by side: each line's output comes whole, when it has
+# ended. Everything else runs one step after another.
+CORES        := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
+SIDE_BY_SIDE := --no-print-directory -j$(CORES) TRACKS=1 \
+  $(if $(filter output-sync,$(.FEATURES)),--output-sync=line)
+ifndef TRACKS
+.NOTPARALLEL:
+endif
+
 # One Python for every cargo command, so that nothing is compiled twice; the same random cases
 # in every run of the Rust tests (`PROPTEST_RNG_SEED=… PROPTEST_CASES=…` for others).
 export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run check test rust-test python-test docs gallery wheel bench campaign fuzz clean rust-tools lint-tools
+.PHONY: help run check test rust-test python-test python-lint pytest docs gallery wheel bench campaign fuzz clean \
+  rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
@@ -63,17 +72,27 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	  tests/python/papers tests/python/package/test_readme.py \
 	  tests/python/package/test_examples_in_docstrings.py
 
-test: lint-tools rust-test python-test
+# On one core for minutes each, where they end, the release build of the extension and the builds of
+# the Rust tests share the machine. The Python tests have it to themselves: some measure time.
+test: lint-tools $(RUN_STAMP)
+	@$(MAKE) $(SIDE_BY_SIDE) rust-test python-lint
+	@$(MAKE) --no-print-directory pytest
 	@echo "All checks passed."
 
+# Unit tests run little of the solver and compile ten times as quickly without optimisation (which
+# wants deep stacks). `cargo test` by itself does the same tests, all with optimisation.
 rust-test: lint-tools $(RUN_STAMP)
 	cargo fmt --all --check
 	$(PY) tools/check_order
 	cargo clippy $(LOCKED) --workspace --all-targets -- -D warnings
-	cargo test $(LOCKED)
 	RUSTDOCFLAGS="-D warnings" cargo doc $(LOCKED) --workspace --no-deps
+	CARGO_PROFILE_DEV_OPT_LEVEL=0 RUST_MIN_STACK=67108864 cargo test $(LOCKED) --lib
+	cargo test $(LOCKED) --test '*'
+	MAKEFLAGS= cargo test $(LOCKED) --doc # or rustdoc looks for a jobserver that make does not share
 
-python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
+python-test: python-lint pytest
+
+python-lint: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(VENV)/bin/lint-imports --no-logo --no-cache
@@ -82,6 +101,8 @@ python-test: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
 	$(PY) tools/error_page --check
 	$(PY) tools/examples_page --check
+
+pytest: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m pytest -q -n auto
 
 # Warnings are errors: of broken links and of names without a page, too.
@@ -138,6 +159,10 @@ $(EXTENSION): $(SOURCES) $(RUN_STAMP)
 	VIRTUAL_ENV=$(abspath $(VENV)) PIP_QUIET=1 $(PY) -m maturin develop --release --features test-hooks \
 	  --group run $(LOCKED)
 	@touch $@
+
+ifdef TRACKS
+$(EXTENSION): | $(DEV_STAMP) # one pip at a time
+endif
 
 $(DEV_STAMP): pyproject.toml $(RUN_STAMP)
 	$(PY) -m pip install --quiet --group dev
