@@ -435,8 +435,8 @@ class Run(Tabular):
         --------
         >>> import assur, pathlib, tempfile
         >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
-        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
-        >>> run = machine.run(t_end=5.0, q0=0.5, speed0=2.0)
+        >>> bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
+        >>> run = assur.Machine(wheel, bodies).run(t_end=5.0, q0=0.5, speed0=2.0)
         >>> page = pathlib.Path(tempfile.mkdtemp()) / "run.html"
         >>> run.to_html(page, paths=["C"])
         >>> page.read_text(encoding="utf-8")[:15]

@@ -269,7 +269,12 @@ def test_an_assembly_is_drawn() -> None:
     mechanism = CASES["triad"][0](np.random.default_rng(3)).mechanism
     for assembly in mechanism.assemblies(mechanism.q0):
         ax = mechanism.plot(assembly=assembly)
-        drawn = np.concatenate([line.get_xydata() for line in ax.lines])
+        drawn = np.concatenate(
+            [
+                (line.get_transform() - ax.transData).transform(line.get_xydata())
+                for line in ax.lines
+            ]
+        )
         assert assembly.joints is not None
         x, y = assembly.joints["R"]
         assert np.hypot(drawn[:, 0] - x, drawn[:, 1] - y).min() < 1e-9

@@ -114,6 +114,10 @@ def array_parameters(function: Callable[..., Any]) -> list[str]:
     return [one.name for one in every if "ArrayLike" in str(one.annotation)]
 
 
+# Pictures hand coordinates and speeds on to `solve`, `velocity` and the like, which are entries.
+PICTURES = ("plot", "diagram", "polygon", "to_html", "to_drawing", "hodograph")
+
+
 def public() -> Iterator[tuple[str, Callable[..., Any]]]:
     """Every public function, method and constructor, by its name."""
     for module in MODULES:

@@ -168,3 +168,28 @@ def test_arrows_need_a_joint_and_their_order() -> None:
         motion.plot(vectors="velocity")
     with pytest.raises(assur.InputError, match="'force'"):
         motion.plot("P", vectors="force")
+
+
+def test_speeds_of_any_kind_of_array_are_taken_and_what_is_none_refused() -> None:
+    """Pictures hand arrays on; the fuzzed entries of arrays leave them out."""
+    motion = CRANK_ROCKER.solve(TURN)
+    for omega in (10, np.float32(10.0), np.full(len(TURN), 10.0), [10.0] * len(TURN)):
+        ax = motion.plot("P", vectors="velocity", omega=omega)
+        plt.close(ax.figure)
+    bad: list[Any] = ["fast", None, [1.0, 2.0], np.ma.masked_all(len(TURN)), 1j]
+    for omega in bad:
+        with pytest.raises(assur.InputError):
+            motion.plot("P", vectors="velocity", omega=omega)
+        with pytest.raises(assur.InputError):
+            motion.polygon("velocity", at=3, omega=omega)
+        if omega is not None:
+            with pytest.raises(assur.InputError):
+                motion.diagram("rocker", omega=omega)
+    places: list[Any] = ["x", [None], 1j, [[np.nan]]]
+    for q in places:
+        with pytest.raises(assur.AssurError):
+            CRANK_ROCKER.plot(q)
+        with pytest.raises(assur.AssurError):
+            CRANK_ROCKER.to_drawing("never.svg", q=q)
+        with pytest.raises(assur.AssurError):
+            CRANK_ROCKER.to_html("never.html", q=q)

@@ -76,8 +76,8 @@ def diagrams(
     chosen = _checked_orders(orders, source.orders)
     count = len(chosen)
     rows, columns = (2, 2) if count == 4 else (count, 1)
-    axes = chart_axes(ax, own, rows, columns, HEIGHT if count in (1, 4) else LOW)
     panels = [_Panel(source, wanted, order, own) for order in chosen]
+    axes = chart_axes(ax, own, rows, columns, HEIGHT if count in (1, 4) else LOW)
     for i, (panel, one) in enumerate(zip(panels, np.atleast_1d(axes).flat, strict=True)):
         panel.draw(one, listed, last=ax is not None or i >= count - columns)
     settle(np.atleast_1d(axes).flat[0])

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-from assur._validate import checked_index, one_of
+from assur._validate import checked_index, one_of, real_array
 from assur.errors import InputError
 from assur.pictures import style as palettes
 from assur.pictures.axes import canvas, scale_bar
@@ -38,12 +38,22 @@ DOT = 4.0
 TOGETHER = 4.0
 
 
+def _of_one(one: Motion, given: Any, name: str) -> Any:
+    """Return a speed or acceleration of one position: a number, of several drivers one each."""
+    own, drivers = real_array(given, name), one.mechanism._driver_count
+    if own.size not in (1, drivers) or own.ndim > 1:
+        message = f"{name} has shape {own.shape}: a plan is of one position, with one {name}"
+        raise InputError(message)
+    return float(own.reshape(-1)[0]) if own.size == 1 else own
+
+
 def polygon_picture(
     motion: Motion, what: str, at: Any, omega: Any, alpha: Any, ax: Any, dark: bool
 ) -> Any:
     """See `Motion.polygon`."""
     one_of(what, ("velocity", "acceleration"), "what")
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    omega, alpha = _of_one(one, omega, "omega"), _of_one(one, alpha, "alpha")
     plan = plan_of(one, what, omega, alpha)
     images = np.array(list(plan.images.values()))
     if not np.isfinite(images).all():
