@@ -176,7 +176,7 @@ def test_speeds_of_any_kind_of_array_are_taken_and_what_is_none_refused() -> Non
     for omega in (10, np.float32(10.0), np.full(len(TURN), 10.0), [10.0] * len(TURN)):
         ax = motion.plot("P", vectors="velocity", omega=omega)
         plt.close(ax.figure)
-    bad: list[Any] = ["fast", None, [1.0, 2.0], np.ma.masked_all(len(TURN)), 1j]
+    bad: list[Any] = ["fast", None, [1.0, 2.0], np.ma.array(TURN, mask=True), 1j]
     for omega in bad:
         with pytest.raises(assur.InputError):
             motion.plot("P", vectors="velocity", omega=omega)
