@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -52,3 +53,11 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     from assur import _core
 
     terminalreporter.write_line(f"assur computed with {_core.simd_level()}")
+
+
+@pytest.fixture(autouse=True)
+def _figures_closed() -> Iterator[None]:
+    yield
+    # Where nothing is drawn matplotlib need not be there.
+    if pyplot := sys.modules.get("matplotlib.pyplot"):
+        pyplot.close("all")

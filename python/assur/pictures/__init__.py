@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["centrodes", "hodograph", "inflection_circle", "instant_centres"]
 
-# Imported at first use: they need matplotlib (PEP 562).
+# Imported at first use: they need matplotlib, and explain it (PEP 562).
 _LATER = {
     "centrodes": "centres.centrodes",
     "hodograph": "plans.hodograph",
@@ -28,9 +28,6 @@ def __getattr__(name: str) -> object:
     if name not in _LATER:
         message = f"module {__name__!r} has no attribute {name!r}"
         raise AttributeError(message)
-    from assur.pictures.axes import pyplot
-
-    pyplot()
     return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
 
 

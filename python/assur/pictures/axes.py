@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures import style as sizes
+from assur.pictures import sizes
+from assur.pictures.numerals import length_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,6 +45,11 @@ def checked_axes(ax: Any) -> Any:
         message = f"ax has the projection {ax.name!r}: mechanisms are drawn on plain axes"
         raise InputError(message)
     return ax
+
+
+def root_figure(ax: Any) -> Any:
+    """Return the figure that the axes are on, at last: they may be on a part of it."""
+    return ax.figure.figure
 
 
 @dataclass(frozen=True)
@@ -103,8 +109,7 @@ def canvas(
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_axis_off()
     box = ax.get_position(original=True)
-    figure = ax.figure.get_figure(root=True) if hasattr(ax.figure, "get_figure") else ax.figure
-    size = np.maximum(72.0 * figure.get_size_inches() * (box.width, box.height), 1.0)
+    size = np.maximum(72.0 * root_figure(ax).get_size_inches() * (box.width, box.height), 1.0)
     # In small axes margins take no more than half.
     border *= np.minimum(1.0, size / 2.0 / (border[:2] + border[2:]))[[0, 1, 0, 1]]
     inner = size - border[:2] - border[2:]
@@ -135,18 +140,6 @@ def nice_length(length: float) -> float:
     """Return the greatest 1, 2 or 5 times a power of ten up to a length."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length))
-
-
-def length_unit(length: float) -> tuple[str, float]:
-    """Return the unit that suits a length in m, and how many of it a metre has."""
-    units = (("km", 1e3, 1e-3), ("m", 0.2, 1.0), ("mm", 2e-4, 1e3), ("µm", 0.0, 1e6))
-    return next((unit, factor) for unit, least, factor in units if length >= least)
-
-
-def length_text(length: float) -> str:
-    """Write a length in m with the unit that suits it."""
-    unit, factor = length_unit(length)
-    return f"{length * factor:.6g} {unit}"
 
 
 def scale_bar(on: Canvas, write: Callable[[float], str] = length_text) -> None:

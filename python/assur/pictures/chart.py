@@ -8,7 +8,7 @@ import numpy as np
 
 from assur.errors import InputError
 from assur.pictures.axes import checked_axes, pyplot
-from assur.pictures.text import text_size
+from assur.pictures.numerals import ten, true_minus
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -92,22 +92,7 @@ def degree_ticks(ax: Any, low: float, high: float) -> None:
     step = next((s for s in steps if (high - low) / s <= 8.0), None)
     if step is not None and (high - low) >= 120.0:
         ax.xaxis.set_major_locator(MultipleLocator(step))
-    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}°".replace("-", "−")))
-
-
-def number(x: float, span: float = 0.0) -> str:
-    """Write three digits, with a true minus; more where a range between near values needs them."""
-    size = abs(x)
-    if 0.0 < span < 0.5 * size < 1e5:
-        text = f"{x:.{max(int(np.ceil(1.7 - np.log10(span))), 0)}f}"
-    elif 100.0 <= size < 1e5:
-        text = f"{x:.0f}"
-    elif 1e-3 <= size < 1e5:
-        text = f"{x:#.3g}"
-    else:
-        text, _, power = f"{x:.3g}".partition("e")
-        text += f"·{ten(int(power))}" if power else ""
-    return text.replace("-", "−")
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: true_minus(f"{x:.6g}°")))
 
 
 def scaled(ax: Any, unit: str, greatest: float) -> tuple[str, float]:
@@ -134,11 +119,6 @@ def scaled(ax: Any, unit: str, greatest: float) -> tuple[str, float]:
     return f"{ten(power)} {unit}".rstrip(), 10.0**power
 
 
-def ten(power: int) -> str:
-    """Write a power of ten."""
-    return "10" + str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-
-
 def zero_line(ax: Any, style: Style) -> None:
     """Draw the line of zero where it is in sight."""
     low, high = sorted(ax.get_ylim())
@@ -158,12 +138,17 @@ def headroom(ax: Any, values: Float, part: float = HEADROOM) -> None:
     ax.set_ylim(low - part * span, high + part * span)
 
 
+def dot(ax: Any, x: float, y: float, colour: str, style: Style, marker: str = "o") -> None:
+    """Mark a point of a curve by a ring, or another hollow marker."""
+    ax.plot(
+        [x], [y], marker, markersize=MARK, markerfacecolor=style.canvas, markeredgecolor=colour,
+        markeredgewidth=1.6, zorder=4.0, clip_on=False, gid="mark", scalex=False, scaley=False,
+    )  # fmt: skip
+
+
 def mark(ax: Any, x: float, y: float, text: str, above: bool, colour: str, style: Style) -> Any:
     """Mark a point of a curve and write beside it, away from the curve and within the axes."""
-    ax.plot(
-        [x], [y], "o", markersize=MARK, markerfacecolor=style.canvas, markeredgecolor=colour,
-        markeredgewidth=1.6, zorder=4, clip_on=False, gid="mark",
-    )  # fmt: skip
+    dot(ax, x, y, colour, style)
     low, high = ax.get_xlim()
     part = (x - low) / (high - low) if high > low else 0.5
     # Near the sides the text goes inward.
@@ -174,11 +159,3 @@ def mark(ax: Any, x: float, y: float, text: str, above: bool, colour: str, style
         horizontalalignment=side, verticalalignment="bottom" if above else "top",
         color=style.ink, fontsize=TEXT, zorder=5, gid="mark text",
     )  # fmt: skip
-
-
-def fits(text: str, ax: Any) -> bool:
-    """Whether a title fits above its axes."""
-    from matplotlib.font_manager import FontProperties
-
-    width = text_size(text, FontProperties(size=TEXT + 1.5, weight="bold"))[0]
-    return width <= 72.0 * float(ax.get_position().width * ax.figure.get_figwidth())

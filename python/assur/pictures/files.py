@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,12 +16,12 @@ if TYPE_CHECKING:
 def checked_path(path: Any, suffixes: Collection[str] = ()) -> Path:
     """Return a path whose ending is one of those known, if there are such."""
     try:
-        own = Path(os.fsdecode(os.fspath(path)))
-    except (TypeError, ValueError) as error:
-        message = f"path is {short(path)}: the name of a file is needed"
+        own = Path(path)
+    except TypeError as error:
+        message = f"path is {short(path)}: a path is needed"
         raise InputError(message) from error
     if suffixes and own.suffix.lower() not in suffixes:
-        message = f"{str(own)!r}: the name must end in {', '.join(suffixes)}"
+        message = f"{str(own)!r} ends in {own.suffix!r}: the name must end in {', '.join(suffixes)}"
         raise InputError(message)
     return own
 

@@ -6,14 +6,13 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.font_manager import FontProperties
-from matplotlib.text import Text
-from matplotlib.textpath import text_to_path
 
 from assur.pictures.scene.labels import along, chosen
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from matplotlib.font_manager import FontProperties
 
     from assur._arrays import Float
     from assur.pictures.axes import Canvas
@@ -27,12 +26,16 @@ STEP = 4.0
 
 def name_font(size: float = NAME_SIZE) -> FontProperties:
     """Return the font of names."""
+    from matplotlib.font_manager import FontProperties
+
     return FontProperties(family=NAME_FONT, style="italic", size=size)
 
 
 @lru_cache(maxsize=1024)
 def _measured(text: str, font: FontProperties) -> tuple[float, float, float]:
     """Return width, height and descent of a text, points."""
+    from matplotlib.textpath import text_to_path
+
     measured = text_to_path.get_text_width_height_descent(text, font, ismath=False)
     width, height, descent = (float(length) for length in measured)
     return width, height, descent
@@ -41,6 +44,13 @@ def _measured(text: str, font: FontProperties) -> tuple[float, float, float]:
 def text_size(text: str, font: FontProperties) -> tuple[float, float]:
     """Return width and height of a text, points."""
     return _measured(text, font)[:2]
+
+
+def plain_size(text: str, size: float) -> tuple[float, float]:
+    """Return width and height of a text in the default font, points."""
+    from matplotlib.font_manager import FontProperties
+
+    return text_size(text, FontProperties(size=size))
 
 
 def baseline(text: str, font: FontProperties) -> float:
@@ -86,6 +96,8 @@ class Names:
         colours: Sequence[str] | None = None,
         sizes: Sequence[tuple[float, float]] | None = None,
     ) -> None:
+        from matplotlib.text import Text
+
         font = font or name_font()
         self._on = on
         measured = [text_size(text, font) for text in texts] if sizes is None else sizes

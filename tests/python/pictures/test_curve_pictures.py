@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
 import assur
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 ARM = assur.Mechanism(
     joints={"O": (0, 0), "A": (1, 0), "P": (1.5, 0.5)},
@@ -23,12 +19,6 @@ FIVE_BAR = assur.Mechanism(
     links={"ground": "AE", "left": "AB", "rod": "BP", "arm": "DP", "right": "ED"},
     driver=("left", "right"),
 )
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    plt.close("all")
 
 
 def lines_named(ax: Any, start: str) -> list[Any]:

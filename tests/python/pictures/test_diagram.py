@@ -20,12 +20,6 @@ FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 ENGINE = assur.SliderCrank(0.05, 0.2, 0.01)
 
 
-@pytest.fixture(autouse=True)
-def close() -> Any:
-    yield
-    plt.close("all")
-
-
 def curve(ax: Any, name: str) -> Any:
     (line,) = (line for line in ax.lines if line.get_gid() == f"curve {name}")
     return line.get_data()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -17,12 +16,6 @@ from chart_overlaps import overlapping
 TURN = 2.0 * math.pi
 PHI = np.linspace(0.0, TURN, 361)
 KINDS: tuple[Any, ...] = ("speed", "moment", "energy")
-
-
-@pytest.fixture(autouse=True)
-def close() -> Any:
-    yield
-    plt.close("all")
 
 
 def engine() -> flywheel.Flywheel:

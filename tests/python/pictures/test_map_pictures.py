@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
 import assur
 from assur import metric
 from assur.pictures.maps.raster import finer
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from picture_reading import named
 
 Q = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.0)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    plt.close("all")
-
-
-def named(ax: Any, gid: str) -> list[Any]:
-    return [one for one in ax.get_children() if one.get_gid() == gid]
 
 
 def strokes() -> assur.Measures:

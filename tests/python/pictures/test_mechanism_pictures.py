@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,40 +13,19 @@ import assur
 from assur.examples import ALL
 from assur.pictures.scene.course import course
 from assur.pictures.style import DARK, LIGHT
+from drawn_examples import mechanism
 from picture_overlaps import overlapping
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from assur.kinematics.mechanism import Mechanism
+from picture_reading import named
 
 CRANK_ROCKER = assur.examples.crank_rocker()
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    plt.close("all")
-
-
-def artists(ax: Any, gid: str) -> list[Any]:
-    return [artist for artist in ax.get_children() if artist.get_gid() == gid]
-
-
 def places(ax: Any, gid: str) -> np.ndarray[Any, Any]:
     """Return the drawn points of an artist in the drawing's axes."""
-    (artist, *_) = artists(ax, gid)
+    (artist, *_) = named(ax, gid)
     path = artist.get_path()
     to_data = artist.get_transform() - ax.transData
     return np.asarray(to_data.transform(path.vertices))
-
-
-def mechanism(name: str) -> Mechanism:
-    made = ALL[name]()
-    if not isinstance(made, assur.Machine):
-        return made
-    assert made.mechanism is not None
-    return made.mechanism
 
 
 def test_links_and_joints_are_drawn_where_they_are() -> None:
@@ -69,7 +48,7 @@ def test_fixed_pivots_and_nothing_else_stand_on_hatched_ground() -> None:
     pivots = {a.get_gid() for a in ax.get_children() if (a.get_gid() or "").startswith("pivot")}
     assert pivots == {"pivot A", "pivot D"}
     # Triangle, base, hatching.
-    assert len(artists(ax, "pivot A")) == 3
+    assert len(named(ax, "pivot A")) == 3
 
 
 def test_names_are_those_of_the_joints() -> None:
@@ -110,22 +89,20 @@ def test_proportions_are_true() -> None:
 
 def test_the_scale_bar_is_as_long_as_it_says() -> None:
     ax = CRANK_ROCKER.plot()
-    line, text = artists(ax, "scale")
+    line, text = named(ax, "scale")
     length = float(np.ptp(line.get_xdata()))
     assert text.get_text() == "20 mm"
     assert length == pytest.approx(0.020)
     big = assur.FourBar(1000.0, 3000.0, 2500.0, 3000.0).plot()
-    assert (
-        artists(big, "scale")[1].get_text() == "1 km" or "m" in artists(big, "scale")[1].get_text()
-    )
+    assert named(big, "scale")[1].get_text() == "1 km" or "m" in named(big, "scale")[1].get_text()
 
 
 def test_drivers_have_the_colour_of_drivers_and_links_are_ink() -> None:
     ax = CRANK_ROCKER.plot()
-    assert to_hex(artists(ax, "link crank")[0].get_edgecolor()).upper() == LIGHT.driver
-    assert to_hex(artists(ax, "link rocker")[0].get_edgecolor()).upper() == LIGHT.ink
+    assert to_hex(named(ax, "link crank")[0].get_edgecolor()).upper() == LIGHT.driver
+    assert to_hex(named(ax, "link rocker")[0].get_edgecolor()).upper() == LIGHT.ink
     dark = CRANK_ROCKER.plot(dark=True)
-    assert to_hex(artists(dark, "link rocker")[0].get_edgecolor()).upper() == DARK.ink
+    assert to_hex(named(dark, "link rocker")[0].get_edgecolor()).upper() == DARK.ink
     assert to_hex(dark.figure.get_facecolor()).upper() == DARK.canvas
 
 
@@ -137,11 +114,11 @@ def test_groups_have_their_colours_and_the_formula_is_written() -> None:
         for link in group.links:
             colours = {
                 to_hex(a.get_edgecolor()).upper()
-                for a in artists(ax, f"link {link}")
+                for a in named(ax, f"link {link}")
                 if a.get_linewidth() > 1.0 and a.get_edgecolor()[3]
             }
             assert colours == {LIGHT.group(number)}
-    formula = [t.get_text() for t in artists(ax, "formula")]
+    formula = [t.get_text() for t in named(ax, "formula")]
     assert " ".join(formula) == watt.structure.formula
 
 
@@ -181,7 +158,7 @@ def test_many_positions_are_light_and_numbered() -> None:
         turn = np.arctan2(y, x) - np.arctan2(*(pin - centre)[::-1])
         assert abs((turn + np.pi) % (2 * np.pi) - np.pi) < np.radians(18.5)
     # Crank, coupler, rocker eleven times.
-    assert len(artists(ax, "position")) == 33
+    assert len(named(ax, "position")) == 33
 
 
 def test_limits_are_written_as_the_closed_form_has_them() -> None:
@@ -195,9 +172,9 @@ def test_limits_are_written_as_the_closed_form_has_them() -> None:
         return float(np.pi - np.arccos((c * c + d * d - reach * reach) / (2 * c * d)))
 
     low, high = sorted(np.degrees([angle(b - a), angle(b + a)]))
-    (text,) = artists(ax, "limits")
+    (text,) = named(ax, "limits")
     assert text.get_text() == f"rocker from {low:.1f}° to {high:.1f}°, positions every 30°"
-    ticks = artists(ax, "limit C")
+    ticks = named(ax, "limit C")
     directions = [
         np.degrees(np.arctan2(*(t.get_xydata().mean(axis=0) - (d, 0))[::-1])) for t in ticks
     ]
@@ -235,11 +212,11 @@ def test_a_name_on_a_line_is_found() -> None:
     """The check above can fail: a name moved onto its joint, and one onto another."""
     ax = CRANK_ROCKER.plot()
     assert overlapping(ax)[0] == []
-    (name,) = artists(ax, "name B")
+    (name,) = named(ax, "name B")
     name.set_position(places(ax, "joint B")[0])
     assert overlapping(ax)[0] == ["B"]
-    (other,) = artists(ax, "name D")
-    other.set_position(artists(ax, "name P")[0].get_position())
+    (other,) = named(ax, "name D")
+    other.set_position(named(ax, "name P")[0].get_position())
     assert set(overlapping(ax)[0]) == {"B", "D", "P"}
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -13,12 +12,6 @@ import assur
 from chart_overlaps import overlapping
 
 TURN = 2.0 * math.pi
-
-
-@pytest.fixture(autouse=True)
-def close() -> Any:
-    yield
-    plt.close("all")
 
 
 def pendulum() -> assur.Run:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,18 +15,7 @@ from assur.pictures.scene.frames import Frames, frames_of, nearby
 from assur.pictures.scene.geometry import hull
 from assur.pictures.scene.labels import along, chosen, placed
 from assur.pictures.scene.parts import Hatching, Scene, Stroke
-
-if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
-
-
-def mechanism(name: str) -> Mechanism:
-    made = ALL[name]()
-    if not isinstance(made, assur.Machine):
-        return made
-    assert made.mechanism is not None
-    return made.mechanism
-
+from drawn_examples import mechanism
 
 ONE_DRIVER = [name for name in ALL if not isinstance(mechanism(name).driver, tuple)]
 

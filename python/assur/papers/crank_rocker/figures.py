@@ -69,10 +69,12 @@ def plot_zone(
     ['zone', 'zone with friction']
     """
     from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Note, settle, write_notes
-    from assur.pictures.style import blend, style
+    from assur.pictures.diagrams.notes import Note, write_notes
+    from assur.pictures.numerals import number
+    from assur.pictures.points import settle
+    from assur.pictures.style import blend, style_of
 
-    own, length = style(dark), real_number(coupler, "coupler")
+    own, length = style_of(dark), real_number(coupler, "coupler")
     # From the shortest rocker that leaves a zone to one as long as the coupler.
     first = 1.0 + float(np.sum(np.broadcast_to(finite_array(margin, "margin"), (2,)))) / 2.0
     if not length > first:
@@ -93,7 +95,7 @@ def plot_zone(
         )
         for edge in (low, high):
             axes.plot(x, edge, color=colour, linewidth=1.6, gid=f"limit {gid}")
-        text = f"γ > {chart.number(angle)} rad" if angle else "the crank turns"
+        text = f"γ > {number(angle)} rad" if angle else "the crank turns"
         at = len(x) // 2 if len(zones) == 1 or angle else len(x) - 2
         middle = float(low[at] + high[at]) / 2.0
         if angle or len(zones) == 1:
@@ -152,9 +154,9 @@ def plot_push_and_pull(
     """
     from assur.pictures import chart
     from assur.pictures.axes import pyplot
-    from assur.pictures.style import style
+    from assur.pictures.style import style_of
 
-    own, angles = style(dark), [real_number(one, "phi1") for one in phi1]
+    own, angles = style_of(dark), [real_number(one, "phi1") for one in phi1]
     if ax is None:
         size = (4.6 * len(angles), 3.0)
         room = {"left": 0.01, "right": 0.99, "bottom": 0.0, "top": 0.88, "wspace": 0.02}
@@ -236,10 +238,11 @@ def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
     ['γ_min = arcsin f_p', 'blocked', 'moves']
     """
     from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Note, settle, write_notes
-    from assur.pictures.style import blend, style
+    from assur.pictures.diagrams.notes import Note, write_notes
+    from assur.pictures.points import settle
+    from assur.pictures.style import blend, style_of
 
-    own = style(dark)
+    own = style_of(dark)
     axes = chart.chart_axes(ax, own)
     # Closer where the curve is steep.
     reduced = 1.0 - np.square(np.linspace(1.0, 0.0, 300)[:-1])
@@ -303,10 +306,11 @@ def plot_transmission(
     ['curve l₄ = 4.8', 'curve l₄ = 4.9', 'curve l₄ = 4.995', 'least angle']
     """
     from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Named, name_lines, settle
-    from assur.pictures.style import blend, style
+    from assur.pictures.diagrams.line_names import Named, name_lines
+    from assur.pictures.points import settle
+    from assur.pictures.style import blend, style_of
 
-    own = style(dark)
+    own = style_of(dark)
     grounds = np.atleast_1d(finite_array(l4, "l4")).tolist()
     axes = chart.chart_axes(ax, own, 2, 1, 2.9)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)

@@ -145,7 +145,7 @@ class JammingRun:
         >>> [text.get_text() for text in run.plot("ground").texts]
         ['4.9775 at 360°', 'C jams at 348.3°', 'D is back at 371.7°']
         """
-        from assur.papers.crank_rocker.pictures import jamming_picture
+        from assur.papers.crank_rocker.jamming_picture import jamming_picture
 
         one_of(what, ("positions", "ground", "angle"), "what")
         return jamming_picture(self, what, ax, degrees, dark)

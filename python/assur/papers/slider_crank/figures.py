@@ -58,12 +58,12 @@ def plot_contour(
     ['l₁', 'l₂', 'l₃']
     """
     from assur.pictures.axes import canvas, scale_bar
-    from assur.pictures.style import style
+    from assur.pictures.style import style_of
     from assur.pictures.text import name_font, write_names
 
     corners = contour(phi, crank, rod)
     o, a, b, _ = corners
-    own = style(dark)
+    own = style_of(dark)
     on = canvas(ax, (corners.min(axis=0), corners.max(axis=0)), own, crank)
     lines = []
     for start, end, name, colour in (
@@ -143,9 +143,9 @@ def plot_positions(
     ['path A', 'path B', 'path S2']
     """
     from assur.mechanisms.named import SliderCrank
-    from assur.pictures.style import style
+    from assur.pictures.style import style_of
 
-    own = style(dark)
+    own = style_of(dark)
     place = rod / 2.0 if along is None else real_number(along, "along")
     ax = SliderCrank(crank, rod).plot(phi, ax, dark=dark)
     turn = np.linspace(0.0, 2.0 * math.pi, POINTS)
@@ -171,7 +171,7 @@ def plot_positions(
 
 
 class _Formulas:
-    """A quantity of the papers over the crank's angle; see `assur.pictures.quantities.Source`."""
+    """A quantity of the papers over the crank's angle; see `assur.pictures.diagrams.sources`."""
 
     titles = {  # noqa: RUF012
         "stroke": ("Stroke s, {}", "Velocity v, {}", "Acceleration a, {}"),
@@ -190,9 +190,9 @@ class _Formulas:
 
     def place(self, x: float) -> str:
         """Write a crank angle."""
-        from assur.pictures.diagrams.quantities import degrees_text
+        from assur.pictures.numerals import degrees_text, radians_text
 
-        return degrees_text(x, 360.0) if self.in_degrees else f"{x + 0.0:.2f} rad"
+        return degrees_text(x, 360.0) if self.in_degrees else radians_text(x)
 
     def title(self, kind: str, order: int) -> tuple[str, str]:
         """Return what a diagram shows, and its unit."""
@@ -276,7 +276,7 @@ def plot_motion(
     """
     from assur.pictures.diagrams.diagram import diagrams
     from assur.pictures.diagrams.quantities import Quantity
-    from assur.pictures.style import style
+    from assur.pictures.style import style_of
 
     one_of(quantity, ("stroke", "rod"), "quantity")
     lengths = real_number(crank, "crank"), real_number(rod, "rod")
@@ -286,7 +286,7 @@ def plot_motion(
     source = _Formulas(quantity, lengths, speeds, degrees)
     # The title has its name.
     of = Quantity("slide" if quantity == "stroke" else "link", "")
-    return diagrams(source, [of], ax, orders, style(dark))
+    return diagrams(source, [of], ax, orders, style_of(dark))
 
 
 def plot_convergence(
@@ -323,10 +323,11 @@ def plot_convergence(
     [0.004906, 0.001021]
     """
     from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Named, name_lines, settle
-    from assur.pictures.style import style
+    from assur.pictures.diagrams.line_names import Named, name_lines
+    from assur.pictures.points import settle
+    from assur.pictures.style import style_of
 
-    own, last = style(dark), whole_number(count, "count", 1, 100)
+    own, last = style_of(dark), whole_number(count, "count", 1, 100)
     axes = chart.chart_axes(ax, own, 1, 2)
     counts = np.arange(1, last + 1)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
@@ -398,12 +399,13 @@ def plot_deviation(
     ['−0.473 at 74°', '−0.0132 at 81°', '0.949 at 128°', '0.0297 at 118°']
     """
     from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.diagrams.notes import Note, write_notes
     from assur.pictures.diagrams.peaks import peaks
-    from assur.pictures.diagrams.quantities import degrees_text
-    from assur.pictures.style import style
+    from assur.pictures.numerals import degrees_text, number
+    from assur.pictures.points import settle
+    from assur.pictures.style import style_of
 
-    own, ratio = style(dark), real_number(lam, "lam")
+    own, ratio = style_of(dark), real_number(lam, "lam")
     if not 0.0 < ratio < 1.0:
         message = f"lam is {lam!r}: crank over rod must be above 0 and below 1"
         raise InputError(message, value=ratio)
@@ -415,11 +417,11 @@ def plot_deviation(
     notes = []
     for (row, column), panel in np.ndenumerate(axes):
         order = 0 if quantity[row] == "stroke" else 1
-        number = whole_number(n[column], "n", 1, 1000)
+        which = whole_number(n[column], "n", 1, 1000)
 
-        def off(x: Float, order: int = order, number: int = number) -> Float:
+        def off(x: Float, order: int = order, which: int = which) -> Float:
             near, exact = (
-                stroke(np.radians(x), 1.0, 1.0 / ratio, method, n=number)
+                stroke(np.radians(x), 1.0, 1.0 / ratio, method, n=which)
                 for method in ("fraction", "exact")
             )
             return 100.0 * (near._order(order) / exact._order(order) - 1.0)
@@ -432,12 +434,12 @@ def plot_deviation(
         chart.degree_ticks(panel, 0.0, 180.0)
         chart.headroom(panel, values)
         name = "Velocity analogue" if order else "Stroke"
-        chart.title(panel, f"{name}, n = {number}: deviation, %", own)
+        chart.title(panel, f"{name}, n = {which}: deviation, %", own)
         chart.zero_line(panel, own)
         if row == rows - 1:
             panel.set_xlabel("φ", color=own.second, fontsize=chart.TEXT)
         largest = max(peaks(x, values, again=off), key=lambda peak: abs(peak.y))
-        text = f"{chart.number(largest.y)} at {degrees_text(largest.x, 180.0)}"
+        text = f"{number(largest.y)} at {degrees_text(largest.x, 180.0)}"
         notes.append(Note(largest.x, largest.y, text, colour, "extreme"))
     settle(axes.flat[0])
     for panel, note in zip(axes.flat, notes, strict=True):

@@ -9,12 +9,12 @@ from matplotlib.lines import Line2D
 
 from assur._validate import checked_index, checked_name
 from assur.errors import InputError
-from assur.pictures import style as palettes
 from assur.pictures.axes import scale_bar
-from assur.pictures.linkage.position import Mark, draw_position, free_name
+from assur.pictures.linkage.position import NamedPoint, draw_position, free_name
 from assur.pictures.linkage.refine import refined
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.scene.frames import frames_of
+from assur.pictures.style import style_of
 from assur.pictures.vectors.dots import dots
 from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 
@@ -98,7 +98,7 @@ def centrodes(
     points = np.concatenate([fixed, moving, pole[None]])
     on = subject.canvas(
         ax,
-        palettes.style(dark),
+        style_of(dark),
         [points[subject.sees(points, SIGHT)]],
         2.0 * LINE_HEIGHT,
     )
@@ -106,7 +106,7 @@ def centrodes(
         _curve(on, fixed, "fixed centrode", on.style.path, False),
         _curve(on, moving, "moving centrode", on.style.driver, True),
     ]
-    mark = Mark(free_name(subject, "P", "I", "Π"), pole, DOT / 2.0 + 1.0, "pole name")
+    mark = NamedPoint(free_name(subject, "P", "I", "Π"), pole, DOT / 2.0 + 1.0, "pole name")
     draw_position(subject, on, subject.frames[0], lines=lines, marks=[mark])
     dots(on, pole, DOT, on.style.error, "pole", 4.5)
     relative = "" if other == "ground" else f" relative to {other}"

@@ -10,11 +10,11 @@ from matplotlib.patches import Circle
 
 from assur._validate import checked_index, checked_name
 from assur.errors import InputError
-from assur.pictures import style as palettes
-from assur.pictures.axes import length_text, scale_bar
-from assur.pictures.chart import number
-from assur.pictures.linkage.position import Mark, draw_position, free_name
+from assur.pictures.axes import scale_bar
+from assur.pictures.linkage.position import NamedPoint, draw_position, free_name
 from assur.pictures.linkage.subject import Subject
+from assur.pictures.numerals import length_unit, number
+from assur.pictures.style import style_of
 from assur.pictures.vectors.dots import dots
 from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 
@@ -103,7 +103,7 @@ def inflection_circle(
         drawn.append((pole + change / (2.0 * ratio), diameter / (2.0 * abs(ratio))))
     points = np.concatenate([pole[None], *(_round(*circle) for circle in drawn)])
     seen = points[subject.sees(points, SIGHT)]
-    on = subject.canvas(ax, palettes.style(dark), [seen], 2.0 * LINE_HEIGHT)
+    on = subject.canvas(ax, style_of(dark), [seen], 2.0 * LINE_HEIGHT)
     drawing = _Drawing(subject, on)
     drawing.axis(pole, change / diameter, diameter, "pole tangent")
     drawing.axis(pole, normal / diameter, diameter, "pole normal")
@@ -149,8 +149,7 @@ def _round(centre: Float, radius: float) -> Float:
 
 
 def _length(length: float) -> str:
-    unit = length_text(length).split()[1]
-    factor = {"km": 1e-3, "m": 1.0, "mm": 1e3, "µm": 1e6}[unit]
+    unit, factor = length_unit(length)
     return f"{number(length * factor)} {unit}"
 
 
@@ -158,7 +157,7 @@ class _Drawing:
     def __init__(self, subject: Subject, on: Canvas) -> None:
         self._subject, self._on = subject, on
         self.lines: list[Float] = []
-        self.marks: list[Mark] = []
+        self.marks: list[NamedPoint] = []
 
     def axis(self, pole: Float, unit: Float, length: float, gid: str) -> None:
         """Draw a line through the pole."""
@@ -177,7 +176,7 @@ class _Drawing:
         self.lines.append(ends)
         if (ends[1] > self._on.low).all() and (ends[1] < self._on.high).all():
             letter = gid.split()[1][0]
-            self.marks.append(Mark(letter, ends[1], 2.0, f"{gid} name"))
+            self.marks.append(NamedPoint(letter, ends[1], 2.0, f"{gid} name"))
 
     def circle(self, centre: Float, radius: float, gid: str) -> None:
         """Draw a circle."""
@@ -202,4 +201,4 @@ class _Drawing:
             return
         dots(self._on, at, DOT, self._on.style.error, gid, 4.5)
         name = free_name(self._subject, *names)
-        self.marks.append(Mark(name, at, DOT / 2.0 + 1.0, f"{gid} name"))
+        self.marks.append(NamedPoint(name, at, DOT / 2.0 + 1.0, f"{gid} name"))

@@ -8,12 +8,12 @@ import numpy as np
 
 from assur._validate import checked_index, checked_name
 from assur.errors import InputError
-from assur.pictures import style as palettes
 from assur.pictures.axes import scale_bar
 from assur.pictures.centres.marks import CentreMarks
 from assur.pictures.centres.rate_centres import centres_of, kennedy_lines
 from assur.pictures.linkage.position import draw_position
 from assur.pictures.linkage.subject import Subject
+from assur.pictures.style import style_of
 from assur.pictures.vectors.heading import LINE_HEIGHT, link_numbers, wrapped, write_heading
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def instant_centres(
     ordered = sorted(chosen, key=numbers.__getitem__)
     legend = ", ".join(f"{numbers[link]} {link}" for link in ordered)
     head = LINE_HEIGHT * (2 if len(legend) < LONG else 3)
-    on = subject.canvas(ax, palettes.style(dark), [around], head)
+    on = subject.canvas(ax, style_of(dark), [around], head)
     draw_position(subject, on, subject.frames[0], names=False)
     drawing = CentreMarks(subject, on, numbers, head)
     if lines if lines is not None else len(chosen) <= FEW:

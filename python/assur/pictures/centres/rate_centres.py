@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur.pictures.scene.geometry import unit_vector
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -70,7 +72,7 @@ def _centre(motion: Motion, one: str, other: str) -> Centre | None:
         # Of a slide the guide tells the direction, at rest too.
         own = float(mechanism.dimensions.get(f"{sliding}.angle", 0.0))
         angle = float(motion.link(mechanism.slides[sliding].on).value) + own
-        relative = np.array([np.cos(angle), np.sin(angle)])
+        relative = unit_vector(angle)
     length = float(np.hypot(*relative))
     if not length > 0.0:
         return None

@@ -8,13 +8,23 @@ import numpy as np
 
 from assur._validate import whole_number
 from assur.errors import InputError
-from assur.pictures.style import style
+from assur.pictures import chart
+from assur.pictures.diagrams.line_names import Named, name_lines
+from assur.pictures.diagrams.notes import Note, write_notes
+from assur.pictures.diagrams.peaks import is_flat, peaks
+from assur.pictures.diagrams.quantities import quantities
+from assur.pictures.diagrams.sources import AlongDriver, OverTime
+from assur.pictures.numerals import number
+from assur.pictures.points import settle
+from assur.pictures.style import blend, style_of
+from assur.pictures.text import name_font
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.kinematics.motion import Motion
     from assur.kinematics.timed import TimedMotion
-    from assur.pictures.diagrams.quantities import Line, Quantity, Source
+    from assur.pictures.diagrams.quantities import Line, Quantity
+    from assur.pictures.diagrams.sources import Source
     from assur.pictures.style import Style
 
 # Of a column of diagrams one is so high, inches.
@@ -48,36 +58,29 @@ def motion_diagram(
     dark: bool,
 ) -> Any:
     """See `Motion.diagram`."""
-    from assur.pictures.diagrams.quantities import AlongDriver, quantities
-
     source = AlongDriver(motion, speeds, degrees)
     wanted = quantities(motion, name)
-    return diagrams(source, wanted, ax, orders, style(dark), listed=not isinstance(name, str))
+    return diagrams(source, wanted, ax, orders, style_of(dark), listed=not isinstance(name, str))
 
 
 def timed_diagram(
     timed: TimedMotion, name: Any, ax: Any, orders: Any, degrees: bool, dark: bool
 ) -> Any:
     """See `TimedMotion.diagram`."""
-    from assur.pictures.diagrams.quantities import OverTime, quantities
-
     source = OverTime(timed, degrees)
     wanted = quantities(timed.motion, name)
-    return diagrams(source, wanted, ax, orders, style(dark), listed=not isinstance(name, str))
+    return diagrams(source, wanted, ax, orders, style_of(dark), listed=not isinstance(name, str))
 
 
 def diagrams(
     source: Source, wanted: list[Quantity], ax: Any, orders: Any, own: Style, listed: bool = False
 ) -> Any:
     """Draw one diagram an order; `listed`: several quantities, each with its name beside it."""
-    from assur.pictures.chart import HEIGHT, chart_axes
-    from assur.pictures.diagrams.notes import settle
-
     chosen = _checked_orders(orders, source.orders)
     count = len(chosen)
     rows, columns = (2, 2) if count == 4 else (count, 1)
     panels = [_Panel(source, wanted, order, own) for order in chosen]
-    axes = chart_axes(ax, own, rows, columns, HEIGHT if count in (1, 4) else LOW)
+    axes = chart.chart_axes(ax, own, rows, columns, chart.HEIGHT if count in (1, 4) else LOW)
     for i, (panel, one) in enumerate(zip(panels, np.atleast_1d(axes).flat, strict=True)):
         panel.draw(one, listed, last=ax is not None or i >= count - columns)
     settle(np.atleast_1d(axes).flat[0])
@@ -136,8 +139,6 @@ class _Panel:
 
     def draw(self, ax: Any, listed: bool, last: bool) -> None:
         """Draw the curves; their names and extremes come when all axes have their places."""
-        from assur.pictures import chart
-
         x, own = self.source.x, self.style
         self.named = listed or len(self.lines) > 1
         values = np.concatenate([shown.line.values.reshape(-1) for shown in self.lines])
@@ -169,27 +170,22 @@ class _Panel:
 
     def _name(self, ax: Any, listed: bool) -> None:
         """Write what it is of on the right, above the diagram."""
-        from assur.pictures.chart import TEXT
-        from assur.pictures.text import name_font
-
         designs = f"{self.designs} designs" if self.designs > 1 else ""
         name = "" if listed else self.wanted[0].shown
         if designs:
             text = f"{name}, {designs}" if name else designs
             ax.set_title(
-                text, loc="right", color=self.style.second, fontsize=TEXT, parse_math=False
+                text, loc="right", color=self.style.second, fontsize=chart.TEXT, parse_math=False
             )
         elif name:
             font = name_font() if self.wanted[0].kind == "joint" else None
             ax.set_title(
                 name, loc="right", color=self.style.second, fontproperties=font, parse_math=False,
-                **({} if font else {"fontsize": TEXT + 1.0}),
+                **({} if font else {"fontsize": chart.TEXT + 1.0}),
             )  # fmt: skip
 
     def write(self, ax: Any) -> None:
         """Write names and extremes clear of the curves."""
-        from assur.pictures.diagrams.notes import Named, name_lines, write_notes
-
         notes = [note for shown in self.lines for note in self._extremes(ax, shown)]
         write_notes(ax, notes, self.style)
         low, high = ax.get_ylim()
@@ -204,9 +200,6 @@ class _Panel:
 
     def _written(self, shown: Shown, values: Float) -> str:
         """Return the name beside a line; of a single line that is constant, its value."""
-        from assur.pictures.chart import number
-        from assur.pictures.diagrams.peaks import is_flat
-
         if self.named:
             return shown.name
         known = values[np.isfinite(values)]
@@ -216,10 +209,6 @@ class _Panel:
 
     def _extremes(self, ax: Any, shown: Shown) -> list[Any]:
         """Return notes at the greatest and the least value of a line, over all designs."""
-        from assur.pictures.chart import number
-        from assur.pictures.diagrams.notes import Note
-        from assur.pictures.diagrams.peaks import is_flat, peaks
-
         values, x = shown.line.values, self.source.x
         thin = shown.width < 2.0
         if not np.isfinite(values).any() or thin:
@@ -276,8 +265,6 @@ def _median(values: Float) -> Float:
 
 def _band(ax: Any, x: Float, shown: Shown, own: Style) -> Float:
     """Draw from the least to the greatest of the designs; return the median."""
-    from assur.pictures.style import blend
-
     values = shown.line.values
     known = np.isfinite(values).any(axis=0)
     low = np.where(known, np.where(np.isfinite(values), values, np.inf).min(axis=0), np.nan)

@@ -6,8 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.pictures import chart
+from assur.pictures.diagrams.line_names import Named, name_lines
+from assur.pictures.diagrams.notes import Note, write_notes
+from assur.pictures.diagrams.peaks import peaks
 from assur.pictures.diagrams.steady import TINT, Abscissa, over_q, over_time, speed_diagram, start
-from assur.pictures.style import style
+from assur.pictures.diagrams.wittenbauer import wittenbauer_diagram
+from assur.pictures.numerals import number
+from assur.pictures.points import settle
+from assur.pictures.style import blend, style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -30,11 +37,9 @@ def flywheel_picture(
     dark: bool,
 ) -> Any:
     """See `Flywheel.plot`."""
-    own = style(dark)
+    own = style_of(dark)
     q = np.linspace(*span, points)
     if what == "energy-mass":
-        from assur.pictures.diagrams.wittenbauer import wittenbauer_diagram
-
         return wittenbauer_diagram(flywheel, q, ax, own)
     if what == "reduced":
         return reduced_diagrams(flywheel, q, ax, over_q(q, degrees), own)
@@ -56,10 +61,6 @@ def wheel_text(flywheel: Flywheel) -> str:
 
 def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: Style) -> Any:
     """Draw the reduced moment of the loads, and the reduced inertia."""
-    from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Note, settle, write_notes
-    from assur.pictures.diagrams.peaks import peaks
-
     axes = chart.chart_axes(ax, own, 2, 1, 2.7)
     x, written = over.values, []
     for panel, curve, title, plain in zip(
@@ -80,7 +81,7 @@ def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own:
         notes = []
         for peak in peaks(q, values, again=curve):
             at = over.of(peak.x)
-            text = f"{chart.number(peak.y / power, span)} at {over.place(at)}"
+            text = f"{number(peak.y / power, span)} at {over.place(at)}"
             notes.append(Note(at, peak.y, text, own.ink, "extreme"))
         written.append(notes)
     axes[0].set_xlabel("")
@@ -115,10 +116,6 @@ def areas(flywheel: Flywheel, q: Float) -> list[tuple[float, float, float]]:
 
 def moment_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: Style) -> Any:
     """Draw motor and resistance; the areas between them are energies given and taken."""
-    from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Named, name_lines, settle
-    from assur.pictures.style import blend
-
     axes = chart.chart_axes(ax, own)
     start(axes, over, own)
     resistance = -np.asarray(flywheel.reduced_moment(q))
@@ -152,8 +149,6 @@ def moment_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: S
 
 def energies_text(flywheel: Flywheel, q: Float) -> str:
     """Say how far the work of a turn goes up and down."""
-    from assur.pictures.chart import number
-
     low, high = work_extremes(flywheel, q)
     motor = float(flywheel.motor_moment * (q[-1] - q[0]))
     return f"motor {number(motor)} J a turn; greatest change of energy {number(high[1] - low[1])} J"
@@ -176,9 +171,6 @@ def write_energies(
     own: Style,
 ) -> None:
     """Write the energy of each area into it, or beside it where it is narrow."""
-    from assur.pictures.chart import number
-    from assur.pictures.diagrams.notes import Note, write_notes
-
     motor, resistance = curves
     size = max((abs(gain) for *_, gain in found), default=0.0)
     notes = []
@@ -202,10 +194,6 @@ def _rising(q: Float, y: Float) -> tuple[Float, Float]:
 
 def energy_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: Style) -> Any:
     """Draw the work of motor and loads, and what of it the flywheel stores."""
-    from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Named, Note, name_lines, settle, write_notes
-    from assur.pictures.style import blend
-
     axes = chart.chart_axes(ax, own)
     start(axes, over, own)
     x = over.values
@@ -223,7 +211,7 @@ def energy_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: S
     unit, power = chart.scaled(axes, "J", float(np.abs(both).max()))
     low, high = work_extremes(flywheel, q)
     change = high[1] - low[1]
-    text = f"greatest change {chart.number(change)} J; shaded: kinetic energy of the machine itself"
+    text = f"greatest change {number(change)} J; shaded: kinetic energy of the machine itself"
     chart.title(axes, f"Energy since the start, {unit}", own, text)
     chart.zero_line(axes, own)
     settle(axes)
@@ -231,7 +219,7 @@ def energy_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: S
     notes = [
         Note(
             over.of(at), value,
-            f"{chart.number(value / power, span)} at {over.place(over.of(at))}", own.ink,
+            f"{number(value / power, span)} at {over.place(over.of(at))}", own.ink,
             "extreme work",
         )
         for at, value in (high, low)

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.pictures.style import style
+from assur.pictures import chart
+from assur.pictures.diagrams.line_names import Named, name_lines
+from assur.pictures.diagrams.notes import Note, write_notes
+from assur.pictures.diagrams.peaks import peaks
+from assur.pictures.numerals import number, ten, true_minus
+from assur.pictures.points import settle
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -28,10 +34,7 @@ TITLES = {"q": "Coordinate", "speed": "Speed", "acceleration": "Acceleration"}
 
 def run_picture(run: Run, what: str, ax: Any, dark: bool, named: bool = True) -> Any:
     """See `Run.plot`; `named`: with the events."""
-    from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Named, name_lines, settle, write_notes
-
-    own = style(dark)
+    own = style_of(dark)
     axes = chart.chart_axes(ax, own)
     if what == "energy":
         t, curves, unit, title = *_energies(run, own), "J", "Energy"
@@ -67,8 +70,6 @@ def run_picture(run: Run, what: str, ax: Any, dark: bool, named: bool = True) ->
 
 def _sentence(run: Run, what: str) -> str:
     """Say how well the energies balance."""
-    from assur.pictures.chart import ten
-
     if what != "energy":
         return ""
     text, _, power = f"{run.energy.error:.0e}".partition("e")
@@ -77,8 +78,6 @@ def _sentence(run: Run, what: str) -> str:
 
 def _energies(run: Run, own: Style) -> tuple[Float, list[Any]]:
     """Return the energies at the ends of the steps, and their sum."""
-    from assur.pictures.diagrams.notes import Named
-
     energy, t = run.energy, np.asarray(run.t)
     size = max(float(np.nanmax(np.abs(one))) for one in energy[:3])
     curves = [Named(t, energy.kinetic, "kinetic", own.driver, italic=False)]
@@ -94,8 +93,6 @@ def _energies(run: Run, own: Style) -> tuple[Float, list[Any]]:
 
 def _motions(run: Run, what: str, own: Style) -> tuple[Float, list[Any], str]:
     """Return a quantity of every driver over the time, and its unit."""
-    from assur.pictures.diagrams.notes import Named
-
     if run._along_q:
         state: Any = run
         t = np.asarray(run.t)
@@ -134,10 +131,6 @@ def drivers(mechanism: Mechanism | None, count: int) -> tuple[list[str], list[st
 
 def _extremes(run: Run, what: str, t: Float, curves: list[Any], power: float) -> list[Any]:
     """Return notes at the greatest and the least speed or acceleration."""
-    from assur.pictures.chart import number
-    from assur.pictures.diagrams.notes import Note
-    from assur.pictures.diagrams.peaks import peaks
-
     if what not in ("speed", "acceleration"):
         return []
     slopes = None
@@ -161,8 +154,6 @@ def _event_lines(ax: Any, events: list[EventRecord], own: Style) -> None:
 
 def _event_notes(ax: Any, events: list[EventRecord], own: Style) -> list[Any]:
     """Return the names of the events at the upper side; of many alike the first is named."""
-    from assur.pictures.diagrams.notes import Note
-
     bottom, top = ax.get_ylim()
     y = top - EVENTS * (top - bottom)
     counts: dict[str, int] = {}
@@ -195,4 +186,4 @@ def event_text(record: Any) -> str:
         "TransmissionAngle": f"transmission angle at {getattr(event, 'name', '')}",
         "Crossing": "crossing",
     }
-    return words.get(kind, kind).replace("-", "−")
+    return true_minus(words.get(kind, kind))

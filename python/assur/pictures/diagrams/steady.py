@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.pictures.style import style
+from assur.pictures import chart
+from assur.pictures.diagrams.notes import Note, write_notes
+from assur.pictures.diagrams.run import run_picture
+from assur.pictures.numerals import degrees_text, number, radians_text
+from assur.pictures.points import settle
+from assur.pictures.style import blend, style_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,8 +29,6 @@ TINT = 0.12
 def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
     """See `SteadyState.plot`."""
     if what == "energy":
-        from assur.pictures.diagrams.run import run_picture
-
         return run_picture(steady.run, what, ax, dark, named=False)
     q = np.linspace(steady.q[0], steady.q[-1], POINTS)
     state = steady.at(q)
@@ -35,7 +38,7 @@ def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark:
         first = float(state.t[0])
         abscissa = over_time(state.t - first, lambda at: float(steady.at(at).t) - first)
     wheel = f" with {steady.inertia:.4g} kg·m²" if steady.inertia else ""
-    return speed_diagram(ax, abscissa, state.speed, steady, wheel, style(dark))
+    return speed_diagram(ax, abscissa, state.speed, steady, wheel, style_of(dark))
 
 
 class Abscissa:
@@ -49,10 +52,8 @@ class Abscissa:
 
 def over_q(q: Float, degrees: bool) -> Abscissa:
     """Return the driver's coordinate."""
-    from assur.pictures.diagrams.quantities import degrees_text
-
     if not degrees:
-        return Abscissa(q, "q, rad", float, lambda x: f"{x:.2f} rad".replace("-", "−"))
+        return Abscissa(q, "q, rad", float, radians_text)
     x = np.degrees(q)
     span = float(np.ptp(x))
     return Abscissa(x, "q", lambda at: float(np.degrees(at)), lambda at: degrees_text(at, span))
@@ -60,8 +61,6 @@ def over_q(q: Float, degrees: bool) -> Abscissa:
 
 def over_time(t: Float, of: Callable[[float], float]) -> Abscissa:
     """Return the time; `of` gives it at a coordinate."""
-    from assur.pictures.chart import number
-
     return Abscissa(t, "t, s", of, lambda at: f"{number(at)} s")
 
 
@@ -74,10 +73,6 @@ def speed_diagram(
     own: Style,
 ) -> Any:
     """Draw a speed with its extremes and mean, the band of its fluctuation shaded."""
-    from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Note, settle, write_notes
-    from assur.pictures.style import blend
-
     axes = chart.chart_axes(ax, own)
     start(axes, over, own)
     sign = float(np.copysign(1.0, speed[0]))
@@ -101,7 +96,7 @@ def speed_diagram(
         Note(
             over.of(float(extreme.at)),
             sign * float(extreme.value),
-            f"{chart.number(sign * float(extreme.value) / power, span)} at "
+            f"{number(sign * float(extreme.value) / power, span)} at "
             f"{over.place(over.of(float(extreme.at)))}",
             own.driver,
             "extreme speed",
@@ -109,14 +104,12 @@ def speed_diagram(
         for extreme in (of.greatest, of.least)
     ]
     write_notes(axes, notes, own)
-    write_mean(axes, over, speed, mean, f"mean {chart.number(mean / power, span)}", own)
+    write_mean(axes, over, speed, mean, f"mean {number(mean / power, span)}", own)
     return axes
 
 
 def write_mean(ax: Any, over: Abscissa, speed: Float, mean: float, text: str, own: Style) -> None:
     """Write the mean on its line, where the curve is far from it."""
-    from assur.pictures.chart import TEXT
-
     width = max(len(over.values) // 6, 1)
     apart = np.abs(speed - mean)
     clear = np.array([apart[i : i + width].min() for i in range(len(apart) - width)])
@@ -125,15 +118,13 @@ def write_mean(ax: Any, over: Abscissa, speed: Float, mean: float, text: str, ow
     ax.annotate(
         text, (over.values[i], mean), xytext=(0.0, 2.0 if above else -2.0),
         textcoords="offset points", horizontalalignment="center",
-        verticalalignment="bottom" if above else "top", color=own.second, fontsize=TEXT,
+        verticalalignment="bottom" if above else "top", color=own.second, fontsize=chart.TEXT,
         zorder=5.0, gid="mean text",
     ).set_in_layout(False)  # fmt: skip
 
 
 def start(ax: Any, over: Abscissa, own: Style) -> None:
     """Put limits, ticks and name on the abscissa."""
-    from assur.pictures import chart
-
     low, high = float(over.values.min()), float(over.values.max())
     ax.set_xlim(low, high)
     if over.label == "q":

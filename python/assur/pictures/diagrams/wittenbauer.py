@@ -6,6 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.pictures import chart
+from assur.pictures.diagrams.line_names import Named, name_lines
+from assur.pictures.diagrams.notes import Note, write_notes
+from assur.pictures.diagrams.obstacles import obstacles
+from assur.pictures.numerals import degrees_text, number
+from assur.pictures.points import in_points, settle
+from assur.pictures.scene.labels import clearance
+from assur.pictures.text import plain_size
+
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.flywheel import Flywheel
@@ -27,9 +36,6 @@ GAP = 6.0
 
 def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, own: Style) -> Any:
     """Draw the loop of one turn and both tangents; they meet at minus the flywheel."""
-    from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Named, Note, name_lines, settle, write_notes
-
     axes = chart.chart_axes(ax, own)
     inertia, energy = flywheel.energy_mass(len(q))
     axes.plot(inertia, energy, color=own.ink, linewidth=chart.CURVE, gid="curve loop", zorder=2.0)
@@ -65,7 +71,7 @@ def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, own: Style) -> An
         Named(
             np.linspace(low, high, 200),
             np.linspace(line[0], line[1], 200),
-            f"slope ω²/2{gap}at {chart.number(float(extreme.value), span)} rad/s",
+            f"slope ω²/2{gap}at {number(float(extreme.value), span)} rad/s",
             colour,
             italic=False,
         )
@@ -90,7 +96,6 @@ def _width(inertia: Float, energy: Float, speed: float) -> tuple[float, float, b
 
 
 def _sentence(flywheel: Flywheel, corner: tuple[float, float]) -> str:
-    from assur.pictures.chart import number
 
     start = f"δ = {flywheel.delta:.3g}"
     if not flywheel.inertia:
@@ -119,12 +124,6 @@ def _intercept(ax: Any, tangents: list[Float], steep: bool, own: Style) -> None:
 
     On the left side it is an energy; of steep tangents it is an inertia at the bottom.
     """
-    from matplotlib.font_manager import FontProperties
-
-    from assur.pictures.chart import TEXT, number
-    from assur.pictures.diagrams.notes import distance, in_points, obstacles
-    from assur.pictures.text import text_size
-
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     ends = np.array([float(line[0]) for line in tangents])
     if not steep:
@@ -143,25 +142,22 @@ def _intercept(ax: Any, tangents: list[Float], steep: bool, own: Style) -> None:
     ax.annotate("", points[0], xytext=points[-1], gid="intercept", arrowprops=arrow).set_in_layout(
         False
     )
-    width, height = text_size("at the frame", FontProperties(size=TEXT))
+    width, height = plain_size("at the frame", chart.TEXT)
     half = np.array([width + 2.0, 2.6 * height + 2.0]) / 2.0
     near = in_points(ax, points)[1:-1]
     middles = near + aside * (GAP + half)
-    clear = [distance(middle, half, obstacles(ax)) for middle in middles]
+    clear = clearance(middles, half, obstacles(ax))
     # The middle, if that is clear.
     best = int(np.argmax(np.minimum(clear, 8.0) - 0.5 * np.abs(np.arange(9) - 4.0)))
     ax.annotate(
         text, points[1 + best], xytext=middles[best] - near[best], textcoords="offset points",
         horizontalalignment="center", verticalalignment="center", color=own.second,
-        fontsize=TEXT, gid="intercept text", zorder=5.0,
+        fontsize=chart.TEXT, gid="intercept text", zorder=5.0,
     ).set_in_layout(False)  # fmt: skip
 
 
 def _dots(ax: Any, flywheel: Flywheel, q: Float, own: Style) -> None:
     """Put a dot on the loop at every 30°, with the angle at some."""
-    from assur.pictures.diagrams.notes import Note, write_notes
-    from assur.pictures.diagrams.quantities import degrees_text
-
     first, last = float(q[0]), float(q[-1])
     sign = float(np.copysign(1.0, last - first))
     start = int(np.ceil(sign * first / DOTS - 1e-6))

@@ -3,3 +3,8 @@
 A sheet is made of marks without a library (`marks`); `dxf` and `print` write them. Lengths of
 marks are mm: of the mechanism for places, of the paper for texts, arrows and gaps.
 """
+
+from assur.pictures.axes import pyplot
+
+# Whoever lacks matplotlib reads what to install, whichever module of these comes first.
+pyplot()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from os import fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,11 +14,14 @@ from assur.pictures.drawing.link_part import MM, Workshop, link_drawing
 from assur.pictures.drawing.names import name_marks
 from assur.pictures.drawing.position import PX, dimensioned, outlines, schematic
 from assur.pictures.drawing.sheet import PAPERS, lay_out
+from assur.pictures.files import checked_path, writing
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.scene.extent import usual_link
 from assur.pictures.scene.slides import Slides
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
     from assur.pictures.drawing.marks import Mark
@@ -47,7 +48,8 @@ def write_drawing(
     assembly: Assembly | None,
 ) -> float:
     """See `Mechanism.to_drawing`."""
-    target, form = _checked_path(path)
+    target = checked_path(path, FORMATS)
+    form = target.suffix.lower()
     if mechanism.shape:
         message = f"a drawing is of one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
@@ -90,29 +92,9 @@ def write_drawing(
         from assur.pictures.drawing.paper import paper_bytes
 
         contents = paper_bytes(sheet, decimals, form[1:])
-    try:
+    with writing(target):
         target.write_bytes(contents)
-    except (OSError, ValueError) as error:
-        message = f"{target}: cannot be written: {getattr(error, 'strerror', None) or error}"
-        raise InputError(message) from error
     return sheet.scale
-
-
-def _checked_path(path: Any) -> tuple[Path, str]:
-    try:
-        name = fspath(path)
-    except TypeError as error:
-        message = f"path is {short(path)}: a path is needed"
-        raise InputError(message) from error
-    if isinstance(name, bytes):
-        message = f"path is {short(path)}: a path is needed"
-        raise InputError(message)
-    target = Path(name)
-    form = target.suffix.lower()
-    if form not in FORMATS:
-        message = f"{name!r} ends in {form!r}: drawings are written as {', '.join(FORMATS)}"
-        raise InputError(message)
-    return target, form
 
 
 def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:

@@ -20,6 +20,7 @@ from assur.pictures.drawing.marks import (
 from assur.pictures.drawing.names import name_marks
 from assur.pictures.drawing.outline import centre_mark, rectangle, rounded_hull
 from assur.pictures.scene.cylinders import cylinder
+from assur.pictures.scene.geometry import left_of, unit_vector
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -146,7 +147,7 @@ def _slide_shapes(shop: Workshop, link: str) -> tuple[list[Mark], list[Float]]:
             continue
         half = BLOCK_LENGTH * width / 2.0
         if link == axis.sliding:
-            unit = _unit(axis.angles[0])
+            unit = unit_vector(axis.angles[0])
             block, reach = MM * axis.block, half
             if not shop.frames.local[link]:
                 # A rod without joints is as long as its stroke, and a block's length.
@@ -155,7 +156,7 @@ def _slide_shapes(shop: Workshop, link: str) -> tuple[list[Mark], list[Float]]:
                 rectangle(layer, block - reach * unit, block + reach * unit, SLOT * width)
             )
             continue
-        unit = _unit(axis.angles[1])
+        unit = unit_vector(axis.angles[1])
         low, high = (MM * (axis.on_guide(at) - _base(shop, link)) for at in (axis.low, axis.high))
         low, high = low - half * unit, high + half * unit
         shapes.append(rectangle(layer, low, high, SLOT * width))
@@ -167,10 +168,6 @@ def _base(shop: Workshop, link: str) -> Float:
     """Return the origin of a link's drawing in its frame, m."""
     own = shop.frames.local[link]
     return next(iter(own.values()), np.zeros(2)) if link == "ground" else np.zeros(2)
-
-
-def _unit(angle: float) -> Float:
-    return np.array([np.cos(angle), np.sin(angle)])
 
 
 def _cylinder_part(shop: Workshop, name: str, axis: Axis, role: str, layer: str) -> Mark:
@@ -194,7 +191,7 @@ def _slide_dimensions(shop: Workshop, link: str) -> list[Mark]:
             continue
         base, angle = _base(shop, link), axis.angles[1]
         low, far = (MM * (axis.on_guide(at) - base) for at in (axis.low, axis.high))
-        left = np.array([-np.sin(angle), np.cos(angle)])
+        left = left_of(angle)
         side = left if left @ np.array([0.1, 1.0]) >= 0.0 else -left
         beside = low + side * (shop.width / 2.0 + FIRST * shop.per)
         if MM * (axis.high - axis.low) > NEAR * size:
@@ -204,7 +201,8 @@ def _slide_dimensions(shop: Workshop, link: str) -> list[Mark]:
         if origin is not None and abs(offset) > NEAR * size:
             at = joints_of(shop, link)[origin]
             # Beyond the joint, away from the slot.
-            away = _unit(angle) * (-1.0 if (low + far - 2.0 * at) @ _unit(angle) > 0.0 else 1.0)
+            forward = unit_vector(angle)
+            away = -forward if (low + far - 2.0 * at) @ forward > 0.0 else forward
             beyond = at + away * (shop.width / 2.0 + FIRST * shop.per)
             foot = at + left * float((low - at) @ left)
             marks.append(Distance("DIMENSIONS", at, foot, beyond, angle + np.pi / 2.0))

@@ -9,6 +9,10 @@ from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle as Patch
+from matplotlib.patches import PathPatch, Polygon
+from matplotlib.path import Path
 
 from assur.pictures.drawing.layers import valid_text
 from assur.pictures.drawing.marks import (
@@ -27,6 +31,7 @@ from assur.pictures.drawing.marks import (
     Text,
     number_text,
 )
+from assur.pictures.scene.geometry import left_of, unit_vector
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -48,7 +53,6 @@ def paper_bytes(sheet: Sheet, decimals: int, form: str) -> bytes:
     """Return the contents of an SVG or a PDF file."""
     try:
         import matplotlib as mpl
-        from matplotlib.figure import Figure
     except ImportError as error:  # pragma: no cover
         message = 'SVG and PDF need matplotlib: pip install "assur[plot]"'
         raise ImportError(message) from error
@@ -119,7 +123,6 @@ class _Pen:
         return own
 
     def _path(self, path: Any, weight: float, dash_dotted: bool = False) -> None:
-        from matplotlib.patches import PathPatch
 
         self._ax.add_artist(
             PathPatch(
@@ -137,7 +140,6 @@ class _Pen:
         self._path(_path_of(self._at(mark.points), mark), mark.weight, mark.dash_dotted)
 
     def _circle(self, mark: Circle) -> None:
-        from matplotlib.patches import Circle as Patch
 
         self._ax.add_artist(
             Patch(
@@ -150,7 +152,6 @@ class _Pen:
         )
 
     def _fill(self, points: Float) -> None:
-        from matplotlib.patches import Polygon
 
         self._ax.add_artist(Polygon(points, facecolor=self._ink, edgecolor="none"))
 
@@ -163,7 +164,6 @@ class _Pen:
         )  # fmt: skip
 
     def _line(self, start: Float, end: Float) -> None:
-        from matplotlib.path import Path
 
         self._path(Path(np.stack([start, end])), THIN)
 
@@ -188,7 +188,7 @@ class _Pen:
         # Texts are read from below and from the right.
         if angle > np.pi / 2.0 + 1e-9 or angle <= -np.pi / 2.0 + 1e-9:
             angle += np.pi
-        above = np.array([-np.sin(angle), np.cos(angle)])
+        above = left_of(angle)
         text = number_text(mark.value, self._decimals)
         half = LETTER * TEXT_HEIGHT * len(text) / 2.0
         middle = (first + second) / 2.0
@@ -206,7 +206,7 @@ class _Pen:
             self._line(point + GAP * unit, foot + BEYOND * unit)
 
     def _diameter(self, mark: Diameter) -> None:
-        away = np.array([np.cos(mark.angle), np.sin(mark.angle)])
+        away = unit_vector(mark.angle)
         tip = self._at(mark.centre + mark.radius * away)
         end = self._at(mark.text_at(self._per))
         count = f"{mark.count}× " if mark.count > 1 else ""
@@ -218,8 +218,6 @@ class _Pen:
 
 def _path_of(points: Float, mark: Outline) -> Any:
     """Return a path of lines and of arcs by their bulges."""
-    from matplotlib.path import Path
-
     bulges = np.zeros(len(points)) if mark.bulges is None else mark.bulges
     vertices, codes = [points[:1]], [np.array([Path.MOVETO])]
     count = len(points) if mark.closed else len(points) - 1
@@ -240,8 +238,6 @@ def _path_of(points: Float, mark: Outline) -> Any:
 
 def _arc(start: Float, end: Float, bulge: float) -> Float:
     """Return the Bézier curves of an arc after its start."""
-    from matplotlib.path import Path
-
     chord = end - start
     left = np.array([-chord[1], chord[0]])
     centre = (start + end) / 2.0 + left * (1.0 - bulge**2) / (4.0 * bulge)

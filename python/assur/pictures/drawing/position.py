@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style
+from assur.pictures import sizes
 from assur.pictures.drawing.hidden import outside_circle, outside_polygon
 from assur.pictures.drawing.link_part import FIRST, MM, NEAR, NEXT, Workshop, part_marks
 from assur.pictures.drawing.marks import (
@@ -19,7 +19,8 @@ from assur.pictures.drawing.marks import (
     moved,
 )
 from assur.pictures.drawing.names import STEP, dimension_lines
-from assur.pictures.scene.extent import usual_link
+from assur.pictures.scene.extent import usual_link, vertices
+from assur.pictures.scene.geometry import left_of
 from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
 from assur.pictures.scene.labels import along
 from assur.pictures.scene.parts import Disc, Hatching, Stroke
@@ -27,7 +28,7 @@ from assur.pictures.scene.parts import Disc, Hatching, Stroke
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.linkage.subject import Subject
-    from assur.pictures.scene.parts import Part, Vertex
+    from assur.pictures.scene.parts import Part
 
 # A px of the symbols, mm of the paper.
 PX = 25.4 / 96.0
@@ -42,8 +43,8 @@ def schematic(subject: Subject, layers: dict[str, str], per: float) -> list[Mark
     size = PX * per * _density(subject, per)
     drawn: list[tuple[Part, Float]] = []
     for part in subject.scene.parts:
-        corners = (part.centre,) if isinstance(part, Disc) else _vertices(part)
-        places = [MM * subject.world(subject.frames[0], part.link, v, size / MM) for v in corners]
+        at = vertices(part)
+        places = [MM * subject.world(subject.frames[0], part.link, v, size / MM) for v in at]
         drawn.append((part, np.array(places)))
     marks: list[Mark] = []
     for i, (part, points) in enumerate(drawn):
@@ -65,11 +66,7 @@ def schematic(subject: Subject, layers: dict[str, str], per: float) -> list[Mark
 def _density(subject: Subject, per: float) -> float:
     """Return by how much symbols shrink where links are short on the paper."""
     usual = MM * usual_link(subject.whole) / per / PX
-    return float(np.clip(usual / style.USUAL_LINK, style.LEAST_DENSITY, 1.0))
-
-
-def _vertices(part: Stroke | Hatching) -> tuple[Vertex, ...]:
-    return (part.start, part.end) if isinstance(part, Hatching) else part.vertices
+    return float(np.clip(usual / sizes.USUAL_LINK, sizes.LEAST_DENSITY, 1.0))
 
 
 def _layer(part: Part, layers: dict[str, str]) -> str:
@@ -94,7 +91,7 @@ def _stroke(
             Outline(layer, piece, weight=weight, dash_dotted=bool(part.dashes)) for piece in left
         ]
     if part.hatched:
-        lines = hatched_area(points, style.PLATE_SPACING * size)
+        lines = hatched_area(points, sizes.PLATE_SPACING * size)
         marks += _pieces("HATCHING", lines, 0.6 * PX, above, size)
     return marks
 
@@ -155,7 +152,7 @@ def _beside(start: Float, end: Float, middle: Float, lines: list[Float], per: fl
     """Return the length of a link on the side where its line is clearest of others."""
     direction = end - start
     angle = float(np.arctan2(direction[1], direction[0]))
-    left = np.array([-np.sin(angle), np.cos(angle)])
+    left = left_of(angle)
     if (middle - start) @ left > 0.0:
         # Outside first.
         left = -left

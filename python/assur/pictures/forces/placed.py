@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures import style as palettes
-from assur.pictures.axes import pyplot, scale_bar
-from assur.pictures.chart import number
+from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.artists import Drawn
 from assur.pictures.linkage.position import name_joints
 from assur.pictures.linkage.subject import Subject
+from assur.pictures.numerals import number
+from assur.pictures.style import style_of
 from assur.pictures.text import name_font, text_size
 from assur.pictures.vectors.arrows import LOOKS, arrow, moment_arc
 from assur.pictures.vectors.beside import Beside
@@ -39,7 +39,6 @@ def forces_picture(
     system: ForceSystem, links: str | Sequence[str] | None, ax: Any, dark: bool
 ) -> Any:
     """See `Reactions.plot`."""
-    pyplot()
     subject = Subject(system.motion)
     chosen = [force for force in system.forces if links is None or not force.inner]
     if links is None:
@@ -51,7 +50,7 @@ def forces_picture(
     longest = LONGEST * side / greatest if greatest else 0.0
     tips = [force.place + longest * force.force for force in chosen]
     points = np.array(tips).reshape(-1, 2)
-    on = subject.canvas(ax, palettes.style(dark), [points], 2.0 * LINE_HEIGHT)
+    on = subject.canvas(ax, style_of(dark), [points], 2.0 * LINE_HEIGHT)
     frames = subject.frames[0]
     _draw_faintly(subject, on, ("ground", *system.links) if links is None else system.links)
     forces = [f for f in chosen if np.hypot(*f.force) > LEAST * greatest]

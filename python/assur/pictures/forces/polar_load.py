@@ -11,11 +11,12 @@ from matplotlib.patches import Circle
 from matplotlib.text import Text
 
 from assur.errors import InputError
-from assur.pictures import style as palettes
 from assur.pictures.axes import TEXT, canvas, nice_length, pyplot
-from assur.pictures.chart import number
 from assur.pictures.forces.placed import force_value
 from assur.pictures.forces.polygon import bar_text
+from assur.pictures.numerals import number, true_minus
+from assur.pictures.scene.geometry import unit_vector
+from assur.pictures.style import style_of
 from assur.pictures.text import name_font, write_names
 from assur.pictures.vectors.arrows import LOOKS, arrow
 from assur.pictures.vectors.beside import Beside
@@ -53,7 +54,7 @@ def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
         joint, on = bearing._what
         message = f"there is no force on {on!r} at joint {joint!r}: there is nothing to draw"
         raise InputError(message, joint=joint)
-    style = palettes.style(dark)
+    style = style_of(dark)
     link, angle = bearing._frame
     turn = np.broadcast_to(np.asarray(angle).reshape(-1), sizes.shape)
     cosine, sine = np.cos(turn), np.sin(turn)
@@ -196,7 +197,7 @@ def _places(bearing: Bearing) -> list[str]:
         if several:
             texts.append(str(i))
         elif bearing._is_angle:
-            texts.append(f"{np.degrees(row[0]):.4g}°".replace("-", "−"))
+            texts.append(true_minus(f"{np.degrees(row[0]):.4g}°"))
         else:
             texts.append(f"{number(float(row[0]))} m")
     return texts
@@ -207,5 +208,5 @@ def _outline(on: Canvas, text: Any) -> Float:
     half = formula_size(text.get_text(), formula_font(TEXT))[0] / 2.0 / on.scale
     angle = np.radians(text.get_rotation())
     middle = np.array(text.get_position())
-    along = half * np.array([np.cos(angle), np.sin(angle)])
+    along = half * unit_vector(angle)
     return np.array([middle - along, middle + along])

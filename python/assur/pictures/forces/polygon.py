@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.pictures import style as palettes
-from assur.pictures.axes import canvas, pyplot, scale_bar
+from assur.pictures.axes import canvas, scale_bar
 from assur.pictures.forces.placed import (
     force_colour,
     force_gid,
     force_texts,
     require_forces,
 )
+from assur.pictures.style import style_of
 from assur.pictures.vectors.arrows import LOOKS, arrow
 from assur.pictures.vectors.beside import Beside
 from assur.pictures.vectors.dots import dots
@@ -30,14 +30,13 @@ DOT = 4.0
 
 def force_polygon(system: ForceSystem, ax: Any, dark: bool) -> Any:
     """See `Reactions.polygon`."""
-    pyplot()
     require_forces(system)
     forces = polygon_sides(system)
     corners = np.vstack([np.zeros(2), np.cumsum([force.force for force in forces], axis=0)])
     on = canvas(
         ax,
         (corners.min(axis=0), corners.max(axis=0)),
-        palettes.style(dark),
+        style_of(dark),
         np.inf,
         2.0 * LINE_HEIGHT,
     )

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.animation import FFMpegWriter
 
 from assur._validate import real_number, whole_number
 from assur.errors import InputError
-from assur.pictures import style as sizes
-from assur.pictures.axes import pyplot
 from assur.pictures.files import checked_path, writing
+from assur.pictures.linkage.film import Film
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from assur.kinematics.motion import Motion
-    from assur.pictures.linkage.film import Film
 
 SUFFIXES = (".gif", ".webp", ".mp4")
 # A thousand frames of the usual size take 1 GiB.
@@ -46,11 +46,9 @@ def animate(
     if not 0.0 < duration < np.inf:
         message = f"seconds is {seconds}: a positive time is needed"
         raise InputError(message)
-    pyplot()
-    from assur.pictures.linkage.film import Film
 
     joints = [] if joint is None else [joint] if isinstance(joint, str) else list(joint)
-    film = Film(motion, joints, groups, sizes.style(dark))
+    film = Film(motion, joints, groups, style_of(dark))
     try:
         rows = _rows(film, count)
         with writing(out):
@@ -121,8 +119,6 @@ def _with_canvas(image: Any, colour: tuple[int, ...]) -> Any:
 
 def _write_mp4(out: Path, film: Film, rows: list[int], seconds: float) -> None:
     """Write a film with ffmpeg, where there is one."""
-    from matplotlib.animation import FFMpegWriter
-
     if not FFMpegWriter.isAvailable():
         message = f"{out}: an MP4 needs the program ffmpeg, which is not found; write .gif"
         raise InputError(message)

@@ -11,7 +11,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
-from assur.pictures import style as sizes
+from assur.pictures import sizes
 from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
 from assur.pictures.scene.parts import Disc, Hatching, Stroke
 from assur.pictures.style import blend

@@ -7,9 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures import style as palettes
 from assur.pictures.axes import FOOT, MARGIN, pyplot
 from assur.pictures.chart import TEXT
+from assur.pictures.linkage.artists import Drawn
+from assur.pictures.linkage.position import name_joints
+from assur.pictures.linkage.subject import Subject
+from assur.pictures.style import style_of
+from assur.pictures.text import plain_size
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assemblies, Assembly
@@ -27,12 +31,8 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
     if not len(found):
         message = "there is no assembly at this coordinate: nothing to draw"
         raise InputError(message)
-    pyplot()
-    from assur.pictures.linkage.artists import Drawn
-    from assur.pictures.linkage.position import name_joints
-    from assur.pictures.linkage.subject import Subject
 
-    style = palettes.style(dark)
+    style = style_of(dark)
     subjects = []
     for assembly in found:
         place = assembly._place
@@ -60,14 +60,10 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
 
 def _title(index: int, assembly: Assembly, on: Canvas) -> str:
     """Return a number and the dyads' signs; assemblies of higher groups have numbers alone."""
-    from matplotlib.font_manager import FontProperties
-
-    from assur.pictures.text import text_size
-
     signs = [(name, "+" if sign > 0 else "−") for name, sign in assembly.items()]
     whole = "  ".join(f"{name} {sign}" for name, sign in signs)
     room = float(on.points(on.high - on.low)[0])
-    if text_size(whole, FontProperties(size=TEXT))[0] > 0.8 * room:
+    if plain_size(whole, TEXT)[0] > 0.8 * room:
         # In the order of the dyads.
         whole = " ".join(sign for _, sign in signs)
     return f"{index + 1}   {whole}".rstrip()

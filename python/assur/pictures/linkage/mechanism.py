@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from assur.errors import InputError
-from assur.pictures import style as sizes
-from assur.pictures.axes import pyplot, scale_bar
+from assur.pictures.axes import scale_bar
+from assur.pictures.linkage.position import draw_position
+from assur.pictures.linkage.positions import draw_positions
+from assur.pictures.linkage.subject import Subject
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
@@ -33,17 +36,13 @@ def mechanism_picture(
     if labels not in LABELS:
         message = f'labels is {labels!r}: "first" names joints once, "all" everywhere, or "none"'
         raise InputError(message)
-    pyplot()
-    from assur.pictures.linkage.position import draw_position
-    from assur.pictures.linkage.positions import draw_positions
-    from assur.pictures.linkage.subject import Subject
 
     found = getattr(assembly, "q", None)
     places = (q, found, mechanism._q0_array())
     at = next(place for place in places if place is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     subject = Subject(motion)
-    on = subject.canvas(ax, sizes.style(dark), groups=groups)
+    on = subject.canvas(ax, style_of(dark), groups=groups)
     if motion.shape:
         draw_positions(subject, on, labels, groups)
     else:

@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.lines import Line2D
 
 from assur._validate import checked_index
 from assur.errors import InputError
-from assur.pictures import style as sizes
-from assur.pictures.axes import pyplot, scale_bar
+from assur.pictures.axes import scale_bar
+from assur.pictures.linkage.path_arrows import PathArrows
+from assur.pictures.linkage.position import draw_position
+from assur.pictures.linkage.subject import Subject, assembly_of
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,10 +44,6 @@ def path_picture(
     if motion.mechanism.shape or len(motion.shape) != 1:
         message = f"plot draws paths over q of one mechanism; this motion has shape {motion.shape}"
         raise InputError(message)
-    pyplot()
-    from assur.pictures.linkage.path_arrows import PathArrows
-    from assur.pictures.linkage.position import draw_position
-    from assur.pictures.linkage.subject import Subject, assembly_of
 
     joints = [] if joint is None else [joint] if isinstance(joint, str) else list(joint)
     paths = [motion.joint(name).value for name in joints]
@@ -57,7 +57,7 @@ def path_picture(
         for kind in _kinds(vectors, joints)
     ]
     seen = [*known, *(tips for own in arrows for tips in own.tips())]
-    on = subject.canvas(ax, sizes.style(dark), seen, groups=groups)
+    on = subject.canvas(ax, style_of(dark), seen, groups=groups)
     for i, (name, path) in enumerate(zip(joints, paths, strict=True)):
         draw_path(on, path, name, DASHES[i % len(DASHES)], path[row])
     draw_position(subject, on, subject.frames[0], groups=groups, lines=known)
@@ -97,8 +97,6 @@ def _row(motion: Motion, at: int | None) -> int:
 
 def draw_path(on: Canvas, path: Float, name: str, dashes: Any = "solid", now: Any = None) -> None:
     """Draw a joint's path with dots at equal steps of q, and where the joint is now."""
-    from matplotlib.lines import Line2D
-
     style, size = on.style, on.size
     line = Line2D(
         *path.T,

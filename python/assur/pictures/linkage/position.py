@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from assur.pictures.linkage.subject import Subject
 
 
-class Mark(NamedTuple):
+class NamedPoint(NamedTuple):
     """A point beside the joints that has a name: where, m, and the radius of its dot, points."""
 
     text: str
@@ -35,7 +35,7 @@ def draw_position(
     groups: bool = False,
     lines: list[Float] | None = None,
     boxes: Float | None = None,
-    marks: Sequence[Mark] = (),
+    marks: Sequence[NamedPoint] = (),
 ) -> None:
     """Draw one position with its names, and those of marks.
 
@@ -55,7 +55,7 @@ def name_joints(
     lines: Sequence[Float] = (),
     boxes: Float | None = None,
     light: list[Float] | None = None,
-    marks: Sequence[Mark] = (),
+    marks: Sequence[NamedPoint] = (),
 ) -> list[Any]:
     """Write the names of the joints and of marks."""
     names = subject.scene.names

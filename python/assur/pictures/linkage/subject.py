@@ -10,7 +10,7 @@ from assur.pictures.axes import MARGIN, WIDTH, Canvas, canvas
 from assur.pictures.linkage.structural_formula import LINE, formula_lines
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.course import course
-from assur.pictures.scene.extent import corners, usual_link, vertices
+from assur.pictures.scene.extent import corners, line_vertices, usual_link
 from assur.pictures.scene.frames import Frames, frames_of, nearby
 from assur.pictures.scene.parts import Disc
 from assur.pictures.text import name_font, text_size
@@ -135,6 +135,6 @@ def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | 
     if isinstance(part, Disc):
         return None
     per = on.size / on.scale
-    points = [subject.world(frames, part.link, vertex, per) for vertex in vertices(part)]
-    closed = getattr(part, "closed", False)
-    return np.array([*points, points[0]] if closed else points)
+    return np.array(
+        [subject.world(frames, part.link, vertex, per) for vertex in line_vertices(part)]
+    )

@@ -11,6 +11,7 @@ from matplotlib.text import Text
 
 from assur.errors import AssurError
 from assur.pictures.axes import FOOT, TEXT
+from assur.pictures.numerals import angle_text
 from assur.pictures.text import text_size
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ def _line(on: Canvas, points: Float, gid: str, width: float, dashes: object) -> 
 def write_swings(subject: Subject, on: Canvas, found: list[Swing]) -> Float:
     """Write the limits of what swings and the step of the positions; return their box, points."""
     parts = [
-        f"{swing.link} from {_degrees(swing.extremes[0])} to {_degrees(swing.extremes[1])}"
+        f"{swing.link} from {' to '.join(angle_text(one, 1) for one in swing.extremes)}"
         for swing in found
         if swing.extremes is not None
     ][:WRITTEN]
@@ -132,10 +133,6 @@ def write_swings(subject: Subject, on: Canvas, found: list[Swing]) -> Float:
     width, height = text_size(text, font) if text else (0.0, 0.0)
     middle = on.points((x, y)) - (width / 2.0, 0.0)
     return np.array([[middle, (width / 2.0, height / 2.0)]])
-
-
-def _degrees(angle: float) -> str:
-    return f"{np.degrees(angle):.1f}°".replace("-", "−")
 
 
 def _even_step(subject: Subject) -> str | None:

@@ -1,1 +1,6 @@
 """Maps of designs, configuration curves, workspaces."""
+
+from assur.pictures.axes import pyplot
+
+# Whoever lacks matplotlib reads what to install, whichever module of these comes first.
+pyplot()

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.font_manager import FontProperties
 
 from assur.pictures.chart import TEXT
-from assur.pictures.scene.labels import along, placed
-from assur.pictures.text import STEP, text_size
+from assur.pictures.points import bounds, in_data, in_points, text_box
+from assur.pictures.scene.labels import along, placed, within
+from assur.pictures.text import STEP, plain_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,39 +22,21 @@ CANDIDATES = 48
 PAD = 1.0
 
 
-def _points(ax: Any, data: Float) -> Float:
-    """Return data in points of print; the axes are laid out."""
-    own: Float = ax.transData.transform(data) * 72.0 / ax.get_figure(root=True).dpi
-    return own
-
-
-def _bounds(ax: Any) -> tuple[Float, Float]:
-    box = ax.get_window_extent()
-    per = 72.0 / ax.get_figure(root=True).dpi
-    return np.array([box.x0, box.y0]) * per, np.array([box.x1, box.y1]) * per
-
-
 def _write(ax: Any, text: str, middle: Float, colour: Any, gid: str) -> Any:
     """Write a text with its middle at a place, points."""
-    x, y = ax.transData.inverted().transform(middle * ax.get_figure(root=True).dpi / 72.0)
+    x, y = in_data(ax, middle)
     return ax.text(
         x, y, text, color=colour, fontsize=TEXT, ha="center", va="center", zorder=5.0,
         gid=gid, parse_math=False,
     )  # fmt: skip
 
 
-def boxes(texts: Sequence[Any]) -> list[Any]:
-    """Return the extents of texts, px."""
-    return [text.get_window_extent() for text in texts]
-
-
-def _covered(ax: Any, texts: Sequence[Any]) -> list[Float]:
+def _covered(texts: Sequence[Any]) -> list[Float]:
     """Return lines that fill the boxes of texts, points."""
-    per = 72.0 / ax.get_figure(root=True).dpi
     lines = []
-    for box in boxes(texts):
-        middle = (box.y0 + box.y1) / 2.0
-        lines += [np.array([[box.x0, y], [box.x1, y]]) * per for y in (box.y0, middle, box.y1)]
+    for text in texts:
+        (x0, y0), (x1, y1) = text_box(text)
+        lines += [np.array([[x0, y], [x1, y]]) for y in (y0, (y0 + y1) / 2.0, y1)]
     return lines
 
 
@@ -71,12 +53,11 @@ def write_beside(
     """Write texts beside points, clear of lines (all in data) and of other texts."""
     if not len(texts):
         return []
-    font = FontProperties(size=TEXT)
-    widths = np.array([text_size(text, font) for text in texts]) + PAD
-    covered = [*(_points(ax, line) for line in lines), *_covered(ax, avoid)]
+    widths = np.array([plain_size(text, TEXT) for text in texts]) + PAD
+    covered = [*(in_points(ax, line) for line in lines), *_covered(avoid)]
     obstacles = along(covered, STEP)
-    own = _points(ax, points)
-    middles = placed(own, widths, np.full(len(own), size / 2.0), obstacles, _bounds(ax))
+    own = in_points(ax, points)
+    middles = placed(own, widths, np.full(len(own), size / 2.0), obstacles, bounds(ax))
     return [
         _write(ax, text, middle, colour, gid) for text, middle in zip(texts, middles, strict=True)
     ]
@@ -92,24 +73,22 @@ def write_along(
     avoid: Sequence[Any] = (),
 ) -> list[Any]:
     """Write a text beside each line where there is most room; lines are in data."""
-    font = FontProperties(size=TEXT)
-    drawn = [_points(ax, line) for line in lines]
-    obstacles = along([*drawn, *(_points(ax, line) for line in others), *_covered(ax, avoid)], STEP)
-    bounds = _bounds(ax)
+    drawn = [in_points(ax, line) for line in lines]
+    obstacles = along([*drawn, *(in_points(ax, line) for line in others), *_covered(avoid)], STEP)
+    frame = bounds(ax)
     written = []
     for text, line, colour, gid in zip(texts, drawn, colours, gids, strict=True):
         known = line[np.isfinite(line).all(axis=1)]
-        known = known[((known >= bounds[0]) & (known <= bounds[1])).all(axis=1)]
+        known = known[((known >= frame[0]) & (known <= frame[1])).all(axis=1)]
         if not len(known):
             continue
         few = known[np.unique(np.linspace(0, len(known) - 1, CANDIDATES).astype(int))]
-        box = np.array(text_size(text, font)) + PAD
+        box = np.array(plain_size(text, TEXT)) + PAD
         best, room = None, -np.inf
         for point in few:
-            middle = placed(point[None], box[None], np.zeros(1), obstacles, bounds)[0]
+            middle = placed(point[None], box[None], np.zeros(1), obstacles, frame)[0]
             apart = (np.abs(obstacles - middle) - box / 2.0).max(axis=1).min(initial=np.inf)
-            border = np.minimum(middle - bounds[0], bounds[1] - middle) - box / 2.0
-            clear = min(float(apart), float(border.min()))
+            clear = min(float(apart), float(within(middle[None], box / 2.0, frame)[0]))
             if clear > room:
                 best, room = middle, clear
         assert best is not None
@@ -121,11 +100,11 @@ def write_along(
 
 def clear_of(ax: Any, texts: Sequence[Any], gid: str) -> None:
     """Remove texts of a name that lie on others or on one another, or leave the axes."""
-    taken = boxes(texts)
-    frame = ax.get_window_extent()
+    taken = [text.get_window_extent() for text in texts]
+    low, high = ax.bbox.get_points()
     for text in [one for one in ax.texts if one.get_gid() == gid]:
         box = text.get_window_extent()
-        leaves = box.x0 < frame.x0 or box.x1 > frame.x1 or box.y0 < frame.y0 or box.y1 > frame.y1
+        leaves = (box.min < low).any() or (box.max > high).any()
         if leaves or any(box.overlaps(other) for other in taken):
             text.remove()
         else:

@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
 
 from assur.pictures.chart import TEXT, chart_axes, title
-from assur.pictures.maps.quantity_axis import name_axis, settle
+from assur.pictures.maps.quantity_axis import name_axis
 from assur.pictures.maps.raster import finer
 from assur.pictures.maps.regions import hatched_region, roomiest
-from assur.pictures.style import blend
-from assur.pictures.style import style as palette
-from assur.pictures.text import text_size
+from assur.pictures.points import point_in_data, settle
+from assur.pictures.style import blend, style_of
+from assur.pictures.text import plain_size
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -48,10 +50,6 @@ def fill_counts(
     What has no room is explained in a legend, so far below the axes, relative to their height.
     With `hatched` regions of 0 are hatched as those that are not feasible.
     """
-    from matplotlib.colors import ListedColormap
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.patches import Patch
-
     fine_x, fine_y, fine = finer(x, y, values, lines)
     kinds = np.unique(values)
     positive = kinds[kinds > 0]
@@ -72,15 +70,13 @@ def fill_counts(
     if hatched and (fine == 0).any():
         hatched_region(ax, fine_x, fine_y, fine == 0, 0, style, "region 0").set_zorder(0.6)
     settle(ax)
-    per = ax.transData.inverted().transform([(0.0, 0.0), (1.0, 1.0)])
-    px, py = np.abs(per[1] - per[0]) * ax.get_figure(root=True).dpi / 72.0
+    point = point_in_data(ax)
     left = []
     for kind, colour in zip(kinds.tolist(), colours, strict=True):
         text = name(kind)
         if not text:
             continue
-        width, height = text_size(text, FontProperties(size=TEXT))
-        box = ((width + 6.0) * px, (height + 6.0) * py)
+        box = (np.array(plain_size(text, TEXT)) + 6.0) * point
         at_x, at_y, room = roomiest(fine_x, fine_y, fine == kind, box)
         if room >= 1.0:
             ax.text(
@@ -105,7 +101,7 @@ def _starts(axis: Float, count: int) -> Float:
 
 def design_map_picture(found: DesignMap, ax: Any, dark: bool) -> Any:
     """See `DesignMap.plot`."""
-    style = palette(dark)
+    style = style_of(dark)
     ax = chart_axes(ax, style)
     ax.grid(visible=False)
     ax.set(xlim=(found.x[0], found.x[-1]), ylim=(found.y[0], found.y[-1]))

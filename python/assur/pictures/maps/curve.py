@@ -8,10 +8,12 @@ import numpy as np
 
 from assur._arrays import short
 from assur.errors import InputError
-from assur.pictures.axes import length_unit, pyplot
 from assur.pictures.chart import CURVE, chart_axes, title
-from assur.pictures.maps.quantity_axis import name_axis, settle
-from assur.pictures.style import style as palette
+from assur.pictures.maps.callouts import write_along, write_beside
+from assur.pictures.maps.quantity_axis import name_axis
+from assur.pictures.numerals import angle_text, length_unit, true_minus
+from assur.pictures.points import settle
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -34,7 +36,6 @@ ALIKE = 0.008
 
 def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> Any:
     """See `ConfigurationCurve.plot`."""
-    pyplot()
     mechanism = curve._mechanism
     name = _output(mechanism) if name is None else name
     of_angle = isinstance(name, str) and name in mechanism.links
@@ -48,7 +49,7 @@ def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> 
     if not of_angle:
         values = _in_sight(mechanism, values)
     lines = [np.stack([m.q, y], axis=1) for m, y in zip(motions, values, strict=True)]
-    style = palette(dark)
+    style = style_of(dark)
     ax = chart_axes(ax, style)
     wrap = [
         flag and any(np.ptp(line[:, k]) >= TURN - NEAR for line in lines if np.isfinite(line).all())
@@ -205,15 +206,10 @@ def _write(
     ax: Any, lines: list[Float], dead: Float, colours: list[str], turns: bool, style: Any
 ) -> None:
     """Write the circuits' numbers and the dead points' q, clear of the lines."""
-    from assur.pictures.maps.callouts import write_along, write_beside
-
     settle(ax)
     written: list[Any] = []
     if 0 < len(dead) <= MOST:
-        said = [
-            (f"{np.degrees(q):.1f}°" if turns else _length(float(q))).replace("-", "−")
-            for q in dead[:, 0]
-        ]
+        said = [angle_text(q, 1) if turns else _length(q) for q in dead[:, 0].tolist()]
         written = write_beside(ax, said, dead, DIAMOND, style.error, "dead point text", lines)
     if len(lines) > 1:
         names = [f"circuit {i}" for i in range(len(lines))]
@@ -225,4 +221,4 @@ def _write(
 def _length(length: float) -> str:
     """Write a coordinate in m with the unit that suits it, in four digits."""
     unit, factor = length_unit(abs(length))
-    return f"{length * factor:.4g} {unit}"
+    return true_minus(f"{length * factor:.4g} {unit}")

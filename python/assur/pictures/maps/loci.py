@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.axes import pyplot, scale_bar
+from assur.pictures.axes import scale_bar
 from assur.pictures.chart import chart_axes, title
 from assur.pictures.linkage.artists import Drawn
 from assur.pictures.linkage.position import name_joints
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.maps.callouts import write_along
 from assur.pictures.maps.counts import fill_counts
-from assur.pictures.maps.quantity_axis import name_axis, settle
-from assur.pictures.style import style as palette
+from assur.pictures.maps.quantity_axis import name_axis
+from assur.pictures.points import settle
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,7 +37,7 @@ DASHES: dict[int, Any] = {1: "solid", 2: (0.0, (4.0, 1.6))}
 
 def workspace_picture(found: Workspace, loci: Sequence[SingularLocus], ax: Any, dark: bool) -> Any:
     """See `Workspace.plot`."""
-    style = palette(dark)
+    style = style_of(dark)
     lines = [locus.joints[found.joint] for locus in found.boundary]
     corners = np.array([[found.x[0], found.y[0]], [found.x[-1], found.y[-1]]])
     seen = [np.clip(line, corners[0], corners[1]) for line in lines]
@@ -59,8 +60,7 @@ def workspace_picture(found: Workspace, loci: Sequence[SingularLocus], ax: Any, 
 
 def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) -> Any:
     """See `SingularLocus.plot`."""
-    pyplot()
-    style = palette(dark)
+    style = style_of(dark)
     if joint is None:
         return _over_drivers(locus, ax, style)
     line = locus.joints[joint]

@@ -5,22 +5,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import patheffects
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from assur.pictures import style as palettes
-from assur.pictures.axes import pyplot
-from assur.pictures.chart import CURVE, TEXT, chart_axes, headroom, mark, number, title
-from assur.pictures.maps.quantity_axis import name_axis, settle
+from assur.pictures.chart import TEXT, chart_axes, title
+from assur.pictures.maps.callouts import clear_of, write_beside
+from assur.pictures.maps.metric_curve import metric_curve
+from assur.pictures.maps.quantity_axis import name_axis
+from assur.pictures.maps.regions import hatched_region, roomiest
+from assur.pictures.maps.values import extremes, level_text, value_text
+from assur.pictures.points import point_in_data, settle
+from assur.pictures.style import blend, style_of
+from assur.pictures.text import plain_size
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from assur._arrays import Float
+    from assur.pictures.maps.values import Reasons
     from assur.pictures.style import Style
 
-    Reasons = list[tuple[str, npt.NDArray[np.bool_]]]
-
-# Of the greatest value of a map: what is less is rounding.
-ROUNDING = 1e-12
 # Steps of a map's colours; the least of the hue on the canvas.
 LEVELS, PALEST = 7, 0.14
 MARK = 7.0
@@ -37,24 +40,15 @@ def metric_picture(
     degrees: bool,
 ) -> Any:
     """Draw `values` over one or two named axes; each of `reasons` has the nodes without value."""
-    pyplot()
-    style = palettes.style(dark)
+    style = style_of(dark)
     ax = chart_axes(ax, style)
     values = np.where(np.isfinite(values), values, np.nan) * (180.0 / np.pi if degrees else 1.0)
     unit = "°" if degrees else ""
     if len(axes) == 1:
-        _curve(ax, name, axes[0], values, reasons, best, unit, style)
+        metric_curve(ax, name, axes[0], values, reasons, best, unit, style)
     else:
         _map(ax, name, axes, values, reasons, best, unit, style)
     return ax
-
-
-def _wanted(values: Float, best: str) -> list[tuple[str, int]]:
-    """Return the extremes that are marked, with their flat indices."""
-    if not np.isfinite(values).any():
-        return []
-    both = [("least", int(np.nanargmin(values))), ("greatest", int(np.nanargmax(values)))]
-    return [one for one in both if best in (one[0], "both")]
 
 
 def _map(
@@ -77,7 +71,7 @@ def _map(
         _contours(ax, x, y, values, unit, style)
     settle(ax)
     _write_reasons(ax, x, y, reasons, style)
-    places = [(text, np.unravel_index(i, values.shape)) for text, i in _wanted(values, best)]
+    places = [(text, np.unravel_index(i, values.shape)) for text, i in extremes(values, best)]
     _mark_best(
         ax, [(text, x[i], y[j], values[i, j]) for text, (i, j) in places], values, unit, style
     )
@@ -85,11 +79,6 @@ def _map(
 
 def _contours(ax: Any, x: Float, y: Float, values: Float, unit: str, style: Style) -> None:
     """Fill between contours in one hue, write their values, and draw the colour bar."""
-    from matplotlib.colors import LinearSegmentedColormap
-    from matplotlib.ticker import FuncFormatter, MaxNLocator
-
-    from assur.pictures.style import blend
-
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     if high - low <= 1e-9 * max(abs(low), abs(high)):
         low, high = low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
@@ -106,18 +95,16 @@ def _contours(ax: Any, x: Float, y: Float, values: Float, unit: str, style: Styl
             x, y, masked, levels=inner, colors=style.ink, linewidths=0.7, alpha=0.55, zorder=3.0
         )
         lines.set_gid("contours")
-        texts = ax.clabel(lines, fmt=lambda z: _level(z) + unit, fontsize=TEXT - 1.0, inline=True)
+        texts = ax.clabel(
+            lines, fmt=lambda z: f"{level_text(z)}{unit}", fontsize=TEXT - 1.0, inline=True
+        )
         for text in texts:
             text.set(color=style.ink, zorder=3.5, gid="contour value")
     bar = ax.get_figure().colorbar(filled, ax=ax, aspect=28.0, pad=0.02)
     bar.outline.set_visible(False)
     bar.ax.tick_params(colors=style.second, labelsize=TEXT, length=0.0)
-    bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda z, _: _level(z) + unit))
+    bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda z, _: level_text(z) + unit))
     bar.ax.set_gid("colour bar")
-
-
-def _level(level: float) -> str:
-    return f"{level:.6g}".replace("-", "−")
 
 
 def _reached(values: Float) -> Float:
@@ -140,11 +127,6 @@ def _reached(values: Float) -> Float:
 
 def _write_reasons(ax: Any, x: Float, y: Float, reasons: Reasons, style: Style) -> None:
     """Hatch where there is no value, with the reason in it, or in a legend if it has no room."""
-    from matplotlib.font_manager import FontProperties
-
-    from assur.pictures.maps.regions import hatched_region, roomiest
-    from assur.pictures.text import text_size
-
     left = []
     if reasons and min(len(x), len(y)) > 1:
         nowhere = np.any([which for _, which in reasons], axis=0)
@@ -152,14 +134,11 @@ def _write_reasons(ax: Any, x: Float, y: Float, reasons: Reasons, style: Style) 
             x, y, nowhere.T.astype(float), levels=[0.5], colors=style.second, linewidths=1.0
         )
         edge.set(zorder=2.5, gid="edge")
-    points = 72.0 / ax.get_figure(root=True).dpi
-    per = (ax.transData.inverted().transform([(1.0, 1.0), (0.0, 0.0)]) / points).T
-    per_x, per_y = (abs(float(one - other)) for one, other in per)
+    point = point_in_data(ax)
     for i, (text, which) in enumerate(reasons):
         if min(len(x), len(y)) > 1:
             patch = hatched_region(ax, x, y, which, i, style, f"region {text}")
-        width, height = text_size(text, FontProperties(size=TEXT))
-        box = ((width + 8.0) * per_x, (height + 8.0) * per_y)
+        box = (np.array(plain_size(text, TEXT)) + 8.0) * point
         at_x, at_y, room = roomiest(x, y, which, box)
         if room >= 1.0:
             ax.text(
@@ -181,94 +160,15 @@ def _mark_best(
     ax: Any, places: list[tuple[str, Any, Any, Any]], values: Float, unit: str, style: Style
 ) -> None:
     """Mark designs by a ring with the value beside it; values of contours make room."""
-    from matplotlib import patheffects
-
-    from assur.pictures.maps.callouts import clear_of, write_beside
-
     for text, x, y, _ in places:
         ax.plot(
             [x], [y], "o", markersize=MARK, markerfacecolor=style.canvas, clip_on=False,
             markeredgecolor=style.driver, markeredgewidth=2.0, zorder=5.0, gid=f"best {text}",
         )  # fmt: skip
-    said = [f"{text} {_written(float(value), values)}{unit}" for text, _, _, value in places]
+    said = [f"{text} {value_text(float(value), values)}{unit}" for text, _, _, value in places]
     points = np.array([(x, y) for _, x, y, _ in places]).reshape(-1, 2)
     reasons = [text for text in ax.texts if text.get_gid() == "reason"]
     written = write_beside(ax, said, points, MARK, style.driver, "best text", avoid=reasons)
     for text in written:
         text.set_path_effects([patheffects.withStroke(linewidth=3.0, foreground=style.canvas)])
     clear_of(ax, [*reasons, *written], "contour value")
-
-
-def _curve(
-    ax: Any,
-    name: str,
-    axis: tuple[str, Float],
-    values: Float,
-    reasons: Reasons,
-    best: str,
-    unit: str,
-    style: Style,
-) -> None:
-    from matplotlib.ticker import FuncFormatter
-
-    x_name, x = axis
-    margin = 0.0 if len(x) > 1 else abs(float(x[0])) or 1.0
-    ax.set_xlim(float(x[0]) - margin, float(x[-1]) + margin)
-    name_axis(ax.xaxis, x_name, x, x_name.endswith(".angle"), style)
-    title(ax, name, style)
-    (line,) = ax.plot(x, values, color=style.path, linewidth=CURVE, gid=name)
-    known = np.isfinite(values)
-    alone = known & ~np.roll(known, 1) & ~np.roll(known, -1)
-    if alone.any():
-        # A line shows no point without neighbours.
-        line.set(marker="o", markersize=3.0, markevery=np.flatnonzero(alone).tolist())
-    headroom(ax, values)
-    if unit:
-        ax.yaxis.set_major_formatter(FuncFormatter(lambda z, _: _level(z) + unit))
-    settle(ax)
-    _spans(ax, x, reasons, style)
-    for text, i in _wanted(values, best):
-        said = f"{text} {_written(float(values[i]), values)}{unit}"
-        mark(ax, float(x[i]), float(values[i]), said, text == "greatest", style.path, style)
-
-
-def _spans(ax: Any, x: Float, reasons: Reasons, style: Style) -> None:
-    """Hatch where there is no value, halfway to the neighbours."""
-    from assur.pictures.maps.regions import HATCHES
-
-    ends = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2.0, x[-1:]])
-    for number_, (text, which) in enumerate(reasons):
-        flags = np.concatenate([[False], which, [False]])
-        starts = np.flatnonzero(flags[1:] & ~flags[:-1])
-        stops = np.flatnonzero(~flags[1:] & flags[:-1])
-        for low, high in zip(ends[starts], ends[stops], strict=True):
-            ax.axvspan(
-                low, high, facecolor=style.canvas, edgecolor=style.faint, linewidth=0.0,
-                hatch=HATCHES[number_ % len(HATCHES)], zorder=1.5, gid=f"region {text}",
-            )  # fmt: skip
-        widest = int(np.argmax(ends[stops] - ends[starts]))
-        low, high = float(ends[starts][widest]), float(ends[stops][widest])
-        _write_span(ax, low, high, text, style)
-
-
-def _write_span(ax: Any, low: float, high: float, text: str, style: Style) -> None:
-    """Write a reason across its span, or along it where that is narrow."""
-    from matplotlib.font_manager import FontProperties
-
-    from assur.pictures.text import text_size
-
-    ends = ax.transData.transform([(low, 0.0), (high, 0.0)])[:, 0]
-    room = float(ends[1] - ends[0]) * 72.0 / ax.get_figure(root=True).dpi
-    width = text_size(text, FontProperties(size=TEXT))[0]
-    ax.text(
-        (low + high) / 2.0, 0.5, text, transform=ax.get_xaxis_transform(), ha="center",
-        va="center", rotation=0.0 if width + 8.0 < room else 90.0, color=style.ink, fontsize=TEXT,
-        zorder=4.0, gid="reason", parse_math=False,
-        bbox={"facecolor": style.canvas, "edgecolor": "none", "pad": 2.5},
-    )  # fmt: skip
-
-
-def _written(value: float, values: Float) -> str:
-    """Write a value of the map; what is only rounding, beside the others, is 0."""
-    greatest = float(np.nanmax(np.abs(values)))
-    return number(0.0 if abs(value) <= ROUNDING * greatest else value)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
-from assur.pictures.axes import length_unit
 from assur.pictures.chart import TEXT
+from assur.pictures.numerals import length_unit, true_minus
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -30,8 +31,6 @@ def name_axis(
     axis: Any, name: str, values: Float, is_angle: bool, style: Style
 ) -> tuple[str, float]:
     """Name an axis of a chart and write its ticks in the unit that suits; return the unit."""
-    from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
-
     unit, factor = unit_of(values, is_angle)
     low, high = (float(end) for end in axis.get_view_interval())
     span = abs(high - low) * factor
@@ -45,17 +44,9 @@ def name_axis(
     def written(x: float, _: Any) -> str:
         # Rounded, for a tick is a multiple of a step that has no exact number.
         text = f"{round(x * factor, 9):.6g}"
-        return ("0" if text == "-0" else text).replace("-", "−") + suffix
+        return true_minus("0" if text == "-0" else text) + suffix
 
     axis.set_major_formatter(FuncFormatter(written))
     text = name if is_angle else f"{name}, {unit}"
     axis.set_label_text(text, color=style.second, fontsize=TEXT, parse_math=False)
     return unit, factor
-
-
-def settle(ax: Any) -> None:
-    """Lay the figure out now: what is placed clear of something else stays so."""
-    figure = ax.get_figure(root=True)
-    engine = figure.get_layout_engine()
-    if engine is not None:
-        engine.execute(figure)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -21,9 +23,6 @@ def hatched_region(
     ax: Any, x: Float, y: Float, inside: npt.NDArray[np.bool_], number: int, style: Style, gid: str
 ) -> Any:
     """Hatch the part of a map where a flag over its nodes holds; return the patch."""
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path
-
     z = inside.T.astype(np.float64)
     contours = ax.contourf(x, y, z, levels=[0.5, 1.5])
     path = Path.make_compound_path(*contours.get_paths())
@@ -42,7 +41,7 @@ def hatched_region(
 
 
 def roomiest(
-    x: Float, y: Float, inside: npt.NDArray[np.bool_], box: tuple[float, float]
+    x: Float, y: Float, inside: npt.NDArray[np.bool_], box: Float
 ) -> tuple[float, float, float]:
     """Return where a box of a size has most room in a region, and how much of the box fits.
 
@@ -57,7 +56,7 @@ def roomiest(
     grid = inside[np.ix_(*nearest)]
     places = np.stack(np.meshgrid(*fine, indexing="ij"), axis=-1)
     own, others = places[grid], places[~grid]
-    half = np.array(box) / 2.0
+    half = box / 2.0
     room = np.full(len(own), np.inf)
     for part in np.array_split(others, max(1, len(others) // 256)):
         if len(part):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.pictures.page.quantities import checked_diagrams, checked_paths
+from assur.pictures.page.selection import checked_diagrams, checked_paths
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.extent import corners, usual_link
 from assur.pictures.scene.frames import Frames
@@ -129,7 +129,7 @@ def _ground(frames: Frames) -> list[float]:
 
 
 def _driver(mechanism: Mechanism) -> str:
-    drivers = mechanism.driver if isinstance(mechanism.driver, tuple) else (mechanism.driver,)
+    drivers = mechanism._description.drivers
     return ", ".join(d if isinstance(d, str) else f"{d.link} − {d.relative_to}" for d in drivers)
 
 

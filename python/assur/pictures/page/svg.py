@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style as sizes
-from assur.pictures.scene.extent import usual_link
+from assur.pictures import sizes
+from assur.pictures.scene.extent import line_vertices, usual_link
 from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
 from assur.pictures.scene.labels import along, placed
 from assur.pictures.scene.parts import Disc, Hatching
@@ -124,7 +124,7 @@ class _Picture:
         boxes = np.array([(LETTER * NAME * len(name.text) + 2.0, NAME_BOX) for name in names])
         radii = np.array([name.radius * self._size for name in names])
         lines = [
-            np.array([self._place(part.link, vertex) for vertex in _vertices(part)])
+            np.array([self._place(part.link, vertex) for vertex in line_vertices(part)])
             for part in self._played.scene.parts
             if not isinstance(part, Disc)
         ]
@@ -146,11 +146,6 @@ class _Picture:
             f'font-size="{NAME:g}">{html.escape(name.text)}</text>'
             for name, (x, y) in zip(names, places, strict=True)
         ]
-
-
-def _vertices(part: Any) -> Any:
-    vertices = (part.start, part.end) if isinstance(part, Hatching) else part.vertices
-    return (*vertices, vertices[0]) if getattr(part, "closed", False) else vertices
 
 
 def _path(points: Float) -> str:

@@ -9,17 +9,15 @@ import numpy as np
 
 from assur._arrays import real_number
 from assur.errors import InputError
-from assur.pictures.scene.course import FREE_STROKE
+from assur.pictures.scene.course import TURN, free_stroke, interval_at
 from assur.pictures.scene.frames import FAR, Frames, frames_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
 ROWS = 181
-TURN = 2.0 * np.pi
 # Motions that close only after more turns than this are shown over one, to and fro.
 MOST_TURNS = 4
 # q = middle − half · cos u: dense at dead points, where everything is smooth in u, not in q. So
@@ -73,7 +71,7 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
     q0 = float(mechanism._q0_array()) if at is None else real_number(at, "q")
     turns = mechanism.driver not in mechanism.slides
     limits = mechanism.limits()
-    low, high = _interval(limits, q0, turns)
+    low, high = interval_at(limits, q0, turns)
     if not low < high:
         places = " ".join(f"[{a:.6g}, {b:.6g}]" for a, b in limits.intervals.tolist())
         message = f"q is {q0:g}, beyond what can be reached: {places or 'nothing'}"
@@ -87,8 +85,7 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
         if frames is not None:
             grid = {"kind": "linear", "low": 0.0, "high": TURN * count}
             return Turn(mechanism, frames, grid, closes, unit, q0 % (TURN * count))
-    size = float(np.ptp(np.array(list(mechanism.joints.values())), axis=0).max())
-    free = TURN / 2.0 if turns else FREE_STROKE * size or FREE_STROKE
+    free = TURN / 2.0 if turns else free_stroke(mechanism)
     low, high = max(low, q0 - free), min(high, q0 + free)
     # No picture can follow where something goes toward infinity.
     low, high = _nearby(mechanism, q0, low, high, rows)
@@ -191,18 +188,6 @@ def _closes(q: Float, unit: Unit, motion: Motion) -> bool:
         return False
     joints = (motion.joint(name).value for name in motion.mechanism.joints)
     return all(bool(np.abs(joint[-1] - joint[0]).max() < 1e-9) for joint in joints)
-
-
-def _interval(limits: Limits, q0: float, turns: bool) -> tuple[float, float]:
-    """Return the interval that holds q0."""
-    for own_low, own_high in limits.intervals.tolist():
-        # Intervals lie about (−π, π], q0 wherever it was typed.
-        middle = (own_low + own_high) / 2.0
-        shift = TURN * round((q0 - middle) / TURN) if turns and np.isfinite(middle) else 0.0
-        low, high = own_low + shift, own_high + shift
-        if low - 1e-9 <= q0 <= high + 1e-9:
-            return low, high
-    return q0, q0
 
 
 def _linear(mechanism: Mechanism, low: float, high: float, rows: int) -> Frames | None:

@@ -1,1 +1,6 @@
 """Plans of velocities and accelerations, hodographs."""
+
+from assur.pictures.axes import pyplot
+
+# Whoever lacks matplotlib reads what to install, whichever module of these comes first.
+pyplot()

@@ -9,10 +9,10 @@ from matplotlib.lines import Line2D
 
 from assur._validate import checked_name
 from assur.errors import InputError
-from assur.pictures import style as palettes
 from assur.pictures.axes import TEXT, canvas, scale_bar
-from assur.pictures.chart import number
 from assur.pictures.linkage.refine import refined
+from assur.pictures.numerals import angle_text, number
+from assur.pictures.style import style_of
 from assur.pictures.text import write_names
 from assur.pictures.vectors.arrows import LOOKS, SYMBOLS, arrow
 from assur.pictures.vectors.beside import Beside
@@ -93,7 +93,7 @@ def hodograph(
         raise InputError(message, joint=joint)
     known = np.vstack([ends[np.isfinite(sizes)], np.zeros(2)])
     on = canvas(
-        ax, (known.min(axis=0), known.max(axis=0)), palettes.style(dark), np.inf, 2.0 * LINE_HEIGHT
+        ax, (known.min(axis=0), known.max(axis=0)), style_of(dark), np.inf, 2.0 * LINE_HEIGHT
     )
     what = ("velocity", "acceleration")[order - 1]
     marked = _marked(on, ends, steps)
@@ -103,7 +103,7 @@ def hodograph(
         and rows.q.ndim == 1
         and motion.mechanism.driver not in rows.mechanism.slides
     ):
-        names = [f"{np.degrees(rows.q[i]):.0f}°".replace("-", "−") for i in marked]
+        names = [angle_text(rows.q[i], 0) for i in marked]
     _draw(on, joint, what, ends, dict(zip(marked, names, strict=True)))
     noun = ("velocities", "accelerations")[order - 1]
     letter, unit = SYMBOLS[what]

@@ -11,13 +11,12 @@ from matplotlib.path import Path
 
 from assur._validate import checked_index, one_of, real_array
 from assur.errors import InputError
-from assur.pictures import style as palettes
 from assur.pictures.axes import canvas, scale_bar
-from assur.pictures.chart import number
+from assur.pictures.numerals import number
 from assur.pictures.plans.plan import Plan, Vector, plan_of
 from assur.pictures.plans.plan_names import heading, image_names, numbered, point_names, pole_name
 from assur.pictures.scene.geometry import hull
-from assur.pictures.style import blend
+from assur.pictures.style import blend, style_of
 from assur.pictures.text import name_font, text_size, write_names
 from assur.pictures.vectors.arrows import LOOKS, SYMBOLS, arrow
 from assur.pictures.vectors.beside import Beside
@@ -64,7 +63,7 @@ def polygon_picture(
         raise InputError(message)
     ends = [point for vector in plan.vectors for point in (vector.start, vector.end)]
     corners = np.array([np.zeros(2), *images, *ends])
-    style = palettes.style(dark)
+    style = style_of(dark)
     lines = heading(one, plan, what, omega, alpha)
     on = canvas(
         ax,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style
+from assur.pictures import sizes
 from assur.pictures.scene.geometry import at
 from assur.pictures.scene.links import link_parts
 from assur.pictures.scene.pairs import joint_part, pivot_parts, sliding_arrow, turning_arrow
@@ -51,7 +51,7 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
         point = frames.local[links[0]][joint]
         joints.append(joint_part(joint, links[0], point, len(links), "ground" in links))
         own = [(link, *frames.local[link][joint].tolist()) for link in links]
-        radius = style.BLOCK_LENGTH / 2.0 if blocks.intersection(own) else style.PIVOT
+        radius = sizes.BLOCK_LENGTH / 2.0 if blocks.intersection(own) else sizes.PIVOT
         names.append(Name(joint, links[0], at(point), radius))
     return Scene(
         frames.links,
@@ -65,7 +65,7 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
 
 def _drivers(mechanism: Mechanism) -> tuple[list[tuple[str, str]], list[str]]:
     """Return the driven links, each with the one it is measured from, and the driven slides."""
-    drivers = mechanism.driver if isinstance(mechanism.driver, tuple) else (mechanism.driver,)
+    drivers = mechanism._description.drivers
     sliding = [one for one in drivers if isinstance(one, str) and one in mechanism.slides]
     angles = [
         (one, "ground") if isinstance(one, str) else (one.link, one.relative_to)

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from assur._arrays import Float
+    from assur.kinematics.limits import Limits
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -19,6 +20,9 @@ ROWS = 73
 FREE_STROKE = 0.5
 # Next to the ends of an interval parts may move infinitely fast: so near them, relative to it.
 END_GAP = 1e-6
+# A coordinate beyond an interval by no more than this is at its end.
+ROUNDING = 1e-9
+TURN = 2.0 * np.pi
 
 
 def course(
@@ -36,7 +40,7 @@ def course(
         return mechanism.solve(q0, order=order, assembly=assembly, on_error="nan")
     turns = mechanism.driver not in mechanism.slides
     if turns:
-        q = float(q0) + np.linspace(0.0, 2.0 * np.pi, rows)
+        q = float(q0) + np.linspace(0.0, TURN, rows)
         motion = mechanism.solve(q, order=order, assembly=assembly, on_error="nan")
         if np.isfinite(motion.q).all() and not (motion.status > 2).any():
             return motion
@@ -48,20 +52,29 @@ def _reachable(
     mechanism: Mechanism, assembly: Mapping[str, int] | None, q0: float, rows: int, turns: bool
 ) -> Float:
     """Return rows of q over the interval that holds q0."""
-    intervals = mechanism.limits(assembly).intervals
-    own = q0
-    if turns and len(intervals):
-        # Intervals lie about (−π, π], q0 wherever it was typed.
-        middles = intervals.mean(axis=1)
-        shift = 2.0 * np.pi * np.round((q0 - middles) / (2.0 * np.pi))
-        intervals = intervals + np.where(np.isfinite(shift), shift, 0.0)[:, None]
-    holding = [(low, high) for low, high in intervals if low <= own <= high]
-    low, high = holding[0] if holding else (own, own)
+    low, high = interval_at(mechanism.limits(assembly), q0, turns)
     if np.isfinite(low) and np.isfinite(high):
         gap = END_GAP * (high - low)
         return np.linspace(low + gap, high - gap, rows)
     if turns:
-        return own + np.linspace(0.0, 2.0 * np.pi, rows)
+        return q0 + np.linspace(0.0, TURN, rows)
+    free = free_stroke(mechanism)
+    return np.linspace(max(low, q0 - free), min(high, q0 + free), rows)
+
+
+def interval_at(limits: Limits, q0: float, turns: bool) -> tuple[float, float]:
+    """Return the interval that holds q0; of an angle at the turn of q0."""
+    for first, last in limits.intervals.tolist():
+        # Intervals lie about (−π, π], q0 wherever it was typed.
+        middle = (first + last) / 2.0
+        shift = TURN * round((q0 - middle) / TURN) if turns and np.isfinite(middle) else 0.0
+        low, high = first + shift, last + shift
+        if low - ROUNDING <= q0 <= high + ROUNDING:
+            return low, high
+    return q0, q0
+
+
+def free_stroke(mechanism: Mechanism) -> float:
+    """Return how far a slide is moved where nothing limits it, m."""
     points = np.array(list(mechanism.joints.values()))
-    free = FREE_STROKE * float(np.ptp(points, axis=0).max()) or FREE_STROKE
-    return np.linspace(max(low, own - free), min(high, own + free), rows)
+    return FREE_STROKE * float(np.ptp(points, axis=0).max()) or FREE_STROKE

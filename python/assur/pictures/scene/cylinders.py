@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style
-from assur.pictures.scene.geometry import at
+from assur.pictures import sizes
+from assur.pictures.scene.geometry import at, unit_vector
 from assur.pictures.scene.parts import Colour, Line, Stroke
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Cylinder:
 def cylinder(axis: Axis, base: Float) -> Cylinder:
     """Return the barrel and the rod of a slide; `base` is the joint of the barrel."""
     angle = axis.angles[1]
-    along = np.array([np.cos(angle), np.sin(angle)])
+    along = unit_vector(angle)
     start = float(base @ along)
     # From the barrel's joint to the rod's: forward or backward along the guide.
     low, high = sorted((abs(axis.low - start), abs(axis.high - start)))
@@ -59,7 +59,7 @@ def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
     colour: Colour = "driver" if driven else "link"
     left = np.array([-forward[1], forward[0]])
     name = f"slide {axis.name}"
-    half = style.BARREL / 2.0
+    half = sizes.BARREL / 2.0
     ends = [(0.0, EYE, -half), (barrel, 0.0, -half), (barrel, 0.0, half), (0.0, EYE, half)]
     outline = tuple(
         at(base + length * forward, *(px * forward + across * left)) for length, px, across in ends
@@ -69,14 +69,14 @@ def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
     piston = axis.block - rod * rod_forward
     reach = half - 2.0
     return [
-        Stroke(axis.guide, name, eye, style.BAR, colour),
-        Stroke(axis.guide, name, outline, style.OUTLINE, colour, closed=True, fill="tint", floor=2),
-        Stroke(axis.sliding, name, (at(piston), at(axis.block)), style.ROD, colour, floor=3),
+        Stroke(axis.guide, name, eye, sizes.BAR, colour),
+        Stroke(axis.guide, name, outline, sizes.OUTLINE, colour, closed=True, fill="tint", floor=2),
+        Stroke(axis.sliding, name, (at(piston), at(axis.block)), sizes.ROD, colour, floor=3),
         Stroke(
             axis.sliding,
             name,
             (at(piston, *(-reach * rod_left)), at(piston, *(reach * rod_left))),
-            style.PISTON,
+            sizes.PISTON,
             colour,
             floor=3,
         ),
@@ -87,4 +87,4 @@ def _same_way(axis: Axis, forward: Float, along: Float) -> Float:
     """Return the direction from barrel to rod in the rod's frame."""
     angle = axis.angles[0]
     sign = 1.0 if float(forward @ along) > 0.0 else -1.0
-    return sign * np.array([np.cos(angle), np.sin(angle)])
+    return sign * unit_vector(angle)

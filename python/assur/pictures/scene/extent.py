@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures.scene.parts import Disc, Hatching
+from assur.pictures.scene.parts import Disc, Hatching, Stroke
 
 if TYPE_CHECKING:
     from assur.pictures.scene.frames import Frames
@@ -38,3 +38,9 @@ def vertices(part: Part) -> tuple[Vertex, ...]:
     if isinstance(part, Disc):
         return (part.centre,)
     return (part.start, part.end) if isinstance(part, Hatching) else part.vertices
+
+
+def line_vertices(part: Part) -> tuple[Vertex, ...]:
+    """Return the points of a part's line; a closed one ends where it begins."""
+    points = vertices(part)
+    return (*points, points[0]) if isinstance(part, Stroke) and part.closed else points

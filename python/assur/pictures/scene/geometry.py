@@ -57,3 +57,13 @@ def arc(radius: float, start: float, end: float, points: int = 17) -> list[tuple
     """Return points of an arc in px, angles in rad."""
     angles = np.linspace(start, end, points)
     return [(radius * float(np.cos(a)), radius * float(np.sin(a))) for a in angles]
+
+
+def unit_vector(angle: float) -> Float:
+    """Return the unit vector at an angle."""
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+def left_of(angle: float) -> Float:
+    """Return the unit vector to the left of a direction."""
+    return np.array([-np.sin(angle), np.cos(angle)])

@@ -102,7 +102,7 @@ def chosen(
         near = (np.abs(known[:, :2] - point) < gap + size + known[:, 2:4] + ENOUGH).all(axis=1)
         near[first + i] = False
         clear = _clearance(centres, half, known[near])
-        border = np.minimum(centres - half - bounds[0], bounds[1] - centres - half).min(axis=1)
+        border = within(centres, half, bounds)
         clear = np.minimum(clear, np.where(border < 0.0, ON_NAME * border, border))
         worth = np.minimum(clear, ENOUGH) - habit
         best = int(np.argmax(worth))
@@ -135,6 +135,12 @@ def _clearance(centres: Float, half: Float, things: Float) -> Float:
     outside = np.sqrt(np.maximum(dx, 0.0) ** 2 + np.maximum(dy, 0.0) ** 2)
     distance: Float = (outside + inside).min(axis=1)
     return distance
+
+
+def within(centres: Float, half: Float, bounds: tuple[Float, Float]) -> Float:
+    """Return how far each box is inside a frame, negative outside."""
+    inside: Float = np.minimum(centres - half - bounds[0], bounds[1] - centres - half).min(axis=1)
+    return inside
 
 
 def along(polylines: list[Float], step: float) -> Float:

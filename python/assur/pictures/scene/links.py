@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style
+from assur.pictures import sizes
 from assur.pictures.scene.geometry import ON_LINE, about, arc, at, hull
 from assur.pictures.scene.parts import Stroke
 
@@ -19,11 +19,11 @@ def link_parts(link: str, joints: dict[str, Float], driven: bool) -> list[Stroke
     points = np.array(list(joints.values()))
     if len(points) < 2 or not np.ptp(points, axis=0).any():
         return []
-    width = style.DRIVEN_BAR if driven else style.BAR
+    width = sizes.DRIVEN_BAR if driven else sizes.BAR
     corners = hull(points)
     if len(corners) > 2:
         vertices = tuple(at(points[i]) for i in corners)
-        plate = style.PLATE * width / style.BAR
+        plate = sizes.PLATE * width / sizes.BAR
         return [
             Stroke(
                 link,
@@ -45,6 +45,6 @@ def link_parts(link: str, joints: dict[str, Float], driven: bool) -> list[Stroke
     for point in inner:
         # Through a joint inside it a bar goes on under a bridge.
         if min(np.hypot(*(point - end)) for end in ends) > ON_LINE * np.hypot(*along):
-            shape = about(point, angle, arc(style.BRIDGE, 0.0, np.pi))
+            shape = about(point, angle, arc(sizes.BRIDGE, 0.0, np.pi))
             bridges.append(Stroke(link, f"link {link}", shape, 2.0))
     return [bar, *bridges]

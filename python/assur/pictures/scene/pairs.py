@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style
-from assur.pictures.scene.geometry import about, arc, at
+from assur.pictures import sizes
+from assur.pictures.scene.geometry import about, arc, at, unit_vector
 from assur.pictures.scene.parts import Disc, Hatching, Part, Stroke
 
 if TYPE_CHECKING:
@@ -21,13 +21,13 @@ ARROW_TAIL, ARROW_TIP = 0.44, 1.5
 def pivot_parts(joint: str, point: Float) -> list[Part]:
     """Draw a fixed pivot: a triangle on hatched ground; the joint's circle comes on top."""
     name = f"pivot {joint}"
-    half, base, height = style.PIVOT_WIDTH / 2.0, style.PIVOT_BASE / 2.0, -style.PIVOT_HEIGHT
+    half, base, height = sizes.PIVOT_WIDTH / 2.0, sizes.PIVOT_BASE / 2.0, -sizes.PIVOT_HEIGHT
     triangle = (at(point), at(point, -half, height), at(point, half, height))
     left, right = at(point, -base, height), at(point, base, height)
     return [
-        Stroke("ground", name, triangle, style.GUIDE, "ink", closed=True, fill="canvas"),
-        Stroke("ground", name, (left, right), style.GUIDE, "ink"),
-        Hatching("ground", name, left, right, style.GROUND_SPACING),
+        Stroke("ground", name, triangle, sizes.GUIDE, "ink", closed=True, fill="canvas"),
+        Stroke("ground", name, (left, right), sizes.GUIDE, "ink"),
+        Hatching("ground", name, left, right, sizes.GROUND_SPACING),
     ]
 
 
@@ -35,26 +35,26 @@ def joint_part(joint: str, link: str, point: Float, links: int, fixed: bool) -> 
     """Draw a turning pair as a circle; a point of one link is a dot."""
     name = f"joint {joint}"
     if links < 2:
-        return Disc(link, name, at(point), 0.64 * style.JOINT, 0.0, fill="solid")
-    return Disc(link, name, at(point), style.PIVOT if fixed else style.JOINT, style.OUTLINE)
+        return Disc(link, name, at(point), 0.64 * sizes.JOINT, 0.0, fill="solid")
+    return Disc(link, name, at(point), sizes.PIVOT if fixed else sizes.JOINT, sizes.OUTLINE)
 
 
 def turning_arrow(link: str, about_point: Float, toward: float) -> list[Part]:
     """Draw the sense of +q about a pivot; `toward` is the link's direction in its frame, rad."""
-    radius = style.ARROW_RADIUS
+    radius = sizes.ARROW_RADIUS
     # The arc ends within the head.
-    inside = ARROW_TIP - 0.8 * style.ARROW_HEAD / radius
+    inside = ARROW_TIP - 0.8 * sizes.ARROW_HEAD / radius
     shaft = arc(radius, ARROW_TAIL, inside)
-    tip = np.array([np.cos(ARROW_TIP), np.sin(ARROW_TIP)]) * radius
-    chord = tip - np.array([np.cos(inside), np.sin(inside)]) * radius
+    tip = unit_vector(ARROW_TIP) * radius
+    chord = tip - unit_vector(inside) * radius
     head = _head(tip, float(np.arctan2(chord[1], chord[0])))
     return _arrow(link, about_point, toward, shaft, head)
 
 
 def sliding_arrow(axis: Axis) -> list[Part]:
     """Draw the sense of +q beside a driven slide."""
-    half, side = style.DRIVE_LENGTH / 2.0, style.DRIVE_DISTANCE + style.BLOCK_WIDTH / 2.0
-    shaft = [(-half, side), (half - 0.8 * style.ARROW_HEAD, side)]
+    half, side = sizes.DRIVE_LENGTH / 2.0, sizes.DRIVE_DISTANCE + sizes.BLOCK_WIDTH / 2.0
+    shaft = [(-half, side), (half - 0.8 * sizes.ARROW_HEAD, side)]
     head = _head(np.array([half, side]), 0.0)
     return _arrow(axis.sliding, axis.block, axis.angles[0], shaft, head)
 
@@ -67,15 +67,15 @@ def _arrow(
     head: list[tuple[float, float]],
 ) -> list[Part]:
     return [
-        Stroke(link, "driver", about(point, angle, shaft), style.ARROW, "driver"),
+        Stroke(link, "driver", about(point, angle, shaft), sizes.ARROW, "driver"),
         Stroke(link, "driver", about(point, angle, head), 0.0, "driver", closed=True, fill="solid"),
     ]
 
 
 def _head(tip: Float, angle: float) -> list[tuple[float, float]]:
     """Return a filled arrow head in px."""
-    back, half = style.ARROW_HEAD, style.ARROW_HEAD_WIDTH / 2.0
-    along = np.array([np.cos(angle), np.sin(angle)])
+    back, half = sizes.ARROW_HEAD, sizes.ARROW_HEAD_WIDTH / 2.0
+    along = unit_vector(angle)
     left = np.array([-along[1], along[0]])
     points = (tip, tip - back * along + half * left, tip - back * along - half * left)
     return [(float(x), float(y)) for x, y in points]

@@ -1,4 +1,4 @@
-"""What a diagram is made of: strokes, discs and hatched lines, each fixed to a link.
+"""What a scene is made of: strokes, discs and hatched lines, each fixed to a link.
 
 A scene knows no drawing library. Whoever draws it places the frame of each link, and decides how
 many px a metre has; sizes of symbols are in px, whatever the zoom.

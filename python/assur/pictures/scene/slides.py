@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures import style
+from assur.pictures import sizes
 from assur.pictures.scene.cylinders import cylinder_parts
-from assur.pictures.scene.geometry import ON_LINE, about, at
+from assur.pictures.scene.geometry import ON_LINE, about, at, left_of, unit_vector
 from assur.pictures.scene.parts import Hatching, Line, Stroke, Vertex
 
 if TYPE_CHECKING:
@@ -48,15 +48,7 @@ class Axis:
 
     def on_guide(self, along: float) -> Float:
         """Return a point of the line in the guide's frame."""
-        return _unit(self.angles[1]) * along + _left(self.angles[1]) * self.off
-
-
-def _unit(angle: float) -> Float:
-    return np.array([np.cos(angle), np.sin(angle)])
-
-
-def _left(angle: float) -> Float:
-    return np.array([-np.sin(angle), np.cos(angle)])
+        return unit_vector(self.angles[1]) * along + left_of(self.angles[1]) * self.off
 
 
 def _axis(frames: Frames, name: str, sliding: str, guide: str, block: Float, angle: Float) -> Axis:
@@ -64,8 +56,8 @@ def _axis(frames: Frames, name: str, sliding: str, guide: str, block: Float, ang
     row = int(np.flatnonzero(frames.is_known)[0])
     angles = tuple(float((angle - frames.angle(link))[row]) for link in (sliding, guide))
     seen = frames.seen_from(guide, frames.world(sliding, block))
-    along = seen @ _unit(angles[1])
-    off = float((seen @ _left(angles[1]))[row])
+    along = seen @ unit_vector(angles[1])
+    off = float((seen @ left_of(angles[1]))[row])
     low, high = float(np.nanmin(along)), float(np.nanmax(along))
     return Axis(name, sliding, guide, block, (angles[0], angles[1]), low, high, off)
 
@@ -146,7 +138,7 @@ class Slides:
         joints = list(self._joints(axis.guide).values())
         if axis.guide == "ground" or len(joints) != 1:
             return None
-        off = float(joints[0] @ _left(axis.angles[1])) - axis.off
+        off = float(joints[0] @ left_of(axis.angles[1])) - axis.off
         return joints[0] if abs(off) <= self._near else None
 
     def _is_cylinder(self, name: str, axis: Axis) -> bool:
@@ -160,21 +152,21 @@ class Slides:
         )
 
     def _block(self, axis: Axis) -> list[Line]:
-        half = style.BLOCK_LENGTH / 2.0
-        shape = _rectangle(style.BLOCK_LENGTH, style.BLOCK_WIDTH)
+        half = sizes.BLOCK_LENGTH / 2.0
+        shape = _rectangle(sizes.BLOCK_LENGTH, sizes.BLOCK_WIDTH)
         name = f"slide {axis.name}"
         block = Stroke(
             axis.sliding,
             name,
             about(axis.block, axis.angles[0], shape),
-            style.OUTLINE,
+            sizes.OUTLINE,
             closed=True,
             fill="canvas",
             floor=2,
         )
         beyond = half + BEYOND
         if axis.guide == "ground":
-            return [*_ground_guide(axis, name, beyond, -style.BLOCK_WIDTH / 2.0), block]
+            return [*_ground_guide(axis, name, beyond, -sizes.BLOCK_WIDTH / 2.0), block]
         inside = about(axis.block, axis.angles[0], [(-half, 0.0), (half, 0.0)])
         middle = Stroke(axis.sliding, name, inside, 1.0, "second", dashes=(4.0, 3.0), floor=3)
         return [*self._moving_guide(axis, beyond), block, middle]
@@ -185,43 +177,44 @@ class Slides:
         low, high = (axis.low, -beyond), (axis.high, beyond)
         off_axis: list[tuple[float, Float]] = []
         for joint in self._joints(axis.guide).values() or [np.zeros(2)]:
-            along, off = float(joint @ _unit(angle)), float(joint @ _left(angle)) - axis.off
+            along, off = float(joint @ unit_vector(angle)), float(joint @ left_of(angle)) - axis.off
             if abs(off) <= self._near:
                 low, high = min(low, (along, 0.0)), max(high, (along, 0.0))
             else:
                 off_axis.append((along, joint))
         name = f"link {axis.guide}"
-        ends = tuple(at(axis.on_guide(along), *(_unit(angle) * px)) for along, px in (low, high))
+        forward = unit_vector(angle)
+        ends = tuple(at(axis.on_guide(along), *(forward * px)) for along, px in (low, high))
         driven = axis.guide in self._turning
-        yield Stroke(axis.guide, name, ends, style.DRIVEN_BAR if driven else style.BAR)
+        yield Stroke(axis.guide, name, ends, sizes.DRIVEN_BAR if driven else sizes.BAR)
         if off_axis and len(off_axis) == len(self._joints(axis.guide) or "1"):
             along, joint = min(
                 off_axis, key=lambda one: max(low[0] - one[0], one[0] - high[0], 0.0)
             )
             foot = axis.on_guide(min(max(along, low[0]), high[0]))
-            yield Stroke(axis.guide, name, (at(joint), at(foot)), style.BAR)
+            yield Stroke(axis.guide, name, (at(joint), at(foot)), sizes.BAR)
 
     def _sleeve(self, axis: Axis) -> list[Line]:
         """Draw a rod of a link without joints in a sleeve on the ground."""
         name = f"slide {axis.name}"
         along = self._free_place(axis)
         middle = axis.on_guide(along)
-        half = style.SLEEVE_LENGTH / 2.0
+        half = sizes.SLEEVE_LENGTH / 2.0
         parts: list[Line] = []
         for side in (1.0, -1.0):
-            gap = side * style.SLEEVE_GAP / 2.0
+            gap = side * sizes.SLEEVE_GAP / 2.0
             ends = about(middle, axis.angles[1], [(side * half, gap), (-side * half, gap)])
             parts.append(Stroke("ground", name, ends, 2.0, "ink"))
             # The wall is beyond the line.
-            parts.append(Hatching("ground", name, ends[0], ends[1], style.GROUND_SPACING))
-        direction = _unit(axis.angles[0])
+            parts.append(Hatching("ground", name, ends[0], ends[1], sizes.GROUND_SPACING))
+        direction = unit_vector(axis.angles[0])
         # The rod reaches from its reference point through the sleeve in every position.
         reaches = (min(along - axis.high, 0.0), max(along - axis.low, 0.0))
         rod = tuple(
             at(axis.block + reach * direction, *(sign * (half + 2.0 * BEYOND) * direction))
             for sign, reach in zip((-1.0, 1.0), reaches, strict=True)
         )
-        return [*parts, Stroke(axis.sliding, f"link {axis.sliding}", rod, style.BAR)]
+        return [*parts, Stroke(axis.sliding, f"link {axis.sliding}", rod, sizes.BAR)]
 
     def _free_place(self, axis: Axis) -> float:
         """Return where on its line a sleeve is clear of the ground's joints, if anywhere."""
@@ -241,10 +234,10 @@ def _rectangle(length: float, width: float) -> list[tuple[float, float]]:
 def _ground_guide(axis: Axis, name: str, beyond: float, below: float) -> list[Line]:
     """Draw a hatched line under the block: on the side that is down, or right if it is upright."""
     angle = axis.angles[1]
-    left = _left(angle)
+    left = left_of(angle)
     down = left[1] > 1e-9 or (abs(left[1]) <= 1e-9 and left[0] < 0.0)
     side = below if down else -below
-    along = _unit(angle)
+    along = unit_vector(angle)
 
     def end(of: float, px: float) -> Vertex:
         return at(axis.on_guide(of), *(px * along + side * left))
@@ -253,6 +246,6 @@ def _ground_guide(axis: Axis, name: str, beyond: float, below: float) -> list[Li
     # Hatching lies on the right of its line.
     run = ends if side < 0.0 else ends[::-1]
     return [
-        Stroke("ground", name, tuple(ends), style.GUIDE, "ink"),
-        Hatching("ground", name, run[0], run[1], style.GUIDE_SPACING),
+        Stroke("ground", name, tuple(ends), sizes.GUIDE, "ink"),
+        Hatching("ground", name, run[0], run[1], sizes.GUIDE_SPACING),
     ]

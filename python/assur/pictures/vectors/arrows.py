@@ -10,7 +10,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from assur.pictures.axes import TEXT
-from assur.pictures.chart import number
+from assur.pictures.numerals import number
 from assur.pictures.text import write_names
 from assur.pictures.vectors.symbols import formula_font, formula_size
 

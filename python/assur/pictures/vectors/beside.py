@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.text import Text
 
 from assur.pictures.axes import TEXT
-from assur.pictures.scene.labels import along, clearance
+from assur.pictures.scene.labels import along, clearance, within
 from assur.pictures.text import STEP
 from assur.pictures.vectors.symbols import formula_font, formula_size
 
@@ -118,9 +118,7 @@ class Beside:
         """Return the distance of boxes from the frame of the picture."""
         centres = first + middles @ np.array([[x, y], [-y, x]])
         box = np.array([abs(x) * half[0] + abs(y) * half[1], abs(y) * half[0] + abs(x) * half[1]])
-        low, high = self._on.points(self._on.low), self._on.points(self._on.high)
-        distance: Float = np.minimum(centres - box - low, high - centres - box).min(axis=1)
-        return distance
+        return within(centres, box, (self._on.points(self._on.low), self._on.points(self._on.high)))
 
     def _put(
         self,

@@ -9,7 +9,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
 
 from assur.pictures.axes import TEXT
-from assur.pictures.chart import number
+from assur.pictures.numerals import number
 from assur.pictures.text import text_size
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def link_numbers(mechanism: Mechanism) -> dict[str, int]:
 def place_text(one: Motion) -> str:
     """Write the coordinates of a position."""
     mechanism = one.mechanism
-    drivers = mechanism.driver if isinstance(mechanism.driver, tuple) else (mechanism.driver,)
+    drivers = mechanism._description.drivers
     q = np.atleast_1d(np.asarray(one.coordinate(())))
     places = [
         f"{number(float(x))} m"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.description.words import Slide
-from assur.pictures.style import style
+from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -25,7 +25,7 @@ ROOM = 0.3
 
 def jamming_picture(run: JammingRun, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
     """See `JammingRun.plot`."""
-    own = style(dark)
+    own = style_of(dark)
     if what == "positions":
         return _positions(run, ax, dark, own)
     return _diagram(run, what, ax, degrees, own)
@@ -100,9 +100,10 @@ def _misleads(artist: Any, run: JammingRun, ax: Any) -> bool:
 def _diagram(run: JammingRun, what: str, ax: Any, degrees: bool, own: Style) -> Any:
     """Draw the ground or the transmission angle over the crank's angle, with the events."""
     from assur.pictures import chart
-    from assur.pictures.diagrams.notes import Note, settle, write_notes
+    from assur.pictures.diagrams.notes import Note, write_notes
     from assur.pictures.diagrams.peaks import peaks
-    from assur.pictures.diagrams.quantities import degrees_text
+    from assur.pictures.numerals import degrees_text, number
+    from assur.pictures.points import settle
     from assur.pictures.style import blend
 
     axes = chart.chart_axes(ax, own)
@@ -124,7 +125,7 @@ def _diagram(run: JammingRun, what: str, ax: Any, degrees: bool, own: Style) -> 
         axes.axvspan(start, end, color=tint, linewidth=0.0, zorder=0.4, gid="sliding")
     settle(axes)
     notes = [
-        Note(peak.x, peak.y, f"{chart.number(peak.y, float(np.ptp(values)))} at {place}", own.ink)
+        Note(peak.x, peak.y, f"{number(peak.y, float(np.ptp(values)))} at {place}", own.ink)
         for peak in peaks(x, values)
         for place in [degrees_text(peak.x, 360.0) if degrees else f"{peak.x:.2f} rad"]
         if what == "angle" or not peak.greatest

@@ -1,0 +1,39 @@
+"""The values of a metric: those that are marked, and how they are written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.pictures.numerals import number, true_minus
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+
+    # Why there is no value, and at which nodes.
+    Reasons = list[tuple[str, npt.NDArray[np.bool_]]]
+
+# Of the greatest value of a map: what is less is rounding.
+ROUNDING = 1e-12
+
+
+def extremes(values: Float, best: str) -> list[tuple[str, int]]:
+    """Return the extremes that are marked, with their flat indices."""
+    if not np.isfinite(values).any():
+        return []
+    both = [("least", int(np.nanargmin(values))), ("greatest", int(np.nanargmax(values)))]
+    return [one for one in both if best in (one[0], "both")]
+
+
+def level_text(level: float) -> str:
+    """Write a level of the contours."""
+    return true_minus(f"{level:.6g}")
+
+
+def value_text(value: float, values: Float) -> str:
+    """Write a value of the map; what is only rounding, beside the others, is 0."""
+    greatest = float(np.nanmax(np.abs(values)))
+    return number(0.0 if abs(value) <= ROUNDING * greatest else value)

@@ -1,0 +1,40 @@
+"""Pictures where matplotlib is not installed: what needs it says what to install."""
+
+import subprocess
+import sys
+
+# Whatever is drawn, each by its own module; pages and notebooks need no library.
+SCRIPT = """
+import sys
+sys.modules["matplotlib"] = None  # as if it were not installed
+import assur
+
+mechanism = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+motion = mechanism.solve([0.0, 0.5, 1.0])
+drawn = [
+    mechanism.plot,
+    mechanism.assemblies(1.0).plot,
+    mechanism.configuration_curve().plot,
+    lambda: mechanism.to_drawing("m.dxf"),
+    lambda: motion.plot("C"),
+    lambda: motion.animate("m.gif"),
+    lambda: motion.diagram("rocker"),
+    lambda: motion.polygon("velocity"),
+    lambda: assur.pictures.instant_centres(motion[0]),
+    lambda: assur.crank_rocker.plot_least_angle(),
+    lambda: assur.slider_crank.plot_contour(1.0, 0.1, 0.4),
+]
+for draw in drawn:
+    try:
+        draw()
+    except ImportError as error:
+        print(error)
+print(mechanism._repr_svg_()[:4])
+"""
+
+
+def test_what_draws_says_what_to_install() -> None:
+    ran = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True)
+    *explained, svg = ran.stdout.splitlines()
+    assert explained == ['drawing needs matplotlib: pip install "assur[plot]"'] * 11
+    assert svg == "<svg"
