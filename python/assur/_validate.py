@@ -13,6 +13,7 @@ from assur.errors import InputError
 __all__ = [
     "checked_index",
     "checked_name",
+    "checked_names",
     "checked_order",
     "checked_signs",
     "checked_threads",
@@ -56,6 +57,16 @@ def checked_name(name: Any, what: str) -> str:
         message = f"{what}: the name {name!a} is not Unicode text"
         raise InputError(message)
     return name
+
+
+def checked_names(names: Any, what: str) -> list[str]:
+    """Return names given as one or as a sequence; none for None."""
+    listed = [] if names is None else [names] if isinstance(names, str | bytes) else names
+    try:
+        return [checked_name(name, what) for name in listed]
+    except TypeError:
+        message = f"{what} is {short(names)}: a name or a list of names is needed"
+        raise InputError(message) from None
 
 
 def checked_signs(assembly: Any, strict: bool = True) -> tuple[tuple[str, int], ...]:

@@ -24,6 +24,8 @@ MARGIN, FOOT = 30.0, 30.0
 # The scale bar is about so long, points.
 SCALE_BAR = 55.0
 TEXT = 9.0
+# Squares of what is drawn must not overflow, nor the number of pixels to a unit.
+LEAST_EXTENT, GREATEST_EXTENT = 1e-100, 1e100
 
 
 def pyplot() -> Any:
@@ -40,6 +42,9 @@ def checked_axes(ax: Any) -> Any:
     """Return axes to draw on, which must be plain ones."""
     if not hasattr(ax, "add_artist") or not hasattr(ax, "transData"):
         message = f"ax is {type(ax).__name__}, no matplotlib axes"
+        raise InputError(message)
+    if ax.figure is None:
+        message = "ax was removed from its figure: nothing would be seen"
         raise InputError(message)
     if getattr(ax, "name", "rectilinear") != "rectilinear":
         message = f"ax has the projection {ax.name!r}: mechanisms are drawn on plain axes"
@@ -96,19 +101,32 @@ def canvas(
     `head`: points for text above; `sides`: margins on the left and the right. Axes that have
     something drawn on keep it in sight.
     """
-    low, high = extent
+    low, high = _spread(*extent)
+    greatest = float((high - low).max())
+    if not LEAST_EXTENT < greatest < GREATEST_EXTENT:
+        message = (
+            f"the picture would be {greatest:.3g} wide: from {LEAST_EXTENT:g} to "
+            f"{GREATEST_EXTENT:g} can be drawn"
+        )
+        raise InputError(message)
     # Left, below, right, above.
     border = np.array([sides, MARGIN + FOOT, sides, MARGIN + head])
     if ax is None:
         ax = _new_axes(high - low, border[:2] + border[2:], style)
     else:
         ax = checked_axes(ax)
+        if "log" in (ax.get_xscale(), ax.get_yscale()):
+            message = "ax has a logarithmic scale: true proportion needs linear ones"
+            raise InputError(message)
         if ax.has_data() or ax.artists or ax.patches or ax.texts:
             (x0, x1), (y0, y1) = sorted(ax.get_xlim()), sorted(ax.get_ylim())
             low, high = np.minimum(low, (x0, y0)), np.maximum(high, (x1, y1))
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.set_axis_off()
+    # Limits stay as they are, whatever the layout does later; twins cannot keep them.
     box = ax.get_position(original=True)
+    siblings = {*ax.get_shared_x_axes().get_siblings(ax), *ax.get_shared_y_axes().get_siblings(ax)}
+    twins = any(one is not ax and one.get_position(True).bounds == box.bounds for one in siblings)
+    ax.set_aspect("equal", adjustable="datalim" if twins else "box")
+    ax.set_axis_off()
     size = np.maximum(72.0 * root_figure(ax).get_size_inches() * (box.width, box.height), 1.0)
     # In small axes margins take no more than half.
     border *= np.minimum(1.0, size / 2.0 / (border[:2] + border[2:]))[[0, 1, 0, 1]]
@@ -123,6 +141,15 @@ def canvas(
     return Canvas(ax, style, scale, px, low, high)
 
 
+def _spread(low: Float, high: Float) -> tuple[Float, Float]:
+    """Return corners that are apart: a point alone is seen with half a metre about it."""
+    least = 0.5 if (low == high).all() else 0.0
+    # So far from the origin numbers do not differ by less.
+    least = max(least, 1e-12 * float(np.abs([low, high]).max()))
+    grown = np.maximum(least - (high - low).max() / 2.0, 0.0)
+    return low - grown, high + grown
+
+
 def _new_axes(span: Float, margins: Float, style: Style) -> Any:
     """Return axes that fill a new figure in the proportion of what is drawn."""
     border = margins / 72.0
@@ -132,8 +159,18 @@ def _new_axes(span: Float, margins: Float, style: Style) -> Any:
     if tall > GREATEST_HEIGHT:
         narrow = (GREATEST_HEIGHT - border[1]) * width / height + border[0]
         figure_width = float(np.clip(narrow, LEAST_WIDTH, WIDTH))
-    figure = pyplot().figure(figsize=(figure_width, figure_height), facecolor=style.canvas)
+    figure = plain_figure((figure_width, figure_height), style)
     return figure.add_axes((0.0, 0.0, 1.0, 1.0), facecolor=style.canvas)
+
+
+def plain_figure(size: tuple[float, float], style: Style) -> Any:
+    """Return a figure for axes with places of their own, whatever layout rcParams ask for."""
+    plt = pyplot()
+    from matplotlib.layout_engine import PlaceHolderLayoutEngine
+
+    # None would be replaced by the layout of rcParams when the figure is saved.
+    none = PlaceHolderLayoutEngine(adjust_compatible=True, colorbar_gridspec=True)
+    return plt.figure(figsize=size, facecolor=style.canvas, layout=none)
 
 
 def nice_length(length: float) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from assur.errors import InputError
 from assur.pictures.axes import checked_axes, pyplot
 from assur.pictures.numerals import ten, true_minus
+from assur.pictures.text import printable
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -55,7 +56,10 @@ def chart_axes(
             else np.array(several).reshape(rows, columns).squeeze()
         )
     for one in np.atleast_1d(axes).flat:
-        _dress(checked_axes(one), style)
+        if "log" in (checked_axes(one).get_xscale(), one.get_yscale()):
+            message = "ax has a logarithmic scale: diagrams have linear ones"
+            raise InputError(message)
+        _dress(one, style)
     return axes
 
 
@@ -73,12 +77,12 @@ def _dress(ax: Any, style: Style) -> None:
 def title(ax: Any, text: str, style: Style, below: str = "") -> None:
     """Write what a diagram shows, with its unit, on the left above it; `below` is a sentence."""
     ax.set_title(
-        text, loc="left", color=style.ink, fontsize=TEXT + 1.5, fontweight="bold",
-        pad=BELOW if below else None,
+        printable(text), loc="left", color=style.ink, fontsize=TEXT + 1.5, fontweight="bold",
+        pad=BELOW if below else None, parse_math=False,
     )  # fmt: skip
     if below:
         ax.annotate(
-            below, (0.0, 1.0), xytext=(0.0, 5.0), xycoords="axes fraction",
+            printable(below), (0.0, 1.0), xytext=(0.0, 5.0), xycoords="axes fraction",
             textcoords="offset points", color=style.second, fontsize=TEXT, gid="sentence",
             annotation_clip=False, parse_math=False,
         )  # fmt: skip

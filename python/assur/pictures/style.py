@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from assur._arrays import flag
+
 
 @dataclass(frozen=True)
 class Style:
@@ -70,7 +72,7 @@ DARK = Style(
 
 def style_of(dark: bool) -> Style:
     """Return the colours for a dark canvas, or for paper."""
-    return DARK if dark else LIGHT
+    return DARK if flag(dark, "dark") else LIGHT
 
 
 def blend(colour: str, canvas: str, part: float) -> tuple[float, float, float]:

@@ -20,15 +20,53 @@ if TYPE_CHECKING:
 # Serif italic for joints and quantities; what it lacks comes from the default font.
 NAME_FONT = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 NAME_SIZE = 12.0
+# For a letter that no font has.
+MISSING = "□"
+# Of a name beside the title of a diagram, letters.
+LONGEST = 40
 # Between points that stand for a line, points.
 STEP = 4.0
 
 
 def name_font(size: float = NAME_SIZE) -> FontProperties:
     """Return the font of names."""
+    from matplotlib import rcParams
     from matplotlib.font_manager import FontProperties
 
-    return FontProperties(family=NAME_FONT, style="italic", size=size)
+    return FontProperties(family=[*NAME_FONT, *rcParams["font.family"]], style="italic", size=size)
+
+
+def printable(text: str) -> str:
+    """Return a text with a box for each letter that the default font, rcParams, does not have.
+
+    That is what matplotlib draws of such a letter, with a warning.
+    """
+    if text.isascii():
+        return text
+    from matplotlib import rcParams
+
+    known = _letters(tuple(rcParams["font.family"]), tuple(rcParams["font.sans-serif"]))
+    return "".join(letter if letter == "\n" or ord(letter) in known else MISSING for letter in text)
+
+
+def shortened(text: str) -> str:
+    """Return a text of no more than `LONGEST` letters; what is left out is in its middle."""
+    if len(text) <= LONGEST:
+        return text
+    half = LONGEST // 2
+    return f"{text[:half]}…{text[1 - half :]}"
+
+
+@lru_cache(maxsize=8)
+def _letters(families: tuple[str, ...], _: tuple[str, ...]) -> frozenset[int]:
+    """Return the letters of the first font of each family; a generic one depends on rcParams."""
+    from matplotlib.font_manager import FontProperties, findfont, get_font
+
+    letters: set[int] = set()
+    for family in families:
+        font = get_font(findfont(FontProperties(family=[family])))
+        letters.update(font.get_charmap())
+    return frozenset(letters)
 
 
 @lru_cache(maxsize=1024)
@@ -43,7 +81,7 @@ def _measured(text: str, font: FontProperties) -> tuple[float, float, float]:
 
 def text_size(text: str, font: FontProperties) -> tuple[float, float]:
     """Return width and height of a text, points."""
-    return _measured(text, font)[:2]
+    return _measured(printable(text), font)[:2]
 
 
 def plain_size(text: str, size: float) -> tuple[float, float]:
@@ -55,7 +93,7 @@ def plain_size(text: str, size: float) -> tuple[float, float]:
 
 def baseline(text: str, font: FontProperties) -> float:
     """Return how far a text's baseline is above the middle of its box, points; mostly negative."""
-    _, height, descent = _measured(text, font)
+    _, height, descent = _measured(printable(text), font)
     return descent - height / 2.0
 
 
@@ -83,6 +121,18 @@ def write_names(
     return names.artists
 
 
+def name_boxes(on: Canvas) -> Float:
+    """Return the boxes of the joints' names on a canvas: middles and halves, points, (k, 2, 2)."""
+    font = name_font()
+    boxes = []
+    for artist in on.ax.texts:
+        if str(artist.get_gid()).startswith("name "):
+            text = artist.get_text()
+            middle = on.points(artist.get_position()) - (0.0, baseline(text, font))
+            boxes.append([middle, np.array(text_size(text, font)) / 2.0])
+    return np.array(boxes, dtype=np.float64).reshape(-1, 2, 2)
+
+
 class Names:
     """Names on a canvas, placed beside their points; in motion they stay where they were."""
 
@@ -99,6 +149,7 @@ class Names:
         from matplotlib.text import Text
 
         font = font or name_font()
+        texts = [printable(text) for text in texts]
         self._on = on
         measured = [text_size(text, font) for text in texts] if sizes is None else sizes
         self._boxes = np.array(measured, dtype=np.float64).reshape(-1, 2)
@@ -134,14 +185,15 @@ class Names:
     ) -> None:
         """Move the names to points, m, clear of lines."""
         on = self._on
+        bounds = on.points(on.low), on.points(on.high)
         middles, self._kept = chosen(
             on.points(points),
             self._boxes,
             self._radii,
-            along([on.points(line) for line in lines], STEP),
-            (on.points(on.low), on.points(on.high)),
+            along([on.points(line) for line in lines], STEP, bounds),
+            bounds,
             others,
-            along([on.points(line) for line in light or []], STEP),
+            along([on.points(line) for line in light or []], STEP, bounds),
             self._kept,
         )
         for artist, drop, (x, y) in zip(self.artists, self._baselines, middles, strict=True):

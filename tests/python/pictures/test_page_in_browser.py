@@ -194,22 +194,22 @@ def test_switches_points_and_diagrams(browser: Browser, crank_rocker: Path) -> N
     with opening(browser, crank_rocker) as opened:
         page = opened.page
 
-        def shown(selector: str) -> int:
+        def printable(selector: str) -> int:
             return page.locator(f"{selector} >> visible=true").count()
 
-        assert (shown(".label .name"), shown(".layer .path")) == (5, 1)
+        assert (printable(".label .name"), printable(".layer .path")) == (5, 1)
         for name, selector, count in (
             ("velocity", "path.vector.velocity", 1), ("acceleration", "path.head.acceleration", 1),
             ("positions", ".other", 12), ("groups", ".badge", 3),
             ("names", ".name >> text=/^[A-DP]$/", 0), ("paths", ".layer .path", 0),
         ):  # fmt: skip
             page.locator(f"[data-switch={name}]").click()
-            assert shown(f".picture {selector}") == count, name
+            assert printable(f".picture {selector}") == count, name
         speed = float(np.hypot(*m.solve(1.0).joint("P").velocity(3.0)))
         assert f"v {1e3 * speed:.0f} mm/s" in page.locator(".label").all_text_contents()
         page.get_by_text("Points").click()
         page.locator("[data-point=C]").click()
-        assert shown("path.vector.velocity") == 2
+        assert printable("path.vector.velocity") == 2
         # A diagram: another quantity, its value at the cursor, and dragging drives.
         page.locator("select.title").first.select_option("rocker.omega")
         expected = float(m.solve(1.0).link("rocker").velocity(3.0))

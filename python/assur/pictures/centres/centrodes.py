@@ -85,7 +85,7 @@ def centrodes(
     if link == other:
         message = f"link and other are both {link!r}: give two links"
         raise InputError(message, link=link)
-    index = at if at != () or not motion.shape else (0,) * len(motion.shape)
+    index = (0,) * len(motion.shape) if isinstance(at, tuple) and not at else at
     one = motion[checked_index(index, motion.shape, "at")] if motion.shape else motion
     rows, _ = refined(motion, "centrodes", 1, ROWS)
     pole = one.instant_centre(link, other)
@@ -102,15 +102,18 @@ def centrodes(
         [points[subject.sees(points, SIGHT)]],
         2.0 * LINE_HEIGHT,
     )
+    in_sight = bool(((pole > on.low) & (pole < on.high)).all())
     lines = [
         _curve(on, fixed, "fixed centrode", on.style.path, False),
         _curve(on, moving, "moving centrode", on.style.driver, True),
     ]
     mark = NamedPoint(free_name(subject, "P", "I", "Π"), pole, DOT / 2.0 + 1.0, "pole name")
-    draw_position(subject, on, subject.frames[0], lines=lines, marks=[mark])
-    dots(on, pole, DOT, on.style.error, "pole", 4.5)
+    draw_position(subject, on, subject.frames[0], lines=lines, marks=[mark] if in_sight else [])
+    if in_sight:
+        dots(on, pole, DOT, on.style.error, "pole", 4.5)
+    beyond = "" if in_sight else "; they touch out of sight"
     relative = "" if other == "ground" else f" relative to {other}"
-    write_heading(on, [f"Centrodes of {link}{relative}", "fixed: solid, moving: dashed"])
+    write_heading(on, [f"Centrodes of {link}{relative}", f"fixed: solid, moving: dashed{beyond}"])
     scale_bar(on)
     return on.ax
 

@@ -24,6 +24,8 @@ DOT = 5.0
 BORDER_ARROW, BORDER = 22.0, 22.0
 # Centres nearer than this, points, have one name.
 TOGETHER = 4.0
+# Of more centres in one place so many are named, the others counted.
+NAMED = 4
 
 
 class CentreMarks:
@@ -132,7 +134,7 @@ class CentreMarks:
 
     def write(self) -> None:
         """Write the names of the centres and the numbers of the links."""
-        texts = [", ".join(f"$P_{{{text}}}$" for text in own) for own in self._texts]
+        texts = [_together(own) for own in self._texts]
         places, radii = [*self._places], [self._radius(place) for place in self._places]
         gids, colours = [*self._gids], [*self._colours]
         for link, number in self._numbers.items():
@@ -159,3 +161,10 @@ class CentreMarks:
             colours=colours,
             sizes=[formula_size(text, font) for text in texts],
         )
+
+
+def _together(names: list[str]) -> str:
+    """Write the names of centres in one place."""
+    shown = names if len(names) <= NAMED + 1 else names[:NAMED]
+    text = ", ".join(f"$P_{{{name}}}$" for name in shown)
+    return text if shown is names else f"{text} and {len(names) - NAMED} more"

@@ -17,7 +17,7 @@ from assur.pictures.diagrams.sources import AlongDriver, OverTime
 from assur.pictures.numerals import number
 from assur.pictures.points import settle
 from assur.pictures.style import blend, style_of
-from assur.pictures.text import name_font
+from assur.pictures.text import name_font, printable, shortened
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -171,7 +171,7 @@ class _Panel:
     def _name(self, ax: Any, listed: bool) -> None:
         """Write what it is of on the right, above the diagram."""
         designs = f"{self.designs} designs" if self.designs > 1 else ""
-        name = "" if listed else self.wanted[0].shown
+        name = "" if listed else shortened(printable(self.wanted[0].shown))
         if designs:
             text = f"{name}, {designs}" if name else designs
             ax.set_title(

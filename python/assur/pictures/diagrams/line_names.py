@@ -11,7 +11,7 @@ from assur.pictures.chart import TEXT
 from assur.pictures.diagrams.obstacles import obstacles
 from assur.pictures.points import bounds, in_data, in_points
 from assur.pictures.scene.labels import along, clearance, within
-from assur.pictures.text import STEP, name_font, text_size
+from assur.pictures.text import STEP, name_font, printable, text_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,7 +69,8 @@ def name_lines(ax: Any, named: Sequence[Named]) -> None:
                 best, place = float(worth.max()), middles[int(np.argmax(worth))]
         x, y = in_data(ax, place)
         written = ax.text(
-            x, y, one.text, fontproperties=font, color=one.colour, horizontalalignment="center",
-            verticalalignment="center", zorder=5.0, gid=f"name {one.text}", parse_math=False,
+            x, y, printable(one.text), fontproperties=font, color=one.colour,
+            horizontalalignment="center", verticalalignment="center", zorder=5.0,
+            gid=f"name {one.text}", parse_math=False,
         )  # fmt: skip
         written.set_in_layout(False)

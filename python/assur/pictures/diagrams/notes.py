@@ -10,7 +10,7 @@ from assur.pictures.chart import MARK, TEXT, dot
 from assur.pictures.diagrams.obstacles import obstacles, outline
 from assur.pictures.points import bounds, in_points
 from assur.pictures.scene.labels import along, clearance, within
-from assur.pictures.text import STEP, plain_size
+from assur.pictures.text import STEP, plain_size, printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,7 +56,8 @@ def write_notes(ax: Any, notes: Sequence[Note], style: Style) -> None:
         if middle is None:
             continue
         written = ax.annotate(
-            note.text, (note.x, note.y), xytext=middle - point, textcoords="offset points",
+            printable(note.text), (note.x, note.y), xytext=middle - point,
+            textcoords="offset points",
             horizontalalignment="center", verticalalignment="center", color=style.ink,
             fontsize=note.size, zorder=5.0, gid=note.gid, parse_math=False,
         )  # fmt: skip

@@ -151,6 +151,9 @@ def _subject(mechanism: Mechanism, q: Any, assembly: Assembly | None) -> Subject
 def _sizes(subject: Subject, width: Any, hole: Any) -> tuple[float, float]:
     """Return the width of links and the diameter of holes, mm."""
     usual = MM * usual_link(subject.whole)
+    if width is None and not usual > 0.0:
+        message = "width is not given, and no link has a length that it would follow from"
+        raise InputError(message)
     wide = nice_length(WIDTH * usual) if width is None else MM * _length(width, "width")
     bore = HOLE * wide if hole is None else MM * _length(hole, "hole")
     if not bore < wide:

@@ -104,7 +104,13 @@ def _pieces(
 
 def _visible(segments: Float, above: list[tuple[Part, Float]], size: float) -> Float:
     """Return segments without what lies under joints, blocks and pivots drawn later."""
+    if not len(segments):
+        return segments
+    low, high = segments.min(axis=(0, 1)), segments.max(axis=(0, 1))
     for part, points in above:
+        reach = part.radius * size if isinstance(part, Disc) else 0.0
+        if (points.min(axis=0) - reach > high).any() or (points.max(axis=0) + reach < low).any():
+            continue
         if isinstance(part, Disc):
             segments = outside_circle(segments, points[0], part.radius * size)
         elif isinstance(part, Stroke) and part.closed and part.fill == "canvas":

@@ -11,7 +11,7 @@ from matplotlib.patches import Circle
 from matplotlib.text import Text
 
 from assur.errors import InputError
-from assur.pictures.axes import TEXT, canvas, nice_length, pyplot
+from assur.pictures.axes import TEXT, canvas, nice_length, plain_figure
 from assur.pictures.forces.placed import force_value
 from assur.pictures.forces.polygon import bar_text
 from assur.pictures.numerals import number, true_minus
@@ -41,7 +41,6 @@ LINE, DOT = 1.8, 4.0
 
 def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
     """See `Bearing.plot`."""
-    plt = pyplot()
     if bearing._designs:
         message = (
             f"a load diagram is of one design, this is a batch {bearing._designs}: take the "
@@ -62,7 +61,7 @@ def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
     fixed = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=1)
     views = [("ground", fixed), (link, force)] if link != "ground" else [(link, force)]
     if ax is None:
-        figure = plt.figure(figsize=(WIDTH * len(views), HEIGHT), facecolor=style.canvas)
+        figure = plain_figure((WIDTH * len(views), HEIGHT), style)
         wide = 1.0 / len(views)
         axes = [
             figure.add_axes((i * wide, 0.0, wide, 1.0), facecolor=style.canvas)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.animation import FFMpegWriter
 
-from assur._validate import real_number, whole_number
+from assur._validate import checked_names, real_number, whole_number
 from assur.errors import InputError
 from assur.pictures.files import checked_path, writing
 from assur.pictures.linkage.film import Film
@@ -47,7 +47,7 @@ def animate(
         message = f"seconds is {seconds}: a positive time is needed"
         raise InputError(message)
 
-    joints = [] if joint is None else [joint] if isinstance(joint, str) else list(joint)
+    joints = checked_names(joint, "joint")
     film = Film(motion, joints, groups, style_of(dark))
     try:
         rows = _rows(film, count)

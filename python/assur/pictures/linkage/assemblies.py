@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.axes import FOOT, MARGIN, pyplot
+from assur.pictures.axes import FOOT, MARGIN, plain_figure
 from assur.pictures.chart import TEXT
 from assur.pictures.linkage.artists import Drawn
 from assur.pictures.linkage.position import name_joints
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.style import style_of
-from assur.pictures.text import plain_size
+from assur.pictures.text import plain_size, printable
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assemblies, Assembly
@@ -60,7 +60,7 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
 
 def _title(index: int, assembly: Assembly, on: Canvas) -> str:
     """Return a number and the dyads' signs; assemblies of higher groups have numbers alone."""
-    signs = [(name, "+" if sign > 0 else "−") for name, sign in assembly.items()]
+    signs = [(printable(name), "+" if sign > 0 else "−") for name, sign in assembly.items()]
     whole = "  ".join(f"{name} {sign}" for name, sign in signs)
     room = float(on.points(on.high - on.low)[0])
     if plain_size(whole, TEXT)[0] > 0.8 * room:
@@ -81,7 +81,7 @@ def _axes(count: int, extent: Any, ax: Any, style: Any) -> Any:
     span = np.maximum(extent[1] - extent[0], 1e-300)
     tall = (WIDTH - 2.0 * MARGIN / 72.0) * span[1] / span[0] + (2.0 * MARGIN + FOOT) / 72.0
     height = float(np.clip(tall, LEAST_HEIGHT, GREATEST_HEIGHT))
-    figure = pyplot().figure(figsize=(WIDTH * columns, height * rows), facecolor=style.canvas)
+    figure = plain_figure((WIDTH * columns, height * rows), style)
     axes = []
     for i in range(count):
         row, column = divmod(i, columns)

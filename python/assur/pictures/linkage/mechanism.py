@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.position import draw_position
@@ -41,6 +43,9 @@ def mechanism_picture(
     places = (q, found, mechanism._q0_array())
     at = next(place for place in places if place is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
+    if 0 in motion.shape:
+        message = f"q has shape {np.shape(at)}: there is no position to draw"
+        raise InputError(message)
     subject = Subject(motion)
     on = subject.canvas(ax, style_of(dark), groups=groups)
     if motion.shape:

@@ -122,7 +122,9 @@ def _around(centre: Float, points: Float, halves: Float, obstacles: Float) -> Fl
         angles = turns[i] + np.clip(SHIFTS, -room[i], room[i])
         directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         places = centre + directions * (radius + np.abs(directions) @ half)[:, None]
-        near = obstacles[(np.abs(obstacles - places[0]) < 4.0 * radius).all(axis=1)]
+        # No farther than a shift goes and beyond that a line matters.
+        reach = SHIFTS.max() * (radius + half.max()) + half.max() + CLEAR
+        near = obstacles[(np.abs(obstacles - places[0]) < reach).all(axis=1)]
         apart = (np.abs(near[None] - places[:, None]) - half).max(axis=-1)
         clear = apart.min(axis=1, initial=np.inf)
         for j in range(i):

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from assur._validate import checked_index
+from assur._validate import checked_index, checked_names
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.path_arrows import PathArrows
 from assur.pictures.linkage.position import draw_position
 from assur.pictures.linkage.subject import Subject, assembly_of
 from assur.pictures.style import style_of
+from assur.pictures.text import name_boxes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,7 +46,7 @@ def path_picture(
         message = f"plot draws paths over q of one mechanism; this motion has shape {motion.shape}"
         raise InputError(message)
 
-    joints = [] if joint is None else [joint] if isinstance(joint, str) else list(joint)
+    joints = checked_names(joint, "joint")
     paths = [motion.joint(name).value for name in joints]
     row = _row(motion, at)
     # Solved again: the motion may hold some joints alone.
@@ -63,15 +64,16 @@ def path_picture(
     draw_position(subject, on, subject.frames[0], groups=groups, lines=known)
     lines = [*known, *subject.lines(on, subject.frames[0])]
     lines += [shaft for own in arrows for shaft in own.shafts()]
+    boxes = [name_boxes(on)]
     for own in arrows:
-        own.draw(on, lines)
+        own.draw(on, lines, boxes)
     scale_bar(on)
     return on.ax
 
 
 def _kinds(vectors: str | Sequence[str] | None, joints: list[str]) -> list[str]:
     """Return the kinds of vectors to draw."""
-    kinds = [] if vectors is None else [vectors] if isinstance(vectors, str) else list(vectors)
+    kinds = checked_names(vectors, "vectors")
     for kind in kinds:
         if kind not in KINDS:
             message = f'vectors has {kind!r}: "velocity" or "acceleration" is needed'

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import finite_array
 from assur.errors import InputError
 from assur.pictures.vectors.arrows import path_vectors
 
@@ -38,13 +39,16 @@ class PathArrows:
                 f"vectors={kind!r} needs order {order}: this motion was solved to {motion.order}"
             )
             raise InputError(message)
+        omega, alpha = (
+            finite_array(rate, name) for rate, name in zip(speeds, ("omega", "alpha"), strict=True)
+        )
         self._kind, self._joints = kind, list(joints)
         rows = np.unique([row, *range(0, len(motion.q), max(1, (len(motion.q) - 1) // ALONG))])
         self._here = rows == row
         self._points, self._vectors = [], []
         for name in joints:
             point = motion.joint(name)
-            values = point.velocity(speeds[0]) if order == 1 else point.acceleration(*speeds)
+            values = point.velocity(omega) if order == 1 else point.acceleration(omega, alpha)
             self._points.append(point.value[rows])
             self._vectors.append(values[rows])
         lengths = np.hypot(*np.moveaxis(np.array(self._vectors), -1, 0))
@@ -67,8 +71,8 @@ class PathArrows:
             for ends in zip(points, tips, strict=True)
         ]
 
-    def draw(self, on: Canvas, lines: Sequence[Float]) -> None:
-        """Draw them; the values stand at the position that is drawn."""
+    def draw(self, on: Canvas, lines: Sequence[Float], boxes: list[Float]) -> None:
+        """Draw them; the values stand at the position that is drawn, clear of `boxes`."""
         scale = self._scale * on.scale
         for name, points, vectors in zip(self._joints, self._points, self._vectors, strict=True):
             gid = f"{self._kind} {name}"
@@ -76,4 +80,14 @@ class PathArrows:
             away, here = ~self._here, self._here
             gids = [gid] * int(away.sum())
             path_vectors(on, points[away], vectors[away], kind, gids, scale, texts=False)
-            path_vectors(on, points[here], vectors[here], kind, [f"{gid} here"], scale, lines)
+            path_vectors(
+                on,
+                points[here],
+                vectors[here],
+                kind,
+                [f"{gid} here"],
+                scale,
+                lines,
+                names=[name] if len(self._joints) > 1 else [],
+                boxes=boxes,
+            )

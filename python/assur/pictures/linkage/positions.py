@@ -15,7 +15,7 @@ from assur.pictures.linkage.subject import outline
 from assur.pictures.linkage.swings import draw_traces, swings, write_swings
 from assur.pictures.scene.labels import along, placed
 from assur.pictures.scene.parts import Stroke
-from assur.pictures.text import STEP, name_font, text_size
+from assur.pictures.text import STEP, name_font, printable, text_size
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -76,7 +76,7 @@ def _name_others(
         places = subject.places(frames)
         for i in moving:
             suffix = str(number).translate(SUBSCRIPTS)
-            texts.append(f"{subject.scene.names[i].text}{suffix}")
+            texts.append(printable(f"{subject.scene.names[i].text}{suffix}"))
             points.append(places[i])
     if not texts:
         return

@@ -8,7 +8,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
 
 from assur.pictures.axes import TEXT
-from assur.pictures.text import text_size
+from assur.pictures.text import printable, text_size
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
@@ -27,7 +27,7 @@ def formula_lines(mechanism: Mechanism, width: float) -> list[list[tuple[int, st
     font = FontProperties(size=SIZE)
     lines: list[list[tuple[int, str, float]]] = [[]]
     x = 0.0
-    for i, piece in enumerate(mechanism.structure.formula.split(ARROW)):
+    for i, piece in enumerate(printable(mechanism.structure.formula).split(ARROW)):
         text = piece if i == 0 else f"→ {piece}"
         own = text_size(text, font)[0]
         if lines[-1] and x + own > width - 2.0 * BORDER:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import flag
 from assur.pictures.axes import MARGIN, WIDTH, Canvas, canvas
 from assur.pictures.linkage.structural_formula import LINE, formula_lines
 from assur.pictures.scene.build import scene_of
@@ -13,7 +15,7 @@ from assur.pictures.scene.course import course
 from assur.pictures.scene.extent import corners, line_vertices, usual_link
 from assur.pictures.scene.frames import Frames, frames_of, nearby
 from assur.pictures.scene.parts import Disc
-from assur.pictures.text import name_font, text_size
+from assur.pictures.text import name_font, printable, text_size
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -71,11 +73,14 @@ class Subject:
 
         `head`: points for other text above.
         """
+        flag(groups, "groups")
         points = np.concatenate([self.points(), *others])
         points = points[np.isfinite(points).all(axis=1)]
         extent = points.min(axis=0), points.max(axis=0)
         font = name_font()
-        longest = max((text_size(name.text, font)[0] for name in self.scene.names), default=0.0)
+        longest = max(
+            (text_size(printable(name.text), font)[0] for name in self.scene.names), default=0.0
+        )
         # A long name that stands above its joint goes half its length beyond.
         sides = max(MARGIN, longest / 2.0 + ROOM)
         # New figures may be narrower.
@@ -98,11 +103,16 @@ class Subject:
 
     def sees(self, points: Float, part: float) -> npt.NDArray[np.bool_]:
         """Whether points are near the whole motion: within a part of its size."""
-        joints = np.concatenate(list(self.whole.joints().values()))
-        low, high = np.nanmin(joints, axis=0), np.nanmax(joints, axis=0)
+        low, high = self._reach
         reach = part * float((high - low).max())
         with np.errstate(invalid="ignore"):
             return np.asarray(((points > low - reach) & (points < high + reach)).all(axis=-1))
+
+    @cached_property
+    def _reach(self) -> tuple[Float, Float]:
+        """Corners about all joints over the whole motion, m."""
+        joints = np.concatenate(list(self.whole.joints().values()))
+        return np.nanmin(joints, axis=0), np.nanmax(joints, axis=0)
 
     def lines(self, on: Canvas, frames: Float) -> list[Float]:
         """Return all lines of the scene at one position, m."""

@@ -12,7 +12,7 @@ from matplotlib.text import Text
 from assur.errors import AssurError
 from assur.pictures.axes import FOOT, TEXT
 from assur.pictures.numerals import angle_text
-from assur.pictures.text import text_size
+from assur.pictures.text import printable, text_size
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -108,6 +108,7 @@ def write_swings(subject: Subject, on: Canvas, found: list[Swing]) -> Float:
     step = _even_step(subject)
     if step is not None:
         parts.append(f"positions every {step}")
+    parts = [printable(part) for part in parts]
     font = FontProperties(size=TEXT)
     # The scale bar is on the left.
     room = float((on.high[0] - on.low[0]) * on.scale) - 140.0

@@ -9,7 +9,7 @@ import numpy as np
 from assur.pictures.chart import TEXT
 from assur.pictures.points import bounds, in_data, in_points, text_box
 from assur.pictures.scene.labels import along, placed, within
-from assur.pictures.text import STEP, plain_size
+from assur.pictures.text import STEP, plain_size, printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,7 +26,7 @@ def _write(ax: Any, text: str, middle: Float, colour: Any, gid: str) -> Any:
     """Write a text with its middle at a place, points."""
     x, y = in_data(ax, middle)
     return ax.text(
-        x, y, text, color=colour, fontsize=TEXT, ha="center", va="center", zorder=5.0,
+        x, y, printable(text), color=colour, fontsize=TEXT, ha="center", va="center", zorder=5.0,
         gid=gid, parse_math=False,
     )  # fmt: skip
 

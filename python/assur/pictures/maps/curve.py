@@ -14,6 +14,7 @@ from assur.pictures.maps.quantity_axis import name_axis
 from assur.pictures.numerals import angle_text, length_unit, true_minus
 from assur.pictures.points import settle
 from assur.pictures.style import style_of
+from assur.pictures.text import shortened
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -76,6 +77,7 @@ def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> 
     name_axis(ax.xaxis, q_name, everything[:, 0], turns, style)
     unit, _ = name_axis(ax.yaxis, name, everything[:, 1], of_angle, style)
     ax.set_ylabel("")
+    name = shortened(name)
     title(ax, name if of_angle else f"{name}, {unit}", style)
     _write(ax, drawn, dead, colours, turns, style)
     return ax

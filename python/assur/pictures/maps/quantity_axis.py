@@ -9,6 +9,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from assur.pictures.chart import TEXT
 from assur.pictures.numerals import length_unit, true_minus
+from assur.pictures.text import printable, shortened
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -47,6 +48,7 @@ def name_axis(
         return true_minus("0" if text == "-0" else text) + suffix
 
     axis.set_major_formatter(FuncFormatter(written))
+    name = shortened(name)
     text = name if is_angle else f"{name}, {unit}"
-    axis.set_label_text(text, color=style.second, fontsize=TEXT, parse_math=False)
+    axis.set_label_text(printable(text), color=style.second, fontsize=TEXT, parse_math=False)
     return unit, factor

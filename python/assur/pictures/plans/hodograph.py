@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
+from assur._arrays import finite_array
 from assur._validate import checked_name
 from assur.errors import InputError
 from assur.pictures.axes import TEXT, canvas, scale_bar
@@ -83,6 +84,7 @@ def hodograph(
     if order not in (1, 2):
         message = f"order is {order!r}: 1 for velocities, 2 for accelerations"
         raise InputError(message)
+    omega, alpha = finite_array(omega, "omega"), finite_array(alpha, "alpha")
     rows, steps = refined(motion, "a hodograph", order)
     point = rows.joint(joint)
     ends = point.velocity(omega) if order == 1 else point.acceleration(omega, alpha)

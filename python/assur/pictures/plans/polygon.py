@@ -21,7 +21,7 @@ from assur.pictures.text import name_font, text_size, write_names
 from assur.pictures.vectors.arrows import LOOKS, SYMBOLS, arrow
 from assur.pictures.vectors.beside import Beside
 from assur.pictures.vectors.dots import dots
-from assur.pictures.vectors.heading import LINE_HEIGHT, link_numbers, write_heading
+from assur.pictures.vectors.heading import LINE_HEIGHT, checked_rates, link_numbers, write_heading
 from assur.pictures.vectors.symbols import symbol
 
 if TYPE_CHECKING:
@@ -52,7 +52,8 @@ def polygon_picture(
     """See `Motion.polygon`."""
     one_of(what, ("velocity", "acceleration"), "what")
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
-    omega, alpha = _of_one(one, omega, "omega"), _of_one(one, alpha, "alpha")
+    omega = checked_rates(omega, "omega", one.mechanism)
+    alpha = checked_rates(alpha, "alpha", one.mechanism)
     plan = plan_of(one, what, omega, alpha)
     images = np.array(list(plan.images.values()))
     if not np.isfinite(images).all():

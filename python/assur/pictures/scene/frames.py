@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -63,6 +64,10 @@ class Frames:
 
     def joints(self) -> dict[str, Float]:
         """Return the path of every joint, (N, 2)."""
+        return self._joints
+
+    @cached_property
+    def _joints(self) -> dict[str, Float]:
         return {
             joint: self.world(link, at)
             for link, joints in self.local.items()

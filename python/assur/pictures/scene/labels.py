@@ -143,12 +143,38 @@ def within(centres: Float, half: Float, bounds: tuple[Float, Float]) -> Float:
     return inside
 
 
-def along(polylines: list[Float], step: float) -> Float:
-    """Return points along lines, no farther apart than a step, (m, 2)."""
+def along(polylines: list[Float], step: float, bounds: tuple[Float, Float] | None = None) -> Float:
+    """Return points along lines, no farther apart than a step, (m, 2).
+
+    With `bounds`, corners of a picture, only of what is in or near it.
+    """
     starts = np.concatenate([np.zeros((0, 2)), *(line[:-1] for line in polylines)])
     ends = np.concatenate([np.zeros((0, 2)), *(line[1:] for line in polylines)])
     known = np.isfinite(starts).all(axis=1) & np.isfinite(ends).all(axis=1)
-    return between(starts[known], ends[known], step)
+    starts, ends = starts[known], ends[known]
+    if bounds is not None:
+        starts, ends = _cut(starts, ends, *bounds)
+    return between(starts, ends, step)
+
+
+def _cut(starts: Float, ends: Float, low: Float, high: Float) -> tuple[Float, Float]:
+    """Return the parts of segments within a frame with as much again on each side.
+
+    Lines may go far beyond a picture, by a million times its width.
+    """
+    low, high = 2.0 * low - high, 2.0 * high - low
+    way = ends - starts
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sides = np.stack([(low - starts) / way, (high - starts) / way])
+    # Parallel to a side: all of it or nothing.
+    inside = (starts >= low) & (starts <= high)
+    first = np.where(way == 0.0, np.where(inside, 0.0, 2.0), sides.min(axis=0)).max(axis=1)
+    last = np.where(way == 0.0, 1.0, sides.max(axis=0)).min(axis=1)
+    first, last = np.maximum(first, 0.0), np.minimum(last, 1.0)
+    seen = first <= last
+    starts, way, first, last = starts[seen], way[seen], first[seen, None], last[seen, None]
+    whole = (first == 0.0) & (last == 1.0)
+    return starts + first * way, np.where(whole, ends[seen], starts + last * way)
 
 
 def between(starts: Float, ends: Float, step: float) -> Float:

@@ -8,11 +8,12 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
 
 from assur.pictures.axes import TEXT
 from assur.pictures.numerals import number
 from assur.pictures.text import write_names
-from assur.pictures.vectors.symbols import formula_font, formula_size
+from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -161,6 +162,8 @@ def path_vectors(
     scale: float | None = None,
     lines: Sequence[Float] = (),
     texts: bool = True,
+    names: Sequence[str] = (),
+    boxes: list[Float] | None = None,
 ) -> float:
     """Draw vectors at points, all to one scale, with texts such as "v 0.380 m/s" at their tips.
 
@@ -180,6 +183,10 @@ def path_vectors(
         Lines of the picture, m, of which texts keep clear.
     texts : bool
         Whether sizes are written.
+    names : sequence of str
+        Of the points, to be written with the symbols.
+    boxes : list of ndarray, optional
+        (k, 2, 2) each: middles and halves of texts that are there, points; those written are added.
 
     Returns
     -------
@@ -195,18 +202,27 @@ def path_vectors(
         arrow(on, np.asarray(points[i]), ends[i], LOOKS[kind], colour, gids[i])
         shafts.append(np.array([points[i], ends[i]]))
     if texts and known:
-        symbol, unit = SYMBOLS[kind]
+        letter, unit = SYMBOLS[kind]
+        symbols = [symbol(letter, [names[i]] if names else []) for i in known]
         sizes = [float(np.hypot(*vectors[i])) for i in known]
-        written = [f"${symbol}$ {number(size)} {unit}" for size in sizes]
+        written = [f"{one} {number(size)} {unit}" for one, size in zip(symbols, sizes, strict=True)]
         font = formula_font(TEXT)
-        write_names(
+        halves = np.array([formula_size(text, font) for text in written]) / 2.0
+        artists = write_names(
             on,
             written,
             ends[known],
             np.full(len(known), 2.0),
             [*lines, *shafts],
             [f"{gids[i]} text" for i in known],
+            np.concatenate(boxes) if boxes else None,
             font=font,
-            sizes=[formula_size(text, font) for text in written],
+            sizes=[(2.0 * width, 2.0 * height) for width, height in halves.tolist()],
         )
+        for artist in artists:
+            # Where no place is free of lines.
+            artist.set_path_effects([withStroke(linewidth=2.5, foreground=on.style.canvas)])
+        if boxes is not None:
+            middles = on.points([artist.get_position() for artist in artists])
+            boxes.append(np.stack([middles, halves], axis=1))
     return scale

@@ -38,7 +38,8 @@ class Beside:
     def __init__(self, on: Canvas, lines: Sequence[Float]) -> None:
         self._on = on
         self._font = formula_font(TEXT)
-        self._taken = along([on.points(line) for line in lines], STEP / 2.0)
+        bounds = on.points(on.low), on.points(on.high)
+        self._taken = along([on.points(line) for line in lines], STEP / 2.0, bounds)
 
     def block(self, middle: Float, half: Float, angle: float = 0.0) -> None:
         """Keep clear of a box about a point, m; its halves are in points."""

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
 
+from assur._arrays import finite_array
+from assur.errors import InputError
 from assur.pictures.axes import TEXT
 from assur.pictures.numerals import number
-from assur.pictures.text import text_size
+from assur.pictures.text import printable, text_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,6 +29,19 @@ def link_numbers(mechanism: Mechanism) -> dict[str, int]:
     """Return the numbers of links as mechanicians count them: the ground is 1."""
     moving = [link for link in mechanism.links if link != "ground"]
     return {"ground": 1, **{link: i for i, link in enumerate(moving, 2)}}
+
+
+def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
+    """Return finite rates of the drivers: a number, of several drivers one each."""
+    drivers = mechanism.driver
+    count = len(drivers) if isinstance(drivers, tuple) else 0
+    shape = (count,) if count else ()
+    rates = finite_array(value, what)
+    if rates.shape not in (shape, ()):
+        needed = f"{count} numbers, one a driver, are" if count else "one number is"
+        message = f"{what} has shape {rates.shape}: {needed} needed for one position"
+        raise InputError(message)
+    return rates
 
 
 def place_text(one: Motion) -> str:
@@ -57,7 +72,7 @@ def write_heading(on: Canvas, lines: Sequence[str]) -> None:
         text = Text(
             x,
             y,
-            line,
+            printable(line),
             fontproperties=FontProperties(size=TEXT) if i else first,
             color=on.style.second if i else on.style.ink,
             verticalalignment="top",
@@ -75,7 +90,7 @@ def wrapped(on: Canvas, text: str) -> list[str]:
     font = FontProperties(size=TEXT)
     room = (on.high[0] - on.low[0]) * on.scale - 20.0
     lines: list[str] = []
-    for word in text.split(", "):
+    for word in printable(text).split(", "):
         longer = f"{lines[-1]}, {word}" if lines else word
         if lines and text_size(longer, font)[0] <= room:
             lines[-1] = longer

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from matplotlib.font_manager import FontProperties
 
-from assur.pictures.text import name_font, text_size
+from assur.pictures.text import name_font, printable, text_size
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,7 +32,7 @@ def symbol(letter: str, names: Sequence[str], upper: str = "") -> str:
     """
     if not all(PLAIN.fullmatch(name) for name in names):
         above = f"^{upper}" if upper else ""
-        return f"{letter}{above}({'/'.join(names)})".replace("$", r"\$")
+        return f"{letter}{above}({printable('/'.join(names))})".replace("$", r"\$")
     short = len(names) < 2 or all(len(name.rstrip("0123456789")) == 1 for name in names)
     below = ("" if short else "/").join(name.replace("_", r"\_") for name in names)
     above = f"^{{{upper}}}" if upper else ""
