@@ -96,7 +96,12 @@ def degree_ticks(ax: Any, low: float, high: float) -> None:
     step = next((s for s in steps if (high - low) / s <= 8.0), None)
     if step is not None and (high - low) >= 120.0:
         ax.xaxis.set_major_locator(MultipleLocator(step))
-    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: true_minus(f"{x:.6g}°")))
+    ax.xaxis.set_major_formatter(FuncFormatter(_degrees))
+
+
+def _degrees(x: float, _: Any) -> str:
+    # Figures that are pickled have no functions without a name.
+    return true_minus(f"{x:.6g}°")
 
 
 def scaled(ax: Any, unit: str, greatest: float) -> tuple[str, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import pickle
 from typing import TYPE_CHECKING, Any, cast
 
 import matplotlib.pyplot as plt
@@ -35,6 +36,7 @@ def _closed() -> Iterator[None]:
         (lambda: TURN.plot(b"P"), "joint: the name b'P'"),
         (lambda: TURN.plot("P", vectors=1), "vectors is 1"),
         (lambda: TURN.animate("never.gif", 1.5), "joint is 1.5"),
+        (lambda: TURN.animate("never.gif", seconds=1e9), "seconds is 1000000000.0"),
         (lambda: TURN.plot("P", vectors="velocity", omega=np.inf), "omega is inf"),
         (lambda: hodograph(TURN, "P", omega=np.nan), "omega is nan"),
         (lambda: TURN.polygon("velocity", at=1, omega=np.inf), "omega is inf"),
@@ -191,3 +193,10 @@ def test_layouts_of_rcparams_leave_pictures_alone(parameter: str) -> None:
             before = axes.get_position().bounds
             axes.figure.savefig(io.BytesIO(), format="svg")
             assert axes.get_position().bounds == before
+
+
+def test_figures_can_be_pickled() -> None:
+    curve = CRANK_ROCKER.configuration_curve().plot("rocker")
+    diagram = TURN.diagram("rocker", orders=0, degrees=True)
+    for axes in (curve, diagram, TURN.plot("P")):
+        pickle.loads(pickle.dumps(axes.figure)).canvas.draw()

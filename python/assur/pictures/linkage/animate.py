@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 SUFFIXES = (".gif", ".webp", ".mp4")
 # A thousand frames of the usual size take 1 GiB.
 MOST_FRAMES = 1000
+# Of a film, s; GIF counts hundredths of a second in 16 bits for each frame.
+LONGEST = 600.0
 # Of a GIF: from the ground to each colour in so many steps, for the edges of lines.
 SHADES = 18
 
@@ -43,8 +45,8 @@ def animate(
         raise InputError(message)
     count = whole_number(frames, "frames", 2, MOST_FRAMES)
     duration = real_number(seconds, "seconds")
-    if not 0.0 < duration < np.inf:
-        message = f"seconds is {seconds}: a positive time is needed"
+    if not 0.0 < duration <= LONGEST:
+        message = f"seconds is {seconds}: a time from 0 to {LONGEST:g} is needed"
         raise InputError(message)
 
     joints = checked_names(joint, "joint")

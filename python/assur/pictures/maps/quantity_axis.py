@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -42,13 +43,14 @@ def name_axis(
         axis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     suffix = unit if is_angle else ""
 
-    def written(x: float, _: Any) -> str:
-        # Rounded, for a tick is a multiple of a step that has no exact number.
-        text = f"{round(x * factor, 9):.6g}"
-        return true_minus("0" if text == "-0" else text) + suffix
-
-    axis.set_major_formatter(FuncFormatter(written))
+    axis.set_major_formatter(FuncFormatter(partial(_tick, factor=factor, suffix=suffix)))
     name = shortened(name)
     text = name if is_angle else f"{name}, {unit}"
     axis.set_label_text(printable(text), color=style.second, fontsize=TEXT, parse_math=False)
     return unit, factor
+
+
+def _tick(x: float, _: Any, factor: float, suffix: str) -> str:
+    # Rounded, for a tick is a multiple of a step that has no exact number.
+    text = f"{round(x * factor, 9):.6g}"
+    return true_minus("0" if text == "-0" else text) + suffix
