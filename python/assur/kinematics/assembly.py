@@ -305,7 +305,8 @@ class Assemblies(list[Assembly]):
         Parameters
         ----------
         ax : sequence of matplotlib.axes.Axes, optional
-            Where to draw, axes for each; a new figure by default.
+            Where to draw, axes for each; a new figure by default, which shows 24 at most and says
+            how many there are.
         dark : bool
             For dark backgrounds.
 

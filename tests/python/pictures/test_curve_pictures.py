@@ -147,3 +147,20 @@ def test_assemblies_are_drawn_side_by_side_in_one_scale() -> None:
         found.plot(ax=axes[:3])
     with pytest.raises(assur.InputError, match="no assembly"):
         assur.FourBar(3.0, 2.5, 2.0, 4.0).assemblies(3.0).plot()
+
+
+def test_of_very_many_assemblies_some_are_drawn_and_all_are_counted() -> None:
+    """Five dyads in sequence have 32 assemblies."""
+    joints: dict[str, tuple[float, float]] = {"O": (0, 0), "P0": (0.3, 1.0)}
+    links: dict[str, list[str]] = {"ground": ["O"], "crank": ["O", "P0"]}
+    for i in range(5):
+        joints |= {f"P{i + 1}": (1.5 * i + 1.5, 2.0), f"G{i}": (1.5 * i + 2.0, 0.0)}
+        links["ground"].append(f"G{i}")
+        links[f"rod{i}"] = [f"P{i}", f"P{i + 1}"]
+        links[f"arm{i}"] = [f"P{i + 1}", f"G{i}"]
+    m = assur.Mechanism(joints, links, driver="crank")
+    found = m.assemblies(m.q0)
+    assert len(found) == 32
+    axes = found.plot()
+    assert len(axes) == 24
+    assert axes[0].figure.get_suptitle() == "24 of 32 assemblies"

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 # Of a picture: its width, inches; the limits of its height.
 WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 2.6, 1.8, 3.2
 COLUMNS = 4
+# More are not drawn in a figure of their own, which says how many there are.
+MOST = 24
 # Longer names of joints have no room.
 LONGEST = 3
 
@@ -34,7 +36,8 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
 
     style = style_of(dark)
     subjects = []
-    for assembly in found:
+    shown = list(found)[: MOST if ax is None else None]
+    for assembly in shown:
         place = assembly._place
         assert place is not None
         q = np.array(place.q) if len(place.q) > 1 else place.q[0]
@@ -45,8 +48,8 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
         subjects.append(subject)
     corners = np.concatenate([subject.points() for subject in subjects])
     extent = np.stack([corners.min(axis=0), corners.max(axis=0)])
-    axes = _axes(len(found), extent, ax, style)
-    for i, (one, subject, assembly) in enumerate(zip(axes, subjects, found, strict=True)):
+    axes = _axes(len(shown), extent, ax, style)
+    for i, (one, subject, assembly) in enumerate(zip(axes, subjects, shown, strict=True)):
         on = subject.canvas(one, style, [extent])
         Drawn(on, subject.scene, subject.frames[0])
         if max(len(name.text) for name in subject.scene.names) <= LONGEST:
@@ -55,6 +58,10 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
             _title(i, assembly, on), color=style.second, fontsize=TEXT, y=0.0,
             pad=4.0, gid="title", parse_math=False,
         )  # fmt: skip
+    if len(shown) < len(found):
+        axes[0].figure.suptitle(
+            f"{len(shown)} of {len(found)} assemblies", color=style.second, fontsize=TEXT
+        )
     return axes
 
 
