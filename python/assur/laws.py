@@ -41,8 +41,8 @@ __all__ = [
     "Uniform",
 ]
 
-# Shortest duration, s: its cube divides the jerk.
-SHORTEST = 1e-50
+# Shortest and longest duration, s: its cube divides the jerk.
+SHORTEST, LONGEST = 1e-50, 1e100
 
 # The part of the way and its first three derivatives by the part of the time.
 Jet = tuple[Float, Float, Float, Float]
@@ -118,6 +118,11 @@ class Rise(Law):
             message = (
                 f"{type(self).__name__}: duration is {self.duration!r} s: at least {SHORTEST:g} s "
                 "is needed, else the jerk is beyond the greatest number"
+            )
+            raise InputError(message, value=self.duration)
+        if self.duration > LONGEST:
+            message = (
+                f"{type(self).__name__}: duration is {self.duration!r} s: at most {LONGEST:g} s"
             )
             raise InputError(message, value=self.duration)
 

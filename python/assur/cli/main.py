@@ -31,6 +31,7 @@ COMMANDS = {
     "flywheel": "the flywheel of a machine, or of a table of moment and inertia",
     "sweep": "many designs, measured; the best of them",
     "plot": "a picture",
+    "studio": "mechanisms in the browser: draw, drag, run",
     "convert": "a file of another program, as a TOML file",
     "examples": "the examples that the package contains",
 }

@@ -22,6 +22,7 @@ from assur.kinematics.solve import in_radians
 if TYPE_CHECKING:
     from os import PathLike
 
+    from assur.files.tree import Tree
     from assur.files.wanted import Result
 
 __all__ = ["Contents", "load", "read"]
@@ -164,8 +165,8 @@ def read(path: str | PathLike[str]) -> Contents:
     return contents_of(Source(path))
 
 
-def contents_of(source: Source) -> Contents:
-    """Return what a file that has been read and parsed holds."""
+def contents_of(source: Tree) -> Contents:
+    """Return what a file that has been read and parsed holds, or a tree of the same words."""
     root = Node(source, (), source.data)
     if "format" not in source.data:
         raise root.missing("format", f": write format = {FORMAT} in the first line")

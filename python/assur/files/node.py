@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.files.positions import KeyPath
-    from assur.files.source import Source
+    from assur.files.tree import Tree
 
 
 @dataclass(frozen=True, slots=True)
 class Node:
     """A value, the path of its key, and the file."""
 
-    source: Source
+    source: Tree
     path: KeyPath
     value: Any
 

@@ -11,6 +11,7 @@ from assur.files.lexer import line_and_column
 from assur.files.limits import MOST_BYTES, beyond_limits
 from assur.files.parser import loads
 from assur.files.positions import key_positions
+from assur.files.tree import Tree, shown, with_fields
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -22,15 +23,11 @@ __all__ = ["Source"]
 
 # How the parser ends its messages.
 PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
-# How messages of the package begin; in a file the key says it.
-SUBJECT = re.compile(r'(?:joint|link|slide|cylinder|driver|dimension) (["\'])(.+?)\1:? ')
-
-
 # What follows the first sign of equality of a line.
 ASSIGNED = re.compile(r"[^=]*=\s*(.*)")
 
 
-class Source:
+class Source(Tree):
     """A TOML file: its data, and where each key is.
 
     Parameters
@@ -49,7 +46,7 @@ class Source:
         if found is not None:
             at, message = found
             raise self._at(*line_and_column(self.text, at), message)
-        self.data = self._parsed()
+        super().__init__(self._parsed())
 
     def _bytes(self) -> bytes:
         try:
@@ -117,27 +114,4 @@ class Source:
         while known and known not in self._positions:
             known = known[:-1]
         line, column = line_and_column(self.text, self._positions.get(known, 0))
-        error = self._at(line, column, message, shown(path))
-        for name, value in {**(cause.__dict__ if cause else {}), **fields}.items():
-            setattr(error, name, value)
-        return error
-
-    def error_of(self, path: KeyPath, cause: AssurError) -> FileError:
-        """Return an error of the package as that of a key."""
-        message = str(cause)
-        subject = SUBJECT.match(message)
-        if subject is not None and path and subject[2] == path[-1]:
-            message = message[subject.end() :]
-        return self.error(path, message, cause)
-
-
-def shown(path: KeyPath) -> str:
-    """Return a key as messages show it: links.crank, loads[0].at."""
-    text = ""
-    for part in path:
-        if isinstance(part, int):
-            text += f"[{part}]"
-            continue
-        is_plain = part.isprintable() and part and not set(part) & set(" .[]\"'")
-        text += ("." if text else "") + (part if is_plain else ascii(part))
-    return text
+        return with_fields(self._at(line, column, message, shown(path)), cause, fields)

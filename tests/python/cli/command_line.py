@@ -6,6 +6,7 @@ import contextlib
 import csv
 import io
 from typing import NamedTuple
+from unittest import mock
 
 import numpy as np
 import numpy.typing as npt
@@ -24,9 +25,14 @@ class Done(NamedTuple):
 
 
 def assur_command(*words: object) -> Done:
-    """Call a command, with pipes for its outputs."""
+    """Call a command, with pipes for its outputs; the studio ends when it has said its address."""
     out, err = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+    with (
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(err),
+        mock.patch("uvicorn.Server.run"),
+        mock.patch("webbrowser.open"),
+    ):
         code = main([str(word) for word in words])
     return Done(code, out.getvalue(), err.getvalue())
 

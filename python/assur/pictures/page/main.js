@@ -28,7 +28,9 @@ const AT_END = 1e-4;
  * @returns {{player: Player, stage: Stage, seek: (q: number) => void}}
  */
 export function mount(root, data) {
-  const turn = new Turn({ ...data.turn, values: fromBase64(data.turn.values) });
+  // A page that is a file has its numbers as text.
+  const { values } = data.turn;
+  const turn = new Turn({ ...data.turn, values: typeof values === "string" ? fromBase64(values) : values });
   const unit = data.turn.unit;
   const pose = turn.pose();
   const { name: lengthName, factor } = lengthUnit(Math.max(data.bounds[2] - data.bounds[0], data.bounds[3] - data.bounds[1]));

@@ -15,7 +15,7 @@ from assur.pictures.scene.frames import Frames
 from assur.pictures.scene.parts import Disc, Hatching
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
@@ -43,10 +43,22 @@ class Played:
 
     def bounds(self) -> tuple[Float, Float]:
         """Return the corners of the whole motion, m."""
-        points = [self.frames.world(link, (x, y)) for link, x, y in corners(self.scene)]
-        every = np.concatenate(points)
-        every = every[np.isfinite(every).all(axis=1)]
-        return every.min(axis=0), every.max(axis=0)
+        ends, known = [], self.frames.values[0][self.known()]
+        for link, points in self._corners().items():
+            x, y, angle = known[:, self.frames.links.index(link)].T
+            cosine, sine = np.cos(angle), np.sin(angle)
+            px, py = np.array(points).T[:, :, None]
+            across, up = x + cosine * px - sine * py, y + sine * px + cosine * py
+            ends += [(across.min(), across.max()), (up.min(), up.max())]
+        lows, highs = np.array(ends).reshape(-1, 2, 2).transpose(2, 0, 1)
+        return lows.min(axis=0), highs.max(axis=0)
+
+    def _corners(self) -> dict[str, list[tuple[float, float]]]:
+        """Return the points of the scene by the link that they are fixed to."""
+        found: dict[str, list[tuple[float, float]]] = {}
+        for link, x, y in corners(self.scene):
+            found.setdefault(link, []).append((x, y))
+        return found
 
     def row(self) -> int:
         """Return the row next to where the page begins."""
@@ -78,8 +90,12 @@ def payload(
     speed: float | None = None,
     paths: Any = None,
     diagrams: Any = None,
+    encode: Callable[[Float], Any] | None = None,
 ) -> dict[str, Any]:
-    """Return what the page is told, ready for `json.dumps`."""
+    """Return what the page is told, ready for `json.dumps`.
+
+    `encode` makes JSON of the array of positions; by default it becomes base64 of Float32.
+    """
     mechanism, scene, turn = played.mechanism, played.scene, played.turn
     links = ["ground", *(link for link in scene.links if link != "ground")]
     index = {link: i for i, link in enumerate(links)}
@@ -110,16 +126,19 @@ def payload(
             "orders": len(turn.frames.values),
             "rows": len(turn.frames.values[0]),
             "ground": _ground(turn.frames),
-            "values": _binary(turn.frames, links[1:]),
+            "values": (encode or _base64)(link_values(turn.frames, links[1:])),
         },
     }
 
 
-def _binary(frames: Frames, moving: list[str]) -> str:
-    """Return [order][row][link][x, y, angle] of all links but the ground: Float32 as base64."""
+def link_values(frames: Frames, moving: list[str]) -> Float:
+    """Return [order][row][link][x, y, angle] of all links but the ground."""
     columns = [frames.links.index(link) for link in moving]
-    array = np.stack([values[:, columns] for values in frames.values]).astype("<f4")
-    return base64.b64encode(array.tobytes()).decode("ascii")
+    return np.stack([values[:, columns] for values in frames.values])
+
+
+def _base64(array: Float) -> str:
+    return base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")
 
 
 def _ground(frames: Frames) -> list[float]:

@@ -14,6 +14,7 @@ from assur.pictures.scene.frames import FAR, Frames, frames_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.kinematics.limits import Limits
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -48,6 +49,8 @@ class Turn:
         Where to begin.
     dead_points : list of (float, str)
         Ends where the driver cannot go on, each with the group that is flat there.
+    limits : Limits or None
+        All places of the driver, where they were looked for.
     """
 
     mechanism: Mechanism
@@ -57,6 +60,7 @@ class Turn:
     unit: Unit
     at: float
     dead_points: list[tuple[float, str]] = field(default_factory=list)
+    limits: Limits | None = None
 
 
 def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
@@ -84,7 +88,7 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
         frames = _linear(mechanism, 0.0, TURN * count, (rows - 1) * count + 1)
         if frames is not None:
             grid = {"kind": "linear", "low": 0.0, "high": TURN * count}
-            return Turn(mechanism, frames, grid, closes, unit, q0 % (TURN * count))
+            return Turn(mechanism, frames, grid, closes, unit, q0 % (TURN * count), [], limits)
     free = TURN / 2.0 if turns else free_stroke(mechanism)
     low, high = max(low, q0 - free), min(high, q0 + free)
     # No picture can follow where something goes toward infinity.
@@ -96,7 +100,7 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
         for shift in ((-TURN, 0.0, TURN) if turns else (0.0,))
         if point.group is not None and min(abs(point.q + shift - end) for end in (low, high)) < 1e-9
     ]
-    return Turn(mechanism, frames, grid, False, unit, q0, dead)
+    return Turn(mechanism, frames, grid, False, unit, q0, dead, limits)
 
 
 def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:

@@ -27,21 +27,26 @@ def turn_of_run(run: Run) -> Turn:
     if mechanism is None:
         message = "this run is that of a machine of tables: there is no mechanism to play"
         raise InputError(message)
+    return turn_over_time(mechanism, *course_of_run(run))
+
+
+def course_of_run(run: Run, rows: int | None = None) -> tuple[Float, Float, Float, Float]:
+    """Return t, q, speed and acceleration of a run at equal steps of time."""
     if not run.t[-1] > run.t[0]:
         message = f"this run ends where it begins, at t = {run.t[0]:g} s: nothing moves"
         raise InputError(message)
-    turns = float(np.abs(run.q[-1] - run.q[0]).max()) / (2.0 * np.pi)
-    rows = int(np.clip(ROWS_PER_TURN * turns, LEAST_ROWS, MOST_ROWS))
+    if rows is None:
+        turns = float(np.abs(run.q[-1] - run.q[0]).max()) / (2.0 * np.pi)
+        rows = int(np.clip(ROWS_PER_TURN * turns, LEAST_ROWS, MOST_ROWS))
     t = np.linspace(run.t[0], run.t[-1], rows)
     if run._along_q:
         fine = run.at(q=np.linspace(run.q[0], run.q[-1], PLACES))
         q, speed, acceleration = (
             np.interp(t, fine.t, values) for values in (fine.q, fine.speed, fine.acceleration)
         )
-    else:
-        state = run.at(t)
-        q, speed, acceleration = state.q, state.speed, state.acceleration
-    return _turn(mechanism, t, q, speed, acceleration)
+        return t, q, speed, acceleration
+    state = run.at(t)
+    return t, state.q, state.speed, state.acceleration
 
 
 def turn_of_timed(timed: TimedMotion) -> Turn:
@@ -57,10 +62,13 @@ def turn_of_timed(timed: TimedMotion) -> Turn:
             "to_html plays evenly spaced times: follow() the law at np.linspace(first, last, N)"
         )
         raise InputError(message)
-    return _turn(mechanism, t, timed.q, timed.speed, timed.acceleration)
+    return turn_over_time(mechanism, t, timed.q, timed.speed, timed.acceleration)
 
 
-def _turn(mechanism: Mechanism, t: Float, q: Float, speed: Float, acceleration: Float) -> Turn:
+def turn_over_time(
+    mechanism: Mechanism, t: Float, q: Float, speed: Float, acceleration: Float
+) -> Turn:
+    """Return the positions at equal steps of time of a driver that moves so."""
     motion = mechanism.solve(q, order=2, on_error="nan")
     frames = frames_in_time(motion, np.asarray(speed), np.asarray(acceleration))
     grid = {"kind": "linear", "low": float(t[0]), "high": float(t[-1])}

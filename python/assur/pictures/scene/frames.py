@@ -45,14 +45,17 @@ class Frames:
 
     def world(self, link: str, point: Float | tuple[float, float]) -> Float:
         """Return a point of a link in the drawing's axes at every position, (N, 2)."""
-        x, y, angle = np.moveaxis(self.values[0][:, self.links.index(link)], -1, 0)
+        x, y, angle = self.values[0][:, self.links.index(link)].T
         cosine, sine = np.cos(angle), np.sin(angle)
         px, py = point
-        return np.stack([x + cosine * px - sine * py, y + sine * px + cosine * py], axis=-1)
+        placed: Float = np.empty((len(x), 2))
+        placed[:, 0] = x + cosine * px - sine * py
+        placed[:, 1] = y + sine * px + cosine * py
+        return placed
 
     def seen_from(self, link: str, points: Float) -> Float:
         """Return points of the drawing's axes, one at each position, in a link's frame."""
-        x, y, angle = np.moveaxis(self.values[0][:, self.links.index(link)], -1, 0)
+        x, y, angle = self.values[0][:, self.links.index(link)].T
         cosine, sine = np.cos(angle), np.sin(angle)
         dx, dy = points[:, 0] - x, points[:, 1] - y
         return np.stack([cosine * dx + sine * dy, cosine * dy - sine * dx], axis=-1)
@@ -82,22 +85,20 @@ def frames_of(motion: Motion) -> Frames:
         message = f"a batch of designs {mechanism.shape} is not drawn: take one with design(i)"
         raise InputError(message)
     links = tuple(mechanism.links)
-    values = []
     # Derivatives by several coordinates are not of frames along a motion.
-    for order in range(motion.order + 1 if mechanism._driver_count == 1 else 1):
-        own = np.zeros((motion.status.size, len(links), 3))
-        for i, link in enumerate(links):
-            # The ground's frame is the drawing's.
-            if link == "ground":
-                continue
-            # A link's frame is at its first joint; without one it takes another solution.
-            joints = mechanism.links[link]
-            origin = motion.joint(joints[0]) if joints else motion._reference_point(link)
-            angle = motion.link(link)
-            own[:, i, :2] = origin._arrays[order].reshape(-1, 2)
-            own[:, i, 2] = angle._arrays[order].reshape(-1)
-        values.append(own)
-    frames = Frames(links, tuple(values), {})
+    orders = motion.order + 1 if mechanism._driver_count == 1 else 1
+    values = tuple(np.zeros((motion.status.size, len(links), 3)) for _ in range(orders))
+    for i, (link, joints) in enumerate(mechanism.links.items()):
+        # The ground's frame is the drawing's.
+        if link == "ground":
+            continue
+        # A link's frame is at its first joint; without one it takes another solution.
+        origin = motion.joint(joints[0]) if joints else motion._reference_point(link)
+        angle = motion.link(link)
+        for own, place, turned in zip(values, origin._arrays, angle._arrays, strict=False):
+            own[:, i, :2] = place.reshape(-1, 2)
+            own[:, i, 2] = turned.reshape(-1)
+    frames = Frames(links, values, {})
     known = np.flatnonzero(frames.is_known)
     if not known.size:
         message = f"there is no position to draw: {motion.explain(() if not motion.shape else 0)}"

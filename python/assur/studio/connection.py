@@ -1,0 +1,126 @@
+"""One page: reads its requests, computes one at a time, keeps of live kinds the newest."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from starlette.websockets import WebSocketDisconnect
+
+from assur.studio.answers import answered, failed
+from assur.studio.frame import encode
+from assur.studio.kinds import LIVE
+from assur.studio.limits import EXPORT_SECONDS, MOST_CONNECTIONS, MOST_WAITING, SECONDS
+from assur.studio.request import MalformedError, Request, parse
+from assur.studio.session import Deadline, Session, TimeIsUpError
+from assur.studio.workers import BusyError, Workers
+
+if TYPE_CHECKING:
+    from starlette.websockets import WebSocket
+
+    from assur.studio.session import Given
+
+# What WebSockets call "try again later".
+TRY_LATER = 1013
+
+
+class Studio:
+    """What all connections share: the file given, the threads, who is connected."""
+
+    def __init__(self, given: Given | None = None) -> None:
+        self.given = given
+        self.workers = Workers()
+        self.connections: set[Connection] = set()
+
+    async def connect(self, socket: WebSocket) -> None:
+        """Serve a page until it leaves."""
+        await socket.accept()
+        if len(self.connections) >= MOST_CONNECTIONS:
+            error = MalformedError(f"{MOST_CONNECTIONS} windows are open already: close one")
+            await socket.send_bytes(failed({"id": None, "rev": None, "kind": None}, error))
+            await socket.close(TRY_LATER)
+            return
+        connection = Connection(self, socket)
+        self.connections.add(connection)
+        try:
+            await connection.serve()
+        finally:
+            self.connections.discard(connection)
+
+
+class Connection:
+    """One page."""
+
+    def __init__(self, studio: Studio, socket: WebSocket) -> None:
+        self._studio, self._socket = studio, socket
+        self._waiting: list[Request] = []
+        self._is_waiting = asyncio.Event()
+        self._sending = asyncio.Lock()
+        self.has_file = False
+
+    async def serve(self) -> None:
+        """Read until the page leaves; compute meanwhile."""
+        computing = asyncio.create_task(self._compute())
+        try:
+            while True:
+                message = await self._socket.receive()
+                if message["type"] == "websocket.disconnect":
+                    return
+                text = message.get("text")
+                await self._take(message.get("bytes", b"") if text is None else text)
+        except WebSocketDisconnect:
+            return
+        finally:
+            computing.cancel()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
+                await computing
+
+    async def _take(self, text: str | bytes) -> None:
+        try:
+            request = parse(text)
+        except MalformedError as error:
+            await self._send(failed({"id": error.id, "rev": None, "kind": None}, error))
+            return
+        place = LIVE.get(request.kind)
+        older = [one for one in self._waiting if place is not None and LIVE.get(one.kind) == place]
+        for one in older:
+            self._waiting.remove(one)
+            await self._send(encode({**_head(one), "dropped": True}, {}))
+        if len(self._waiting) >= MOST_WAITING:
+            await self._send(failed(_head(request), BusyError()))
+            return
+        self._waiting.append(request)
+        self._is_waiting.set()
+
+    async def _compute(self) -> None:
+        """Answer what waits, the oldest first."""
+        while True:
+            await self._is_waiting.wait()
+            request = self._waiting.pop(0)
+            if not self._waiting:
+                self._is_waiting.clear()
+            await self._send(await self._answer(request))
+
+    async def _answer(self, request: Request) -> bytes:
+        seconds = EXPORT_SECONDS if request.kind == "export" else SECONDS
+        others = sum(one.has_file for one in self._studio.connections if one is not self)
+
+        def call() -> bytes:
+            return answered(request, Session(self._studio.given, Deadline(seconds), others))
+
+        try:
+            frame = await self._studio.workers.compute(call, seconds, request.kind)
+        except (TimeIsUpError, BusyError) as error:
+            return failed(_head(request), error)
+        if request.kind == "open":
+            self.has_file = request.fields.get("file") is True
+        return frame
+
+    async def _send(self, frame: bytes) -> None:
+        async with self._sending:
+            await self._socket.send_bytes(frame)
+
+
+def _head(request: Request) -> dict[str, Any]:
+    return {"id": request.id, "rev": request.rev, "kind": request.kind}

@@ -1,0 +1,91 @@
+"""Documents: mechanisms and machines as JSON, in the words of files.
+
+A document is the tree of a TOML file of assur (docs/files.md) without ``format`` and without the
+results that a file may ask for; its dimensions have dotted names, ``"coupler.length"``.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from assur.files.contents import FORMAT, Contents, contents_of
+from assur.files.node import Node
+from assur.files.parser import loads
+from assur.files.read_machine import SECTIONS
+from assur.files.tree import Tree
+from assur.files.write import text_of
+from assur.studio.limits import MOST_JOINTS, MOST_LINKS
+
+if TYPE_CHECKING:
+    from assur.dynamics.machine import Machine
+    from assur.kinematics.mechanism import Mechanism
+
+KEYS = ("driver", "joints", "links", "slides", "assembly", "dimensions", "drawn", *SECTIONS)
+COUNTED = {"joints": MOST_JOINTS, **dict.fromkeys(("links", "slides", "loads"), MOST_LINKS)}
+
+
+def read(data: Any) -> Contents:
+    """Return the mechanism of a document, and its machine if it has one.
+
+    Raises
+    ------
+    FileError
+        What is wrong, with its key in the document.
+    """
+    node = checked(data)
+    contents = contents_of(Tree({"format": FORMAT, **node.value}))
+    if contents.mechanism.shape:
+        raise node.error("dimensions: the studio shows one design, not a list of them")
+    return contents
+
+
+def read_mechanism(data: Any) -> Mechanism:
+    """Return the mechanism of a document; its masses and loads are not looked at."""
+    node = checked(data)
+    geometry = {key: value for key, value in node.value.items() if key not in SECTIONS}
+    return read(geometry).mechanism
+
+
+def read_machine(data: Any) -> Machine:
+    """Return the machine of a document."""
+    contents = read(data)
+    if contents.machine is None:
+        message = "it has no masses or loads yet: give bodies, loads or a motor"
+        raise Node(Tree({}), (), data).error(message, kind="no_machine")
+    return contents.machine
+
+
+def checked(data: Any) -> Node:
+    """Return a document as a node: a table with known keys and not too many entries."""
+    node = Node(Tree(data if isinstance(data, dict) else {}), (), data)
+    entries = node.keys(KEYS)
+    for key, most in COUNTED.items():
+        own = entries[key].value if key in entries else ()
+        if isinstance(own, dict | list) and len(own) > most:
+            message = f"has {len(own)} entries: the studio takes {most}"
+            raise entries[key].error(message, kind="too_many")
+    return node
+
+
+def document_of(what: Mechanism | Machine) -> dict[str, Any]:
+    """Return the document of a mechanism or a machine."""
+    data = loads(text_of(what))
+    document: dict[str, Any] = {key: data[key] for key in KEYS if key in data}
+    if "dimensions" in document:
+        document["dimensions"] = dict(flat(document["dimensions"]))
+    return document
+
+
+def toml_of(data: Any) -> str:
+    """Return a document as the text of a file."""
+    contents = read(data)
+    return text_of(contents.machine or contents.mechanism)
+
+
+def flat(table: dict[str, Any], prefix: str = "") -> list[tuple[str, Any]]:
+    """Return the entries of nested tables with dotted names."""
+    entries: list[tuple[str, Any]] = []
+    for key, value in table.items():
+        name = f"{prefix}.{key}" if prefix else key
+        entries += flat(value, name) if isinstance(value, dict) else [(name, value)]
+    return entries

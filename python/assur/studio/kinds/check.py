@@ -1,0 +1,149 @@
+"""``check``: what a document says while it is drawn: it moves, or what is missing or too much."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+from assur.errors import AssurError
+from assur.studio import document
+from assur.studio.kinds.structure import described
+from assur.studio.request import Fields
+from assur.studio.session import Answer
+
+if TYPE_CHECKING:
+    from assur.kinematics.mechanism import Mechanism
+    from assur.studio.session import Session
+
+# Links that are tried as drivers, if none is named.
+MOST_CANDIDATES = 12
+QUOTED = re.compile(r'"([^"]+)"')
+# How many drivers, in words.
+COUNTS = ("No", "One", "Two", "Three", "Four", "Five", "Six")
+
+
+def check(data: dict[str, Any], session: Session) -> Answer:
+    """Return the state of a document, with the names of all that is concerned."""
+    fields = Fields(data, ("document",), ("document",))
+    node = document.checked(fields["document"])
+    own = {"joints": {}, "links": {"ground": []}, **node.value}
+    node = document.checked(own)
+    links = node.table()["links"].table()
+    if not set(links) - {"ground"}:
+        return _state(own, "empty", "Draw a link, or open an example.")
+    if own.get("driver") in (None, "", []):
+        return _without_driver(own, session)
+    try:
+        mechanism = document.read_mechanism(own)
+    except AssurError as error:
+        return _refused(own, error)
+    return _moves(own, mechanism)
+
+
+def _moves(own: dict[str, Any], mechanism: Mechanism) -> Answer:
+    mobility = mechanism.structure.mobility
+    return _state(own, "moves", f"Moves: mobility {mobility}.", **described(mechanism))
+
+
+def _without_driver(own: dict[str, Any], session: Session) -> Answer:
+    """Say what could drive it, each tried."""
+    candidates: list[str] = []
+    first: AssurError | None = None
+    structure: dict[str, Any] | None = None
+    for name in _on_ground(own)[:MOST_CANDIDATES]:
+        session.deadline.check()
+        try:
+            mechanism = document.read_mechanism({**own, "driver": name})
+        except AssurError as error:
+            # Another link may drive where this one cannot.
+            if first is None or first.kind == "cannot_drive":
+                first = error
+            continue
+        candidates.append(name)
+        structure = structure or described(mechanism)["structure"]
+    if candidates or first is None or first.kind == "cannot_drive":
+        message = "Nothing drives it yet. Click the link that is driven."
+        return _state(own, "no_driver", message, candidates=candidates, structure=structure)
+    return _refused(own, first)
+
+
+def _on_ground(own: dict[str, Any]) -> list[str]:
+    """Return the links at a joint of the ground, then the slides on it."""
+    node = document.checked(own).table()
+    links = {name: one.names() for name, one in node["links"].table().items()}
+    fixed = set(links.get("ground", ()))
+    turning = [n for n, joints in links.items() if n != "ground" and fixed & set(joints)]
+    if "slides" not in node:
+        return turning
+    return [*turning, *node["slides"].table()]
+
+
+def _refused(own: dict[str, Any], error: AssurError) -> Answer:
+    """Return what a linkage lacks, or has too much of, in the words of the studio."""
+    cause = error.__cause__ if isinstance(error.__cause__, AssurError) else error
+    text, kind = str(cause), error.kind
+    named = QUOTED.findall(text.removesuffix(cause.hint or ""))
+    known = {key: own.get(key) for key in ("joints", "links", "slides")}
+    concerned = {
+        key: [n for n in dict.fromkeys(named) if isinstance(entries, dict) and n in entries]
+        for key, entries in known.items()
+    }
+    links = listed(concerned["links"])
+    state, message, extra = "incomplete", text, {}
+    if kind == "immovable":
+        state = "stuck"
+        message = f"Cannot move: {links} hold each other. Take one out, or let a joint slide."
+    elif kind == "mobility" and cause.value is not None:
+        state, count = "loose", int(cause.value)
+        extra = {"needed": count}
+        how = COUNTS[count] if count < len(COUNTS) else str(count)
+        drivers = "drivers are" if count != 1 else "driver is"
+        message = f"{how} {drivers} needed: with what is driven held, {links or 'a link'} still "
+        message += "moves." if len(concerned["links"]) < 2 else "move."
+    elif kind in ("over_constrained", "almost_fits", "slides_only"):
+        state = "stuck"
+    elif kind is None or kind in ("bad_name", "doubled_name", "not_finite", "out_of_range"):
+        state = "invalid"
+    return _state(
+        own,
+        state,
+        message,
+        reason=kind,
+        hint=cause.hint,
+        key=getattr(error, "key", None),
+        joint=error.joint,
+        link=error.link,
+        slide=error.slide,
+        concerned=concerned,
+        # Up to three, each {"text", "document"}, once the core finds them.
+        remedies=list(getattr(cause, "remedies", ())),
+        **extra,
+    )
+
+
+def _state(own: dict[str, Any], state: str, message: str, **more: Any) -> Answer:
+    counts: dict[str, Any] = {"counted": _counted(own), "structure": None, "remedies": []}
+    return Answer({"state": state, "message": message, **counts, **more})
+
+
+def _counted(own: dict[str, Any]) -> dict[str, int]:
+    """Count as Chebyshev and Grübler do, also what is not yet a mechanism."""
+    links = {n: on for n, on in own["links"].items() if isinstance(on, list)}
+    slides = own.get("slides")
+    slides = slides if isinstance(slides, dict) else {}
+    cylinders = [one for one in slides.values() if isinstance(one, dict) and "base" in one]
+    made = [[one[end]] for one in cylinders for end in ("base", "end") if end in one]
+    everywhere = [name for on in (*links.values(), *made) for name in dict.fromkeys(map(str, on))]
+    turning = len(everywhere) - len(set(everywhere))
+    moving = len(links) - ("ground" in links) + len(made)
+    return {
+        "moving_links": moving,
+        "turning_pairs": turning,
+        "sliding_pairs": len(slides),
+        "mobility": 3 * moving - 2 * (turning + len(slides)),
+    }
+
+
+def listed(names: list[str]) -> str:
+    """Return names as a sentence has them: a, b and c."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)

@@ -1,0 +1,135 @@
+"""``drag``: the dimensions with which a joint is where the pointer holds it.
+
+The mechanism is drawn again at the present position, with that joint moved and all others where
+they are; its dimensions have the same names. They go into the document, whose drawing stays. Where
+they do not lead there from its drawing (the joint passed through the line of its dyad, a slide
+without origin was moved across its guide), the document gets the new drawing instead.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import AssurError
+from assur.kinematics.table import driven_angles
+from assur.pictures.scene.course import TURN
+from assur.studio import document
+from assur.studio.kinds.structure import unit_of
+from assur.studio.kinds.turn import SHOWN, turn_answer
+from assur.studio.request import Fields
+from assur.studio.session import Answer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+    from assur.studio.session import Session
+
+# A dimension that differs by less, relative to the size, keeps its digits; a joint is in place.
+SAME, IN_PLACE = 1e-9, 1e-7
+OWN = ("document", "q", "joint", "to")
+
+
+def drag(data: dict[str, Any], session: Session) -> Answer:
+    """Return the document of the dragged mechanism with its turn."""
+    del session
+    fields = Fields(data, (*OWN, *SHOWN), ("document", "joint", "to"))
+    mechanism = document.read_mechanism(fields["document"])
+    joint = fields.word("joint", mechanism.joints)
+    q = fields.drivers("q", mechanism)
+    motion = mechanism.solve(q, order=0)
+    wanted = {name: motion.joint(name).value for name in mechanism.joints}
+    wanted[joint] = np.array(fields.pair("to"))
+    again = redrawn(fields["document"], mechanism, motion, wanted)
+    drawn = document.read_mechanism(again)
+    own, place, made = again, drawn.q0, drawn
+    changed = _changed(mechanism, drawn)
+    for dimensions, near in _ways(mechanism, drawn, changed, q):
+        sized = _led_there(mechanism, dimensions, near, wanted)
+        if sized is not None:
+            own, changed = _with_dimensions(fields["document"], dimensions), dimensions
+            place, made = near, sized
+            break
+    answer = turn_answer(made, place, fields)
+    header = {"document": own, "q": place, "changed": list(changed)}
+    return Answer({**header, **answer.header}, answer.arrays)
+
+
+def _with_dimensions(data: dict[str, Any], changed: dict[str, float]) -> dict[str, Any]:
+    given = dict(document.flat(data.get("dimensions", {})))
+    return {**data, "dimensions": {**given, **changed}} if given or changed else data
+
+
+def redrawn(
+    data: dict[str, Any], mechanism: Mechanism, motion: Motion, joints: dict[str, Float]
+) -> dict[str, Any]:
+    """Return the document with another drawing: joints as given, guides as they are there."""
+    own = {k: v for k, v in data.items() if k not in ("dimensions", "assembly", "drawn")}
+    own["joints"] = {name: joints[name].tolist() for name in data["joints"]}
+    if "slides" not in data:
+        return own
+    own["slides"], dimensions = {}, mechanism.dimensions
+    for name, slide in data["slides"].items():
+        own["slides"][name] = slide
+        if "angle" in slide:
+            carrier = 0.0 if slide["on"] == "ground" else float(motion.link(slide["on"]).value)
+            angle = carrier + float(dimensions.get(f"{name}.angle", 0.0))
+            own["slides"][name] = {**slide, "angle": angle}
+    return own
+
+
+def _changed(mechanism: Mechanism, drawn: Mechanism) -> dict[str, float]:
+    """Return the dimensions that another drawing has and the mechanism has not."""
+    size = float(np.ptp(np.array(list(drawn.joints.values())), axis=0).max())
+    own, changed = mechanism.dimensions, {}
+    for name, value in drawn.dimensions.items():
+        difference, scale = value - own[name], size
+        if unit_of(name) == "rad":
+            difference, scale = difference - TURN * round(difference / TURN), 1.0
+        if abs(difference) > SAME * scale:
+            changed[name] = float(value)
+    return changed
+
+
+def _ways(
+    mechanism: Mechanism, drawn: Mechanism, changed: dict[str, float], q: Any
+) -> Iterator[tuple[dict[str, float], Any]]:
+    """Yield dimensions and the coordinate to try with them.
+
+    Zero of a slide without origin is the place of its drawing; first as if that had not moved.
+    """
+    slides = mechanism.slides
+    zeros = {f"{name}.origin.{axis}" for name in slides for axis in ("x", "y")}
+    floating = [
+        isinstance(one, str) and one in slides and slides[one].origin is None
+        for one in mechanism._description.drivers
+    ]
+    own, given = np.atleast_1d(drawn.q0), np.atleast_1d(q)
+    angles = np.array(driven_angles(drawn))
+    # Angles are those of the turn that the present one is in.
+    near = np.where(angles, own + TURN * np.round((given - own) / TURN), own)
+    several = drawn._driver_count > 1
+    if any(floating) or zeros & set(changed):
+        kept = np.where(floating, given, near)
+        others = {name: value for name, value in changed.items() if name not in zeros}
+        yield others, kept if several else float(kept[0])
+    yield changed, near if several else float(near[0])
+
+
+def _led_there(
+    mechanism: Mechanism, changed: dict[str, float], q: Any, wanted: dict[str, Float]
+) -> Mechanism | None:
+    """Return the mechanism with other dimensions if its joints are at q where they are wanted."""
+    try:
+        sized = mechanism.with_dimensions(changed)
+        motion = sized.solve(q, order=0)
+    except AssurError:
+        return None
+    there = np.array([motion.joint(name).value for name in wanted])
+    target = np.array(list(wanted.values()))
+    size = float(np.ptp(target, axis=0).max())
+    return sized if bool((np.abs(there - target) <= IN_PLACE * size).all()) else None

@@ -1,0 +1,170 @@
+"""Forces and speeds of a machine: ``reactions``, ``flywheel``, ``steady``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.errors import InputError
+from assur.pictures.page.turn import turn_of
+from assur.pictures.scene.course import TURN
+from assur.studio import document
+from assur.studio.request import Fields
+from assur.studio.session import Answer
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.dynamics.machine import Machine
+    from assur.dynamics.reactions import Reactions
+    from assur.kinematics.mechanism import Mechanism
+    from assur.studio.session import Session
+
+ROWS = 361
+MEANS = ("extremes", "period")
+MOST_TURNS = 64
+
+
+def reactions(data: dict[str, Any], session: Session) -> Answer:
+    """Return the forces in all pairs over the turn, at the rows of ``turn``, or at one q."""
+    del session
+    known = ("document", "q", "speed", "acceleration", "rows", "sense")
+    fields = Fields(data, known, ("document",))
+    machine = document.read_machine(fields["document"])
+    mechanism = _mechanism(machine)
+    q = _rows(fields, mechanism)
+    found = machine.reactions(
+        q,
+        fields.drivers("speed", mechanism, 0.0),
+        fields.drivers("acceleration", mechanism, 0.0),
+        sense=fields.optional("sense"),
+        on_error="nan",
+    )
+    header, arrays = forces_of(mechanism, found)
+    return Answer(header, {"q": q, **arrays})
+
+
+def forces_of(mechanism: Mechanism, found: Reactions) -> tuple[dict[str, Any], dict[str, Float]]:
+    """Return which forces there are, and the forces over the rows."""
+    joints = list(_pins(mechanism))
+    rows = np.asarray(found.status).size
+    forces = [found.joint(joint, on=on).reshape(rows, 2) for joint, on, _ in joints]
+    slides = [found.slide(name) for name in mechanism.slides]
+    along = [
+        np.stack([np.reshape(part, rows) for part in (s.normal, s.moment, s.along)], axis=-1)
+        for s in slides
+    ]
+    header = {
+        "joints": [{"joint": joint, "on": on, "from": other} for joint, on, other in joints],
+        "slides": [
+            {"slide": name, "on": slide.link, "from": slide.on}
+            for name, slide in mechanism.slides.items()
+        ],
+        "undetermined": found.undetermined,
+    }
+    arrays = {
+        "forces": _stacked(forces, (rows, 0, 2)),
+        "slide_forces": _stacked(along, (rows, 0, 3)),
+        "drive": np.asarray(found.driver, dtype=float),
+        "shaking_force": np.asarray(found.shaking_force),
+        "shaking_moment": np.asarray(found.shaking_moment),
+        "status": np.asarray(found.status),
+    }
+    return header, arrays
+
+
+def _stacked(parts: list[Float], empty: tuple[int, ...]) -> Float:
+    return np.stack(parts, axis=1) if parts else np.zeros(empty)
+
+
+def _pins(mechanism: Mechanism) -> Any:
+    """Yield joints with the link that the force is on; of two links the other is where it is from.
+
+    The force on that one is the opposite.
+    """
+    for joint in mechanism.joints:
+        links = [link for link, on in mechanism.links.items() if joint in on]
+        if len(links) == 2:
+            # On the moving one.
+            on, other = links if links[0] != "ground" else links[::-1]
+            yield joint, on, other
+        elif len(links) > 2:
+            for link in links:
+                yield joint, link, None
+
+
+def _rows(fields: Fields, mechanism: Mechanism) -> Float:
+    if "q" in fields or mechanism._driver_count > 1:
+        return np.asarray(fields.drivers("q", mechanism))[None]
+    return coordinates(turn_of(mechanism, None, fields.rows(ROWS)).grid, fields.rows(ROWS))
+
+
+def coordinates(grid: dict[str, Any], rows: int) -> Float:
+    """Return the coordinates of a turn's rows."""
+    if grid["kind"] == "rows":
+        return np.array(grid["q"])
+    own = np.linspace(grid["low"], grid["high"], rows)
+    if grid["kind"] == "linear":
+        return own
+    cosine: Float = grid["middle"] - grid["half"] * np.cos(own)  # noqa: TID251, not a result
+    return cosine
+
+
+def flywheel(data: dict[str, Any], session: Session) -> Answer:
+    """Return the flywheel for a fluctuation, and the speed over the turn with it."""
+    del session
+    known = ("document", "fluctuation", "mean_speed", "mean", "turns", "rows")
+    fields = Fields(data, known, ("document", "fluctuation"))
+    machine = document.read_machine(fields["document"])
+    turns, rows = fields.whole("turns", 1, 1, MOST_TURNS), fields.rows(ROWS)
+    found = machine.flywheel(
+        fields.number("fluctuation"),
+        fields.optional("mean_speed"),
+        "period" if fields.word("mean", MEANS, "extremes") == "period" else "extremes",
+        turns=turns,
+    )
+    q = np.linspace(0.0, TURN * turns, rows)
+    inertia, energy = found.energy_mass(rows)
+    names = ("inertia", "delta", "speed0", "mean_speed", "mean", "motor_moment", "power", "period")
+    header = {name: getattr(found, name) for name in names}
+    header |= {name: getattr(found, name)._asdict() for name in ("greatest", "least")}
+    arrays = {
+        "q": q,
+        "speed": found.speed(q),
+        "time": found.time(q),
+        "moment": found.reduced_moment(q),
+        "reduced_inertia": found.reduced_inertia(q),
+        "work": found.work(q),
+        "diagram": np.stack([inertia, energy], axis=-1),
+    }
+    return Answer(header, {name: np.asarray(one, dtype=float) for name, one in arrays.items()})
+
+
+def steady(data: dict[str, Any], session: Session) -> Answer:
+    """Return the periodic motion under motor and loads."""
+    known = ("document", "speed", "turns", "flywheel", "mean", "rows")
+    fields = Fields(data, known, ("document",))
+    machine = document.read_machine(fields["document"])
+    found = machine.steady_state(
+        fields.optional("speed"),
+        turns=fields.whole("turns", 1, 1, MOST_TURNS),
+        flywheel=fields.number("flywheel", 0.0),
+        mean="period" if fields.word("mean", MEANS, "extremes") == "period" else "extremes",
+        max_seconds=session.deadline.left(),
+    )
+    q = np.linspace(found.q[0], found.q[-1], fields.rows(ROWS))
+    state = found.at(q)
+    names = ("period", "delta", "mean_speed", "multiplier", "motor_work", "power", "motor_moment")
+    header = {name: getattr(found, name) for name in names}
+    header |= {name: getattr(found, name)._asdict() for name in ("greatest", "least")}
+    return Answer(
+        header,
+        {"q": q, "t": state.t, "speed": state.speed, "acceleration": state.acceleration},
+    )
+
+
+def _mechanism(machine: Machine) -> Mechanism:
+    if machine.mechanism is None:
+        message = "a machine of a table has no mechanism"
+        raise InputError(message)
+    return machine.mechanism

@@ -1,0 +1,125 @@
+"""``start``: what there is to open. ``open``: an example, a text, or the file given."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from assur import examples, importers
+from assur._core import version
+from assur.dynamics.machine import Machine
+from assur.errors import InputError
+from assur.files.contents import contents_of
+from assur.files.limits import MOST_BYTES
+from assur.files.source import Source
+from assur.importers.source import LARGEST_FILE
+from assur.importers.source import Source as Text
+from assur.studio import document, limits
+from assur.studio.kinds.structure import described
+from assur.studio.request import Fields
+from assur.studio.session import Answer, stamp_of
+
+if TYPE_CHECKING:
+    from assur.kinematics.mechanism import Mechanism
+    from assur.studio.session import Session
+
+LONGEST_TITLE = 200
+
+
+def start(data: dict[str, Any], session: Session) -> Answer:
+    """Say what can be opened, and the limits."""
+    Fields(data, ())
+    given = session.given
+    return Answer(
+        {
+            "version": version(),
+            "examples": [
+                {"name": name, "text": (make.__doc__ or "").strip().split("\n")[0]}
+                for name, make in examples.ALL.items()
+            ],
+            "file": None
+            if given is None
+            else {"title": given.title, "saves": given.is_saved, "others": session.others},
+            "limits": {
+                "up": limits.MOST_UP,
+                "links": limits.MOST_LINKS,
+                "rows": limits.MOST_ROWS,
+                "cells": limits.MOST_CELLS,
+                "seconds": limits.SECONDS,
+            },
+        }
+    )
+
+
+def open_document(data: dict[str, Any], session: Session) -> Answer:
+    """Open one of the three."""
+    fields = Fields(data, ("example", "text", "name", "file"))
+    ways = [way for way in ("example", "text", "file") if way in fields]
+    if len(ways) != 1:
+        message = "open needs one of example, text and file"
+        raise InputError(message)
+    if ways == ["example"]:
+        return _example(fields)
+    if ways == ["text"]:
+        name = fields.text("name")[:LONGEST_TITLE] if "name" in fields else ""
+        raw = fields.text("text").encode(errors="replace")
+        return _opened(*read_text(name, raw), title=PurePath(name).stem)
+    return _file(fields, session)
+
+
+def _example(fields: Fields) -> Answer:
+    name = fields.word("example", examples.ALL)
+    return _opened(examples.ALL[name](), (), None, title=name)
+
+
+def _file(fields: Fields, session: Session) -> Answer:
+    given = session.given
+    if given is None or not fields.flag("file"):
+        raise fields.error("file", "the studio was started without a file")
+    if given.example is not None:
+        return _opened(examples.ALL[given.example](), (), None, title=given.title)
+    raw = given.bytes()
+    answer = _opened(*read_text(given.title, raw), title=PurePath(given.title).stem)
+    own = {"stamp": stamp_of(raw), "saves": given.is_saved, "others": session.others}
+    return Answer({**answer.header, **own})
+
+
+def read_text(name: str, raw: bytes) -> tuple[Mechanism | Machine, tuple[str, ...], Any]:
+    """Return the mechanism or machine of a text, what was left out of it, and its speed."""
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError:
+        # Linkage writes the code page of Windows.
+        text = raw.decode("cp1252", errors="replace")
+    if PurePath(name).suffix.lower() == ".toml" or importers.detect(name, text) is None:
+        contents = contents_of(Source(name or "text", raw[: MOST_BYTES + 1]))
+        if contents.mechanism.shape:
+            message = f"{name or 'the text'} has {contents.mechanism.shape} designs: the studio "
+            raise InputError(f"{message}shows one; choose it by assur solve --design, or delete")
+        return contents.machine or contents.mechanism, (), None
+    source = Text(text.removeprefix("\ufeff"), name)
+    if len(text) > LARGEST_FILE:
+        raise source.error("", f"more than {LARGEST_FILE} letters: not the file of a linkage")
+    found = importers.read(source)
+    return found.mechanism, found.omitted, found.input_speed
+
+
+def _opened(
+    what: Mechanism | Machine, omitted: tuple[str, ...], speed: Any, *, title: str
+) -> Answer:
+    mechanism = what.mechanism if isinstance(what, Machine) else what
+    assert mechanism is not None
+    own = document.document_of(what)
+    document.checked(own)
+    return Answer(
+        {
+            "document": own,
+            "title": title,
+            "omitted": omitted,
+            "speed": speed,
+            "stamp": None,
+            "saves": False,
+            "others": 0,
+            **described(mechanism),
+        }
+    )

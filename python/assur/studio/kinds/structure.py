@@ -1,0 +1,61 @@
+"""What is said of a mechanism's structure and dimensions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from assur.description.structure import roman
+from assur.pictures.page.payload import ARROW
+
+if TYPE_CHECKING:
+    from assur.kinematics.mechanism import Mechanism
+
+
+def structure_of(mechanism: Mechanism) -> dict[str, Any]:
+    """Return mobility, formula and groups."""
+    own = mechanism.structure
+    return {
+        "mobility": own.mobility,
+        "mobility_at_drawing": own.mobility_at_drawing,
+        "counted": own.mobility_counted,
+        "moving_links": own.moving_links,
+        "turning_pairs": own.turning_pairs,
+        "sliding_pairs": own.sliding_pairs,
+        "class": roman(own.cls),
+        "formula": own.formula.split(ARROW),
+        "redundant": own.redundant,
+        "groups": [
+            {
+                "class": roman(group.cls),
+                "order": group.order,
+                "kind": group.kind,
+                "links": group.links,
+                "joints": group.joints,
+                "slides": group.slides,
+            }
+            for group in own.groups
+        ],
+    }
+
+
+def dimensions_of(mechanism: Mechanism) -> list[dict[str, Any]]:
+    """Return every dimension: name, value in m or rad, unit."""
+    return [
+        {"name": name, "value": float(value), "unit": unit_of(name)}
+        for name, value in mechanism.dimensions.items()
+    ]
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a dimension."""
+    return "rad" if name.endswith("angle") else "m"
+
+
+def described(mechanism: Mechanism) -> dict[str, Any]:
+    """Return what the page must know of a mechanism that moves, beside its document."""
+    return {
+        "structure": structure_of(mechanism),
+        "dimensions": dimensions_of(mechanism),
+        "assembly": dict(mechanism.assembly),
+        "q0": mechanism.q0,
+    }

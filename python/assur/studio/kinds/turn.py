@@ -1,0 +1,133 @@
+"""``turn``: the scene, and the frames of all links over a turn or what can be reached of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur.description.words import Status
+from assur.errors import InputError
+from assur.kinematics.table import driven_angles
+from assur.pictures.page.payload import payload, played_of
+from assur.pictures.page.turn import Turn, frames_in_time, turn_of
+from assur.pictures.scene.course import FREE_STROKE, TURN
+from assur.studio import document
+from assur.studio.kinds.structure import dimensions_of
+from assur.studio.request import Fields
+from assur.studio.session import Answer
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.kinematics.limits import Limits
+    from assur.kinematics.mechanism import Mechanism
+    from assur.pictures.page.turn import Unit
+    from assur.studio.session import Session
+
+ROWS = 361
+# Steps to the end of what one of several drivers can reach, then halvings of the last.
+STEPS, HALVINGS = 24, 6
+# What a request may say of the picture.
+SHOWN = ("rows", "orders", "paths", "diagrams", "axis")
+
+
+def turn(data: dict[str, Any], session: Session) -> Answer:
+    """Return what the page draws and plays without the server."""
+    del session
+    fields = Fields(data, ("document", "q", *SHOWN), ("document",))
+    mechanism = document.read_mechanism(fields["document"])
+    q = fields.drivers("q", mechanism)
+    return turn_answer(mechanism, q, fields)
+
+
+def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
+    """Return a turn with the scene, as the fields want it, that begins at q."""
+    rows, orders = fields.rows(ROWS), fields.whole("orders", 3, 2, 3)
+    axis = fields.whole("axis", 0, 0, mechanism._driver_count - 1)
+    one = mechanism._driver_count == 1
+    own = _reached(mechanism, q, rows) if one else _along(mechanism, np.asarray(q), axis, rows)
+    return played_answer(own, fields, orders)
+
+
+def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = None) -> Answer:
+    """Return what is played with its scene."""
+    kept: list[Float] = []
+    shown = payload(
+        played_of(own), "", speed, fields["paths"], fields["diagrams"], encode=kept.append
+    )
+    shown["turn"] |= {"orders": orders, "limits": _limits(own.limits)}
+    header = {"payload": shown, "dimensions": dimensions_of(own.mechanism)}
+    return Answer(header, {"values": kept[0][:orders]})
+
+
+def _reached(mechanism: Mechanism, q: float, rows: int) -> Turn:
+    """Return the turn from q, or from what can be reached next to it."""
+    try:
+        return turn_of(mechanism, q, rows)
+    except InputError as error:
+        intervals = mechanism.limits().intervals
+        if not len(intervals):
+            mechanism.solve(q, order=0)  # says what is too short
+            raise
+        if not np.isfinite(intervals).all():
+            raise
+        middles = intervals.mean(axis=1)
+        nearest = float(middles[np.argmin(np.abs(middles - q))])
+        if nearest == q:
+            raise error from None
+        return turn_of(mechanism, nearest, rows)
+
+
+def _along(mechanism: Mechanism, q: Float, axis: int, rows: int) -> Turn:
+    """Return what one of several drivers moves while the others are held."""
+    angle = driven_angles(mechanism)[axis]
+    points = np.array(list(mechanism.joints.values()))
+    half = TURN / 2.0 if angle else FREE_STROKE * float(np.ptp(points, axis=0).max() or 1.0)
+    low, high = (_end(mechanism, q, axis, reach) for reach in (-half, half))
+    line = np.repeat(q[None, :], rows, axis=0)
+    line[:, axis] = np.linspace(q[axis] + low, q[axis] + high, rows)
+    motion = mechanism.solve(line, order=2, on_error="nan")
+    speed = np.zeros_like(line)
+    speed[:, axis] = 1.0
+    frames = frames_in_time(motion, speed, np.zeros_like(line))
+    ends = frames.values[0][-1] - frames.values[0][0]
+    ends[:, 2] -= TURN * np.round(ends[:, 2] / TURN)
+    goes_round = angle and high - low == 2.0 * half and bool(frames.is_known.all())
+    closes = goes_round and float(np.abs(ends).max()) < 1e-9
+    grid = {"kind": "linear", "low": float(line[0, axis]), "high": float(line[-1, axis])}
+    unit: Unit = "angle" if angle else "length"
+    return Turn(mechanism, frames, grid, closes, unit, float(q[axis]))
+
+
+def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
+    """Return how far a driver can go: step by step, for what is out of reach is slow to show."""
+
+    def holds(way: float) -> bool:
+        at = q.copy()
+        at[axis] += way
+        return bool(mechanism.solve(at, order=0, on_error="nan").status < Status.SINGULAR)
+
+    known, beyond = 0.0, reach
+    for way in np.linspace(0.0, reach, STEPS + 1)[1:]:
+        if not holds(float(way)):
+            beyond = float(way)
+            break
+        known = float(way)
+    if known == reach:
+        return reach
+    for _ in range(HALVINGS):
+        middle = (known + beyond) / 2.0
+        known, beyond = (middle, beyond) if holds(middle) else (known, middle)
+    return known
+
+
+def _limits(limits: Limits | None) -> dict[str, Any] | None:
+    """Return where the driver can be; null stands for no end."""
+    if limits is None:
+        return None
+    return {
+        "intervals": limits.intervals,
+        "full_rotation": limits.full_rotation,
+        "period": limits.period,
+        "dead_points": [{"q": point.q, "group": point.group} for point in limits.dead_points],
+    }

@@ -1,0 +1,257 @@
+"""What the kinds answer is what the package computes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import assur
+from asking import FOUR_BAR, PRESS, Reply, ask
+from assur import examples
+from assur.files.write import text_of
+from assur.studio import document
+
+TURN = 2.0 * np.pi
+
+
+def machine() -> assur.Machine:
+    return document.read_machine(PRESS)
+
+
+@pytest.mark.parametrize("name", list(examples.ALL))
+def test_open_and_turn(name: str) -> None:
+    opened = ask("open", example=name)
+    made: Any = examples.ALL[name]()
+    contents = document.read(opened["document"])
+    mechanism = contents.mechanism
+    if contents.machine is None:
+        assert mechanism == made
+    else:
+        assert text_of(contents.machine) == text_of(made)
+    assert opened["structure"]["formula"] == mechanism.structure.formula.split(" → ")
+    named = {one["name"]: one["value"] for one in opened["dimensions"]}
+    assert named == dict(mechanism.dimensions)
+    reply = ask("turn", document=opened["document"], rows=37)
+    check_rows(reply, mechanism)
+
+
+def check_rows(reply: Reply, mechanism: assur.Mechanism) -> None:
+    """Compare the frames of a turn with joints that were solved for themselves."""
+    turn, values = reply["payload"]["turn"], reply.arrays["values"]
+    assert turn["values"] is None
+    assert values.shape[:2] == (turn["orders"], turn["rows"])
+    grid = turn["grid"]
+    own = np.linspace(grid["low"], grid["high"], turn["rows"])
+    if grid["kind"] == "cosine":
+        own = grid["middle"] - grid["half"] * np.cos(own)
+    q: Any = own
+    if mechanism._driver_count > 1:
+        q = np.repeat(np.asarray(mechanism.q0)[None], len(own), axis=0)
+        q[:, 0] = own
+    motion = mechanism.solve(q, order=1, on_error="nan")
+    links = reply["payload"]["links"]
+    for joint in reply["payload"]["joints"]:
+        if joint["link"] == 0:
+            continue
+        x, y, angle = values[0, :, joint["link"] - 1].T
+        px, py = joint["at"]
+        there = np.stack(
+            [
+                x + np.cos(angle) * px - np.sin(angle) * py,
+                y + np.sin(angle) * px + np.cos(angle) * py,
+            ]
+        )
+        wanted = motion.joint(joint["name"]).value
+        assert pytest.approx(wanted, abs=1e-6, nan_ok=True) == there.T, links[joint["link"]]
+
+
+def test_turn_with_derivatives_and_limits() -> None:
+    reply = ask("turn", document=FOUR_BAR, rows=91)
+    motion = document.read_mechanism(FOUR_BAR).solve(np.linspace(0.0, TURN, 91))
+    link = reply["payload"]["links"].index("rocker") - 1
+    for order, wanted in enumerate((motion.link("rocker").value, motion.link("rocker").d1)):
+        assert np.array_equal(reply.arrays["values"][order, :, link, 2], wanted)
+    assert reply["payload"]["turn"]["limits"]["full_rotation"]
+    assert ask("turn", document=FOUR_BAR, rows=91, orders=2).arrays["values"].shape[0] == 2
+    double = {**FOUR_BAR, "dimensions": {"rocker.length": 1.2}}
+    limits = assur.Mechanism.limits(document.read_mechanism(double))
+    found = ask("turn", document=double, rows=91)["payload"]["turn"]["limits"]
+    assert found["intervals"] == limits.intervals.tolist()
+    assert [p["q"] for p in found["dead_points"]] == [p.q for p in limits.dead_points]
+
+
+def test_turn_begins_where_it_can() -> None:
+    short = {**FOUR_BAR, "dimensions": {"rocker.length": 1.2}}
+    low, high = document.read_mechanism(short).limits().intervals[0]
+    beyond = float(high) + 0.5
+    turn = ask("turn", document=short, q=beyond)["payload"]["turn"]
+    assert turn["at"] == pytest.approx((low + high) / 2.0)
+
+
+def test_several_drivers_move_one_by_one() -> None:
+    opened = ask("open", example="five_bar")["document"]
+    mechanism = document.read_mechanism(opened)
+    q = [1.6, 1.3]
+    turn = ask("turn", document=opened, q=q, axis=1, rows=91)["payload"]["turn"]
+    low, high = turn["grid"]["low"], turn["grid"]["high"]
+    assert low < 1.3 < high
+    for end, beyond in ((low, -0.02), (high, 0.02)):
+        at_end = mechanism.solve([q[0], end], on_error="nan").status
+        assert at_end < assur.Status.SINGULAR
+        if high - low < TURN - 1e-9:
+            assert mechanism.solve([q[0], end + beyond], on_error="nan").status > 0
+
+
+def test_assemblies() -> None:
+    opened = ask("open", example="triad")["document"]
+    mechanism = document.read_mechanism(opened)
+    q = float(mechanism.q0) + 0.1
+    reply = ask("assemblies", document={**opened, "bodies": {}}, q=q)
+    found = mechanism.assemblies(q)
+    assert len(reply["assemblies"]) == len(found) > 1
+    assert sum(one["is_current"] for one in reply["assemblies"]) == 1
+    for one, wanted in zip(reply["assemblies"], found, strict=True):
+        assert one["joints"] == {name: list(at) for name, at in (wanted.joints or {}).items()}
+        limits = mechanism.limits(wanted)
+        reach = np.array(one["reach"]["intervals"], dtype=float)
+        ends = np.where(np.isfinite(limits.intervals), limits.intervals, np.nan)
+        assert reach == pytest.approx(ends, abs=1e-9, nan_ok=True)
+        assert "bodies" in one["document"]
+        drawn = document.read_mechanism(one["document"])
+        for name, at in one["joints"].items():
+            assert drawn.solve(q).joint(name).value == pytest.approx(at, abs=1e-9)
+
+
+def test_sensitivity_by_differences() -> None:
+    reply = ask("sensitivity", document=FOUR_BAR, q=0.7, of="P.x")
+    mechanism = document.read_mechanism(FOUR_BAR)
+    assert reply["value"] == mechanism.solve(0.7).joint("P").value[0]
+    for name, derivative in reply["by"].items():
+        h = 1e-6
+        ends = [
+            mechanism.with_dimensions({name: mechanism.dimensions[name] + s * h}).solve(0.7)
+            for s in (1, -1)
+        ]
+        difference = (ends[0].joint("P").value[0] - ends[1].joint("P").value[0]) / (2 * h)
+        assert derivative == pytest.approx(difference, abs=1e-8)
+    assert reply["units"]["rocker.length"] == "m/m"
+    assert ask("sensitivity", document=PRESS, of="guide")["units"]["guide.angle"] == "m/rad"
+
+
+def test_position() -> None:
+    reply = ask("position", document=FOUR_BAR, q=0.7, speed=3.0, acceleration=-2.0)
+    motion = document.read_mechanism(FOUR_BAR).solve(0.7)
+    joint = motion.joint("P")
+    assert reply["joints"]["P"] == {
+        "value": joint.value.tolist(),
+        "speed": joint.velocity(3.0).tolist(),
+        "acceleration": joint.acceleration(3.0, -2.0).tolist(),
+    }
+    assert reply["transmission"] == {"C": float(motion.transmission_angle("C"))}
+
+
+def test_runs() -> None:
+    reply = ask("run", document=PRESS, by="machine", t_end=0.6, rows=61, reactions=True)
+    run = machine().run(t_end=0.6, rtol=1e-8)
+    t = np.linspace(0.0, 0.6, 61)
+    assert reply.arrays["t"] == pytest.approx(t)
+    assert reply.arrays["speed"] == pytest.approx(run.at(t).speed)
+    assert reply.arrays["kinetic"] == pytest.approx(run.energy.kinetic)
+    found = machine().reactions(run.at(t).q, run.at(t).speed, run.at(t).acceleration)
+    at = [(one["joint"], one["on"]) for one in reply["reactions"]["joints"]]
+    for i, (joint, on) in enumerate(at):
+        assert reply.arrays["forces"][:, i] == pytest.approx(found.joint(joint, on=on))
+    law = {"law": "Cycloidal", "start": 0.2, "end": 2.0, "duration": 0.5}
+    moved = ask("run", document=FOUR_BAR, by="law", law=law, rows=31).arrays
+    own = assur.laws.Cycloidal(0.2, 2.0, 0.5).at(np.linspace(0.0, 0.5, 31))
+    for name, wanted in zip(("q", "speed", "acceleration"), own, strict=False):
+        assert np.array_equal(moved[name], wanted)
+    even = ask("run", document=FOUR_BAR, by="speed", q0=0.5, speed=4.0, t_end=1.0, rows=31).arrays
+    assert even["q"] == pytest.approx(0.5 + 4.0 * even["t"])
+
+
+def test_reactions_stand_at_the_rows_of_the_turn() -> None:
+    reply = ask("reactions", document=PRESS, speed=10.0, rows=91)
+    q = np.linspace(0.0, TURN, 91)
+    assert np.array_equal(reply.arrays["q"], q)
+    found = machine().reactions(q, 10.0)
+    assert reply["joints"][0] == {"joint": "O", "on": "crank", "from": "ground"}
+    assert reply.arrays["forces"][:, 0] == pytest.approx(found.joint("O", on="crank"))
+    slide = found.slide("guide")
+    assert reply.arrays["slide_forces"][:, 0, 0] == pytest.approx(slide.normal)
+    assert reply.arrays["drive"] == pytest.approx(found.driver)
+    one = ask("reactions", document=PRESS, q=1.0, speed=10.0)
+    assert one.arrays["forces"].shape == (1, 3, 2)
+
+
+def test_flywheel_and_steady_state() -> None:
+    reply = ask("flywheel", document=PRESS, fluctuation=0.02, rows=73)
+    found = machine().flywheel(0.02)
+    assert reply["inertia"] == found.inertia
+    assert reply["delta"] == pytest.approx(0.02)
+    assert reply.arrays["speed"] == pytest.approx(found.speed(np.linspace(0.0, TURN, 73)))
+    steady = ask("steady", document=PRESS, flywheel=reply["inertia"], rows=73)
+    assert steady["delta"] == pytest.approx(0.02, rel=1e-6)
+
+
+def test_warnings_are_told() -> None:
+    document_ = {**PRESS, "motor": {"type": "ConstantTorque", "torque": 5.0}}
+    reply = ask("flywheel", document=document_, fluctuation=0.02, mean_speed=20.0)
+    assert "5 N·m" in reply["warnings"][0]
+
+
+def test_map() -> None:
+    x = {"dimension": "coupler.length", "low": 3.0, "high": 5.0}
+    y = {"dimension": "rocker.length", "low": 1.0, "high": 4.0}
+    metric = {"metric": "least_transmission", "at": "C"}
+    reply = ask("map", document=FOUR_BAR, x=x, y=y, n=9, metric=metric)
+    mechanism = document.read_mechanism(FOUR_BAR)
+    grid = assur.Grid(
+        {"rocker.length": np.linspace(1.0, 4.0, 9), "coupler.length": np.linspace(3.0, 5.0, 9)}
+    )
+    q = np.linspace(0.0, TURN, 72, endpoint=False)
+    asked = {"value": assur.metric.least_transmission("C")}
+    found = assur.sweep(mechanism, grid, q, metrics=asked)
+    assert np.array_equal(reply.arrays["value"], found["value"], equal_nan=True)
+    assert np.array_equal(reply.arrays["reason"] > 0, np.isnan(found["value"]))
+    assert reply["reasons"]
+    forces = {"metric": "peak_effort", "speed": 10.0}
+    x = {"dimension": "crank.length", "low": 0.05, "high": 0.12}
+    y = {"dimension": "rod.length", "low": 0.3, "high": 0.6}
+    efforts = ask("map", document=PRESS, x=x, y=y, n=3, metric=forces).arrays["value"]
+    assert np.isfinite(efforts).all()
+
+
+def test_lesson() -> None:
+    lengths: dict[str, Any] = {"l1": 1.0, "l2": 4.5, "l3": 1.5, "l4": 4.995}
+    reply = ask("lesson", **lengths, gamma_min=0.2, run=True, phi1=1.0, speed=2.0)
+    run = assur.crank_rocker.run(1.0, 4.5, 1.5, 4.995, 0.2, speed=2.0, phi0=1.0)
+    assert [event["kind"] for event in reply["run"]["events"]] == ["jam", "return"]
+    assert reply["run"]["events"][0]["phi1"] == run.events[0].phi1
+    assert np.array_equal(np.diff(reply.arrays["run_sliding"]).nonzero()[0].size, 2)
+    assert np.degrees(reply["blocked"]) == pytest.approx(np.array([[-11.744097, 11.744097]]))
+    assert reply["ground_range"] == pytest.approx([4.04451986, 4.97753284])  # reference of P5
+    figures: dict[str, Any] = {"phi1": 2.1, "speed": 3.0, "ground_speed": 0.7, **lengths, "l4": 4.9}
+    instant = ask("lesson", **figures)["instant"]
+    assert instant["dS"] == pytest.approx(-2.14608490763)
+    assert instant["v_C"] == pytest.approx(2.38405545)
+    least = assur.crank_rocker.least_transmission_angle(0.1, 0.05, 0.1, 0.05, 1.5)
+    friction: dict[str, Any] = {"f_c": 0.1, "r_c": 0.05, "f_d": 0.1, "r_d": 0.05}
+    assert ask("lesson", **lengths, friction=friction)["gamma_min"] == least
+    wrong = ask("lesson", l1=3.0, l2=1.0, l3=1.0, l4=2.0)
+    assert wrong["message"] == ("The crank cannot turn: l1 + l4 (5) must be less than l2 + l3 (2).")
+
+
+def test_lesson_with_a_support_that_is_dragged() -> None:
+    places = {"t": [0.0, 1.0, 2.0, 7.0], "l4": [4.6, 4.7, 4.6, 4.6]}
+    reply = ask("lesson", l1=1, l2=4.5, l3=1.5, l4=4.6, gamma_min=0.1, run=True, support=places)
+    t, l4 = reply.arrays["run_t"], reply.arrays["run_l4"]
+    assert l4 == pytest.approx(assur.laws.Tabulated(**_table(places)).at(t)[0])
+    C, D = reply.arrays["run_C"], reply.arrays["run_D"]
+    assert np.hypot(*(C - D).T) == pytest.approx(np.full(len(t), 1.5))
+
+
+def _table(places: dict[str, list[float]]) -> Any:
+    return {"t": places["t"], "value": places["l4"]}
