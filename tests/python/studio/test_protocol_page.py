@@ -16,7 +16,7 @@ from assur.studio.session import Given, stamp_of
 
 PAGE = (Path(__file__).parents[3] / "docs" / "studio_protocol.md").read_text(encoding="utf-8")
 SECTIONS = dict(re.findall(r"^### `(\w+)`\n(.*?)(?=^##|\Z)", PAGE, re.MULTILINE | re.DOTALL))
-BLOCK = re.compile(r"^```json\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```javascript\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ENVELOPE = {"id", "rev", "kind", "arrays"}
 
 
