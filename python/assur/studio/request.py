@@ -36,9 +36,9 @@ class Request:
 class MalformedError(InputError):
     """A message that is not a request; `id` is its own as far as it has one."""
 
-    def __init__(self, message: str, id: int | None = None) -> None:  # noqa: A002
+    def __init__(self, message: str, own: int | None = None) -> None:
         super().__init__(message, kind="malformed")
-        self.id = id
+        self.id = own
 
 
 def parse(text: str | bytes) -> Request:

@@ -41,9 +41,9 @@ def shown_axes(
             where.append(0)
             continue
         if name not in designs.changed:
-            several = ", ".join(one for one, own in along.items() if axis in own) or "none"
+            several = ", ".join(one for one, own in along.items() if axis in own) or "nothing"
             message = (
-                f"plot: axis {axis} of the designs is no dimension's own (it changes {several}): "
+                f"plot: axis {axis} of the designs changes {several}, not one dimension: "
                 "sweep an assur.Grid of one or two dimensions"
             )
             raise InputError(message)
@@ -73,7 +73,7 @@ def _held(at: Any, names: list[str]) -> dict[str, float]:
     for name, value in given.items():
         if name not in names:
             known = ", ".join(map(repr, names)) or "none"
-            message = f"at: {short(name)} is no dimension of the sweep's grid; there are {known}"
+            message = f"at: {short(name)} is not a dimension of the sweep's grid; there are {known}"
             raise InputError(message)
         held[name] = real_number(value, f"at[{name!r}]")
     return held
@@ -84,7 +84,7 @@ def _place(name: str, values: Float, wanted: float) -> int:
     gaps = np.abs(values - wanted)
     place = int(np.argmin(np.where(np.isfinite(gaps), gaps, np.inf)))
     if not gaps[place] <= SAME * max(float(np.nanmax(np.abs(values))), 1e-300):
-        message = f"at[{name!r}] = {wanted:g} is no value of the sweep; the nearest is "
+        message = f"at[{name!r}] = {wanted:g} is not a value of the sweep; the nearest is "
         raise InputError(message + f"{values[place]!r}")
     return place
 

@@ -146,6 +146,13 @@ def test_forces_in_their_places() -> None:
         np.testing.assert_allclose(along, force / np.hypot(*force), atol=1e-9)
         scales.append((tip - start) @ force / (force @ force))
     np.testing.assert_allclose(scales, scales[0], rtol=1e-9)
+    # Its centre of mass is where the weight acts.
+    (circle,) = (
+        a
+        for a in ax.patches
+        if a.get_gid() == "mass centre rod" and hasattr(a, "center") and hasattr(a, "get_width")
+    )
+    np.testing.assert_allclose(circle.center, forces["weight rod"][0], atol=1e-12)
     value = abs(found.driver[1])
     assert one(ax, "moment drive crank text").get_text() == f"$M_{{crank}}$ = {value:#.3g} N·m"
     # A force between two links is drawn once.

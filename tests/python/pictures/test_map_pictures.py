@@ -129,9 +129,9 @@ def test_what_is_no_map_is_refused_by_name() -> None:
     spans = [float(np.ptp(m.solve(Q).slide("bore").value)) for m in both]
     (text,) = named(ax, "best text")
     assert text.get_text() == f"greatest {max(spans):.3f}"
-    with pytest.raises(assur.InputError, match=r"0\.3 is no value of the sweep; the nearest"):
+    with pytest.raises(assur.InputError, match=r"0\.3 is not a value of the sweep; the nearest"):
         found.plot("s", at={"bore.offset": 0.3})
-    with pytest.raises(assur.InputError, match=r"'crank' is no dimension of the sweep"):
+    with pytest.raises(assur.InputError, match=r"'crank' is not a dimension of the sweep"):
         found.plot("s", at={"crank": 0.3})
     pairs = {"crank.length": [0.1, 0.2], "rod.length": [0.5, 0.6]}
     paired = assur.sweep(engine, pairs, Q, metrics=asked)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -173,7 +173,7 @@ def plot_positions(
 class _Formulas:
     """A quantity of the papers over the crank's angle; see `assur.pictures.diagrams.sources`."""
 
-    titles = {  # noqa: RUF012
+    titles: ClassVar[dict[str, tuple[str, str, str]]] = {
         "stroke": ("Stroke s, {}", "Velocity v, {}", "Acceleration a, {}"),
         "rod": ("Rod's angle φ₂, {}", "Rod's velocity ω₂, {}", "Rod's acceleration ε₂, {}"),
     }

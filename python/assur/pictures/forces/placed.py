@@ -17,6 +17,7 @@ from assur.pictures.text import name_font, text_size
 from assur.pictures.vectors.arrows import LOOKS, arrow, moment_arc
 from assur.pictures.vectors.beside import Beside
 from assur.pictures.vectors.heading import LINE_HEIGHT, place_text, write_heading
+from assur.pictures.vectors.mass_centre import mass_centre
 from assur.pictures.vectors.symbols import symbol
 
 if TYPE_CHECKING:
@@ -56,6 +57,10 @@ def forces_picture(
     forces = [f for f in chosen if np.hypot(*f.force) > LEAST * greatest]
     moments = [f for f in chosen if abs(f.couple) > LEAST * torque]
     shafts = [np.array([f.place, f.place + longest * f.force]) for f in forces]
+    # Weights and inertia forces act there.
+    centres = {force.link: force.place for force in chosen if force.kind in ("weight", "inertia")}
+    for link, place in centres.items():
+        mass_centre(on, place, link)
     for force, shaft in zip(forces, shafts, strict=True):
         colour = force_colour(on, force)
         arrow(
