@@ -13,7 +13,8 @@ from importlib.resources import files
 # Who is imported comes first.
 MODULES = (
     *("elements", "numbers", "words", "turn", "quantities", "view", "draw", "labels"),
-    *("paths", "vectors", "dial", "chart", "player", "drag", "stage", "panel", "main"),
+    *("paths", "vectors", "dial", "chart", "player", "drag", "stage", "panel"),
+    *("keys", "canvas", "playback", "driving", "main"),
 )
 
 _IMPORT = re.compile(r"^import \{[^}]*\} from \"\./(\w+)\.js\";\n", re.MULTILINE)
@@ -22,6 +23,7 @@ _BLOCK_COMMENT = re.compile(r"^[ ]*/\*\*.*?\*/\n", re.MULTILINE | re.DOTALL)
 _LINE_COMMENT = re.compile(r"^[ ]*//.*\n", re.MULTILINE)
 _INDENT = re.compile(r"^[ ]+", re.MULTILINE)
 _BLANK = re.compile(r"\n{2,}")
+_NEEDLESS_END = re.compile(r"(?<=[;,{(\[])\n")
 
 
 def module(name: str) -> str:
@@ -49,4 +51,5 @@ def stylesheet() -> str:
 
 def _tidy(source: str) -> str:
     # No text and no template runs over lines (a test holds that), so indents mean nothing.
-    return _BLANK.sub("\n", _INDENT.sub("", source)).lstrip("\n")
+    lines = _BLANK.sub("\n", _INDENT.sub("", source)).lstrip("\n")
+    return _NEEDLESS_END.sub("", lines)

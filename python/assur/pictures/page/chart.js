@@ -70,8 +70,6 @@ export class Chart {
    *   place: (q: number) => string, scaled: number}} options `scaled`: units of the axis to one of q
    */
   constructor(turn, groups, options) {
-    this.turn = turn;
-    this.groups = groups;
     this.options = options;
     this.quantity = null;
     this.speed = 1;
@@ -80,11 +78,7 @@ export class Chart {
     /** Where the axis begins, px. */
     this.left = CHART_MARGIN.left;
     this.title = html("select", { class: "title", "aria-label": options.label });
-    for (const { name, quantities } of groups) {
-      const group = html("optgroup", { label: name });
-      for (const one of quantities) group.append(html("option", { value: one.id }, options.words(one)));
-      this.title.append(group);
-    }
+    this.replace(turn, groups);
     this.title.addEventListener("change", () => this.choose(this.title.value));
     this.value = html("output", { class: "value" });
     this.svg = svg("svg", { class: "plot", "aria-hidden": "true" });
@@ -98,12 +92,33 @@ export class Chart {
     });
   }
 
+  /** Take another turn, and what can be shown of it; drawn when it is chosen. */
+  replace(turn, groups, options = {}) {
+    Object.assign(this.options, options);
+    const ids = (list) => list.flatMap((group) => group.quantities.map((one) => one.id)).join();
+    const isSame = this.groups && ids(this.groups) === ids(groups);
+    this.turn = turn;
+    this.groups = groups;
+    this.pose = null;
+    if (isSame) return;
+    const grouped = groups.map(({ name, quantities }) => {
+      const own = quantities.map((one) => html("option", { value: one.id }, this.options.words(one)));
+      return html("optgroup", { label: name }, ...own);
+    });
+    this.title.replaceChildren(...grouped);
+  }
+
   /** Show another quantity, by its id. */
   choose(id) {
+    this.pick(id);
+    this.draw();
+  }
+
+  /** Choose a quantity; it is drawn next. */
+  pick(id) {
     const known = this.groups.flatMap((group) => group.quantities);
     this.quantity = known.find((one) => one.id === id) ?? known[0];
-    this.title.value = this.quantity.id;
-    this.draw();
+    this.title.value = this.quantity?.id ?? "";
   }
 
   #drag(event) {

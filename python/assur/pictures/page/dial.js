@@ -30,19 +30,9 @@ export class Dial {
    * @param {{label: string, text: (q: number) => string, seek: (q: number) => void}} options
    */
   constructor(data, turn, options) {
-    this.data = data;
-    this.turn = turn;
     this.options = options;
-    this.isRound = data.turn.unit === "angle";
-    this.element = svg("svg", {
-      class: this.isRound ? "dial" : "dial bar",
-      viewBox: this.isRound ? "0 0 156 156" : "0 0 156 44",
-      role: "slider",
-      tabindex: 0,
-      "aria-label": options.label,
-    });
-    if (this.isRound) this.#ring();
-    else this.#bar();
+    this.element = svg("svg", { role: "slider", tabindex: 0 });
+    this.replace(data, turn, options.label);
     this.element.addEventListener("pointerdown", (event) => {
       this.element.setPointerCapture(event.pointerId);
       this.#drag(event);
@@ -50,6 +40,20 @@ export class Dial {
     this.element.addEventListener("pointermove", (event) => {
       if (this.element.hasPointerCapture(event.pointerId)) this.#drag(event);
     });
+  }
+
+  /** Show the driver of another turn. */
+  replace(data, turn, label) {
+    this.data = data;
+    this.turn = turn;
+    this.isRound = data.turn.unit === "angle";
+    const { element } = this;
+    element.replaceChildren();
+    put(element, "class", this.isRound ? "dial" : "dial bar");
+    put(element, "viewBox", this.isRound ? "0 0 156 156" : "0 0 156 44");
+    put(element, "aria-label", label);
+    if (this.isRound) this.#ring();
+    else this.#bar();
   }
 
   #ring() {

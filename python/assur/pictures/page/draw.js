@@ -5,6 +5,8 @@ import { put, svg } from "./elements.js";
 /** Strokes of hatching: px across their line, and how many at most (of a link seen very large). */
 const HATCH_DEPTH = 7;
 const MOST_STROKES = 400;
+/** What makes a part another one; numbers of its size may differ. */
+const PART_KEYS = ["link", "name", "colour", "closed", "fill", "hatched", "floor", "disc", "hatching", "width"];
 
 /**
  * Return where a list of vertices x, y (m), dx, dy (px) is drawn, in px of the link's frame.
@@ -86,8 +88,10 @@ export class Drawing {
     /** Groups of parts in drawing order: consecutive parts of one link share one. */
     this.groups = [];
     this.redraw = [];
+    /** What the functions that draw hold: sizes change, the rest stays. */
+    this.parts = scene.parts.map((part) => ({ ...part }));
     let last = null;
-    for (const part of scene.parts) {
+    for (const part of this.parts) {
       if (!last || last.link !== part.link) {
         last = { link: part.link, element: svg("g", { "data-link": scene.links[part.link] }) };
         this.groups.push(last);
@@ -98,8 +102,22 @@ export class Drawing {
     this.colour(false);
   }
 
+  /** Whether another scene has the same parts, perhaps of other sizes. */
+  fits(scene) {
+    const { parts, links } = this.scene;
+    const isSame = (part, i) => PART_KEYS.every((key) => String(part[key]) === String(scene.parts[i][key])) && part.at.length === scene.parts[i].at.length;
+    return links.join() === scene.links.join() && parts.length === scene.parts.length && parts.every(isSame);
+  }
+
+  /** Draw another scene whose parts fit, at the next zoom. */
+  resized(scene) {
+    scene.parts.forEach((part, i) => Object.assign(this.parts[i], part));
+    this.scene = scene;
+  }
+
   /** Colour links by their Assur groups, or not. */
   colour(byGroup) {
+    this.byGroup = byGroup;
     const { scene } = this;
     for (const { link, element } of this.groups) {
       const group = scene.groups[link];

@@ -26,8 +26,6 @@ export class Stage {
    * @param {SVGElement} element
    */
   constructor(data, turn, element) {
-    this.data = data;
-    this.turn = turn;
     this.element = element;
     this.view = new View();
     this.size = 1;
@@ -45,15 +43,51 @@ export class Stage {
     this.bar = svg("path", { class: "scale" });
     this.barText = svg("text", { class: "scale-text" });
     element.append(this.world, this.bar, this.barText);
-    this.drawing = new Drawing(data, this.layers.links);
     this.paths = new Paths(turn, this.layers.paths, this.layers.markers);
-    this.velocity = new Vectors("velocity", data, turn, this.#layer());
-    this.acceleration = new Vectors("acceleration", data, turn, this.#layer());
+    this.velocity = new Vectors("velocity", turn, this.#layer());
+    this.acceleration = new Vectors("acceleration", turn, this.#layer());
     this.texts = new Map();
-    this.names = data.joints.map((joint) => this.#label(`name ${joint.name}`, joint.name, "", NAME_HEIGHT, joint));
-    this.badges = this.#badges();
     /** @type {Switches} */
     this.switches = { names: true, paths: true, velocity: false, acceleration: false, positions: false, groups: false };
+    this.#build(data, turn);
+  }
+
+  /**
+   * Show another turn, perhaps of another mechanism; the joints chosen are those of the same names.
+   * @param {Object} data the page's data
+   * @param {import("./turn.js").Turn} turn
+   * @param {import("./turn.js").Pose} pose
+   */
+  replace(data, turn, pose) {
+    const chosen = (this.chosen ?? []).map((joint) => joint.name);
+    const names = (one) => one.joints.map((joint) => joint.name).join();
+    if (this.drawing.fits(data) && names(this.data) === names(data)) {
+      this.drawing.resized(data);
+      this.#take(data, turn);
+      this.names.forEach((label, i) => (label.joint = data.joints[i]));
+    } else {
+      for (const name of ["links", "names", "badges", "others"]) this.layers[name].replaceChildren();
+      this.texts.clear();
+      this.#build(data, turn);
+      this.measure();
+    }
+    this.pose = pose;
+    this.choose(data.joints.filter((joint) => chosen.includes(joint.name)));
+    this.set(this.switches);
+  }
+
+  #build(data, turn) {
+    this.drawing = new Drawing(data, this.layers.links);
+    this.names = data.joints.map((joint) => this.#label(`name ${joint.name}`, joint.name, "", NAME_HEIGHT, joint));
+    this.#take(data, turn);
+  }
+
+  #take(data, turn) {
+    this.data = data;
+    this.turn = turn;
+    for (const layer of [this.paths, this.velocity, this.acceleration]) layer.turn = turn;
+    this.layers.badges.replaceChildren();
+    this.badges = this.#badges();
   }
 
   #layer() {

@@ -35,13 +35,11 @@ function openHeads(x, y, ux, uy, size) {
 export class Vectors {
   /**
    * @param {"velocity"|"acceleration"} kind
-   * @param {Object} scene the page's data
    * @param {import("./turn.js").Turn} turn
    * @param {SVGElement} layer
    */
-  constructor(kind, scene, turn, layer) {
+  constructor(kind, turn, layer) {
     this.kind = kind;
-    this.scene = scene;
     this.turn = turn;
     this.layer = layer;
     this.arrows = [];

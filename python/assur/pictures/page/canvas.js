@@ -1,0 +1,83 @@
+// The picture with what lies on it: messages, switches, the choice of points.
+
+import { html, svg } from "./elements.js";
+import { button, pointChoice, switchRow } from "./panel.js";
+import { Stage } from "./stage.js";
+import { say } from "./words.js";
+
+const FIT = "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5";
+/** Below this width the switches stand under the picture, px. */
+const NARROW = 700;
+
+export class Canvas {
+  /**
+   * @param {HTMLElement} root has the class `grouped` where groups are coloured
+   * @param {Object} data the page's data
+   * @param {import("./turn.js").Turn} turn
+   * @param {Partial<import("./stage.js").Switches>} [switches] those that are on at first, or off
+   */
+  constructor(root, data, turn, switches = {}) {
+    this.root = root;
+    this.picture = svg("svg", { class: "picture", role: "img", tabindex: 0 });
+    this.stage = new Stage(data, turn, this.picture);
+    this.status = html("p", { class: "status", role: "status", "aria-live": "polite" });
+    this.warning = html("p", { class: "warning", hidden: "" });
+    const own = { ...this.stage.switches, ...switches };
+    this.row = switchRow(own, (state) => this.set(state));
+    this.fit = button(say("fit"), FIT, say("fit"));
+    this.fit.addEventListener("click", () => this.stage.fit());
+    this.corner = html("div", { class: "corner" }, this.#points(data), this.fit);
+    this.element = html("div", { class: "canvas" }, this.picture, this.status, this.warning, this.corner, this.row);
+    this.stage.choose(data.joints.filter((joint) => data.paths.includes(joint.name)));
+    this.set(own);
+  }
+
+  /** Switch what is shown. */
+  set(switches) {
+    this.stage.set(switches);
+    this.root.classList.toggle("grouped", switches.groups);
+  }
+
+  /** Show another turn; of another mechanism with the joints that it wants. */
+  replace(data, turn, pose) {
+    const names = (joints) => joints.map((joint) => joint.name).join();
+    const isOther = names(this.stage.data.joints) !== names(data.joints);
+    this.stage.replace(data, turn, pose);
+    if (!isOther) return;
+    if (!this.stage.chosen.length) this.#choose(data.paths);
+    const chosen = this.stage.chosen.map((joint) => joint.name);
+    this.corner.firstChild.replaceWith(this.#points({ ...data, paths: chosen }));
+  }
+
+  #points(data) {
+    return pointChoice(data.joints, data.paths, (names) => this.#choose(names));
+  }
+
+  #choose(names) {
+    this.stage.choose(this.stage.data.joints.filter((joint) => names.includes(joint.name)));
+    this.stage.zoomed();
+  }
+
+  /** Say what is wrong, or nothing. */
+  warn(text) {
+    this.warning.hidden = !text;
+    this.warning.textContent = text;
+  }
+
+  /** The window has another size. */
+  resize() {
+    const { picture, stage, corner, row } = this;
+    const { clientWidth: width, clientHeight: height } = picture;
+    const isNarrow = this.root.clientWidth < NARROW;
+    // The scale bar stands beside the switches, or above them.
+    stage.foot = isNarrow ? 0 : row.offsetHeight;
+    stage.barFoot = !isNarrow && row.offsetWidth > width - 220 ? row.offsetHeight + 4 : 0;
+    stage.head = isNarrow ? corner.offsetHeight : 0;
+    const box = picture.getBoundingClientRect();
+    stage.covers = [corner, ...(isNarrow ? [] : [row])].map((over) => {
+      const own = over.getBoundingClientRect();
+      return [own.left - box.left, own.top - box.top, own.right - box.left, own.bottom - box.top];
+    });
+    stage.resize(width, height);
+  }
+}

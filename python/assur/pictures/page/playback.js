@@ -1,0 +1,182 @@
+// What plays: the clock with its dial, its buttons and its speed, and diagrams with a cursor.
+
+import { Chart } from "./chart.js";
+import { Dial } from "./dial.js";
+import { html, icon } from "./elements.js";
+import { degrees, digits, lengthUnit, tickText } from "./numbers.js";
+import { button } from "./panel.js";
+import { Player } from "./player.js";
+import { allQuantities } from "./quantities.js";
+import { say } from "./words.js";
+
+const PLAY = "M8 5v14l11-7z";
+const PAUSE = "M7 5h4v14H7zM13 5h4v14h-4z";
+const HOME = "M6 5h2.4v14H6zM19 5v14L9.5 12z";
+const DEGREE = Math.PI / 180;
+const SPEED_UNITS = { angle: "rad/s", length: "m/s", time: "" };
+
+export class Playback {
+  /**
+   * @param {Object} data the page's data
+   * @param {import("./turn.js").Turn} turn
+   * @param {{show: (pose: import("./turn.js").Pose) => void, told: () => void}} on `show` for every
+   *   frame, `told` where it was put by hand, or began or stopped to play
+   */
+  constructor(data, turn, on) {
+    this.on = on;
+    this.player = new Player(turn, () => this.show());
+    this.play = button(say("play"), PLAY);
+    this.play.classList.add("play");
+    this.play.addEventListener("click", () => this.toggle());
+    this.home = button(say("home"), HOME);
+    this.home.addEventListener("click", () => this.seek(this.data.turn.at));
+    this.slower = html("p", { class: "hint slower" });
+    this.speed = html("input", { class: "number", inputmode: "decimal", "aria-label": say("speed"), value: String(data.speed) });
+    this.speed.addEventListener("input", () => this.#readSpeed());
+    this.symbol = html("i");
+    this.speedUnit = html("span");
+    this.speedField = html("label", { class: "speed", title: say("speed") }, this.symbol, this.speed, this.speedUnit);
+    this.#take(data, turn);
+    this.dial = new Dial(data, turn, { label: this.#dialLabel(), text: (q) => this.place(q), seek: (q) => this.seek(q) });
+    const groups = allQuantities(data);
+    this.charts = data.diagrams.map((id, i) => {
+      const options = { label: say("diagram", { n: i + 1 }), words: (one) => `${one.of} ${say(one.what)}`, seek: (q) => this.seek(q) };
+      const chart = new Chart(turn, groups, { ...options, ...this.#axis() });
+      chart.choose(id);
+      return chart;
+    });
+    const drive = html("div", { class: "drive" }, this.dial.element, html("div", { class: "play-row" }, this.play, this.home), this.speedField, this.slower);
+    this.element = html("div", { class: "dock" }, drive, html("div", { class: "charts" }, ...this.charts.map((chart) => chart.element)));
+    this.player.q = turn.bring(data.turn.at);
+    turn.sample(this.player.q, this.pose);
+    this.#pace(data.speed);
+  }
+
+  /**
+   * Play another turn; it stays where it is as far as that can be reached. `show` is called next.
+   * @param {Object} data
+   * @param {import("./turn.js").Turn} turn
+   * @param {number} [q] where to go on
+   */
+  replace(data, turn, q = this.player.q) {
+    this.#take(data, turn);
+    this.player.turn = turn;
+    this.player.q = turn.bring(q);
+    turn.sample(this.player.q, this.pose);
+    this.dial.replace(data, turn, this.#dialLabel());
+    const groups = allQuantities(data);
+    this.charts.forEach((chart, i) => {
+      const before = chart.quantity.id;
+      chart.replace(turn, groups, this.#axis());
+      const isThere = groups.some((group) => group.quantities.some((one) => one.id === before));
+      chart.pick(isThere ? before : data.diagrams[i] ?? data.diagrams[0]);
+    });
+    this.#pace(this.player.speed);
+  }
+
+  #take(data, turn) {
+    this.data = data;
+    this.turn = turn;
+    this.pose = turn.pose();
+    this.unit = data.turn.unit;
+    const [x0, y0, x1, y1] = data.bounds;
+    const length = lengthUnit(Math.max(x1 - x0, y1 - y0));
+    this.scaled = { angle: 1 / DEGREE, length: length.factor, time: 1 }[this.unit];
+    this.placeUnit = this.unit === "time" ? "s" : length.name;
+    this.symbol.textContent = this.unit === "angle" ? "ω" : "v";
+    this.speedUnit.textContent = SPEED_UNITS[this.unit];
+    this.speedField.hidden = this.unit === "time";
+  }
+
+  #dialLabel() {
+    return say("dial", { driver: this.data.driver });
+  }
+
+  #axis() {
+    return { unit: this.unit, scaled: this.scaled, place: (q) => tickText(q * this.scaled) };
+  }
+
+  /** Write a coordinate. */
+  place(q) {
+    return this.unit === "angle" ? degrees(q) : `${digits(q * this.scaled)} ${this.placeUnit}`;
+  }
+
+  get q() {
+    return this.player.q;
+  }
+
+  /** A step of the coordinate by a key. */
+  get step() {
+    return this.unit === "angle" ? DEGREE : (this.turn.high - this.turn.low) / 360;
+  }
+
+  /** Show where it is. */
+  show() {
+    const { turn, pose, player } = this;
+    turn.sample(player.q, pose);
+    this.on.show(pose);
+    this.dial.show(pose.q, this.#second());
+    for (const chart of this.charts) chart.show(pose);
+  }
+
+  #second() {
+    const { turn, player, pose } = this;
+    if (this.unit !== "angle") return "";
+    if (!turn.closes) return say("of", { low: degrees(turn.low, 0), high: degrees(turn.high, 0) });
+    const turns = Math.round((turn.high - turn.low) / (2 * Math.PI));
+    return say("turn", { n: 1 + player.turns * turns + Math.floor((pose.q - turn.low) / (2 * Math.PI)) });
+  }
+
+  /** Go to a coordinate by hand. */
+  seek(q) {
+    this.player.seek(q);
+    this.tell();
+  }
+
+  tell() {
+    this.dial.tell(this.pose.q);
+    this.on.told();
+  }
+
+  toggle() {
+    const { player, play } = this;
+    if (player.isPlaying) player.pause();
+    else player.play();
+    play.replaceChildren(icon(player.isPlaying ? PAUSE : PLAY));
+    for (const name of ["title", "aria-label"]) play.setAttribute(name, say(player.isPlaying ? "pause" : "play"));
+    this.show();
+    this.tell();
+  }
+
+  pause() {
+    if (this.player.isPlaying) this.toggle();
+  }
+
+  /** A bad value keeps the last good speed. */
+  #readSpeed() {
+    const text = this.speed.value.trim();
+    const value = Number(text.replace(",", ".").replace("−", "-"));
+    const isGood = text !== "" && Number.isFinite(value);
+    this.speed.setAttribute("aria-invalid", String(!isGood));
+    if (isGood) this.setSpeed(value);
+  }
+
+  setSpeed(value) {
+    this.#pace(value);
+    this.show();
+  }
+
+  #pace(value) {
+    const { player } = this;
+    player.speed = value;
+    this.slower.textContent = player.slowness > 1 ? say("slower", { n: player.slowness }) : "";
+    for (const chart of this.charts) {
+      chart.speed = value;
+      chart.draw();
+    }
+  }
+
+  resize() {
+    for (const chart of this.charts) chart.resize();
+  }
+}
