@@ -14,6 +14,8 @@ from assur.studio.connection import Studio
 from assur.studio.guard import Guard
 
 if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
     from starlette.requests import Request
     from starlette.types import ASGIApp
     from starlette.websockets import WebSocket
@@ -26,35 +28,42 @@ TYPES = {
     ".html": "text/html; charset=utf-8",
     ".svg": "image/svg+xml",
 }
-# Packages whose files of these types are served, by the first part of the address.
-SERVED = {"studio": "assur.studio.page", "pictures": "assur.pictures.page"}
-INDEX, STYLE = "index.html", "/pictures/page.css"
+# Folders of the package whose files of these types are served, at the same addresses.
+SERVED = ("studio/page", "pictures/page")
+INDEX, STYLE = "/studio/page/index.html", "/pictures/page/page.css"
 
 
 class Resource(NamedTuple):
     """A file of the package, and its type."""
 
-    package: str
-    name: str
+    file: Traversable
     type: str
+    is_style: bool
 
     def content(self) -> str:
         """Return the text of the file; the style has the colours of pictures."""
-        if f"/pictures/{self.name}" == STYLE:
+        if self.is_style:
             return f"html,body{{height:100%;margin:0}}\n{css()}"
-        return files(self.package).joinpath(self.name).read_text(encoding="utf-8")
+        return self.file.read_text(encoding="utf-8")
 
 
 def listed() -> dict[str, Resource]:
     """Return all that is served, by address. Nothing else is ever read."""
-    found = {}
-    for first, package in SERVED.items():
-        for one in files(package).iterdir():
-            ending = one.name[one.name.rfind(".") :]
-            if one.is_file() and ending in TYPES:
-                found[f"/{first}/{one.name}"] = Resource(package, one.name, TYPES[ending])
-    found["/"] = found.pop(f"/studio/{INDEX}")
+    found: dict[str, Resource] = {}
+    for folder in SERVED:
+        _list(files("assur").joinpath(folder), f"/{folder}", found)
+    found["/"] = found.pop(INDEX)
     return found
+
+
+def _list(folder: Traversable, address: str, found: dict[str, Resource]) -> None:
+    for one in folder.iterdir():
+        own = f"{address}/{one.name}"
+        ending = one.name[one.name.rfind(".") :]
+        if one.is_dir():
+            _list(one, own, found)
+        elif ending in TYPES:
+            found[own] = Resource(one, TYPES[ending], own == STYLE)
 
 
 def application(given: Given | None, token: str, host: str, port: int) -> ASGIApp:

@@ -58,7 +58,7 @@ def asked(socket: WebSocketTestSession, message: Any) -> Reply:
 def test_the_page_with_its_token(client: TestClient) -> None:
     page = client.get(f"/?token={TOKEN}", headers={"sec-fetch-site": "cross-site"})
     assert page.status_code == 200
-    assert '<script type="module" src="/studio/studio.js">' in page.text
+    assert '<script type="module" src="/studio/page/start.js">' in page.text
     cookie = page.headers["set-cookie"]
     assert cookie == f"{COOKIE}; Path=/; HttpOnly; SameSite=Strict"
     client.cookies.clear()
@@ -76,7 +76,7 @@ def test_the_page_with_its_token(client: TestClient) -> None:
         for part in ("default-src 'none'", "script-src 'self'", "frame-ancestors 'none'"):
             assert part in policy
     assert (
-        client.get("/pictures/turn.js", headers=OWN)
+        client.get("/pictures/page/turn.js", headers=OWN)
         .headers["content-type"]
         .startswith("text/javascript")
     )
@@ -117,7 +117,7 @@ def test_others_are_refused(client: TestClient, headers: dict[str, str]) -> None
 
 
 @pytest.mark.parametrize(
-    "address", ["/?token=", "/?token=x", "/?tok=1", f"/studio/studio.js?token={TOKEN}"]
+    "address", ["/?token=", "/?token=x", "/?tok=1", f"/studio/page/studio.js?token={TOKEN}"]
 )
 def test_the_token_opens_the_page_alone(client: TestClient, address: str) -> None:
     client.cookies.clear()
@@ -140,16 +140,16 @@ def test_pages_are_only_read(client: TestClient, method: str) -> None:
 @pytest.mark.parametrize(
     "path",
     [
-        "/studio/../app.py",
-        "/studio/%2e%2e/app.py",
-        "/studio/..%2fapp.py",
-        "/pictures/../../errors.py",
-        "/pictures/html.py",
-        "/studio/__init__.py",
+        "/studio/page/../app.py",
+        "/studio/page/%2e%2e/app.py",
+        "/studio/page/..%2fapp.py",
+        "/pictures/page/../../errors.py",
+        "/pictures/page/html.py",
+        "/studio/page/__init__.py",
         "//etc/passwd",
         "/studio//etc/passwd",
-        "/studio/studio.js/",
-        "/studio/studio.js%00.html",
+        "/studio/page/studio.js/",
+        "/studio/page/studio.js%00.html",
         "/socket",
     ],
 )

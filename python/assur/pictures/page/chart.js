@@ -140,7 +140,7 @@ export class Chart {
   /** Draw the curve, for this quantity, speed and size. */
   draw() {
     const { turn, quantity, width, height } = this;
-    if (!quantity || width < 80 || height < 60) return;
+    if (!quantity || !turn || width < 80 || height < 60) return;
     const pose = turn.pose();
     const places = turn.coordinates(SAMPLES);
     const values = places.map((q, i) => {

@@ -106,6 +106,7 @@ export function linkAt(drawing, pose, x, y, isTouch) {
  * @property {(x: number, y: number, isTouch: boolean) => any} grip what is there, null for nothing
  * @property {(grip: any, x: number, y: number) => void} move
  * @property {(grip: any) => void} drop
+ * @property {(grip: any) => void} [cancel]
  * @property {(dx: number, dy: number) => void} pan
  * @property {(x: number, y: number, factor: number) => void} zoom
  * @property {() => boolean} takesWheel whether the wheel zooms here, or scrolls the page
@@ -165,6 +166,17 @@ export class Gestures {
   #up(event) {
     this.pointers.delete(event.pointerId);
     if (!this.pointers.size) this.#drop();
+  }
+
+  get isGripping() {
+    return this.gripped !== null;
+  }
+
+  /** Let go as if the gesture had not begun. */
+  cancel() {
+    const grip = this.gripped;
+    this.gripped = null;
+    if (grip !== null) this.handlers.cancel?.(grip);
   }
 
   #drop() {

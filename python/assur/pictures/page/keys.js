@@ -8,10 +8,11 @@ const PRESSED = "button, summary, input[type=checkbox]";
  * @param {HTMLElement} root in a notebook keys are those of the focus
  * @param {(key: string, isShift: boolean, target: Element) => (() => void) | null | undefined} find
  *   what a key does
+ * @returns {() => void} ends it
  */
 export function listenForKeys(root, find) {
   const listening = root.classList.contains("embedded") ? root : document;
-  listening.addEventListener("keydown", (event) => {
+  const listener = (event) => {
     const target = event.composedPath()[0];
     if (target.matches?.(FIELDS) || event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === " " && target.matches?.(PRESSED)) return;
@@ -19,7 +20,9 @@ export function listenForKeys(root, find) {
     if (!act) return;
     event.preventDefault();
     act();
-  });
+  };
+  listening.addEventListener("keydown", listener);
+  return () => listening.removeEventListener("keydown", listener);
 }
 
 /**

@@ -38,15 +38,11 @@ export class Playback {
     this.speedField = html("label", { class: "speed", title: say("speed") }, this.symbol, this.speed, this.speedUnit);
     this.#take(data, turn);
     this.dial = new Dial(data, turn, { label: this.#dialLabel(), text: (q) => this.place(q), seek: (q) => this.seek(q) });
-    const groups = allQuantities(data);
-    this.charts = data.diagrams.map((id, i) => {
-      const options = { label: say("diagram", { n: i + 1 }), words: (one) => `${one.of} ${say(one.what)}`, seek: (q) => this.seek(q) };
-      const chart = new Chart(turn, groups, { ...options, ...this.#axis() });
-      chart.choose(id);
-      return chart;
-    });
+    this.charts = [];
+    this.chartRow = html("div", { class: "charts" });
+    this.#chart(data, turn);
     const drive = html("div", { class: "drive" }, this.dial.element, html("div", { class: "play-row" }, this.play, this.home), this.speedField, this.slower);
-    this.element = html("div", { class: "dock" }, drive, html("div", { class: "charts" }, ...this.charts.map((chart) => chart.element)));
+    this.element = html("div", { class: "dock" }, drive, this.chartRow);
     this.player.q = turn.bring(data.turn.at);
     turn.sample(this.player.q, this.pose);
     this.#pace(data.speed);
@@ -64,14 +60,24 @@ export class Playback {
     this.player.q = turn.bring(q);
     turn.sample(this.player.q, this.pose);
     this.dial.replace(data, turn, this.#dialLabel());
-    const groups = allQuantities(data);
-    this.charts.forEach((chart, i) => {
-      const before = chart.quantity.id;
-      chart.replace(turn, groups, this.#axis());
-      const isThere = groups.some((group) => group.quantities.some((one) => one.id === before));
-      chart.pick(isThere ? before : data.diagrams[i] ?? data.diagrams[0]);
-    });
+    this.#chart(data, turn);
     this.#pace(this.player.speed);
+  }
+
+  /** Make the diagrams that are wanted; those that are there show the same as before, if they can. */
+  #chart(data, turn) {
+    const groups = allQuantities(data);
+    this.chartRow.hidden = data.diagrams.length === 0;
+    for (const [i, id] of data.diagrams.entries()) {
+      const before = this.charts[i]?.quantity?.id;
+      if (!this.charts[i]) {
+        const options = { label: say("diagram", { n: i + 1 }), words: (one) => `${one.of} ${say(one.what)}`, seek: (q) => this.seek(q) };
+        this.charts.push(new Chart(turn, groups, { ...options, ...this.#axis() }));
+        this.chartRow.append(this.charts[i].element);
+      } else this.charts[i].replace(turn, groups, this.#axis());
+      const isThere = groups.some((group) => group.quantities.some((one) => one.id === before));
+      this.charts[i].pick(isThere ? before : id);
+    }
   }
 
   #take(data, turn) {
@@ -158,10 +164,13 @@ export class Playback {
     const value = Number(text.replace(",", ".").replace("−", "-"));
     const isGood = text !== "" && Number.isFinite(value);
     this.speed.setAttribute("aria-invalid", String(!isGood));
-    if (isGood) this.setSpeed(value);
+    if (!isGood) return;
+    this.#pace(value);
+    this.show();
   }
 
   setSpeed(value) {
+    this.speed.value = String(value);
     this.#pace(value);
     this.show();
   }

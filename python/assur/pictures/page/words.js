@@ -37,13 +37,30 @@ const WORDS = {
   },
 };
 
+let language = "en";
+
+/** Speak another language from now on. */
+export function speak(code) {
+  language = code;
+}
+
+/** Return the language that is spoken. */
+export const spoken = () => language;
+
 /**
- * Return a text.
+ * Learn more words.
+ * @param {Object<string, Object<string, string>>} tables by language
+ */
+export function learn(tables) {
+  for (const code in tables) WORDS[code] = { ...WORDS[code], ...tables[code] };
+}
+
+/**
+ * Return a text; in English where the language has none.
  * @param {string} key
  * @param {Object<string, string|number>} [values]
- * @param {string} [language]
  */
-export function say(key, values = {}, language = "en") {
+export function say(key, values = {}) {
   const text = WORDS[language]?.[key] ?? WORDS.en[key] ?? key;
   return text.replace(/\{(\w+)\}/g, (whole, name) => String(values[name] ?? whole));
 }

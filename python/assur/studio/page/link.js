@@ -1,5 +1,9 @@
 // The socket: requests with numbers, answers as frames (docs/studio_protocol.md).
 
+/** Waits between attempts to connect again, ms: each twice the one before, up to the last. */
+const FIRST_WAIT = 500;
+const LONGEST_WAIT = 8000;
+
 /**
  * Return the header and the arrays of a frame.
  * @param {ArrayBuffer} frame
@@ -19,22 +23,23 @@ export function decode(frame) {
   return { header, arrays };
 }
 
+/**
+ * Something that carries texts up and frames down: a socket, or the model of a notebook's widget.
+ * @typedef {{send: (text: string) => void, isOpen: boolean}} Carrier
+ */
+
+/** Requests and their answers, over any carrier. */
 export class Link {
-  #socket;
   #waiting = new Map();
   #id = 0;
 
-  /** @param {{opened?: () => void, closed?: () => void}} [on] */
-  constructor(on = {}) {
-    this.#socket = new WebSocket(`ws://${location.host}/socket`);
-    this.#socket.binaryType = "arraybuffer";
-    this.#socket.onopen = () => on.opened?.();
-    this.#socket.onmessage = (event) => this.#take(decode(event.data));
-    this.#socket.onclose = () => {
-      for (const { reject } of this.#waiting.values()) reject(new Error("disconnected"));
-      this.#waiting.clear();
-      on.closed?.();
-    };
+  /** @param {Carrier} carrier its owner calls `take` with frames and `lost` when it breaks */
+  constructor(carrier) {
+    this.carrier = carrier;
+  }
+
+  get isOpen() {
+    return this.carrier.isOpen;
   }
 
   /**
@@ -47,16 +52,88 @@ export class Link {
   ask(kind, rev, fields) {
     const id = ++this.#id;
     return new Promise((resolve, reject) => {
+      if (!this.isOpen) return reject(disconnected());
       this.#waiting.set(id, { resolve, reject });
-      this.#socket.send(JSON.stringify({ id, rev, kind, ...fields }));
+      this.carrier.send(JSON.stringify({ id, rev, kind, ...fields }));
     });
   }
 
-  #take({ header, arrays }) {
+  /** Take an answer. */
+  take(frame) {
+    const { header, arrays } = decode(frame);
     const own = this.#waiting.get(header.id);
     if (!own) return;
     this.#waiting.delete(header.id);
     if (header.error) own.reject(Object.assign(new Error(header.error.message), header.error));
     else own.resolve(header.dropped ? null : { header, arrays });
   }
+
+  /** The carrier broke: what was asked has no answer. */
+  lost() {
+    for (const { reject } of this.#waiting.values()) reject(disconnected());
+    this.#waiting.clear();
+  }
+}
+
+/** What a request says that the connection has lost. */
+function disconnected() {
+  return Object.assign(new Error("disconnected"), { kind: "disconnected" });
+}
+
+/**
+ * Connect to the server, and again whenever the connection is lost.
+ * @param {(isOpen: boolean) => void} changed
+ * @returns {Link}
+ */
+export function connect(changed) {
+  let socket = null;
+  let wait = FIRST_WAIT;
+  const link = new Link({
+    send: (text) => socket.send(text),
+    get isOpen() {
+      return socket.readyState === WebSocket.OPEN;
+    },
+  });
+  const open = () => {
+    socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/socket`);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      wait = FIRST_WAIT;
+      changed(true);
+    };
+    socket.onmessage = (event) => link.take(event.data);
+    socket.onclose = () => {
+      link.lost();
+      changed(false);
+      setTimeout(open, wait);
+      wait = Math.min(2 * wait, LONGEST_WAIT);
+    };
+  };
+  open();
+  return link;
+}
+
+/**
+ * Ask for what changes quickly: one request under way, of the others only the newest waits.
+ * @param {(value: any) => Promise<void>} send
+ * @returns {{push: (value: any) => void, settled: () => Promise<void>}}
+ */
+export function newestOnly(send) {
+  let running = null;
+  let next = null;
+  const run = async () => {
+    while (next) {
+      const { value } = next;
+      next = null;
+      await send(value);
+    }
+    running = null;
+  };
+  return {
+    push(value) {
+      next = { value };
+      running ??= run();
+    },
+    settled: () => running ?? Promise.resolve(),
+  };
 }

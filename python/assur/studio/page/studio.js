@@ -1,22 +1,206 @@
-// Begins the page: opens the file given, or an example, and shows it.
+// Puts the studio together: the model, the picture, what plays, tools, panel, keys.
 
-import { mount } from "/pictures/main.js";
-import { Link } from "/studio/link.js";
+import { Canvas } from "../../pictures/page/canvas.js";
+import { Gestures } from "../../pictures/page/drag.js";
+import { driving } from "../../pictures/page/driving.js";
+import { html } from "../../pictures/page/elements.js";
+import { listenForKeys, playingKey } from "../../pictures/page/keys.js";
+import { tellPosition, whatIsWrong } from "../../pictures/page/main.js";
+import { Playback } from "../../pictures/page/playback.js";
+import { learn, say, speak, spoken } from "../../pictures/page/words.js";
+import { Bar } from "./bar.js";
+import { JointDrag } from "./dragging.js";
+import { Model } from "./model.js";
+import { Shell } from "./shell.js";
+import { Status } from "./status.js";
+import { FRAME_WORDS } from "./words/frame.js";
 
-// The token is a cookie by now; the address is better without it.
-history.replaceState(null, "", "/");
+for (const words of [FRAME_WORDS]) learn(words);
 
-const root = document.getElementById("assur");
-const link = new Link({ opened: begin });
-
-async function begin() {
-  try {
-    const { header } = await link.ask("start", 0, {});
-    const opened = await link.ask("open", 0, header.file ? { file: true } : { example: header.examples[0].name });
-    const { header: shown, arrays } = await link.ask("turn", 0, { document: opened.header.document });
-    const data = { ...shown.payload, title: opened.header.title };
-    mount(root, { ...data, turn: { ...data.turn, values: arrays.values } });
-  } catch (error) {
-    root.textContent = error.message;
+export class Studio {
+  /**
+   * @param {HTMLElement} root
+   * @param {import("./link.js").Link} link
+   * @param {Object} start what `start` answered
+   */
+  constructor(root, link, start) {
+    this.root = root;
+    this.start = start;
+    this.model = new Model(link);
+    this.isEmbedded = root.classList.contains("embedded");
+    this.model.drawAsSketch();
+    this.#build();
   }
+
+  /** Make the window anew: in the beginning, and in another language. */
+  #build() {
+    const { root, model } = this;
+    model.listeners.clear();
+    const { data, turn } = model;
+    this.canvas = new Canvas(root, data, turn);
+    const { stage } = this.canvas;
+    this.playback = new Playback(data, turn, {
+      show: (pose) => {
+        const { playback } = this;
+        model.q = playback.q;
+        stage.show(pose, playback.player.speed * playback.player.sense);
+        this.canvas.warn(this.#whatIsWrong());
+        model.emit("pose", pose);
+      },
+      told: () => {
+        tellPosition(this.canvas, this.playback);
+        model.emit("told");
+      },
+    });
+    this.bar = new Bar(root, model, this);
+    this.status = new Status(model);
+    this.canvas.element.append(this.status.element);
+    this.later = html("p", { class: "later" }, say("later"));
+    this.playback.element.append(this.later);
+    this.shell = new Shell(root, { bar: this.bar.element, canvas: this.canvas.element, dock: this.playback.element });
+    for (const one of this.#sections()) this.shell.panel.append(one.element);
+    this.joints = new JointDrag(model, this.canvas, this.playback);
+    this.gestures = new Gestures(this.canvas.picture, this.#handlers());
+    this.#listen();
+    stage.measure();
+    this.resize();
+    this.observer?.disconnect();
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(root);
+    this.#enable();
+    this.playback.show();
+  }
+
+  /** The sections of the panel, from above. */
+  #sections() {
+    return [];
+  }
+
+  #whatIsWrong() {
+    const { model, playback } = this;
+    if (model.problem) return model.problem.message;
+    return model.isSketch ? "" : whatIsWrong(playback);
+  }
+
+  #listen() {
+    const { model, canvas, playback, root } = this;
+    model.on("turn", () => this.#replace());
+    model.on("problem", () => canvas.warn(this.#whatIsWrong()));
+    model.on("document", () => (root.dataset.state = model.checked.state));
+    model.on("checked", () => (root.dataset.state = model.checked.state));
+    model.on("connection", () => {
+      root.classList.toggle("offline", !model.link.isOpen);
+      if (model.link.isOpen) this.dismiss("offline");
+      else this.notify(say("offline"), { kind: "offline" });
+    });
+    this.#keys?.();
+    this.#keys = listenForKeys(root, (key, isShift, target) => this.#key(key, isShift, target));
+  }
+
+  #keys = null;
+
+  /** Take the turn of the model. */
+  #replace() {
+    const { model, canvas, playback } = this;
+    playback.replace(model.data, model.turn, model.q);
+    canvas.replace(model.data, model.turn, playback.pose);
+    if (model.isNew) {
+      model.isNew = false;
+      canvas.stage.fit();
+      playback.setSpeed(model.data.speed);
+    }
+    if (model.isSketch) playback.pause();
+    this.#enable();
+    this.playback.resize();
+    playback.show();
+    if (!model.isDragging) playback.tell();
+  }
+
+  /** What does not move cannot be played. */
+  #enable() {
+    const { model, playback } = this;
+    playback.play.disabled = playback.home.disabled = model.isSketch;
+    this.later.hidden = !model.isSketch;
+  }
+
+  #handlers() {
+    const { canvas, playback, joints, model } = this;
+    const links = driving(canvas, playback);
+    const { view } = canvas.stage;
+    return {
+      ...links,
+      grip: (x, y, isTouch) => {
+        const joint = model.link.isOpen ? joints.grip(x, y, isTouch) : null;
+        if (joint) return joint;
+        return model.isSketch ? null : links.grip(x, y, isTouch);
+      },
+      move: (grip, x, y) => (grip.joint ? joints.move(grip, view.m(x, y)) : links.move(grip, x, y)),
+      drop: (grip) => (grip.joint ? joints.drop(grip) : links.drop(grip)),
+      cancel: (grip) => (grip.joint ? joints.cancel(grip) : links.drop(grip)),
+      takesWheel: () => !this.isEmbedded || this.root.contains(this.root.getRootNode().activeElement),
+    };
+  }
+
+  #key(key, isShift, target) {
+    const { model, gestures } = this;
+    if (key === "Escape") return gestures.isGripping ? () => gestures.cancel() : null;
+    if (target.closest?.("[role=menu], [role=tablist], dialog")) return null;
+    const keys = { f: () => this.projector(), "?": () => this.help() };
+    if (keys[key]) return keys[key];
+    return model.isSketch && key !== "0" ? null : playingKey(this.playback, this.canvas.stage, key, isShift);
+  }
+
+  // -- what parts of the window ask of it --------------------------------------
+
+  notify = (text, options) => this.shell.notify(text, options);
+
+  dismiss = (kind) => this.shell.dismiss(kind);
+
+  speed = () => this.playback.player.speed;
+
+  lesson() {}
+
+  help() {}
+
+  projector() {
+    this.shell.element.classList.toggle("projector");
+    this.resize();
+  }
+
+  /** Begin with nothing. */
+  begin() {
+    this.model.file = null;
+    return this.model.edit({ joints: {}, links: { ground: [] } }, { title: "" });
+  }
+
+  /** Speak another language: the window is made anew, the document stays. */
+  speak(code) {
+    speak(code);
+    document.documentElement.lang = spoken();
+    const { speed, q } = this.playback.player;
+    this.playback.pause();
+    this.#build();
+    this.playback.setSpeed(speed);
+    this.playback.seek(q);
+  }
+
+  resize() {
+    this.canvas.resize();
+    this.playback.resize();
+  }
+}
+
+/**
+ * Show the studio.
+ * @param {HTMLElement} root
+ * @param {import("./link.js").Link} link that is open
+ */
+export async function openStudio(root, link) {
+  const { header } = await link.ask("start", 0, {});
+  return new Studio(root, link, header);
+}
+
+/** Show a text in place of the page. */
+export function showFailure(root, text) {
+  root.replaceChildren(html("p", { class: "failure", role: "alert" }, text));
 }

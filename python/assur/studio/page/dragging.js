@@ -1,0 +1,68 @@
+// Joints that are dragged: the dimensions of their links follow, or the drawing if it does not move.
+
+import { pointState } from "../../pictures/page/quantities.js";
+import { moveJoint } from "./document/joints.js";
+import { newestOnly } from "./link.js";
+
+/** How near to a joint one must be to grip it, px; with a finger. */
+const JOINT_GRIP = 12;
+const JOINT_TOUCH = 22;
+
+/** Return the joint under a point of the picture, or null. */
+export function jointAt({ stage }, pose, x, y, isTouch) {
+  let best = null;
+  let least = isTouch ? JOINT_TOUCH : JOINT_GRIP;
+  for (const joint of stage.data.joints) {
+    const place = pointState(pose, joint.link, joint.at);
+    const [px, py] = stage.view.px(place.x, place.y);
+    const distance = Math.hypot(px - x, py - y);
+    if (distance < least) {
+      least = distance;
+      best = joint;
+    }
+  }
+  return best;
+}
+
+export class JointDrag {
+  /**
+   * @param {import("./model.js").Model} model
+   * @param {import("../../pictures/page/canvas.js").Canvas} canvas
+   * @param {import("../../pictures/page/playback.js").Playback} playback
+   */
+  constructor(model, canvas, playback) {
+    this.model = model;
+    this.canvas = canvas;
+    this.playback = playback;
+    this.previews = newestOnly((document) => model.preview(document));
+  }
+
+  /** Grip a joint at a place of the picture; null where there is none. */
+  grip(x, y, isTouch) {
+    const joint = jointAt(this.canvas, this.playback.pose, x, y, isTouch);
+    return joint && { joint: joint.name };
+  }
+
+  /** Move it to a place in the plane, m. */
+  move(grip, to) {
+    const { model } = this;
+    if (!grip.isMoving) {
+      model.begin();
+      grip.isMoving = true;
+    }
+    if (model.moves) model.dragJoint(grip.joint, to);
+    else this.previews.push(moveJoint(model.document, grip.joint, to));
+  }
+
+  async drop(grip) {
+    if (!grip.isMoving) return;
+    await this.previews.settled();
+    await this.model.commit();
+  }
+
+  async cancel(grip) {
+    if (!grip.isMoving) return;
+    await this.previews.settled();
+    await this.model.cancel();
+  }
+}

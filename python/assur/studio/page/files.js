@@ -1,0 +1,73 @@
+// Files: opening, saving, taking away, and what this browser keeps.
+
+import { html } from "../../pictures/page/elements.js";
+import { say } from "../../pictures/page/words.js";
+
+/** Where this browser keeps the document. */
+const KEPT = "assur-studio";
+/** After the last change it waits so long, ms. */
+const KEEP_AFTER = 400;
+
+/** Give a file to the person. */
+export function download(name, type, bytes) {
+  const address = URL.createObjectURL(new Blob([bytes], { type }));
+  const anchor = html("a", { href: address, download: name });
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** Let the person choose a file; calls `take` with it. */
+export function chooseFile(take) {
+  const input = html("input", { type: "file", accept: ".toml,.json,.pmks,.txt,.csv,.linkage2,.xml,.mech" });
+  input.addEventListener("change", () => {
+    if (input.files[0]) take(input.files[0]);
+  });
+  input.click();
+}
+
+/**
+ * Open a file of the person, if it is a mechanism; the old one stays if not.
+ * @param {import("./model.js").Model} model
+ * @param {File} file
+ * @param {number} limit bytes
+ * @param {(text: string) => void} tell
+ */
+export async function openFile(model, file, limit, tell) {
+  const { name } = file;
+  if (file.size > limit) {
+    tell(say("tooLarge", { name, size: Math.ceil(file.size / 1024), limit: Math.floor(limit / 1024) }));
+    return;
+  }
+  try {
+    const { omitted } = await model.open({ text: await file.text(), name });
+    if (omitted?.length) tell(say("omitted", { what: omitted.join(" ") }));
+  } catch (error) {
+    tell(say("notAMechanism", { name, reason: error.message }));
+  }
+}
+
+/** Keep the document in this browser whenever it changes. */
+export function keep(model) {
+  let timer = 0;
+  model.on("document", () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      const { document, title, held } = model;
+      try {
+        localStorage.setItem(KEPT, JSON.stringify({ document, title, held }));
+      } catch {
+        // The browser keeps nothing, or has no more room: the page goes on.
+      }
+    }, KEEP_AFTER);
+  });
+}
+
+/** Return what this browser kept, or null. */
+export function kept() {
+  try {
+    const own = JSON.parse(localStorage.getItem(KEPT));
+    return own && typeof own.document === "object" ? own : null;
+  } catch {
+    return null;
+  }
+}

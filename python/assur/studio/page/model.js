@@ -1,0 +1,283 @@
+// The document and what the server says of it: one truth that every part of the page shows.
+
+import { Turn } from "../../pictures/page/turn.js";
+import { History } from "./history.js";
+import { newestOnly } from "./link.js";
+import { sketchScene } from "./document/sketch.js";
+
+/** Rows of a turn while something is dragged, and at rest. */
+const ROWS_DRAGGED = 91;
+const ROWS = 361;
+
+/**
+ * What a document says: see `check` in docs/studio_protocol.md.
+ * @typedef {{state: string, message: string, counted: Object, structure: Object | null,
+ *   remedies: {text: string, document: Object}[], concerned?: Object, candidates?: string[]}} Checked
+ */
+
+/**
+ * Events: `document` it changed; `checked` its state is known; `turn` there is another turn to play;
+ * `problem` the present numbers cannot be shown, or can again; `file` title or stamp changed;
+ * `connection` it was lost, or is there again; `settled` nothing is being dragged or computed.
+ */
+export class Model {
+  /** @param {import("./link.js").Link} link */
+  constructor(link) {
+    this.link = link;
+    this.document = { joints: {}, links: { ground: [] } };
+    this.title = "";
+    /** Of the file that the command was given: its stamp, and whether `save` writes it. */
+    this.file = null;
+    this.rev = 0;
+    this.history = new History();
+    /** @type {Checked} */
+    this.checked = { state: "empty", message: "", counted: {}, structure: null, remedies: [] };
+    /** The page's data and the turn that are shown; `isSketch` if the document does not move. */
+    this.data = null;
+    this.turn = null;
+    this.isSketch = true;
+    this.dimensions = [];
+    /** Why the present document is not what is shown: an error, or null. */
+    this.problem = null;
+    /** Coordinates of all drivers; the one that moves is number `axis`. */
+    this.held = [0];
+    this.axis = 0;
+    this.isDragging = false;
+    this.listeners = new Map();
+    this.#drags = newestOnly((fields) => this.#drag(fields));
+  }
+
+  #drags;
+  #before = null;
+
+  /** Call a function at an event; returns one that ends it. */
+  on(name, listener) {
+    const all = this.listeners.get(name) ?? new Set();
+    this.listeners.set(name, all.add(listener));
+    return () => all.delete(listener);
+  }
+
+  emit(name, detail) {
+    for (const listener of this.listeners.get(name) ?? []) listener(detail);
+  }
+
+  /** Send a request about the present document. */
+  ask(kind, fields = {}) {
+    return this.link.ask(kind, this.rev, { document: this.document, ...fields });
+  }
+
+  get moves() {
+    return this.checked.state === "moves";
+  }
+
+  get driverCount() {
+    const { driver } = this.document;
+    return Array.isArray(driver) ? driver.length : 1;
+  }
+
+  /** Where the drivers are, as requests want it. */
+  get place() {
+    return this.driverCount > 1 ? [...this.held] : this.held[0];
+  }
+
+  /** The coordinate of the driver that moves. */
+  get q() {
+    return this.held[this.axis];
+  }
+
+  set q(value) {
+    this.held[this.axis] = value;
+  }
+
+  #snapshot() {
+    return { document: this.document, title: this.title, place: [...this.held] };
+  }
+
+  /** Show another document: a step that can be undone. */
+  async edit(document, { place, title } = {}) {
+    this.history.push(this.#before ?? this.#snapshot());
+    this.#before = null;
+    if (title !== undefined) this.title = title;
+    await this.#become(document, place);
+  }
+
+  async undo() {
+    await this.#go(this.history.undo(this.#snapshot()));
+  }
+
+  async redo() {
+    await this.#go(this.history.redo(this.#snapshot()));
+  }
+
+  async #go(snapshot) {
+    if (!snapshot) return;
+    this.title = snapshot.title;
+    await this.#become(snapshot.document, snapshot.place);
+    this.emit("file");
+  }
+
+  async #become(document, place) {
+    this.document = document;
+    this.rev += 1;
+    if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
+    this.emit("document");
+    await this.look();
+  }
+
+  /** Open an example, a text or the file given to the command: see `open` of the protocol. */
+  async open(fields) {
+    const { header } = await this.link.ask("open", this.rev, fields);
+    this.file = fields.file ? { stamp: header.stamp, saves: header.saves } : null;
+    this.axis = 0;
+    this.isNew = true;
+    await this.edit(header.document, { place: header.q0, title: header.title });
+    this.emit("file");
+    return header;
+  }
+
+  // -- gestures: previews until they are committed or cancelled ---------------
+
+  begin() {
+    this.#before = this.#snapshot();
+    this.isDragging = true;
+  }
+
+  /** Move a joint of a mechanism that moves; its dimensions follow. */
+  dragJoint(joint, to) {
+    this.#drags.push({ joint, to, q: this.place });
+  }
+
+  /** Show a document that is not yet a step. */
+  preview(document) {
+    return this.#become(document);
+  }
+
+  async commit() {
+    await this.#drags.settled();
+    this.isDragging = false;
+    const before = this.#before;
+    this.#before = null;
+    if (!before || before.document === this.document) return;
+    this.history.push(before);
+    this.emit("document");
+    await this.look();
+  }
+
+  async cancel() {
+    await this.#drags.settled();
+    this.isDragging = false;
+    const before = this.#before;
+    this.#before = null;
+    if (before && before.document !== this.document) await this.#become(before.document, before.place);
+  }
+
+  async #drag(fields) {
+    if (!this.isDragging) return;
+    try {
+      const answer = await this.ask("drag", { ...fields, rows: ROWS_DRAGGED, orders: 2, axis: this.axis });
+      if (!answer || !this.#before) return;
+      const { header } = answer;
+      this.document = header.document;
+      this.rev += 1;
+      this.changed = header.changed;
+      this.#show(answer, header.q);
+      this.emit("document");
+    } catch (error) {
+      this.#fail(error);
+    }
+  }
+
+  // -- what the server says ---------------------------------------------------
+
+  /** Ask what the document is, and for its turn. */
+  async look() {
+    const { rev } = this;
+    await Promise.all([this.#check(rev), this.#turn(rev)]);
+    if (rev === this.rev) this.emit("settled");
+  }
+
+  async #check(rev) {
+    try {
+      const answer = await this.ask("check");
+      if (!answer || rev !== this.rev) return;
+      this.checked = answer.header;
+      if (!this.moves) this.#sketch();
+      this.emit("checked");
+    } catch (error) {
+      if (rev === this.rev) this.#fail(error);
+    }
+  }
+
+  /** Ask for the turn; of a document that does not move there is none, and `check` says why. */
+  async #turn(rev) {
+    if (!this.document.driver || !this.document.driver.length) return;
+    try {
+      const rows = this.isDragging ? { rows: ROWS_DRAGGED, orders: 2 } : { rows: ROWS };
+      const answer = await this.ask("turn", { q: this.#known(), ...rows, axis: Math.min(this.axis, this.driverCount - 1) });
+      if (!answer || rev !== this.rev) return;
+      this.#show(answer, undefined);
+    } catch (error) {
+      // Of what does not move `check` has said it by now.
+      if (rev === this.rev && (this.moves || error.kind === "time_limit")) this.#fail(error);
+    }
+  }
+
+  /** The coordinates that fit the drivers; of others the drawing's. */
+  #known() {
+    return this.held.length === this.driverCount ? this.place : undefined;
+  }
+
+  #show({ header, arrays }, place) {
+    const { payload } = header;
+    this.data = { ...payload, title: this.title, turn: { ...payload.turn, values: arrays.values } };
+    this.turn = new Turn(this.data.turn);
+    this.dimensions = header.dimensions;
+    this.isSketch = false;
+    if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
+    else if (this.held.length !== this.driverCount) this.held = [payload.turn.at];
+    this.#solve(null);
+    this.emit("turn");
+  }
+
+  #sketch() {
+    this.drawAsSketch();
+    this.#solve(null);
+    this.emit("turn");
+  }
+
+  /** Draw what does not move as it is drawn. */
+  drawAsSketch() {
+    this.data = { ...sketchScene(this.document), title: this.title };
+    this.turn = new Turn(this.data.turn);
+    this.dimensions = [];
+    this.isSketch = true;
+  }
+
+  #fail(error) {
+    if (error.kind === "disconnected") return;
+    this.#solve(error);
+  }
+
+  #solve(error) {
+    if (this.problem === null && error === null) return;
+    this.problem = error;
+    this.emit("problem");
+  }
+
+  /** Move another of several drivers. */
+  async setAxis(axis) {
+    this.axis = axis;
+    this.rev += 1;
+    await this.look();
+  }
+
+  // -- files -------------------------------------------------------------------
+
+  /** Write the document to the file of the command. */
+  async save(force = false) {
+    const { header } = await this.ask("save", { stamp: this.file.stamp, ...(force ? { force } : {}) });
+    this.file.stamp = header.stamp;
+    this.savedDocument = this.document;
+    this.emit("file");
+  }
+}
