@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -11,9 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-
-pytest.importorskip("playwright.sync_api", reason="playwright is not installed: no browser tests")
-from playwright.sync_api import sync_playwright
+from browsers import chromium
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,21 +17,13 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser, Page
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 WIDTHS = {"wide": (1440, 900), "between": (800, 900), "narrow": (390, 844)}
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
-    found = (os.environ.get("CHROMIUM"), *(shutil.which(name) for name in NAMES))
-    path = next((one for one in found if one), None)
-    if path is None:
-        pytest.skip("no Chromium is found: the page is not tested in a browser")
-    with sync_playwright() as playwright:
-        # Containers run as root, where Chromium's own sandbox does not work.
-        running = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    with chromium() as running:
         yield running
-        running.close()
 
 
 class Opened:

@@ -28,8 +28,16 @@ export class Canvas {
     this.fit.addEventListener("click", () => this.stage.fit());
     this.corner = html("div", { class: "corner" }, this.#points(data), this.fit);
     this.element = html("div", { class: "canvas" }, this.picture, this.status, this.warning, this.corner, this.row);
+    /** What else lies over the picture, at its top. */
+    this.covers = [];
     this.stage.choose(data.joints.filter((joint) => data.paths.includes(joint.name)));
     this.set(own);
+  }
+
+  /** Lay something over the top of the picture: what is fitted and named keeps clear of it. */
+  cover(element) {
+    this.covers.push(element);
+    this.element.append(element);
   }
 
   /** Switch what is shown. */
@@ -72,9 +80,10 @@ export class Canvas {
     // The scale bar stands beside the switches, or above them.
     stage.foot = isNarrow ? 0 : row.offsetHeight;
     stage.barFoot = !isNarrow && row.offsetWidth > width - 220 ? row.offsetHeight + 4 : 0;
-    stage.head = isNarrow ? corner.offsetHeight : 0;
+    const heights = this.covers.map((one) => one.offsetHeight);
+    stage.head = Math.max(isNarrow ? corner.offsetHeight : 0, ...heights);
     const box = picture.getBoundingClientRect();
-    stage.covers = [corner, ...(isNarrow ? [] : [row])].map((over) => {
+    stage.covers = [corner, ...this.covers, ...(isNarrow ? [] : [row])].map((over) => {
       const own = over.getBoundingClientRect();
       return [own.left - box.left, own.top - box.top, own.right - box.left, own.bottom - box.top];
     });

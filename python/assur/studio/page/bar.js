@@ -13,6 +13,7 @@ const FOLDER = "M3 6h6l2 3h10v10H3z";
 const BOOK = "M5 4h13v16H5zM5 16h13";
 const OUT = "M12 15V4M8 8l4-4 4 4M5 14v6h14v-6";
 const HELP = "M9 9a3 3 0 1 1 4 2.8c-.7.3-1 .8-1 1.7M12 17v.5";
+const MENU = "M4 7h16M4 12h16M4 17h16";
 const GLOBE = "M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18zM3 12h18M12 3c3 3 3 15 0 18M12 3c-3 3-3 15 0 18";
 const FORMATS = ["toml", "svg", "dxf", "csv", "gif", "html"];
 export const LANGUAGES = { en: "English", de: "Deutsch", ru: "Русский", uk: "Українська" };
@@ -45,18 +46,28 @@ export class Bar {
     const help = button(say("help"), HELP);
     help.addEventListener("click", () => page.help());
     const brand = html("span", { class: "brand" }, say("studio"));
-    const menus = page.isEmbedded ? [out.element] : [open.element, examples.element, out.element];
+    const files = page.isEmbedded ? [out.element] : [open.element, examples.element, out.element];
+    const menus = html("div", { class: "menus" }, ...files, language.element, schemeButton(root), help);
+    const more = button(say("menu"), MENU);
+    more.classList.add("more");
+    more.setAttribute("aria-expanded", "false");
+    const unfold = (isOpen) => {
+      menus.classList.toggle("unfolded", isOpen);
+      more.setAttribute("aria-expanded", String(isOpen));
+    };
+    more.addEventListener("click", () => unfold(!menus.classList.contains("unfolded")));
+    menus.addEventListener("click", (event) => {
+      if (!event.target.closest("[aria-haspopup]")) unfold(false);
+    });
     this.element = html(
       "header",
       { class: "bar" },
+      more,
       ...(page.isEmbedded ? [] : [brand, this.title, this.state]),
       this.undo,
       this.redo,
       html("span", { class: "space" }),
-      ...menus,
-      language.element,
-      schemeButton(root),
-      help,
+      menus,
     );
     for (const event of ["document", "file", "connection"]) model.on(event, () => this.show());
     this.show();

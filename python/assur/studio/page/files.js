@@ -46,28 +46,40 @@ export async function openFile(model, file, limit, tell) {
   }
 }
 
-/** Keep the document in this browser whenever it changes. */
+/** Keep the document whenever it changes: for this window, and for the next one that opens. */
 export function keep(model) {
   let timer = 0;
-  model.on("document", () => {
-    clearTimeout(timer);
-    timer = setTimeout(() => {
-      const { document, title, held } = model;
-      try {
-        localStorage.setItem(KEPT, JSON.stringify({ document, title, held }));
-      } catch {
-        // The browser keeps nothing, or has no more room: the page goes on.
-      }
-    }, KEEP_AFTER);
-  });
+  const write = () => {
+    const { document, title, held, file } = model;
+    const own = JSON.stringify({ document, title, held, stamp: file?.stamp ?? null });
+    try {
+      sessionStorage.setItem(KEPT, own);
+      if (!file) localStorage.setItem(KEPT, own);
+    } catch {
+      // The browser keeps nothing, or has no more room: the page goes on.
+    }
+  };
+  for (const event of ["document", "file"]) {
+    model.on(event, () => {
+      clearTimeout(timer);
+      timer = setTimeout(write, KEEP_AFTER);
+    });
+  }
+  window.onpagehide = write;
 }
 
-/** Return what this browser kept, or null. */
-export function kept() {
-  try {
-    const own = JSON.parse(localStorage.getItem(KEPT));
-    return own && typeof own.document === "object" ? own : null;
-  } catch {
-    return null;
+/**
+ * Return what this browser kept, or null: of a file what this window had not saved.
+ * @param {string | null} stamp of the file that is open
+ */
+export function kept(stamp) {
+  for (const store of stamp ? ["sessionStorage"] : ["sessionStorage", "localStorage"]) {
+    try {
+      const own = JSON.parse(window[store].getItem(KEPT));
+      if (own && typeof own.document === "object" && own.stamp === stamp) return own;
+    } catch {
+      // Not ours, or there is no store.
+    }
   }
+  return null;
 }

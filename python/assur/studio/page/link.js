@@ -42,6 +42,11 @@ export class Link {
     return this.carrier.isOpen;
   }
 
+  /** Whether nothing that was asked waits for its answer. */
+  get isQuiet() {
+    return this.#waiting.size === 0;
+  }
+
   /**
    * Send a request. The answer is null if a newer request took its place.
    * @param {string} kind

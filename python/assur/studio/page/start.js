@@ -1,6 +1,6 @@
 // Begins the page: connects, and opens the file given, what this browser kept, or an example.
 
-import { kept, keep } from "./files.js";
+import { kept } from "./files.js";
 import { connect } from "./link.js";
 import { openStudio, showFailure } from "./studio.js";
 import { say, speak } from "../../pictures/page/words.js";
@@ -27,21 +27,37 @@ async function begin() {
   try {
     studio = await openStudio(root, link);
     const { model, start } = studio;
-    const own = start.file ? null : kept();
-    if (start.file) {
-      const { others } = await model.open({ file: true });
-      model.savedDocument = model.document;
-      if (others) studio.notify(say("others"));
-    } else if (own) {
-      model.title = own.title;
-      await model.edit(own.document, { place: own.held });
-      studio.canvas.stage.fit();
-    } else await model.open({ example: FIRST });
-    model.history.clear();
+    if (start.file) await openGiven();
+    else if (kept(null)) await restore(kept(null));
+    else await model.open({ example: FIRST });
+    if (!start.file) model.history.clear();
     model.emit("file");
-    keep(model);
+    studio.keep();
     window.assurStudio = studio;
   } catch (error) {
     showFailure(root, error.message);
   }
+}
+
+/** Open the file of the command; what this window had not saved of it comes back, as a step. */
+async function openGiven() {
+  const { model } = studio;
+  const { others } = await model.open({ file: true });
+  model.history.clear();
+  model.savedDocument = model.document;
+  const own = model.file.saves ? kept(model.file.stamp) : null;
+  if (own && JSON.stringify(own.document) !== JSON.stringify(model.document)) {
+    await restore(own);
+    studio.notify(say("restored"));
+  }
+  const copy = () => {
+    model.file = null;
+    model.emit("file");
+  };
+  if (others) studio.notify(say("others"), { action: { text: say("copy"), act: copy } });
+}
+
+async function restore({ document: own, title, held }) {
+  await studio.model.edit(own, { place: held, title });
+  studio.canvas.stage.fit();
 }

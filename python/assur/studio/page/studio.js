@@ -9,13 +9,15 @@ import { tellPosition, whatIsWrong } from "../../pictures/page/main.js";
 import { Playback } from "../../pictures/page/playback.js";
 import { learn, say, speak, spoken } from "../../pictures/page/words.js";
 import { Bar } from "./bar.js";
+import { keep } from "./files.js";
 import { JointDrag } from "./dragging.js";
 import { Model } from "./model.js";
 import { Shell } from "./shell.js";
 import { Status } from "./status.js";
 import { FRAME_WORDS } from "./words/frame.js";
+import { PICTURE_WORDS } from "./words/picture.js";
 
-for (const words of [FRAME_WORDS]) learn(words);
+for (const words of [PICTURE_WORDS, FRAME_WORDS]) learn(words);
 
 export class Studio {
   /**
@@ -54,7 +56,7 @@ export class Studio {
     });
     this.bar = new Bar(root, model, this);
     this.status = new Status(model);
-    this.canvas.element.append(this.status.element);
+    this.canvas.cover(this.status.element);
     this.later = html("p", { class: "later" }, say("later"));
     this.playback.element.append(this.later);
     this.shell = new Shell(root, { bar: this.bar.element, canvas: this.canvas.element, dock: this.playback.element });
@@ -66,8 +68,10 @@ export class Studio {
     this.resize();
     this.observer?.disconnect();
     this.observer = new ResizeObserver(() => this.resize());
-    this.observer.observe(root);
+    // The picture also changes where what stands beside it does.
+    for (const one of [root, this.canvas.picture]) this.observer.observe(one);
     this.#enable();
+    if (this.isKept) keep(model);
     this.playback.show();
   }
 
@@ -165,6 +169,12 @@ export class Studio {
   projector() {
     this.shell.element.classList.toggle("projector");
     this.resize();
+  }
+
+  /** Keep the document in this browser from now on, also in another language. */
+  keep() {
+    this.isKept = true;
+    keep(this.model);
   }
 
   /** Begin with nothing. */
