@@ -1,0 +1,199 @@
+"""How quick the studio is in a real browser: frames while it plays, and a drag until it is seen.
+
+``python benches/python/studio_page.py`` prints medians and 95th percentiles for 4, 10 and 30 links;
+``--minutes 30`` plays and drags for so long and prints the memory of both sides.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from playwright.sync_api import sync_playwright
+
+import assur
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Page
+
+LINKS = (4, 10, 30)
+FRAMES, DRAGS = 300, 200
+# Of the page's own work: from the clock of one frame to the end of its script.
+FRAME_SCRIPT = """(count) => new Promise((resolve) => {
+  const { playback } = window.assurStudio;
+  const script = [], between = [];
+  let last = null;
+  const show = playback.player.show;
+  playback.player.show = (q) => {
+    const start = performance.now();
+    show(q);
+    script.push(performance.now() - start);
+    if (last !== null) between.push(start - last);
+    last = start;
+    if (script.length < count) return;
+    playback.player.show = show;
+    playback.toggle();
+    resolve({ script, between });
+  };
+  playback.toggle();
+})"""
+# From the event of the pointer to the first frame that can show its answer.
+DRAG_SCRIPT = """([joint, count]) => new Promise((resolve) => {
+  const { model, canvas } = window.assurStudio;
+  const [x, y] = window.placeOf(joint);
+  const box = canvas.picture.getBoundingClientRect();
+  canvas.picture.setPointerCapture = () => {};
+  const send = (type, i) => canvas.picture.dispatchEvent(new PointerEvent(type, {
+    clientX: box.left + x + 8 * Math.sin(i / 9), clientY: box.top + y + 8 * (Math.cos(i / 9) - 1),
+    pointerId: 1, bubbles: true, button: 0, pointerType: "mouse",
+  }));
+  const times = [];
+  let sent = 0, i = 0;
+  const next = () => {
+    if (times.length === count) {
+      end();
+      send("pointerup", i);
+      resolve(times);
+      return;
+    }
+    sent = performance.now();
+    send("pointermove", ++i);
+  };
+  const end = model.on("turn", () => {
+    const own = sent;
+    requestAnimationFrame(() => {
+      const channel = new MessageChannel();
+      // A message is taken up after the frame's layout and paint were handed over.
+      channel.port1.onmessage = () => {
+        times.push(performance.now() - own);
+        next();
+      };
+      channel.port2.postMessage(0);
+    });
+  });
+  send("pointerdown", 0);
+  next();
+})"""
+PLACE_SCRIPT = """() => {
+  window.placeOf = (name) => {
+    const { canvas, playback } = window.assurStudio;
+    const joint = canvas.stage.data.joints.find((one) => one.name === name);
+    const i = 3 * joint.link, { value } = playback.pose, [a, b] = joint.at;
+    const c = Math.cos(value[i + 2]), s = Math.sin(value[i + 2]);
+    return canvas.stage.view.px(value[i] + c * a - s * b, value[i + 1] + s * a + c * b);
+  };
+}"""
+
+
+def chain(links: int) -> assur.Mechanism:
+    """Return a crank with dyads, each driven by the one before; `links` with the ground."""
+    joints: dict[str, tuple[float, float]] = {"A": (0.0, 0.0), "B": (0.3, 0.6)}
+    members: dict[str, list[str]] = {"ground": ["A"], "crank": ["A", "B"]}
+    last = "B"
+    for i in range((links - 2) // 2):
+        x = 1.5 * (i + 1)
+        joints |= {f"C{i}": (x, 1.4), f"D{i}": (x, 0.0), f"E{i}": (x + 0.2, 0.8)}
+        members["ground"].append(f"D{i}")
+        members[f"rod{i}"] = [last, f"C{i}"]
+        members[f"rocker{i}"] = [f"D{i}", f"C{i}", f"E{i}"]
+        last = f"E{i}"
+    return assur.Mechanism(joints, members, "crank")
+
+
+@contextmanager
+def studio(mechanism: assur.Mechanism) -> Iterator[tuple[Page, int]]:
+    """Open the studio of a server of its own; yield the page and the server's process."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "chain.toml"
+        mechanism.save(path)
+        command = [sys.executable, "-m", "assur", "studio", str(path), "--no-browser", "--port=0"]
+        environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as run:
+            assert run.stdout is not None
+            address = run.stdout.readline().strip()
+            with sync_playwright() as playwright:
+                browser = playwright.chromium.launch(
+                    executable_path=os.environ.get("CHROMIUM") or shutil.which("chromium"),
+                    args=["--no-sandbox", "--enable-precise-memory-info", "--js-flags=--expose-gc"],
+                )
+                page = browser.new_page(viewport={"width": 1440, "height": 900})
+                page.goto(address)
+                while not page.evaluate("window.assurStudio?.model.link.isQuiet ?? false"):
+                    page.wait_for_timeout(50)
+                page.evaluate(PLACE_SCRIPT)
+                yield page, run.pid
+                browser.close()
+            run.terminate()
+
+
+def both(times: list[float]) -> str:
+    """Return the median and the 95th percentile."""
+    return f"{np.median(times):5.1f} / {np.percentile(times, 95):5.1f} ms"
+
+
+def measure(links: int) -> None:
+    """Print frames and drags of a chain."""
+    with studio(chain(links)) as (page, _):
+        frames = page.evaluate(FRAME_SCRIPT, FRAMES)
+        drags = page.evaluate(DRAG_SCRIPT, [f"C{(links - 4) // 4}", DRAGS])
+    print(
+        f"{links:3d} links: script of a frame {both(frames['script'])}, between frames "
+        f"{both(frames['between'])}, a drag until it is seen {both(drags)}"
+    )
+
+
+def memory(process: int) -> float:
+    """Return the memory of a process, MB."""
+    status = Path(f"/proc/{process}/status").read_text(encoding="ascii")
+    found = re.search(r"VmRSS:\s+(\d+)", status)
+    assert found is not None
+    return int(found[1]) / 1024.0
+
+
+def endure(minutes: float) -> None:
+    """Play and drag for minutes; print the memory of both sides now and then."""
+    with studio(chain(10)) as (page, process):
+        end = time.monotonic() + 60.0 * minutes
+        step = 0
+        while time.monotonic() < end:
+            page.evaluate(FRAME_SCRIPT, 200)
+            page.evaluate(DRAG_SCRIPT, [f"C{step % 4}", 150])
+            page.evaluate("window.assurStudio.model.undo()")
+            step += 1
+            if step % 10 == 1:
+                heap = page.evaluate("(gc(), performance.memory.usedJSHeapSize / 1e6)")
+                nodes = page.evaluate("document.querySelectorAll('*').length")
+                spent = minutes - (end - time.monotonic()) / 60.0
+                print(
+                    f"{spent:5.1f} min: server {memory(process):6.1f} MB, page {heap:5.1f} MB, "
+                    f"{nodes} elements",
+                    flush=True,
+                )
+
+
+def main() -> None:
+    """Measure, or endure."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--minutes", type=float, default=0.0)
+    given = parser.parse_args()
+    if given.minutes:
+        endure(given.minutes)
+        return
+    for links in LINKS:
+        measure(links)
+
+
+if __name__ == "__main__":
+    main()
