@@ -14,10 +14,11 @@ import { JointDrag } from "./dragging.js";
 import { Model } from "./model.js";
 import { Shell } from "./shell.js";
 import { Status } from "./status.js";
+import { FIELD_WORDS } from "./words/fields.js";
 import { FRAME_WORDS } from "./words/frame.js";
 import { PICTURE_WORDS } from "./words/picture.js";
 
-for (const words of [PICTURE_WORDS, FRAME_WORDS]) learn(words);
+for (const words of [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS]) learn(words);
 
 export class Studio {
   /**

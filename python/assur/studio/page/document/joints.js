@@ -42,20 +42,20 @@ export function setGround(document, joint, isGround) {
 /**
  * Move a joint in the drawing.
  *
- * Dimensions that are given hide the drawing, so those of its links are forgotten. That is for a
+ * Dimensions that are given hide the drawing, so those of its links are withoutFramesAt. That is for a
  * document which is still drawn: of one that moves, the server's `drag` finds the dimensions.
  */
 export function moveJoint(document, joint, at) {
   if (!Object.hasOwn(tableOf(document.joints), joint)) return document;
   const moved = { ...document, joints: { ...document.joints, [joint]: [...at] } };
-  const made = forgotten(withSection(moved, "drawn", null), joint);
+  const made = withoutFramesAt(withSection(moved, "drawn", null), joint);
   return withoutDimensions(made, (name) => name.startsWith(`ground.${joint}.`));
 }
 
 /** Forget the dimensions of the moving links with a joint. */
-function forgotten(document, joint) {
-  const links = Object.entries(allLinks(document)).filter(([link, joints]) => link !== "ground" && joints.includes(joint));
-  return links.reduce((made, [link]) => withoutFrame(made, link), document);
+function withoutFramesAt(document, joint) {
+  const links = Object.entries(allLinks(document)).filter(([, joints]) => joints.includes(joint)).map(([link]) => link);
+  return links.filter((link) => link !== "ground").reduce(withoutFrame, document);
 }
 
 /**
@@ -65,12 +65,12 @@ function forgotten(document, joint) {
 export function mergeJoints(document, from, into) {
   const joints = tableOf(document.joints);
   if (from === into || !Object.hasOwn(joints, from) || !Object.hasOwn(joints, into)) return document;
-  const free = forgotten(angled(document, (along) => along.includes(from) && along.includes(into)), from);
+  const free = withoutFramesAt(withAngles(document, (along) => along.includes(from) && along.includes(into)), from);
   return restructured(withNames(free, { joint: (name) => (name === from ? into : name) }));
 }
 
 /** Slides along joints that a test picks keep their direction in the drawing as an angle. */
-function angled(document, picks) {
+function withAngles(document, picks) {
   if (!document.slides) return document;
   const slides = Object.entries(tableOf(document.slides)).map(([name, own]) => {
     const angle = Array.isArray(own?.along) && picks(own.along) ? guideAngle(document, own) : null;
@@ -96,15 +96,24 @@ export function addPlateJoint(document, link, at, name = nameJoint(document)) {
   return joinToLink(addJoint(document, at, name), name, link);
 }
 
-/** Remove a joint with all that named it. Links that are left with one joint or one slide alone go too. */
+/** Remove a joint with all that named it, and links that are left with one joint or one slide alone. */
 export function removeJoint(document, joint) {
   if (!Object.hasOwn(tableOf(document.joints), joint)) return document;
   const links = Object.entries(tableOf(document.links)).filter(([, joints]) => listOf(joints).includes(joint));
   const without = (made, [link, joints]) => withJoints(made, link, joints.filter((own) => own !== joint));
-  const cut = links.reduce(without, angled(document, (along) => along.includes(joint)));
+  const cut = links.reduce(without, withAngles(document, (along) => along.includes(joint)));
   const left = restructured(withNames(cut, { joint: (name) => (name === joint ? null : name) }));
-  const stubs = links.map(([link]) => link).filter((link) => link !== "ground" && isStub(left, link));
-  return stubs.length ? withNames(left, { link: (name) => (stubs.includes(name) ? null : name) }) : left;
+  return withoutStubs(left, links.map(([link]) => link));
+}
+
+/** Remove those of some links that are stubs; their slides go with them, which may leave others as stubs. */
+function withoutStubs(document, links) {
+  const isOn = (link) => link !== "ground" && Object.hasOwn(tableOf(document.links), link) && isStub(document, link);
+  const stubs = links.filter(isOn);
+  if (!stubs.length) return document;
+  const slides = stubs.flatMap((link) => slidesOf(document, link)).map((name) => document.slides[name]);
+  const left = withNames(document, { link: (name) => (stubs.includes(name) ? null : name) });
+  return withoutStubs(left, slides.flatMap((own) => [own.link, own.on]));
 }
 
 /** Whether a link has fewer than two joints and slides together. */

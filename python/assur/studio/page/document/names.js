@@ -1,7 +1,8 @@
 // Names of joints, links and slides: which are taken, which are allowed, which are free.
 
-/** Invisible characters, quotes and brackets that the core forbids in names, as dots and slashes. */
-const FORBIDDEN_LETTERS = /[\s\p{Cc}\p{Cs}./\\'"`()[\]{}<>‘’‚“”„«»‹›（）［］｛｝〈〉《》「」『』【】\u{ad}\u{200b}-\u{200f}\u{2060}\u{feff}]/u;
+/** Blanks, dots, slashes, quotes and brackets, and what is not seen: the core forbids them in names. */
+const FORBIDDEN_LETTERS = /[\s\p{Cc}\p{Cs}./\\'"\x60()[\]{}<>‘’‚“”„«»‹›（）［］｛｝〈〉《》「」『』【】]/u;
+const INVISIBLE_LETTERS = /[\u{ad}\u{200b}-\u{200f}\u{2060}\u{feff}]/u;
 
 /** Parts of a cylinder, and the endings of the links that it makes if they have no names. */
 export const CYLINDER_PARTS = { barrel: "_barrel", rod: "_rod" };
@@ -53,7 +54,8 @@ export function nameError(document, name, own = undefined) {
   if (name === own) return null;
   if (typeof name !== "string" || !name) return { error: "emptyName", values: {} };
   // "__proto__" as a key would not be one.
-  if (FORBIDDEN_LETTERS.test(name) || name === "__proto__") return { error: "badName", values: { name } };
+  const isBad = FORBIDDEN_LETTERS.test(name) || INVISIBLE_LETTERS.test(name) || name === "__proto__";
+  if (isBad) return { error: "badName", values: { name } };
   if (own === "ground") return { error: "groundName", values: {} };
   if (name === "ground" || takenNames(document).has(name)) return { error: "takenName", values: { name } };
   return null;

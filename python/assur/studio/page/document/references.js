@@ -28,7 +28,7 @@ export function withNames(document, map) {
   const slides = tableOf(document.slides);
   const isSlide = (name) => Object.hasOwn(slides, name);
   const joint = map.joint ?? same;
-  const { link, slide } = follow(slides, joint, map.link ?? same, map.slide ?? same);
+  const { link, slide } = followedNames(slides, joint, map.link ?? same, map.slide ?? same);
   const names = {
     ...{ joint, link, slide },
     coordinate: (name) => (isSlide(name) ? slide(name) : link(name)),
@@ -37,14 +37,14 @@ export function withNames(document, map) {
   };
   const changes = {
     joints: (table) => entriesOf(table, joint),
-    links: (table) => entriesOf(table, link, (joints) => unique(listOf(joints).map(joint).filter((own) => own !== null))),
+    links: (table) => entriesOf(table, link, (joints) => withoutGone(listOf(joints).map(joint))),
     slides: (table) => entriesOf(table, slide, (own, name) => slideNames(own, name, names)),
     driver: (driver) => driverNames(driver, names),
     assembly: (table) => entriesOf(table, names.pair),
     dimensions: (table) => dimensionNames(table, names, isSlide),
     bodies: (table) => entriesOf(table, link, (body) => bodyNames(body, joint)),
     friction: (table) => entriesOf(table, names.pair),
-    loads: (loads) => listOf(loads).map((load) => loadNames(load, names)).filter((load) => load !== null),
+    loads: (loads) => withoutGone(listOf(loads).map((load) => loadNames(load, names))),
     drawn: (drawn) => drawnNames(drawn, names, isSlide),
   };
   const made = { ...document };
@@ -58,15 +58,16 @@ export function withNames(document, map) {
 }
 
 /** A slide goes with its links, a cylinder with its ends too; a cylinder's links go and turn with it. */
-function follow(slides, joint, renameLink, renameSlide) {
+function followedNames(slides, joint, renameLink, renameSlide) {
   const gone = new Set();
   const followed = new Map();
   const lost = (value, rename) => typeof value === "string" && rename(value) === null;
   for (const [name, own] of Object.entries(slides).filter(([, one]) => isCylinder(one))) {
     const parts = cylinderLinks(name, own);
     const isPoint = own.base !== own.end && joint(own.base) === joint(own.end);
-    const isCut = lost(own.base, joint) || lost(own.end, joint) || Object.values(parts).some((part) => lost(part, renameLink));
-    if (isPoint || isCut || renameSlide(name) === null) gone.add(name);
+    const isCut = [own.base, own.end].some((end) => lost(end, joint));
+    const isOpen = Object.values(parts).some((part) => lost(part, renameLink));
+    if (isPoint || isCut || isOpen || renameSlide(name) === null) gone.add(name);
     for (const [part, ending] of Object.entries(CYLINDER_PARTS)) {
       if (gone.has(name)) followed.set(parts[part], null);
       else if (typeof own[part] !== "string") followed.set(parts[part], `${renameSlide(name)}${ending}`);
@@ -83,7 +84,8 @@ function follow(slides, joint, renameLink, renameSlide) {
   return { link, slide: (name) => (gone.has(name) ? null : renameSlide(name)) };
 }
 
-const unique = (list) => [...new Set(list)];
+/** Return what is not gone, and each once. */
+const withoutGone = (list) => [...new Set(list)].filter((own) => own !== null);
 
 /** Return a table with other keys; of two that become one, the one that had the name stays. */
 function entriesOf(table, rename, each = (value) => value) {
@@ -101,7 +103,8 @@ function slideNames(own, name, { joint, link, slide }) {
   const made = { ...own };
   for (const [part, ending] of isCylinder(own) ? Object.entries(CYLINDER_PARTS) : []) {
     // A link that the cylinder named by itself has a name of its own now.
-    if (typeof own[part] !== "string" && link(`${name}${ending}`) !== `${slide(name)}${ending}`) made[part] = `${name}${ending}`;
+    const before = `${name}${ending}`;
+    if (typeof own[part] !== "string" && link(before) !== `${slide(name)}${ending}`) made[part] = before;
   }
   for (const [keys, rename] of [[["link", "on", "barrel", "rod"], link], [["base", "end", "origin"], joint]]) {
     for (const key of keys) {

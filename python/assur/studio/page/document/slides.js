@@ -3,7 +3,8 @@
 // What changes the structure forgets `assembly` and `drawn`: see `redrawn` in structure.js.
 
 import { isStub, withoutLoose } from "./joints.js";
-import { allLinks, CYLINDER_PARTS, cylinderLinks, isCylinder, nameError, numberedName, takenNames, tableOf } from "./names.js";
+import { allLinks, CYLINDER_PARTS, cylinderLinks, isCylinder, tableOf, takenNames } from "./names.js";
+import { nameError, numberedName } from "./names.js";
 import { withNames } from "./references.js";
 import { placeOf, restructured, withEntry, withoutDimensions } from "./structure.js";
 
@@ -58,8 +59,8 @@ export function slideNameError(document, name, from) {
   const own = tableOf(document.slides)[from];
   if (error || name === from || !isCylinder(own)) return error;
   const taken = takenNames(document);
-  const made = Object.entries(CYLINDER_PARTS).filter(([part]) => own[part] === undefined).map(([, ending]) => `${name}${ending}`);
-  const other = made.find((link) => taken.has(link));
+  const endings = Object.entries(CYLINDER_PARTS).filter(([part]) => own[part] === undefined);
+  const other = endings.map(([, ending]) => `${name}${ending}`).find((link) => taken.has(link));
   return other === undefined ? null : { error: "takenName", values: { name: other } };
 }
 

@@ -34,8 +34,7 @@ export function withoutDimensions(document, picks) {
 
 /** Return the document without the dimensions of a link and of the slides on it: its frame is another one. */
 export function withoutFrame(document, link) {
-  const slides = Object.entries(tableOf(document.slides)).filter(([, own]) => isTable(own) && [own.link, own.on].includes(link));
-  const owners = new Set([link, ...slides.map(([name]) => name)]);
+  const owners = new Set([link, ...slidesOf(document, link)]);
   return withoutDimensions(document, (name) => owners.has(name.split(".")[0]));
 }
 
@@ -101,7 +100,8 @@ export function isAsDrawn(document) {
  * @param {Object<string, number>} [angles] directions of the guides in the drawing's axes, rad
  */
 export function redrawn(document, places, angles = {}) {
-  const joints = Object.entries(tableOf(document.joints)).map(([name, at]) => [name, Object.hasOwn(places, name) ? [...places[name]] : at]);
+  const placed = ([name, at]) => [name, Object.hasOwn(places, name) ? [...places[name]] : at];
+  const joints = Object.entries(tableOf(document.joints)).map(placed);
   const made = withSection(restructured(document), "dimensions", null);
   const slides = Object.entries(tableOf(document.slides)).map(([name, own]) => {
     if (!isTable(own) || isCylinder(own) || !Number.isFinite(angles[name])) return [name, own];

@@ -38,8 +38,10 @@ const UNITS = {
 /** The key of what to say if a text is none of them; of other quantities that it is no number. */
 const REFUSALS = { m: "notALength", rad: "notAnAngle" };
 
-const NUMBER = /^(\d+(?:[.,]\d*)?|[.,]\d+)(e[+-]?\d+)?/i;
-const PI = /^(π|pi(?![a-z]))/i;
+const TYPED_NUMBER = /^(\d+(?:[.,]\d*)?|[.,]\d+)(e[+-]?\d+)?/i;
+/** Whoever types more did not mean a quantity. */
+const MOST_FACTORS = 20;
+const TYPED_PI = /^(π|pi(?![a-z]))/i;
 
 /** Write a unit as it is known here: `kg m^2` and `kgm2` are kg·m², but ms is not m·s. */
 function plainUnit(text) {
@@ -61,7 +63,7 @@ function unitNamed(text, unit) {
  * Read factors: numbers and π, multiplied and divided.
  * @returns {{value: number, rest: string, hasPi: boolean, hasZero: boolean} | null} hasZero: as a divisor
  */
-function product(text) {
+function readProduct(text) {
   let rest = text;
   let value = 1;
   let hasPi = false;
@@ -69,8 +71,8 @@ function product(text) {
   let divides = false;
   let count = 0;
   for (;;) {
-    const isPi = PI.test(rest);
-    const [own] = rest.match(isPi ? PI : NUMBER) ?? [];
+    const isPi = TYPED_PI.test(rest);
+    const [own] = rest.match(isPi ? TYPED_PI : TYPED_NUMBER) ?? [];
     if (own === undefined) return null;
     const factor = isPi ? Math.PI : Number(own.replace(",", "."));
     value = divides ? value / factor : value * factor;
@@ -82,7 +84,8 @@ function product(text) {
     // A sign goes on only before another factor: 1500 1/min, and 2 π without a sign.
     const sign = after.match(/^[*·×⋅/]\s*/)?.[0] ?? "";
     const next = after.slice(sign.length);
-    if (count > 20 || !((sign && (NUMBER.test(next) || PI.test(next))) || (!isPi && PI.test(next)))) break;
+    const goesOn = sign ? TYPED_NUMBER.test(next) || TYPED_PI.test(next) : !isPi && TYPED_PI.test(next);
+    if (!goesOn || count > MOST_FACTORS) break;
     divides = sign.startsWith("/");
     rest = next;
   }
@@ -107,7 +110,7 @@ export function parseQuantity(text, unit, shown = unit) {
   if (!typed) return refusal("emptyField");
   const plain = typed.replace(/[\u2212\u2013\u2012]/g, "-").replace(/[\u00a0\u202f\u2009]/g, " ");
   const sign = plain.match(/^[+-]\s*/)?.[0] ?? "";
-  const found = product(plain.slice(sign.length));
+  const found = readProduct(plain.slice(sign.length));
   if (!found) return refusal(REFUSALS[unit] ?? "notANumber");
   const { value, rest, hasPi, hasZero } = found;
   const own = rest ? unitNamed(rest, unit) : hasPi && unit === "rad" ? "rad" : unitNamed(shown, unit);
@@ -117,7 +120,7 @@ export function parseQuantity(text, unit, shown = unit) {
   if (!scale) return refusal("notAUnitHere", { given: rest || shown, units: unitList(unit) });
   const number = (value * scale[0]) / scale[1];
   if (hasZero) return refusal("dividedByZero");
-  if (!Number.isFinite(number)) return refusal("tooLarge");
+  if (!Number.isFinite(number)) return refusal("tooLargeNumber");
   return { value: sign.startsWith("-") ? -number : number };
 }
 
