@@ -102,7 +102,7 @@ function readProduct(text) {
  * @param {string} [shown] the unit that the field shows
  * @returns {{value: number} | {error: string, values: Object<string, string>}} SI; or what to say,
  *   by its key: `notALength`, `notAnAngle`, `notANumber`, `emptyField`, `notAUnitHere`,
- *   `dividedByZero`, `tooLarge`
+ *   `dividedByZero`, `tooLargeNumber`
  */
 export function parseQuantity(text, unit, shown = unit) {
   const typed = String(text ?? "").trim();
