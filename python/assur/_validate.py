@@ -53,7 +53,7 @@ def checked_name(name: Any, what: str) -> str:
         message = f"{what}: the name {short(name)} is not a string"
         raise InputError(message)
     # A lone surrogate cannot be encoded.
-    if any("\ud800" <= letter <= "\udfff" for letter in name):
+    if not name.isascii() and any("\ud800" <= letter <= "\udfff" for letter in name):
         message = f"{what}: the name {name!a} is not Unicode text"
         raise InputError(message)
     return name

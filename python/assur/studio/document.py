@@ -6,6 +6,9 @@ results that a file may ask for; its dimensions have dotted names, ``"coupler.le
 
 from __future__ import annotations
 
+import json
+from collections import OrderedDict
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from assur.files.contents import FORMAT, Contents, contents_of
@@ -19,6 +22,10 @@ from assur.studio.limits import MOST_JOINTS, MOST_LINKS
 if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
     from assur.kinematics.mechanism import Mechanism
+
+# Mechanisms of the documents that were read last: a page asks many things of one.
+MOST_KNOWN = 8
+_KNOWN: OrderedDict[str, Mechanism] = OrderedDict()
 
 KEYS = ("driver", "joints", "links", "slides", "assembly", "dimensions", "drawn", *SECTIONS)
 COUNTED = {"joints": MOST_JOINTS, **dict.fromkeys(("links", "slides", "loads"), MOST_LINKS)}
@@ -41,9 +48,30 @@ def read(data: Any) -> Contents:
 
 def read_mechanism(data: Any) -> Mechanism:
     """Return the mechanism of a document; its masses and loads are not looked at."""
-    node = checked(data)
-    geometry = {key: value for key, value in node.value.items() if key not in SECTIONS}
-    return read(geometry).mechanism
+    geometry = _geometry(data)
+    text = json.dumps(geometry)
+    known = _KNOWN.get(text)
+    if known is None:
+        known = read(geometry).mechanism
+        _remember(text, known)
+    return known
+
+
+def remember(data: dict[str, Any], mechanism: Mechanism) -> None:
+    """Keep the mechanism of a document that was made of it: the page asks for it next."""
+    _remember(json.dumps(_geometry(data)), mechanism)
+
+
+def _geometry(data: Any) -> dict[str, Any]:
+    return {key: value for key, value in checked(data).value.items() if key not in SECTIONS}
+
+
+def _remember(text: str, mechanism: Mechanism) -> None:
+    _KNOWN[text] = mechanism
+    while len(_KNOWN) > MOST_KNOWN:
+        # Another thread may have been here between.
+        with suppress(KeyError):
+            _KNOWN.popitem(last=False)
 
 
 def read_machine(data: Any) -> Machine:

@@ -24,6 +24,12 @@ _LINE_COMMENT = re.compile(r"^[ ]*//.*\n", re.MULTILINE)
 _INDENT = re.compile(r"^[ ]+", re.MULTILINE)
 _BLANK = re.compile(r"\n{2,}")
 _NEEDLESS_END = re.compile(r"(?<=[;,{(\[])\n")
+# Texts and templates are kept; of the rest blanks about signs go. Not about + and -: `a - -b`.
+_PIECE = re.compile(
+    r"""("(?:\\.|[^"\\\n])*"|`(?:\\.|\$\{[^{}]*\}|[^`\\\n])*`"""
+    r"""|/[^/\n ](?:\\.|[^/\\\n])*/[gu]*(?=[.,)]))"""
+    r"""|[ ]*(=>|[=!]==|&&|\|\||\?\?=?|[=<>?:,;(){}\[\]])[ ]*"""
+)
 
 
 def module(name: str) -> str:
@@ -39,7 +45,8 @@ def script() -> str:
 
 def _inlined(source: str) -> str:
     source = _EXPORT.sub("", _IMPORT.sub("", source))
-    return _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", source)))
+    lines = _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", source)))
+    return _PIECE.sub(lambda piece: piece[1] or piece[2], lines)
 
 
 @cache

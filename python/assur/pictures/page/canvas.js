@@ -46,11 +46,11 @@ export class Canvas {
     this.root.classList.toggle("grouped", switches.groups);
   }
 
-  /** Show another turn; of another mechanism with the joints that it wants. */
-  replace(data, turn, pose) {
+  /** Take another turn; of another mechanism with the joints that it wants. */
+  replace(data, turn) {
     const names = (joints) => joints.map((joint) => joint.name).join();
     const isOther = names(this.stage.data.joints) !== names(data.joints);
-    this.stage.replace(data, turn, pose);
+    this.stage.replace(data, turn);
     if (!isOther) return;
     if (!this.stage.chosen.length) this.#choose(data.paths);
     const chosen = this.stage.chosen.map((joint) => joint.name);

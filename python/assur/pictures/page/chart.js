@@ -142,10 +142,12 @@ export class Chart {
     const { turn, quantity, width, height } = this;
     if (!quantity || !turn || width < 80 || height < 60) return;
     const pose = turn.pose();
-    const places = turn.coordinates(SAMPLES);
+    // A turn that is dragged has few rows.
+    const count = Math.min(SAMPLES, 2 * (turn.rows - 1));
+    const places = turn.coordinates(count);
     const values = places.map((q, i) => {
       // The last of a closed motion is the first: angles have gone on by a turn.
-      turn.sample(turn.closes && i === SAMPLES ? q - 1e-9 : q, pose);
+      turn.sample(turn.closes && i === count ? q - 1e-9 : q, pose);
       return pose.known ? quantity.value(pose, this.speed) : NaN;
     });
     const right = width - CHART_MARGIN.right;
@@ -173,11 +175,11 @@ export class Chart {
       );
     });
     const isAngle = this.options.unit === "angle";
-    const count = Math.max(2, Math.floor((right - left) / 44));
+    const most = Math.max(2, Math.floor((right - left) / 44));
     const { scaled } = this.options;
     const marks = isAngle
-      ? angleTicks(turn.low, turn.high, count)
-      : ticks(turn.low * scaled, turn.high * scaled, count).map((mark) => mark / scaled);
+      ? angleTicks(turn.low, turn.high, most)
+      : ticks(turn.low * scaled, turn.high * scaled, most).map((mark) => mark / scaled);
     nodes.push(svg("line", { class: "axis", x1: left, x2: right, y1: bottom, y2: bottom }));
     for (const q of marks) {
       nodes.push(

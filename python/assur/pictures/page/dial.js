@@ -46,7 +46,11 @@ export class Dial {
   replace(data, turn, label) {
     this.data = data;
     this.turn = turn;
-    this.isRound = data.turn.unit === "angle";
+    const { unit, at, dead } = data.turn;
+    const drawn = JSON.stringify([unit, at, dead, turn.low, turn.high, turn.closes, label]);
+    if (drawn === this.drawn) return;
+    this.drawn = drawn;
+    this.isRound = unit === "angle";
     const { element } = this;
     element.replaceChildren();
     put(element, "class", this.isRound ? "dial" : "dial bar");

@@ -83,11 +83,13 @@ export class Drawing {
    */
   constructor(scene, layer) {
     this.scene = scene;
-    this.scale = 1;
-    this.size = 1;
+    this.scale = 0;
+    this.size = 0;
     /** Groups of parts in drawing order: consecutive parts of one link share one. */
     this.groups = [];
-    this.redraw = [];
+    /** What draws each part, and the parts that are to be drawn though the scale is the same. */
+    this.redraw = new Map();
+    this.stale = new Set();
     /** What the functions that draw hold: sizes change, the rest stays. */
     this.parts = scene.parts.map((part) => ({ ...part }));
     let last = null;
@@ -109,9 +111,13 @@ export class Drawing {
     return links.join() === scene.links.join() && parts.length === scene.parts.length && parts.every(isSame);
   }
 
-  /** Draw another scene whose parts fit, at the next zoom. */
+  /** Draw another scene whose parts fit, at the next zoom: what has another size. */
   resized(scene) {
-    scene.parts.forEach((part, i) => Object.assign(this.parts[i], part));
+    scene.parts.forEach((part, i) => {
+      const own = this.parts[i];
+      if (part.at.some((number, k) => number !== own.at[k])) this.stale.add(own);
+      Object.assign(own, part);
+    });
     this.scene = scene;
   }
 
@@ -130,9 +136,11 @@ export class Drawing {
 
   /** Draw for another scale or size of symbols. */
   zoom(scale, size) {
+    const isSame = scale === this.scale && size === this.size;
     this.scale = scale;
     this.size = size;
-    for (const redraw of this.redraw) redraw(scale, size);
+    for (const part of isSame ? this.stale : this.redraw.keys()) this.redraw.get(part)(scale, size);
+    this.stale.clear();
   }
 
   /** Move every link to its frame. */
@@ -190,7 +198,7 @@ export class Drawing {
     circle.style.stroke = part.width ? this.#colour(part) : "none";
     circle.style.fill = part.fill === "solid" ? this.#colour(part) : "var(--canvas)";
     group.append(circle);
-    this.redraw.push((scale, size) => {
+    this.redraw.set(part, (scale, size) => {
       const [[x, y]] = placed(part.at, scale, size);
       put(circle, "cx", x.toFixed(2));
       put(circle, "cy", y.toFixed(2));
@@ -201,7 +209,7 @@ export class Drawing {
 
   #hatching(part, group) {
     const path = this.#path(group, "none", this.#colour(part));
-    this.redraw.push((scale, size) => {
+    this.redraw.set(part, (scale, size) => {
       const [start, end] = placed(part.at, scale, size);
       put(path, "d", pathOfStrokes(hatchedLine(start, end, part.hatching * size, HATCH_DEPTH * size)));
       path.style.strokeWidth = 1.1 * size;
@@ -225,7 +233,7 @@ export class Drawing {
     if (hatching) hatching.style.strokeOpacity = "0.38";
     const outline = this.#path(group, "none", width ? colour : "none");
     layers.push(outline);
-    this.redraw.push((scale, size) => {
+    this.redraw.set(part, (scale, size) => {
       const points = placed(part.at, scale, size);
       const d = pathOf(points, part.closed);
       for (const layer of layers) put(layer, "d", d);

@@ -53,12 +53,12 @@ export class Stage {
   }
 
   /**
-   * Show another turn, perhaps of another mechanism; the joints chosen are those of the same names.
+   * Take another turn, perhaps of another mechanism; the joints chosen are those of the same names.
+   * What is seen changes with the next `show`.
    * @param {Object} data the page's data
    * @param {import("./turn.js").Turn} turn
-   * @param {import("./turn.js").Pose} pose
    */
-  replace(data, turn, pose) {
+  replace(data, turn) {
     const chosen = (this.chosen ?? []).map((joint) => joint.name);
     const names = (one) => one.joints.map((joint) => joint.name).join();
     if (this.drawing.fits(data) && names(this.data) === names(data)) {
@@ -71,7 +71,7 @@ export class Stage {
       this.#build(data, turn);
       this.measure();
     }
-    this.pose = pose;
+    this.pose = null;
     this.choose(data.joints.filter((joint) => chosen.includes(joint.name)));
     this.set(this.switches);
   }
@@ -86,8 +86,7 @@ export class Stage {
     this.data = data;
     this.turn = turn;
     for (const layer of [this.paths, this.velocity, this.acceleration]) layer.turn = turn;
-    this.layers.badges.replaceChildren();
-    this.badges = this.#badges();
+    this.badges = null;
   }
 
   #layer() {
@@ -108,6 +107,7 @@ export class Stage {
   set(switches) {
     this.switches = switches;
     this.drawing.colour(switches.groups);
+    if (switches.groups && !this.badges) this.badges = this.#badges();
     this.layers.badges.style.display = switches.groups ? "" : "none";
     for (const name of ["paths", "markers"]) this.layers[name].style.display = switches.paths ? "" : "none";
     this.layers.others.style.display = switches.positions ? "" : "none";
@@ -266,6 +266,7 @@ export class Stage {
   /** Each link of a group has the class of its group beside it, the driver a I. */
   #badges() {
     const { data } = this;
+    this.layers.badges.replaceChildren();
     return data.links.flatMap((link, i) => {
       const group = data.groups[i];
       const isDriven = data.driven.includes(i);

@@ -43,7 +43,8 @@ export class Vectors {
     this.turn = turn;
     this.layer = layer;
     this.arrows = [];
-    this.per = 0;
+    /** px to a unit, once it is needed. */
+    this.per = null;
   }
 
   /** Draw those of other joints. */
@@ -55,7 +56,7 @@ export class Vectors {
       this.layer.append(arrow.line, arrow.head);
       return arrow;
     });
-    this.per = LONGEST_ARROW / (this.#usualGreatest(joints) || Infinity);
+    this.per = null;
   }
 
   /** Return nearly the greatest of the turn: at dead points it is infinite. */
@@ -76,6 +77,7 @@ export class Vectors {
    */
   show(pose, scale, size, speed) {
     const { of, power, symbol } = VECTOR_KINDS[this.kind];
+    this.per ??= LONGEST_ARROW / (this.#usualGreatest(this.arrows.map((arrow) => arrow.joint)) || Infinity);
     const labels = [];
     const lines = [];
     // One unit for all, so that they can be compared.

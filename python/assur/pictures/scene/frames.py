@@ -45,8 +45,7 @@ class Frames:
 
     def world(self, link: str, point: Float | tuple[float, float]) -> Float:
         """Return a point of a link in the drawing's axes at every position, (N, 2)."""
-        x, y, angle = self.values[0][:, self.links.index(link)].T
-        cosine, sine = np.cos(angle), np.sin(angle)
+        x, y, cosine, sine = self._axes(link)
         px, py = point
         placed: Float = np.empty((len(x), 2))
         placed[:, 0] = x + cosine * px - sine * py
@@ -55,10 +54,21 @@ class Frames:
 
     def seen_from(self, link: str, points: Float) -> Float:
         """Return points of the drawing's axes, one at each position, in a link's frame."""
-        x, y, angle = self.values[0][:, self.links.index(link)].T
-        cosine, sine = np.cos(angle), np.sin(angle)
+        x, y, cosine, sine = self._axes(link)
         dx, dy = points[:, 0] - x, points[:, 1] - y
         return np.stack([cosine * dx + sine * dy, cosine * dy - sine * dx], axis=-1)
+
+    def _axes(self, link: str) -> tuple[Float, Float, Float, Float]:
+        """Return the origin of a link's frame, and the direction of its x axis."""
+        i = self.links.index(link)
+        x, y, _ = self.values[0][:, i].T
+        cosines, sines = self._directions
+        return x, y, cosines[:, i], sines[:, i]
+
+    @cached_property
+    def _directions(self) -> tuple[Float, Float]:
+        angles = self.values[0][:, :, 2]
+        return np.cos(angles), np.sin(angles)
 
     def angle(self, link: str) -> Float:
         """Return the angle of a link at every position, rad."""
@@ -71,11 +81,10 @@ class Frames:
 
     @cached_property
     def _joints(self) -> dict[str, Float]:
-        return {
-            joint: self.world(link, at)
-            for link, joints in self.local.items()
-            for joint, at in joints.items()
+        last = {
+            joint: (link, at) for link, joints in self.local.items() for joint, at in joints.items()
         }
+        return {joint: self.world(link, at) for joint, (link, at) in last.items()}
 
 
 def frames_of(motion: Motion) -> Frames:
@@ -105,13 +114,19 @@ def frames_of(motion: Motion) -> Frames:
         raise InputError(message)
     # Links are rigid: one position tells where their joints are.
     row = int(known[0])
-    at = Frames(links, (values[0][row : row + 1],), {})
-    for link, joints in mechanism.links.items():
-        frames.local[link] = {
-            joint: at.seen_from(link, motion.joint(joint).value.reshape(-1, 2)[row : row + 1])[0]
-            for joint in joints
-        }
+    places = {joint: motion.joint(joint).value.reshape(-1, 2)[row] for joint in mechanism.joints}
+    for i, (link, joints) in enumerate(mechanism.links.items()):
+        frames.local[link] = _local(values[0][row, i], {joint: places[joint] for joint in joints})
     return frames
+
+
+def _local(frame: Float, places: dict[str, Float]) -> dict[str, Float]:
+    """Return places of the drawing's axes in a frame."""
+    if not places:
+        return {}
+    cosine, sine = np.cos(frame[2]), np.sin(frame[2])
+    away = np.array(list(places.values())) - frame[:2]
+    return dict(zip(places, away @ np.array([[cosine, -sine], [sine, cosine]]), strict=True))
 
 
 def nearby(whole: Frames, at: Frames, drawing: Float) -> Frames:

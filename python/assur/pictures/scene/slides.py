@@ -7,6 +7,7 @@ is the link whose one joint lies on the axis; a link without joints is a rod.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -76,10 +77,16 @@ class Slides:
         self._frames = frames
         self._turning = turning
         self._sliding = sliding
-        points = np.concatenate(list(frames.joints().values()))
-        self._size = float(np.ptp(points[np.isfinite(points[:, 0])], axis=0).max())
-        self._near = ON_LINE * self._size
         self._axes: dict[str, Axis] = {}
+
+    @cached_property
+    def _size(self) -> float:
+        points = np.concatenate(list(self._frames.joints().values()))
+        return float(np.ptp(points[np.isfinite(points[:, 0])], axis=0).max())
+
+    @property
+    def _near(self) -> float:
+        return ON_LINE * self._size
 
     def parts(self) -> list[Line]:
         """Return what is drawn."""

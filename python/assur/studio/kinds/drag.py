@@ -54,6 +54,7 @@ def drag(data: dict[str, Any], session: Session) -> Answer:
             own, changed = _with_dimensions(fields["document"], dimensions), dimensions
             place, made = near, sized
             break
+    document.remember(own, made)
     answer = turn_answer(made, place, fields)
     header = {"document": own, "q": place, "changed": list(changed)}
     return Answer({**header, **answer.header}, answer.arrays)

@@ -108,7 +108,7 @@ export class Studio {
   #replace() {
     const { model, canvas, playback } = this;
     playback.replace(model.data, model.turn, model.q);
-    canvas.replace(model.data, model.turn, playback.pose);
+    canvas.replace(model.data, model.turn);
     if (model.isNew) {
       model.isNew = false;
       canvas.stage.fit();
