@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from assur.dynamics.motors import Motor
     from assur.flywheel import Spline
     from assur.kinematics.mechanism import Mechanism
+    from assur.studio.notebook import Explorer
 
 OnError: TypeAlias = Literal["raise", "nan"]
 
@@ -220,6 +221,38 @@ class MachineModel:
 
         # Through the package: files are a floor above.
         assur.files.save(self, path)
+
+    def explore(self, height: int = 640) -> Explorer:
+        """Show the studio's view in a notebook: play, drag and change it there.
+
+        Both ways: what is changed there is in ``view.machine``, assigning ``view.machine`` redraws.
+        Needs anywidget: ``pip install assur[notebook]``.
+
+        Parameters
+        ----------
+        height : int
+            Of the cell, px.
+
+        Returns
+        -------
+        Explorer
+            The widget: a notebook shows it if it is the last line of a cell.
+
+        Raises
+        ------
+        InputError
+            A machine of a batch or of functions, or anywidget is not installed.
+
+        Examples
+        --------
+        >>> import assur
+        >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> press.explore().machine
+        <assur.Machine I(crank) → II(rod, piston), 1 body, 0 loads>
+        """
+        from assur._later import explorer
+
+        return explorer(self, height)
 
     def __setattr__(self, name: str, value: object) -> None:
         # The core has copied everything: a change here would have no effect.

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from assur.kinematics.motion import Motion
     from assur.kinematics.timed import TimedMotion
     from assur.laws import Law
+    from assur.studio.notebook import Explorer
 
 __all__ = ["Mechanism"]
 
@@ -1155,6 +1156,38 @@ class Mechanism:
         write_page(
             self, path, q=q, speed=omega, paths=paths, diagrams=diagrams, title=title, dark=dark
         )
+
+    def explore(self, height: int = 640) -> Explorer:
+        """Show the studio's view in a notebook: play, drag and change it there.
+
+        Both ways: dragging changes ``view.mechanism``, assigning ``view.mechanism`` redraws. Needs
+        anywidget: ``pip install assur[notebook]``.
+
+        Parameters
+        ----------
+        height : int
+            Of the cell, px.
+
+        Returns
+        -------
+        Explorer
+            The widget: a notebook shows it if it is the last line of a cell.
+
+        Raises
+        ------
+        InputError
+            A batch of designs, or anywidget is not installed.
+
+        Examples
+        --------
+        >>> import assur
+        >>> view = assur.FourBar(1.0, 3.0, 2.5, 3.0).explore()
+        >>> view.mechanism.structure.mobility
+        1
+        """
+        from assur._later import explorer
+
+        return explorer(self, height)
 
     def to_drawing(
         self,

@@ -17,7 +17,7 @@ MODULES = (
     *("keys", "canvas", "playback", "driving", "main"),
 )
 
-_IMPORT = re.compile(r"^import \{[^}]*\} from \"\./(\w+)\.js\";\n", re.MULTILINE)
+_IMPORT = re.compile(r"^import \{[^}]*\} from \"\.[\w./]*\.js\";\n", re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=function|class|const|async)", re.MULTILINE)
 _BLOCK_COMMENT = re.compile(r"^[ ]*/\*\*.*?\*/\n", re.MULTILINE | re.DOTALL)
 _LINE_COMMENT = re.compile(r"^[ ]*//.*\n", re.MULTILINE)
@@ -40,10 +40,11 @@ def module(name: str) -> str:
 @cache
 def script() -> str:
     """Return all modules as one script without comments, which defines `mount`."""
-    return "".join(_inlined(module(name)) for name in MODULES)
+    return "".join(inlined(module(name)) for name in MODULES)
 
 
-def _inlined(source: str) -> str:
+def inlined(source: str) -> str:
+    """Return a module without imports, exports, comments and needless blanks."""
     source = _EXPORT.sub("", _IMPORT.sub("", source))
     lines = _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", source)))
     return _PIECE.sub(lambda piece: piece[1] or piece[2], lines)

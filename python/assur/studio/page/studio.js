@@ -73,6 +73,7 @@ export class Studio {
     for (const one of [root, this.canvas.picture]) this.observer.observe(one);
     this.#enable();
     if (this.isKept) keep(model);
+    this.onBuilt?.();
     this.playback.show();
   }
 
