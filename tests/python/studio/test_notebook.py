@@ -32,11 +32,12 @@ if TYPE_CHECKING:
 
 # The cells of the notebook.
 CELLS = (
-    "import assur\n"
-    'm = assur.Mechanism({"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0)},\n'
-    '    {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"}, "crank")\n'
-    "view = m.explore(height=560)\n"
-    "view",
+    """\
+import assur
+m = assur.Mechanism({"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0)},
+    {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"}, "crank")
+view = m.explore(height=560)
+view""",
     'print("place", *view.mechanism.solve(view.q).joint("C").value)',
     'view.mechanism = m.with_dimensions({"rocker.length": 3.0})\nview.q = 0.7',
 )
@@ -49,7 +50,8 @@ class Asking:
     """What a page sends to a widget, and gets."""
 
     def __init__(self, view: Explorer, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.view, self.frames = view, []
+        self.view = view
+        self.frames: list[bytes] = []
         monkeypatch.setattr(view, "send", lambda _, buffers: self.frames.extend(buffers))
 
     def ask(self, text: Any) -> dict[str, Any]:
@@ -128,7 +130,12 @@ def browser() -> Iterator[Browser]:
 @contextmanager
 def jupyter(folder: Path) -> Iterator[str]:
     """Run a JupyterLab with a notebook of the cells; yield its address."""
-    code = {"cell_type": "code", "execution_count": None, "metadata": {}, "outputs": []}
+    code: dict[str, Any] = {
+        "cell_type": "code",
+        "execution_count": None,
+        "metadata": {},
+        "outputs": [],
+    }
     cells = [{**code, "id": f"c{i}", "source": text} for i, text in enumerate(CELLS)]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     notebook = {"cells": cells, "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}
