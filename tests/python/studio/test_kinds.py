@@ -10,6 +10,7 @@ import pytest
 import assur
 from asking import FOUR_BAR, PRESS, Reply, ask
 from assur import examples
+from assur.description.words import Status
 from assur.files.write import text_of
 from assur.studio import document
 
@@ -255,3 +256,39 @@ def test_lesson_with_a_support_that_is_dragged() -> None:
 
 def _table(places: dict[str, list[float]]) -> Any:
     return {"t": places["t"], "value": places["l4"]}
+
+
+def test_a_turn_tells_the_least_transmission_angle() -> None:
+    reply = ask("turn", document=FOUR_BAR)
+    (own,) = reply["transmission"]
+    # The diagonal from B to D is shortest where the crank points at D.
+    joints = {name: np.array(place) for name, place in FOUR_BAR["joints"].items()}
+    a, b, c, d = (joints[name] for name in "ABCD")
+    coupler, rocker = np.linalg.norm(c - b), np.linalg.norm(c - d)
+    diagonal = np.linalg.norm(d - a) - np.linalg.norm(b - a)
+    cosine = (coupler**2 + rocker**2 - diagonal**2) / (2.0 * coupler * rocker)
+    assert own["at"] == "C"
+    assert own["least"] == pytest.approx(np.arccos(cosine))
+    assert own["q"] == pytest.approx(0.0)
+    assert reply["reach"] is None
+    assert "transmission" not in ask("turn", document=FOUR_BAR, orders=2).header
+
+
+def test_a_turn_tells_where_several_drivers_can_go() -> None:
+    m = assur.examples.excavator()
+    data = document.document_of(m)
+    q = np.array(m.q0)
+    reply = ask("turn", document=data, q=q.tolist(), axis=1)
+    assert len(reply["reach"]) == 3
+    grid = reply["payload"]["turn"]["grid"]
+    assert reply["reach"][1] == pytest.approx([grid["low"], grid["high"]])
+    for axis, ends in enumerate(reply["reach"]):
+        for end, outward in zip(ends, (-1.0, 1.0), strict=True):
+            for step, is_there in ((-0.01, True), (0.05, False)):
+                place = q.copy()
+                place[axis] = end + outward * step
+                status = m.solve(place, order=0, on_error="nan").status
+                assert bool(status < Status.SINGULAR) is is_there
+    # Where a dyad's links meet at a cylinder that is driven, the angle is always right.
+    least = {one["at"]: one["least"] for one in reply["transmission"]}
+    assert least["boom_eye"] == pytest.approx(np.pi / 2)

@@ -62,12 +62,7 @@ class Played:
 
     def row(self) -> int:
         """Return the row next to where the page begins."""
-        grid = self.turn.grid
-        parameter = np.linspace(grid.get("low", 0.0), grid.get("high", 1.0), len(self.known()))
-        if grid["kind"] == "cosine":
-            q = grid["middle"] - grid["half"] * np.cos(parameter)
-        else:
-            q = np.asarray(grid.get("q", parameter))
+        q = self.turn.coordinates()
         return int(np.argmin(np.where(self.known(), np.abs(q - self.turn.at), np.inf)))
 
     def known(self) -> Any:

@@ -47,6 +47,8 @@ export class Stage {
     this.velocity = new Vectors("velocity", turn, this.#layer());
     this.acceleration = new Vectors("acceleration", turn, this.#layer());
     this.texts = new Map();
+    /** What is drawn besides; each is shown every position: `show(pose)`. */
+    this.overlays = [];
     /** @type {Switches} */
     this.switches = { names: true, paths: true, velocity: false, acceleration: false, positions: false, groups: false };
     this.#build(data, turn);
@@ -186,6 +188,7 @@ export class Stage {
     const { scale } = this.view;
     const { switches, size } = this;
     this.drawing.show(pose);
+    for (const overlay of this.overlays) overlay.show(pose);
     if (switches.paths) this.paths.show(pose);
     const values = [];
     const lines = [];

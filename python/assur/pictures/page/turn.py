@@ -62,6 +62,17 @@ class Turn:
     dead_points: list[tuple[float, str]] = field(default_factory=list)
     limits: Limits | None = None
 
+    def coordinates(self) -> Float:
+        """Return the coordinate of each row."""
+        grid, rows = self.grid, len(self.frames.values[0])
+        if grid["kind"] == "rows":
+            return np.asarray(grid["q"], float)
+        parameter = np.linspace(grid["low"], grid["high"], rows)
+        if grid["kind"] == "linear":
+            return parameter
+        places: Float = grid["middle"] - grid["half"] * np.cos(parameter)
+        return places
+
 
 def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
     """Return the whole turn of the driver, or what can be reached from the drawing."""

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from assur.errors import InputError
 from assur.studio import document
+from assur.studio.kinds.least import transmission_angles
 from assur.studio.kinds.structure import unit_of
 from assur.studio.request import Fields
 from assur.studio.session import Answer
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
     from assur.kinematics.quantity import Analogues
     from assur.studio.session import Session
 
@@ -43,20 +41,10 @@ def position(data: dict[str, Any], session: Session) -> Answer:
             "joints": {name: numbers(motion.joint(name)) for name in mechanism.joints},
             "links": {name: numbers(motion.link(name)) for name in mechanism.links},
             "slides": {name: numbers(motion.slide(name)) for name in mechanism.slides},
-            "transmission": dict(_transmission(mechanism, motion)),
+            "transmission": {name: float(angle) for name, angle in transmission_angles(motion)},
             "status": int(motion.status),
         }
     )
-
-
-def _transmission(mechanism: Mechanism, motion: Motion) -> list[tuple[str, float]]:
-    """Return the transmission angles of the inner pairs of dyads, where they are told by a name."""
-    angles = []
-    for name in mechanism.assembly:
-        # Refused where more links meet than two.
-        with suppress(InputError):
-            angles.append((name, float(motion.transmission_angle(name))))
-    return angles
 
 
 def sensitivity(data: dict[str, Any], session: Session) -> Answer:

@@ -13,6 +13,7 @@ from assur.pictures.page.payload import payload, played_of
 from assur.pictures.page.turn import Turn, frames_in_time, turn_of
 from assur.pictures.scene.course import FREE_STROKE, TURN
 from assur.studio import document
+from assur.studio.kinds.least import least_transmission
 from assur.studio.kinds.structure import dimensions_of
 from assur.studio.request import Fields
 from assur.studio.session import Answer
@@ -46,7 +47,17 @@ def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
     axis = fields.whole("axis", 0, 0, mechanism._driver_count - 1)
     one = mechanism._driver_count == 1
     own = _reached(mechanism, q, rows) if one else _along(mechanism, np.asarray(q), axis, rows)
-    return played_answer(own, fields, orders)
+    answer = played_answer(own, fields, orders)
+    if orders < 3:
+        return answer
+    # At rest there is time for more.
+    place = own.coordinates()
+    line = place if one else np.repeat(np.asarray(q, float)[None, :], len(place), axis=0)
+    if not one:
+        line[:, axis] = place
+    reach = None if one else [_reach(mechanism, np.asarray(q), i) for i in range(len(q))]
+    more = {"transmission": least_transmission(mechanism, line, place), "reach": reach}
+    return Answer({**answer.header, **more}, answer.arrays)
 
 
 def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = None) -> Answer:
@@ -81,22 +92,29 @@ def _reached(mechanism: Mechanism, q: float, rows: int) -> Turn:
 def _along(mechanism: Mechanism, q: Float, axis: int, rows: int) -> Turn:
     """Return what one of several drivers moves while the others are held."""
     angle = driven_angles(mechanism)[axis]
-    points = np.array(list(mechanism.joints.values()))
-    half = TURN / 2.0 if angle else FREE_STROKE * float(np.ptp(points, axis=0).max() or 1.0)
-    low, high = (_end(mechanism, q, axis, reach) for reach in (-half, half))
+    low, high = _reach(mechanism, q, axis)
     line = np.repeat(q[None, :], rows, axis=0)
-    line[:, axis] = np.linspace(q[axis] + low, q[axis] + high, rows)
+    line[:, axis] = np.linspace(low, high, rows)
     motion = mechanism.solve(line, order=2, on_error="nan")
     speed = np.zeros_like(line)
     speed[:, axis] = 1.0
     frames = frames_in_time(motion, speed, np.zeros_like(line))
     ends = frames.values[0][-1] - frames.values[0][0]
     ends[:, 2] -= TURN * np.round(ends[:, 2] / TURN)
-    goes_round = angle and high - low == 2.0 * half and bool(frames.is_known.all())
+    goes_round = angle and abs(high - low - TURN) < 1e-12 and bool(frames.is_known.all())
     closes = goes_round and float(np.abs(ends).max()) < 1e-9
     grid = {"kind": "linear", "low": float(line[0, axis]), "high": float(line[-1, axis])}
     unit: Unit = "angle" if angle else "length"
     return Turn(mechanism, frames, grid, closes, unit, float(q[axis]))
+
+
+def _reach(mechanism: Mechanism, q: Float, axis: int) -> tuple[float, float]:
+    """Return from and to where one of several drivers can go while the others are held."""
+    points = np.array(list(mechanism.joints.values()))
+    free = FREE_STROKE * float(np.ptp(points, axis=0).max() or 1.0)
+    half = TURN / 2.0 if driven_angles(mechanism)[axis] else free
+    low, high = (float(q[axis]) + _end(mechanism, q, axis, way) for way in (-half, half))
+    return low, high
 
 
 def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:

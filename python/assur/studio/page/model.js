@@ -37,6 +37,11 @@ export class Model {
     this.turn = null;
     this.isSketch = true;
     this.dimensions = [];
+    /** At rest: the least transmission angles over the turn, and where several drivers can go. */
+    this.transmission = null;
+    this.reach = null;
+    /** The output whose sensitivities are shown; by default the usual one. */
+    this.output = undefined;
     /** Why the present document is not what is shown: an error, or null. */
     this.problem = null;
     /** Coordinates of all drivers; the one that moves is number `axis`. */
@@ -232,6 +237,8 @@ export class Model {
     this.data = { ...payload, title: this.title, turn: { ...payload.turn, values: arrays.values } };
     this.turn = new Turn(this.data.turn);
     this.dimensions = header.dimensions;
+    this.transmission = header.transmission ?? null;
+    this.reach = header.reach ?? null;
     this.isSketch = false;
     if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
     else if (this.held.length !== this.driverCount) this.held = [payload.turn.at];

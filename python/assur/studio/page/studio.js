@@ -12,13 +12,23 @@ import { Bar } from "./bar.js";
 import { keep } from "./files.js";
 import { JointDrag } from "./dragging.js";
 import { Model } from "./model.js";
+import { AssemblySection } from "./panel/assemblies.js";
+import { DimensionSection } from "./panel/dimensions.js";
+import { DriverSection } from "./panel/drivers.js";
+import { StructureSection } from "./panel/groups.js";
+import { Highlight } from "./panel/highlight.js";
+import { NameSection } from "./panel/naming.js";
+import { PositionSection } from "./panel/position.js";
+import { problemText } from "./panel/problem.js";
+import { TransmissionWarning } from "./panel/transmission.js";
 import { Shell } from "./shell.js";
 import { Status } from "./status.js";
 import { FIELD_WORDS } from "./words/fields.js";
 import { FRAME_WORDS } from "./words/frame.js";
+import { PANEL_WORDS } from "./words/panel.js";
 import { PICTURE_WORDS } from "./words/picture.js";
 
-for (const words of [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS]) learn(words);
+for (const words of [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS]) learn(words);
 
 export class Studio {
   /**
@@ -58,6 +68,9 @@ export class Studio {
     this.bar = new Bar(root, model, this);
     this.status = new Status(model);
     this.canvas.cover(this.status.element);
+    this.caution = new TransmissionWarning(this);
+    this.canvas.cover(this.caution.element);
+    this.highlight = new Highlight(stage);
     this.later = html("p", { class: "later" }, say("later"));
     this.playback.element.append(this.later);
     this.shell = new Shell(root, { bar: this.bar.element, canvas: this.canvas.element, dock: this.playback.element });
@@ -79,12 +92,13 @@ export class Studio {
 
   /** The sections of the panel, from above. */
   #sections() {
-    return [];
+    const sections = [DriverSection, DimensionSection, AssemblySection, PositionSection, StructureSection, NameSection];
+    return sections.map((One) => new One(this));
   }
 
   #whatIsWrong() {
     const { model, playback } = this;
-    if (model.problem) return model.problem.message;
+    if (model.problem) return problemText(model.problem, this);
     return model.isSketch ? "" : whatIsWrong(playback);
   }
 
