@@ -34,6 +34,18 @@ const WORDS = {
     value: "position",
     v: "speed",
     a: "acceleration",
+    emptyField: "A number is needed.",
+    notALength: "“{text}” is not a length.",
+    notAnAngle: "“{text}” is not an angle.",
+    notANumber: "“{text}” is not a number.",
+    notAUnitHere: "“{given}” does not fit here: {units} do.",
+    dividedByZero: "“{text}” divides by zero.",
+    tooLarge: "“{text}” is too large.",
+    pictureKeeps: "The picture keeps {kept}.",
+    emptyName: "A name is needed.",
+    badName: "“{name}” is not allowed as a name: leave out blanks, dots, slashes, quotes and brackets.",
+    takenName: "The name “{name}” is taken: every joint, link and slide needs a name of its own.",
+    groundName: "The ground keeps its name.",
   },
 };
 

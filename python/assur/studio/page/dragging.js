@@ -29,9 +29,11 @@ export class JointDrag {
    * @param {import("./model.js").Model} model
    * @param {import("../../pictures/page/canvas.js").Canvas} canvas
    * @param {import("../../pictures/page/playback.js").Playback} playback
+   * @param {import("./build/builder.js").Builder} builder says where a joint goes, and what it would be joined to
    */
-  constructor(model, canvas, playback) {
+  constructor(model, canvas, playback, builder) {
     this.model = model;
+    this.builder = builder;
     this.canvas = canvas;
     this.playback = playback;
     this.previews = newestOnly((document) => model.preview(document));
@@ -40,7 +42,9 @@ export class JointDrag {
   /** Grip a joint at a place of the picture; null where there is none. */
   grip(x, y, isTouch) {
     const joint = jointAt(this.canvas, this.playback.pose, x, y, isTouch);
-    return joint && { joint: joint.name };
+    if (!joint) return null;
+    const place = pointState(this.playback.pose, joint.link, joint.at);
+    return { joint: joint.name, from: [place.x, place.y] };
   }
 
   /** Move it to a place in the plane, m. */
@@ -50,18 +54,27 @@ export class JointDrag {
       model.begin();
       grip.isMoving = true;
     }
-    if (model.moves) model.dragJoint(grip.joint, to);
-    else this.previews.push(moveJoint(model.document, grip.joint, to));
+    const { at, target } = this.builder.aimJoint(grip.joint, to, grip.from);
+    grip.target = target;
+    if (model.moves) model.dragJoint(grip.joint, at);
+    else this.previews.push(moveJoint(model.document, grip.joint, at));
   }
 
   async drop(grip) {
     if (!grip.isMoving) return;
+    const { model } = this;
+    this.builder.unaim();
     await this.previews.settled();
-    await this.model.commit();
+    if (grip.target) {
+      await model.dragged();
+      await model.preview(await this.builder.joined(grip.joint, grip.target));
+    }
+    await model.commit();
   }
 
   async cancel(grip) {
     if (!grip.isMoving) return;
+    this.builder.unaim();
     await this.previews.settled();
     await this.model.cancel();
   }

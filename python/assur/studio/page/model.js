@@ -152,6 +152,11 @@ export class Model {
     this.#drags.push({ joint, to, q: this.place });
   }
 
+  /** Wait until the joint is where it was moved to last. */
+  dragged() {
+    return this.#drags.settled();
+  }
+
   /** Show a document that is not yet a step. */
   preview(document) {
     return this.#become(document);

@@ -9,6 +9,9 @@ import { tellPosition, whatIsWrong } from "../../pictures/page/main.js";
 import { Playback } from "../../pictures/page/playback.js";
 import { learn, say, speak, spoken } from "../../pictures/page/words.js";
 import { Bar } from "./bar.js";
+import { Beginning } from "./build/beginning.js";
+import { Builder } from "./build/builder.js";
+import { Mend } from "./build/mend.js";
 import { keep } from "./files.js";
 import { JointDrag } from "./dragging.js";
 import { Model } from "./model.js";
@@ -23,12 +26,14 @@ import { problemText } from "./panel/problem.js";
 import { TransmissionWarning } from "./panel/transmission.js";
 import { Shell } from "./shell.js";
 import { Status } from "./status.js";
+import { BUILD_WORDS } from "./words/build.js";
 import { FIELD_WORDS } from "./words/fields.js";
 import { FRAME_WORDS } from "./words/frame.js";
 import { PANEL_WORDS } from "./words/panel.js";
 import { PICTURE_WORDS } from "./words/picture.js";
 
-for (const words of [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS]) learn(words);
+const TABLES = [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS, BUILD_WORDS];
+for (const words of TABLES) learn(words);
 
 export class Studio {
   /**
@@ -55,13 +60,15 @@ export class Studio {
     this.playback = new Playback(data, turn, {
       show: (pose) => {
         const { playback } = this;
-        model.q = playback.q;
+        // A sketch has no coordinate: what was held stays.
+        if (!model.isSketch) model.q = playback.q;
         stage.show(pose, playback.player.speed * playback.player.sense);
         this.canvas.warn(this.#whatIsWrong());
         model.emit("pose", pose);
       },
       told: () => {
-        tellPosition(this.canvas, this.playback);
+        if (model.isSketch) this.#tellSketch();
+        else tellPosition(this.canvas, this.playback);
         model.emit("told");
       },
     });
@@ -75,8 +82,11 @@ export class Studio {
     this.playback.element.append(this.later);
     this.shell = new Shell(root, { bar: this.bar.element, canvas: this.canvas.element, dock: this.playback.element });
     for (const one of this.#sections()) this.shell.panel.append(one.element);
-    this.joints = new JointDrag(model, this.canvas, this.playback);
-    this.gestures = new Gestures(this.canvas.picture, this.#handlers());
+    this.builder?.end();
+    this.builder = new Builder(this);
+    this.beginning = new Beginning(this.builder);
+    this.joints = new JointDrag(model, this.canvas, this.playback, this.builder);
+    this.gestures = new Gestures(this.canvas.picture, this.builder.press.handlers(this.#handlers()));
     this.#listen();
     stage.measure();
     this.resize();
@@ -92,8 +102,15 @@ export class Studio {
 
   /** The sections of the panel, from above. */
   #sections() {
-    const sections = [DriverSection, DimensionSection, AssemblySection, PositionSection, StructureSection, NameSection];
+    const sections = [Mend, DriverSection, DimensionSection, AssemblySection, PositionSection, StructureSection, NameSection];
     return sections.map((One) => new One(this));
+  }
+
+  /** A drawing has no position to tell. */
+  #tellSketch() {
+    const { joints, links } = this.model.data;
+    const text = say("sketchPicture", { joints: joints.length, links: links.length - 1 });
+    this.canvas.picture.setAttribute("aria-label", text);
   }
 
   #whatIsWrong() {
@@ -141,6 +158,7 @@ export class Studio {
     const { model, playback } = this;
     playback.play.disabled = playback.home.disabled = model.isSketch;
     this.later.hidden = !model.isSketch;
+    playback.element.classList.toggle("still", model.isSketch);
   }
 
   #handlers() {
@@ -163,8 +181,11 @@ export class Studio {
 
   #key(key, isShift, target) {
     const { model, gestures } = this;
-    if (key === "Escape") return gestures.isGripping ? () => gestures.cancel() : null;
+    if (key === "Escape" && gestures.isGripping) return () => gestures.cancel();
     if (target.closest?.("[role=menu], [role=tablist], dialog")) return null;
+    const drawing = this.builder.key(key, isShift, target);
+    if (drawing) return drawing;
+    if (key === "Escape") return null;
     const keys = { f: () => this.projector(), "?": () => this.help() };
     if (keys[key]) return keys[key];
     return model.isSketch && key !== "0" ? null : playingKey(this.playback, this.canvas.stage, key, isShift);
@@ -196,6 +217,7 @@ export class Studio {
   /** Begin with nothing. */
   begin() {
     this.model.file = null;
+    this.model.isNew = true;
     return this.model.edit({ joints: {}, links: { ground: [] } }, { title: "" });
   }
 
@@ -213,6 +235,7 @@ export class Studio {
   resize() {
     this.canvas.resize();
     this.playback.resize();
+    this.builder.resize();
   }
 }
 
