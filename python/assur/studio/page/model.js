@@ -246,7 +246,10 @@ export class Model {
     this.reach = header.reach ?? null;
     this.isSketch = false;
     if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
-    else if (this.held.length !== this.driverCount) this.held = [payload.turn.at];
+    else if (this.held.length !== this.driverCount) {
+      const { q0 } = this.checked;
+      this.held = Array.isArray(q0) ? [...q0] : [payload.turn.at];
+    }
     this.#solve(null);
     this.emit("turn");
   }
