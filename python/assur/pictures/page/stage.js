@@ -29,6 +29,8 @@ export class Stage {
     this.element = element;
     this.view = new View();
     this.size = 1;
+    /** How many times larger symbols and texts are: seen from afar. */
+    this.magnified = 1;
     this.isFitted = true;
     /** What lies over the picture at its top and bottom, px. */
     this.head = 0;
@@ -47,7 +49,7 @@ export class Stage {
     this.velocity = new Vectors("velocity", turn, this.#layer());
     this.acceleration = new Vectors("acceleration", turn, this.#layer());
     this.texts = new Map();
-    /** What is drawn besides; each is shown every position: `show(pose)`. */
+    /** What is drawn besides: at every position `show(pose)`, for every scale `zoom(scale)`, if it has them. */
     this.overlays = [];
     /** @type {Switches} */
     this.switches = { names: true, paths: true, velocity: false, acceleration: false, positions: false, groups: false };
@@ -152,10 +154,11 @@ export class Stage {
   /** Draw all for another scale. */
   zoomed() {
     const { scale } = this.view;
-    this.size = this.view.density(this.data.usual);
+    this.size = this.view.density(this.data.usual) * this.magnified;
     this.drawing.zoom(scale, this.size);
     if (this.switches.paths) this.paths.zoom(scale, this.size);
     if (this.switches.positions) otherPositions(this.turn, this.drawing, this.layers.others);
+    for (const overlay of this.overlays) overlay.zoom?.(scale);
     const length = niceLength(100 / scale);
     const px = length * scale;
     const { name, factor } = lengthUnit(length);
@@ -188,7 +191,7 @@ export class Stage {
     const { scale } = this.view;
     const { switches, size } = this;
     this.drawing.show(pose);
-    for (const overlay of this.overlays) overlay.show(pose);
+    for (const overlay of this.overlays) overlay.show?.(pose);
     if (switches.paths) this.paths.show(pose);
     const values = [];
     const lines = [];
@@ -219,7 +222,7 @@ export class Stage {
         label.text = text;
         label.element.lastChild.data = ` ${text}`;
         // Digits are of one width.
-        label.width = 7.4 * (symbol.length + 1 + text.length) + 4;
+        label.width = 7.4 * this.magnified * (symbol.length + 1 + text.length) + 4;
       }
       return Object.assign(label, at, { isShown: true });
     });
@@ -249,13 +252,24 @@ export class Stage {
   #label(key, symbol, text, height, joint) {
     const element = svg("text", { class: "label" }, svg("tspan", { class: "name" }, symbol), text);
     this.layers.names.append(element);
-    return { key, element, joint, x: 0, y: 0, radius: 0, width: 9.5 * symbol.length + 4, height, place: undefined };
+    const width = 9.5 * this.magnified * symbol.length + 4;
+    return { key, element, joint, x: 0, y: 0, radius: 0, width, height: height * this.magnified, place: undefined };
   }
 
   #value(key, symbol) {
     const label = this.#label(key, symbol, " ", VALUE_HEIGHT, null);
     this.texts.set(key, label);
     return label;
+  }
+
+  /** Draw symbols and texts so many times larger; `resize` is called next. */
+  magnify(factor) {
+    this.magnified = factor;
+    for (const label of this.names) label.height = NAME_HEIGHT * factor;
+    for (const { element } of this.texts.values()) element.remove();
+    this.texts.clear();
+    this.measure();
+    this.zoomed();
   }
 
   /** Measure the names, once they are in the page. */
@@ -298,8 +312,8 @@ export class Stage {
       y = places.reduce((sum, place) => sum + place.y, 0) / places.length;
     }
     // Beside a bar, inside a plate.
-    const aside = joints.length > 2 ? 0 : 15;
+    const aside = joints.length > 2 ? 0 : 15 * this.magnified;
     badge.at = [x * scale + aside, -y * scale + aside];
-    put(element, "transform", `translate(${badge.at[0].toFixed(1)} ${badge.at[1].toFixed(1)})`);
+    put(element, "transform", `translate(${badge.at[0].toFixed(1)} ${badge.at[1].toFixed(1)})scale(${this.magnified})`);
   }
 }

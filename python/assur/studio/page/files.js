@@ -50,8 +50,8 @@ export async function openFile(model, file, limit, tell) {
 export function keep(model) {
   let timer = 0;
   const write = () => {
-    const { document, title, held, file } = model;
-    const own = JSON.stringify({ document, title, held, stamp: file?.stamp ?? null });
+    const { document, title, held, file, target } = model;
+    const own = JSON.stringify({ document, title, held, target, stamp: file?.stamp ?? null });
     try {
       sessionStorage.setItem(KEPT, own);
       if (!file) localStorage.setItem(KEPT, own);
@@ -59,7 +59,7 @@ export function keep(model) {
       // The browser keeps nothing, or has no more room: the page goes on.
     }
   };
-  for (const event of ["document", "file"]) {
+  for (const event of ["document", "file", "target"]) {
     model.on(event, () => {
       clearTimeout(timer);
       timer = setTimeout(write, KEEP_AFTER);

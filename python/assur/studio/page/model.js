@@ -17,6 +17,7 @@ const ROWS = 361;
 
 /**
  * Events: `document` it changed; `checked` its state is known; `turn` there is another turn to play;
+ * `target` another path is wanted;
  * `problem` the present numbers cannot be shown, or can again; `file` title or stamp changed;
  * `connection` it was lost, or is there again; `settled` nothing is being dragged or computed.
  */
@@ -48,6 +49,8 @@ export class Model {
     this.held = [0];
     this.axis = 0;
     this.isDragging = false;
+    /** The path that a point should take: see design/deviation.js. */
+    this.target = null;
     this.listeners = new Map();
     this.#drags = newestOnly((fields) => this.#drag(fields));
   }
@@ -129,12 +132,19 @@ export class Model {
     await this.look();
   }
 
+  /** Want another path, or none: no part of the document. */
+  setTarget(target) {
+    this.target = target;
+    this.emit("target");
+  }
+
   /** Open an example, a text or the file given to the command: see `open` of the protocol. */
   async open(fields) {
     const { header } = await this.link.ask("open", this.rev, fields);
     this.file = fields.file ? { stamp: header.stamp, saves: header.saves } : null;
     this.axis = 0;
     this.isNew = true;
+    this.setTarget(null);
     await this.edit(header.document, { place: header.q0, title: header.title });
     this.emit("file");
     return header;

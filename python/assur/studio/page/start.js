@@ -57,7 +57,8 @@ async function openGiven() {
   if (others) studio.notify(say("others"), { action: { text: say("copy"), act: copy } });
 }
 
-async function restore({ document: own, title, held }) {
+async function restore({ document: own, title, held, target }) {
+  studio.model.setTarget(Array.isArray(target?.points) ? target : null);
   await studio.model.edit(own, { place: held, title });
   studio.canvas.stage.fit();
 }

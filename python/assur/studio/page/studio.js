@@ -12,8 +12,14 @@ import { Bar } from "./bar.js";
 import { Beginning } from "./build/beginning.js";
 import { Builder } from "./build/builder.js";
 import { Mend } from "./build/mend.js";
-import { keep } from "./files.js";
+import { Designing } from "./design/designing.js";
+import { MapSection } from "./design/mapsection.js";
+import { Projector } from "./design/projector.js";
+import { DesignSection } from "./design/section.js";
+import { TargetSection } from "./design/targetsection.js";
 import { JointDrag } from "./dragging.js";
+import { keep } from "./files.js";
+import { openHelp } from "./help/help.js";
 import { Model } from "./model.js";
 import { AssemblySection } from "./panel/assemblies.js";
 import { DimensionSection } from "./panel/dimensions.js";
@@ -27,12 +33,14 @@ import { TransmissionWarning } from "./panel/transmission.js";
 import { Shell } from "./shell.js";
 import { Status } from "./status.js";
 import { BUILD_WORDS } from "./words/build.js";
+import { DESIGN_WORDS } from "./words/design.js";
 import { FIELD_WORDS } from "./words/fields.js";
 import { FRAME_WORDS } from "./words/frame.js";
+import { HELP_WORDS } from "./words/help.js";
 import { PANEL_WORDS } from "./words/panel.js";
 import { PICTURE_WORDS } from "./words/picture.js";
 
-const TABLES = [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS, BUILD_WORDS];
+const TABLES = [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS, BUILD_WORDS, DESIGN_WORDS, HELP_WORDS];
 for (const words of TABLES) learn(words);
 
 export class Studio {
@@ -85,6 +93,7 @@ export class Studio {
     this.builder?.end();
     this.builder = new Builder(this);
     this.beginning = new Beginning(this.builder);
+    this.projecting = new Projector(this);
     this.joints = new JointDrag(model, this.canvas, this.playback, this.builder);
     this.gestures = new Gestures(this.canvas.picture, this.builder.press.handlers(this.#handlers()));
     this.#listen();
@@ -102,8 +111,13 @@ export class Studio {
 
   /** The sections of the panel, from above. */
   #sections() {
-    const sections = [Mend, DriverSection, DimensionSection, AssemblySection, PositionSection, StructureSection, NameSection];
-    return sections.map((One) => new One(this));
+    this.designing = new Designing(this);
+    this.target = new TargetSection(this);
+    this.design = new DesignSection(this, this.designing);
+    this.map = new MapSection(this, this.designing);
+    const numbers = [Mend, DriverSection, DimensionSection, AssemblySection, PositionSection].map((One) => new One(this));
+    const design = [this.map, this.design, this.target];
+    return [...numbers, ...design, new StructureSection(this), new NameSection(this)];
   }
 
   /** A drawing has no position to tell. */
@@ -181,7 +195,11 @@ export class Studio {
 
   #key(key, isShift, target) {
     const { model, gestures } = this;
-    if (key === "Escape" && gestures.isGripping) return () => gestures.cancel();
+    if (key === "Escape") {
+      if (gestures.isGripping) return () => gestures.cancel();
+      if (this.target.sheet.isOn) return () => this.target.open(false);
+      if (this.projecting.isOn) return () => this.projector();
+    }
     if (target.closest?.("[role=menu], [role=tablist], dialog")) return null;
     const drawing = this.builder.key(key, isShift, target);
     if (drawing) return drawing;
@@ -201,11 +219,13 @@ export class Studio {
 
   lesson() {}
 
-  help() {}
+  /** Open the help, perhaps at a term. */
+  help(term) {
+    openHelp(this, term);
+  }
 
   projector() {
-    this.shell.element.classList.toggle("projector");
-    this.resize();
+    this.projecting.toggle();
   }
 
   /** Keep the document in this browser from now on, also in another language. */
