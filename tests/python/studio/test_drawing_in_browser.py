@@ -239,7 +239,7 @@ def test_why_a_braced_four_bar_is_stuck_and_what_mends_it(browser: Browser) -> N
         assert set(one.page.evaluate(held)) == {"crank", "coupler", "rocker", "link1"}
         last = one.page.locator(".links g.holds.last").first
         assert last.get_attribute("data-link") == "link1"
-        assert one.page.locator(".play").is_disabled()
+        assert one.page.locator(".dock .play").is_disabled()
         # The page shows what the core offers; here a remedy of our own.
         one.page.evaluate(
             """(own) => {
