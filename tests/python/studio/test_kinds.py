@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR, PRESS, Reply, ask
+from asking import FOUR_BAR, PRESS, Reply, ask, refused
 from assur import examples
 from assur.description.words import Status
 from assur.files.write import text_of
@@ -243,6 +243,94 @@ def test_lesson() -> None:
     assert ask("lesson", **lengths, friction=friction)["gamma_min"] == least
     wrong = ask("lesson", l1=3.0, l2=1.0, l3=1.0, l4=2.0)
     assert wrong["message"] == ("The crank cannot turn: l1 + l4 (5) must be less than l2 + l3 (2).")
+
+
+@pytest.mark.parametrize("ground", [4.0, 4.6, 4.995, 5.2])
+def test_lesson_in_motion(ground: float) -> None:
+    """Its stretches are the run of the package, which finds the changes one after another."""
+    lengths: dict[str, Any] = {"l1": 1.0, "l2": 4.5, "l3": 1.5, "l4": ground}
+    reply = ask("lesson", **lengths, gamma_min=0.2, motion=True, rows=721)
+    run = assur.crank_rocker.run(1.0, 4.5, 1.5, ground, 0.2, phi0=np.pi / 2)
+    changes = [event.phi1 for event in run.events]
+    parts = reply["stretches"]
+    if not changes:
+        assert parts == [{"start": 0.0, "end": 2 * np.pi, "side": None, "rod": None}]
+    else:
+        assert [part["side"] for part in parts] == [run.events[0].side, None]
+        assert parts[0]["start"] % (2 * np.pi) == pytest.approx(changes[0] % (2 * np.pi))
+        assert parts[0]["end"] % (2 * np.pi) == pytest.approx(changes[1] % (2 * np.pi))
+    for part, frames, by_ground in zip(
+        parts, reply.arrays["frames"], reply.arrays["by_ground"], strict=True
+    ):
+        phi = np.linspace(part["start"], part["end"], 721)
+        # The run goes from π/2 once around.
+        first = np.argsort(run.phi1 % (2 * np.pi))
+        own = run.phi1[first] % (2 * np.pi)
+        l4 = np.interp(phi % (2 * np.pi), own, run.l4[first], period=2 * np.pi)
+        assert -frames[0, :, 3, 0] == pytest.approx(l4, abs=2e-5)
+        exact = assur.crank_rocker.solve(phi, 1.0, 4.5, 1.5, -frames[0, :, 3, 0])
+        assert np.cos(frames[0, :, 1:3, 2].T) == pytest.approx(np.cos([exact.phi2, exact.phi3]))
+        # The derivatives are those of the values, by differences.
+        for order in (0, 1):
+            slope = np.gradient(frames[order], phi, axis=0, edge_order=2)
+            assert frames[order + 1][2:-2] == pytest.approx(slope[2:-2], rel=2e-2, abs=2e-3)
+        if part["side"] is None:
+            # Of a moving support too: l₄ enters as φ₁ does.
+            moved = assur.crank_rocker.solve(phi, 1, 4.5, 1.5, ground, 2.0, 0.7)
+            rates = 2.0 * frames[1, :, 1:3, 2] + 0.7 * by_ground
+            assert rates == pytest.approx(np.stack([moved.dphi2, moved.dphi3], axis=-1))
+        else:
+            assert not by_ground.any()
+
+
+@pytest.mark.parametrize(("phi1", "side"), [(2.1, None), (-0.1, "outer"), (6.2, "outer")])
+def test_lesson_at_an_instant(phi1: float, side: str | None) -> None:
+    case: dict[str, Any] = {"l1": 1.0, "l2": 4.5, "l3": 1.5, "l4": 4.995, "gamma_min": 0.2}
+    speeds: dict[str, Any] = {"speed": 3.0, "ground_speed": 0.7}
+    found = ask("lesson", **case, **speeds, phi1=phi1, motion=True, rows=9)["position"]
+    assert found["sliding"] == side
+    if side is None:
+        exact = assur.crank_rocker.solve(phi1, 1.0, 4.5, 1.5, 4.995, 3.0, 0.7)
+        assert found["gamma"] == pytest.approx(float(exact.gamma))
+        assert found["links"]["rocker"]["speed"] == pytest.approx(float(exact.dphi3))
+        assert np.hypot(*found["joints"]["C"]["speed"]) == pytest.approx(float(exact.v_C))
+        assert found["rod"] is None
+    else:
+        assert (found["gamma"], found["rod"]) == pytest.approx((0.2, 5.977532835615105))
+    if side is None:
+        # What a moving support adds to the accelerations.
+        still = ask("lesson", **case, speed=3.0, phi1=phi1, motion=True, rows=9)["position"]
+        for link in ("coupler", "rocker"):
+            mixed, twice = found["by_ground"][link]
+            added = 2.0 * mixed * 3.0 * 0.7 + twice * 0.7**2
+            rate = still["links"][link]["acceleration"] + added
+            assert found["links"][link]["acceleration"] == pytest.approx(rate)
+    # By differences: in a small time the crank has turned and the support moved.
+    step = 1e-5
+    near = []
+    for sign in (-1.0, 1.0):
+        moved = {**case, "l4": case["l4"] + sign * step * 0.7}
+        near.append(
+            ask("lesson", **moved, **speeds, phi1=phi1 + sign * step * 3.0, motion=True, rows=9)[
+                "position"
+            ]
+        )
+    for name in "BCD":
+        for rate, of in (("speed", "value"), ("acceleration", "speed")):
+            states = [np.array(one["joints"][name][of]) for one in near]
+            slope = (states[1] - states[0]) / (2.0 * step)
+            assert np.array(found["joints"][name][rate]) == pytest.approx(slope, abs=1e-4)
+
+
+def test_lesson_beside_other_grounds() -> None:
+    case: dict[str, Any] = {"l1": 1.0, "l2": 4.5, "l3": 1.5, "l4": 4.995}
+    reply = ask("lesson", **case, grounds=[4.8, 5.2], rows=13)
+    exact = assur.crank_rocker.table1().true[:, 0]
+    assert reply.arrays["gamma_of"][0] == pytest.approx(exact, abs=1e-9)
+    assert np.isnan(reply.arrays["gamma_of"][1]).any()
+    assert reply["turning_range"] == pytest.approx([4.0, 5.0])
+    assert refused("lesson", **case, grounds=[])["key"] == "grounds"
+    assert "above 0" in refused("lesson", **case, gamma_min=0.0, motion=True)["message"]
 
 
 def test_lesson_with_a_support_that_is_dragged() -> None:

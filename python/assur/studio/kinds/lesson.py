@@ -16,6 +16,8 @@ from assur.errors import AssurError
 from assur.laws import Tabulated
 from assur.papers import crank_rocker
 from assur.pictures.scene.course import TURN
+from assur.studio.kinds import lesson_motion
+from assur.studio.kinds.lesson_motion import Lengths
 from assur.studio.limits import MOST_ROWS
 from assur.studio.request import Fields
 from assur.studio.session import Answer
@@ -39,15 +41,15 @@ CONDITIONS = (
     ("l1 + l2", "l3 + l4"),
     ("l1 + l3", "l2 + l4"),
 )
-MOST_TURNS = 20
+MOST_TURNS, MOST_GROUNDS = 20, 12
 
 
 def lesson(data: dict[str, Any], session: Session) -> Answer:
     """Return what the lengths allow, the figures at φ1, the whole turn, and the run."""
-    known = (*LENGTHS, *MOVING, "gamma_min", "friction", "rows", "run")
+    known = (*LENGTHS, *MOVING, "gamma_min", "friction", "rows", "run", "motion", "grounds")
     fields = Fields(data, known, LENGTHS)
-    l1, l2, l3, l4 = (fields.number(name) for name in LENGTHS)
-    lengths = (l1, l2, l3, l4)
+    lengths = Lengths(*(fields.number(name) for name in LENGTHS))
+    l1, l2, l3, l4 = lengths
     least = _least_angle(fields, l3)
     phi1, speed = fields.number("phi1", np.pi / 2.0), fields.number("speed", 1.0)
     ground_speed = fields.number("ground_speed", 0.0)
@@ -59,6 +61,16 @@ def lesson(data: dict[str, Any], session: Session) -> Answer:
     over = crank_rocker.solve(turn, l1, l2, l3, l4, speed)
     shown = ("phi2", "phi3", "gamma23", "gamma", "dphi2", "dphi3", "dgamma23", "v_B", "v_C")
     arrays = {"phi1": turn, **{name: getattr(over, name) for name in shown}}
+    if "grounds" in fields:
+        grounds = _grounds(fields)
+        arrays["gamma_of"] = crank_rocker.solve(turn, l1, l2, l3, grounds[:, np.newaxis]).gamma
+    if fields.flag("motion"):
+        session.deadline.check()
+        held = _needed(fields, least, "a motion")
+        found = lesson_motion.stretches(lengths, held)
+        header["stretches"] = [one._asdict() for one in found]
+        header["position"] = lesson_motion.position(lengths, found, phi1, speed, ground_speed)
+        arrays |= lesson_motion.tables(lengths, found, len(turn))
     if fields.flag("run"):
         session.deadline.check()
         header["run"], moved = _run(fields, lengths, least, phi1, speed)
@@ -75,6 +87,24 @@ def _least_angle(fields: Fields, rocker: float) -> float | None:
     f_c, r_c, f_d, r_d = (entries[key].number() for key in FRICTION)
     with node.refusing():
         return float(crank_rocker.least_transmission_angle(f_c, r_c, f_d, r_d, rocker))
+
+
+def _needed(fields: Fields, least: float | None, what: str) -> float:
+    """Return γ_min, which a motion with changes of structure needs."""
+    if least is None:
+        raise fields.error("gamma_min", f"is missing: {what} needs it, or friction")
+    if least <= 0.0:
+        raise fields.error("gamma_min", f"is {least:g}: {what} needs an angle above 0")
+    return least
+
+
+def _grounds(fields: Fields) -> Float:
+    """Return other grounds to compare with."""
+    node = fields.node("grounds")
+    grounds = node.array()
+    if grounds.ndim != 1 or not 0 < len(grounds) <= MOST_GROUNDS:
+        raise node.error(f"a list of 1 to {MOST_GROUNDS} lengths is needed")
+    return grounds
 
 
 def _conditions(lengths: tuple[float, float, float, float], least: float | None) -> dict[str, Any]:
@@ -100,20 +130,23 @@ def _conditions(lengths: tuple[float, float, float, float], least: float | None)
         "gamma": None,
         "blocked": [],
         "ground_range": None,
+        "turning_range": None,
     }
     if not turns and failed:
         sums = [f"{side} ({sum(named[n] for n in side.split(' + ')):.4g})" for side in failed[0]]
         header["message"] = f"The crank cannot turn: {sums[0]} must be less than {sums[1]}."
     if turns:
         header["gamma"] = crank_rocker.transmission_extremes(*lengths)
-    if least is not None and turns:
+    # Of a crank that does not turn too: there D must slide so that it goes on.
+    if least is not None:
         header["blocked"] = crank_rocker.blocked(l1, l2, l3, l4, least)
-    if header["blocked"]:
+    if turns and header["blocked"]:
         header["message"] = f"C jams below γmin = {least:.4g} rad."
-    # Perhaps no ground fits these two.
-    with suppress(AssurError):
-        ends = crank_rocker.ground_range(l2 / l1, l3 / l1, 0.0, least or 0.0)
-        header["ground_range"] = [end * l1 for end in ends]
+    for name, angle in (("ground_range", least or 0.0), ("turning_range", 0.0)):
+        # Perhaps no ground fits these two.
+        with suppress(AssurError):
+            ends = crank_rocker.ground_range(l2 / l1, l3 / l1, 0.0, angle)
+            header[name] = [end * l1 for end in ends]
     return header
 
 
@@ -125,8 +158,7 @@ def _run(
     speed: float,
 ) -> tuple[dict[str, Any], dict[str, Float]]:
     """Return the run from φ1, with the changes of structure."""
-    if least is None:
-        raise fields.error("gamma_min", "is missing: a run needs it, or friction")
+    least = _needed(fields, least, "a run")
     turns = fields.number("turns", 1.0)
     if not 0.0 < turns <= MOST_TURNS:
         raise fields.error("turns", f"is {turns:g}: above 0, up to {MOST_TURNS} is needed")
