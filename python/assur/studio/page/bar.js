@@ -48,6 +48,8 @@ export class Bar {
     help.addEventListener("click", () => page.help());
     const projector = button(say("projector"), SCREEN);
     projector.addEventListener("click", () => page.projector());
+    // The lesson has neither.
+    for (const one of [out.element, projector]) one.classList.add("of-document");
     const brand = html("span", { class: "brand" }, say("studio"));
     const files = page.isEmbedded ? [out.element] : [open.element, examples.element, out.element];
     const menus = html("div", { class: "menus" }, ...files, language.element, projector, schemeButton(root), help);
@@ -77,9 +79,16 @@ export class Bar {
   }
 
   show() {
-    const { model } = this;
-    this.undo.disabled = !model.history.canUndo;
-    this.redo.disabled = !model.history.canRedo;
+    const { model, page } = this;
+    const isLesson = page.lessonScreen?.isOpen ?? false;
+    this.undo.disabled = isLesson || !model.history.canUndo;
+    this.redo.disabled = isLesson || !model.history.canRedo;
+    this.title.readOnly = isLesson;
+    if (isLesson) {
+      this.title.value = say("lesson");
+      this.state.textContent = say("lessonSource");
+      return;
+    }
     if (this.title !== this.title.getRootNode().activeElement) this.title.value = model.title || say("untitled");
     const isSaved = model.file?.saves && model.savedDocument === model.document;
     this.state.textContent = isSaved ? say("saved") : say(model.file?.saves ? "notSaved" : "kept");

@@ -20,6 +20,7 @@ import { TargetSection } from "./design/targetsection.js";
 import { JointDrag } from "./dragging.js";
 import { keep } from "./files.js";
 import { openHelp } from "./help/help.js";
+import { LessonScreen } from "./lesson_screen.js";
 import { Model } from "./model.js";
 import { AssemblySection } from "./panel/assemblies.js";
 import { DimensionSection } from "./panel/dimensions.js";
@@ -94,6 +95,9 @@ export class Studio {
     this.builder = new Builder(this);
     this.beginning = new Beginning(this.builder);
     this.projecting = new Projector(this);
+    const wasInLesson = this.lessonScreen?.isOpen;
+    this.lessonScreen?.close();
+    this.lessonScreen = new LessonScreen(this);
     this.joints = new JointDrag(model, this.canvas, this.playback, this.builder);
     this.gestures = new Gestures(this.canvas.picture, this.builder.press.handlers(this.#handlers()));
     this.#listen();
@@ -104,6 +108,7 @@ export class Studio {
     // The picture also changes where what stands beside it does.
     for (const one of [root, this.canvas.picture]) this.observer.observe(one);
     this.#enable();
+    if (wasInLesson) this.lesson();
     if (this.isKept) keep(model);
     this.onBuilt?.();
     this.playback.show();
@@ -195,6 +200,8 @@ export class Studio {
 
   #key(key, isShift, target) {
     const { model, gestures } = this;
+    // The lesson has keys of its own.
+    if (this.lessonScreen.isOpen) return key === "?" ? () => this.help() : null;
     if (key === "Escape") {
       if (gestures.isGripping) return () => gestures.cancel();
       if (this.target.sheet.isOn) return () => this.target.open(false);
@@ -217,7 +224,9 @@ export class Studio {
 
   speed = () => this.playback.player.speed;
 
-  lesson() {}
+  lesson() {
+    this.lessonScreen.open();
+  }
 
   /** Open the help, perhaps at a term. */
   help(term) {

@@ -31,7 +31,7 @@ export function listenForEdits({ root, isEmbedded, model, bar }, choice) {
     const act = keys[key];
     // A text that is typed has an undo of its own.
     const isTyping = key !== "s" && event.composedPath()[0].matches?.(TEXT_FIELDS);
-    if (!act || isTyping || event.composedPath()[0].closest?.("dialog")) return;
+    if (!act || isTyping || root.classList.contains("in-lesson") || event.composedPath()[0].closest?.("dialog")) return;
     event.preventDefault();
     await choice.finish();
     if (!model.isDragging) act();
