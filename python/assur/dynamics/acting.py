@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from assur._arrays import Float
-    from assur.dynamics.loads import PointLike
+    from assur.dynamics.loads import Load, PointLike
     from assur.dynamics.machine import Machine
     from assur.dynamics.reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
@@ -144,26 +144,31 @@ def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
 
 def _loads(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
     for load in at.machine.loads:
-        if isinstance(load, Gravity):
-            continue
-        what = f"a {type(load).__name__}"
-        if isinstance(load, Torque | TorsionSpring | TorsionDamper):
-            if link in (load.link, load.on):
-                yield _torque(at, load, link, couples)
-        elif isinstance(load, Pressure):
-            yield from _pressure(at, load, link)
-        elif isinstance(load, Force):
-            if (load.on or _taker(at, load.at)) == link:
-                place, _ = _place(at, link, load.at)
-                force = _force(at, load)
-                yield Acting(what, place, force, _nothing(at), _joint(load.at))
-        else:
-            ends = load.first, load.second
-            for end, other in (ends, ends[::-1]):
-                taker = _taker(at, end)
-                if taker == link:
-                    place, force = _pull(at, load, end, other)
-                    yield Acting(what, place, force, _nothing(at), _joint(end))
+        yield from load_on(at, load, link, couples)
+
+
+def load_on(at: Positions, load: Load, link: str, couples: bool = True) -> Iterator[Acting]:
+    """Yield what one load does to a link; weight is not among it."""
+    if isinstance(load, Gravity):
+        return
+    what = f"a {type(load).__name__}"
+    if isinstance(load, Torque | TorsionSpring | TorsionDamper):
+        if link in (load.link, load.on):
+            yield _torque(at, load, link, couples)
+    elif isinstance(load, Pressure):
+        yield from _pressure(at, load, link)
+    elif isinstance(load, Force):
+        if (load.on or _taker(at, load.at)) == link:
+            place, _ = _place(at, link, load.at)
+            force = _force(at, load)
+            yield Acting(what, place, force, _nothing(at), _joint(load.at))
+    else:
+        ends = load.first, load.second
+        for end, other in (ends, ends[::-1]):
+            taker = _taker(at, end)
+            if taker == link:
+                place, force = _pull(at, load, end, other)
+                yield Acting(what, place, force, _nothing(at), _joint(end))
 
 
 def _torque(

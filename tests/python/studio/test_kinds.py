@@ -184,6 +184,9 @@ def test_reactions_stand_at_the_rows_of_the_turn() -> None:
     assert reply.arrays["slide_forces"][:, 0, 0] == pytest.approx(slide.normal)
     assert reply.arrays["drive"] == pytest.approx(found.driver)
     one = ask("reactions", document=PRESS, q=1.0, speed=10.0)
+    grid = ask("turn", document=PRESS, q=2.0, rows=91)["payload"]["turn"]["grid"]
+    again = ask("reactions", document=PRESS, begin=2.0, speed=10.0, rows=91).arrays["q"]
+    assert (grid["low"], grid["high"]) == (again[0], again[-1])
     assert one.arrays["forces"].shape == (1, 3, 2)
 
 
@@ -344,6 +347,37 @@ def test_lesson_with_a_support_that_is_dragged() -> None:
 
 def _table(places: dict[str, list[float]]) -> Any:
     return {"t": places["t"], "value": places["l4"]}
+
+
+def test_applied_forces_act_where_their_loads_are() -> None:
+    spring = {"type": "Spring", "first": "O", "second": "B", "stiffness": 500.0, "length": 0.3}
+    cut = {"type": "Force", "at": "B", "force": [-70.0, 0.0], "while_": "forward", "over": "guide"}
+    document_ = {**PRESS, "loads": [*PRESS["loads"], spring, cut]}
+    reply = ask("reactions", document=document_, speed=10.0, rows=91)
+    assert reply["applied"] == [
+        {"load": 0, "on": "rod", "joint": "B"},
+        {"load": 2, "on": "rod", "joint": "B"},
+        {"load": 3, "on": "rod", "joint": "B"},
+    ]
+    applied = reply.arrays["applied"]
+    motion = document.read_mechanism(PRESS).solve(reply.arrays["q"], 1)
+    place = motion.joint("B").value
+    assert applied[:, 0] == pytest.approx(np.column_stack([place, np.full(91, -900), np.zeros(91)]))
+    pull = 500.0 * (np.hypot(*place.T) - 0.3)
+    assert applied[:, 1, 2] == pytest.approx(-pull * place[:, 0] / np.hypot(*place.T))
+    forward = motion.slide("guide").d1 > 0.0
+    assert applied[:, 2, 2] == pytest.approx(np.where(forward, -70.0, 0.0))
+
+
+def test_reactions_where_the_drawing_cannot_be_reached() -> None:
+    own = {"coupler.length": 1.5, "rocker.length": 2.2}
+    joints = {"A": [0, 0], "B": [0, 2], "C": [3, 3], "D": [4, 0]}
+    document_ = {**FOUR_BAR, "joints": joints, "dimensions": own, "bodies": {"crank": {"mass": 1}}}
+    document_["links"] = {**FOUR_BAR["links"], "coupler": ["B", "C"]}
+    reached = ask("turn", document=document_, rows=91)["payload"]["turn"]["limits"]["intervals"][0]
+    q = ask("reactions", document=document_, speed=1.0, rows=91).arrays["q"]
+    assert (q[0], q[-1]) == pytest.approx(reached, rel=1e-5)
+    assert q[-1] < np.pi / 2.0
 
 
 def test_a_turn_tells_the_least_transmission_angle() -> None:

@@ -12,6 +12,8 @@ const HEADROOM = 0.18;
 const NUMBER = 22;
 /** Values so many times the usual ones go beyond the picture: at dead points they are infinite. */
 const BEYOND = 5;
+/** A press works in a small part of its turn: its peaks are what is asked for. */
+const FORCE_PEAK = 50;
 const USUAL = 0.85;
 /** Changes less than this part of what is large are rounding. */
 const CONSTANT = 2e-5;
@@ -22,9 +24,10 @@ const CONSTANT = 2e-5;
  * @param {number[]} places of the values: they may be denser here and there
  * @param {number} size what is large
  * @param {number} height px
+ * @param {number} [beyond] so many times the usual values are shown
  * @returns {{low: number, high: number, isCut: boolean, isConstant: boolean}}
  */
-export function chartRange(values, places, size, height) {
+export function chartRange(values, places, size, height, beyond = BEYOND) {
   const known = values.map((value, i) => i).filter((i) => Number.isFinite(values[i]));
   if (!known.length) return { low: -1, high: 1, isCut: false, isConstant: true };
   let low = Math.min(...known.map((i) => values[i]));
@@ -37,7 +40,7 @@ export function chartRange(values, places, size, height) {
   sizes.sort((a, b) => a.size - b.size);
   let rest = USUAL * sizes.reduce((sum, one) => sum + one.width, 0);
   const usual = sizes.find((one) => (rest -= one.width) <= 0)?.size ?? 0;
-  const limit = BEYOND * usual;
+  const limit = beyond * usual;
   const isCut = limit > CONSTANT * size && Math.max(-low, high) > 2 * limit;
   if (isCut) {
     low = Math.max(low, -limit);
@@ -155,7 +158,7 @@ export class Chart {
     const large = quantity.size * Math.abs(this.speed) ** quantity.order;
     const { factor } = (this.unit = unitOf(quantity, Math.max(...values.filter(Number.isFinite).map(Math.abs), 0)));
     values.forEach((value, i) => (values[i] = value * factor));
-    const { low, high, isCut, isConstant } = chartRange(values, places, large * factor, bottom - CHART_MARGIN.top);
+    const { low, high, isCut, isConstant } = chartRange(values, places, large * factor, bottom - CHART_MARGIN.top, quantity.role === "force" ? FORCE_PEAK : BEYOND);
     const role = roleOf(quantity);
     const lines = ticks(low, high, Math.max(2, Math.floor((bottom - CHART_MARGIN.top) / 34)));
     const texts = lines.map((value) => tickText(Math.abs(value) < 1e-9 * (high - low) ? 0 : value));

@@ -39,6 +39,20 @@ export function lengthUnit(size) {
   return { name: "µm", factor: 1e6 };
 }
 
+/**
+ * Choose the unit of a force, a moment, a power or an energy: N, kN, MN.
+ * @param {string} unit SI
+ * @param {number} greatest of what is shown, SI
+ * @returns {{name: string, factor: number}} factor: units to one SI unit
+ */
+export function forceUnit(unit, greatest) {
+  const size = Math.abs(greatest);
+  if (size >= 1e6) return { name: `M${unit}`, factor: 1e-6 };
+  if (size >= 1e3) return { name: `k${unit}`, factor: 1e-3 };
+  if (size >= 0.1 || size === 0) return { name: unit, factor: 1 };
+  return { name: `m${unit}`, factor: 1e3 };
+}
+
 /** Return the greatest 1, 2 or 5 times a power of ten up to a length. */
 export function niceLength(length) {
   const power = 10 ** Math.floor(Math.log10(length));

@@ -39,6 +39,8 @@ export class Playback {
     this.#take(data, turn);
     this.dial = new Dial(data, turn, { label: this.#dialLabel(), text: (q) => this.place(q), seek: (q) => this.seek(q) });
     this.charts = [];
+    /** Quantities beside those of the motion: forces. */
+    this.more = [];
     this.chartRow = html("div", { class: "charts" });
     this.#chart(data, turn);
     const drive = html("div", { class: "drive" }, this.dial.element, html("div", { class: "play-row" }, this.play, this.home), this.speedField, this.slower);
@@ -66,7 +68,7 @@ export class Playback {
 
   /** Make the diagrams that are wanted; those that are there show the same as before, if they can. */
   #chart(data, turn) {
-    const groups = allQuantities(data);
+    const groups = [...allQuantities(data), ...this.more];
     this.chartRow.hidden = data.diagrams.length === 0;
     for (const [i, id] of data.diagrams.entries()) {
       const before = this.charts[i]?.quantity?.id;
@@ -77,6 +79,20 @@ export class Playback {
       } else this.charts[i].replace(turn, groups, this.#axis());
       const isThere = groups.some((group) => group.quantities.some((one) => one.id === before));
       this.charts[i].pick(isThere ? before : id);
+    }
+  }
+
+  /**
+   * Offer more quantities for the diagrams.
+   * @param {{name: string, quantities: import("./quantities.js").Quantity[]}[]} groups
+   */
+  offer(groups) {
+    this.more = groups;
+    this.#chart(this.data, this.turn);
+    // Only drawn: where it is may be about to change.
+    for (const chart of this.charts) {
+      chart.draw();
+      chart.show(this.pose);
     }
   }
 

@@ -75,6 +75,9 @@ export class Player {
       if (q >= turn.high) this.turns += 1;
       if (q < turn.low) this.turns -= 1;
       q = turn.bring(q);
+    } else if (q > turn.high && turn.unit === "time") {
+      // Time does not go back: from the beginning again.
+      q = turn.low;
     } else if (q > turn.high || q < turn.low) {
       // To and fro.
       const end = q > turn.high ? turn.high : turn.low;

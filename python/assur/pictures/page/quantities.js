@@ -1,6 +1,6 @@
 // What follows from the frames of the links: points, angles, values of slides, and their rates.
 
-import { lengthUnit } from "./numbers.js";
+import { forceUnit, lengthUnit } from "./numbers.js";
 
 /**
  * A point with its derivatives by q.
@@ -82,13 +82,15 @@ export function slideState(pose, slide) {
  * @property {boolean} isAngle of a link
  * @property {number} size what is large, if the coordinate goes with speed 1: rad, m
  * @property {(pose: import("./turn.js").Pose, speed: number) => number} value in SI units
+ * @property {string} [unit] SI, of what is no angle and no length: "N"
+ * @property {string} [role] its colour
  */
 
 const ROLES = ["ink", "velocity", "acceleration"];
 const PER = ["", "/s", "/s²"];
 
 /** Return the name of a quantity's colour. */
-export const roleOf = (quantity) => ROLES[quantity.order];
+export const roleOf = (quantity) => quantity.role ?? ROLES[quantity.order];
 
 /**
  * Return the unit in which a quantity is written.
@@ -96,7 +98,8 @@ export const roleOf = (quantity) => ROLES[quantity.order];
  * @param {number} greatest of its values, SI
  * @returns {{name: string, factor: number}}
  */
-export function unitOf({ isAngle, order, size }, greatest) {
+export function unitOf({ isAngle, order, size, unit }, greatest) {
+  if (unit) return forceUnit(unit, greatest);
   if (isAngle) return order ? { name: `rad${PER[order]}`, factor: 1 } : { name: "°", factor: 180 / Math.PI };
   // Positions all have the unit of the picture.
   const { name, factor } = lengthUnit(order ? greatest : size);

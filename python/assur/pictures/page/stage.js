@@ -48,6 +48,8 @@ export class Stage {
     this.paths = new Paths(turn, this.layers.paths, this.layers.markers);
     this.velocity = new Vectors("velocity", turn, this.#layer());
     this.acceleration = new Vectors("acceleration", turn, this.#layer());
+    /** More arrows: each has a layer, `isShown`, and `show` as vectors have it. */
+    this.extras = [];
     this.texts = new Map();
     /** What is drawn besides: at every position `show(pose)`, for every scale `zoom(scale)`, if it has them. */
     this.overlays = [];
@@ -91,6 +93,12 @@ export class Stage {
     this.turn = turn;
     for (const layer of [this.paths, this.velocity, this.acceleration]) layer.turn = turn;
     this.badges = null;
+  }
+
+  /** Add arrows of another kind; they draw in the layer that is returned. */
+  addVectors(extra) {
+    this.extras.push(extra);
+    return this.#layer();
   }
 
   #layer() {
@@ -198,6 +206,12 @@ export class Stage {
     for (const kind of ["velocity", "acceleration"]) {
       if (!switches[kind]) continue;
       const shown = this[kind].show(pose, scale, size, speed);
+      values.push(...shown.labels);
+      lines.push(...shown.lines);
+    }
+    for (const extra of this.extras) {
+      if (!extra.isShown) continue;
+      const shown = extra.show(pose, scale, size, speed);
       values.push(...shown.labels);
       lines.push(...shown.lines);
     }

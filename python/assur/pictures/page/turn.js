@@ -22,6 +22,7 @@
  * @typedef {Object} TurnData
  * @property {Grid} grid
  * @property {boolean} closes
+ * @property {"angle"|"length"|"time"} [unit]
  * @property {number} rows
  * @property {number} orders 2 or 3: value, first and perhaps second derivative by the parameter
  * @property {number[]} [ground] its frame: x, y, angle
@@ -75,6 +76,8 @@ export class Turn {
   constructor(data) {
     this.grid = data.grid;
     this.closes = data.closes;
+    /** Of what goes along the rows: "angle", "length" or "time". */
+    this.unit = data.unit;
     this.rows = data.rows;
     this.orders = data.orders;
     this.values = data.values;

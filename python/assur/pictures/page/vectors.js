@@ -15,10 +15,10 @@ const VECTOR_KINDS = {
   acceleration: { symbol: "a", of: (p) => [p.x2, p.y2], power: 2 },
 };
 
-/** Return a filled head, 11 × 8, its tip at (x, y). */
-function filledHead(x, y, ux, uy, size) {
-  const back = 11 * size;
-  const half = 4 * size;
+/** Return a filled head, 11 × 8 or as given, its tip at (x, y). */
+export function filledHead(x, y, ux, uy, size, [long, wide] = [11, 8]) {
+  const back = long * size;
+  const half = (wide / 2) * size;
   const corner = (side) => [x - back * ux - side * half * uy, y - back * uy + side * half * ux];
   return pathOf([[x, y], corner(1), corner(-1)], true);
 }

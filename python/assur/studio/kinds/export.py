@@ -15,7 +15,6 @@ from assur.errors import InputError
 from assur.kinematics.table import Options, motion_columns
 from assur.pictures.page.turn import turn_of
 from assur.studio import document
-from assur.studio.kinds.forces import coordinates
 from assur.studio.request import Fields
 from assur.studio.session import Answer
 
@@ -85,7 +84,7 @@ def _motion(mechanism: Mechanism, fields: Fields, default: int, order: int) -> M
     if mechanism._driver_count > 1:
         q = np.asarray(fields.drivers("q", mechanism))[None]
     else:
-        q = coordinates(turn_of(mechanism, None, rows).grid, rows)
+        q = turn_of(mechanism, None, rows).coordinates()
     return mechanism.solve(q, order=order, on_error="nan")
 
 

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.page.turn import turn_of
 from assur.pictures.scene.course import TURN
 from assur.studio import document
+from assur.studio.kinds.applied import applied_forces
+from assur.studio.kinds.turn import reached_turn
 from assur.studio.request import Fields
 from assur.studio.session import Answer
 
@@ -28,19 +29,21 @@ MOST_TURNS = 64
 def reactions(data: dict[str, Any], session: Session) -> Answer:
     """Return the forces in all pairs over the turn, at the rows of ``turn``, or at one q."""
     del session
-    known = ("document", "q", "speed", "acceleration", "rows", "sense")
+    known = ("document", "q", "begin", "speed", "acceleration", "rows", "sense")
     fields = Fields(data, known, ("document",))
     machine = document.read_machine(fields["document"])
     mechanism = _mechanism(machine)
     q = _rows(fields, mechanism)
+    speed = fields.drivers("speed", mechanism, 0.0)
     found = machine.reactions(
         q,
-        fields.drivers("speed", mechanism, 0.0),
+        speed,
         fields.drivers("acceleration", mechanism, 0.0),
         sense=fields.optional("sense"),
         on_error="nan",
     )
     header, arrays = forces_of(mechanism, found)
+    header["applied"], arrays["applied"] = applied_forces(machine, mechanism, found, q, speed)
     return Answer(header, {"q": q, **arrays})
 
 
@@ -96,18 +99,8 @@ def _pins(mechanism: Mechanism) -> Any:
 def _rows(fields: Fields, mechanism: Mechanism) -> Float:
     if "q" in fields or mechanism._driver_count > 1:
         return np.asarray(fields.drivers("q", mechanism))[None]
-    return coordinates(turn_of(mechanism, None, fields.rows(ROWS)).grid, fields.rows(ROWS))
-
-
-def coordinates(grid: dict[str, Any], rows: int) -> Float:
-    """Return the coordinates of a turn's rows."""
-    if grid["kind"] == "rows":
-        return np.array(grid["q"])
-    own = np.linspace(grid["low"], grid["high"], rows)
-    if grid["kind"] == "linear":
-        return own
-    cosine: Float = grid["middle"] - grid["half"] * np.cos(own)  # noqa: TID251, not a result
-    return cosine
+    begin, rows = fields.drivers("begin", mechanism), fields.rows(ROWS)
+    return reached_turn(mechanism, begin, rows).coordinates()
 
 
 def flywheel(data: dict[str, Any], session: Session) -> Answer:

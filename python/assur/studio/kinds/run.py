@@ -8,6 +8,7 @@ import numpy as np
 
 from assur.pictures.page.turn_in_time import course_of_run, turn_over_time
 from assur.studio import document
+from assur.studio.kinds.applied import applied_forces
 from assur.studio.kinds.forces import forces_of
 from assur.studio.kinds.turn import played_answer
 from assur.studio.kinds.words import law
@@ -54,7 +55,9 @@ def run(data: dict[str, Any], session: Session) -> Answer:
         assert machine is not None
         session.deadline.check()
         found = machine.reactions(q, speed, acceleration, t=t, on_error="nan")
-        header["reactions"], forces = forces_of(mechanism, found)
+        named, forces = forces_of(mechanism, found)
+        applied, forces["applied"] = applied_forces(machine, mechanism, found, q, speed, t)
+        header["reactions"] = {**named, "applied": applied}
         arrays |= forces
     return Answer({**header, **played.header}, {**played.arrays, **arrays})
 

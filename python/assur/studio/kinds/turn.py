@@ -46,7 +46,7 @@ def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
     rows, orders = fields.rows(ROWS), fields.whole("orders", 3, 2, 3)
     axis = fields.whole("axis", 0, 0, mechanism._driver_count - 1)
     one = mechanism._driver_count == 1
-    own = _reached(mechanism, q, rows) if one else _along(mechanism, np.asarray(q), axis, rows)
+    own = reached_turn(mechanism, q, rows) if one else _along(mechanism, np.asarray(q), axis, rows)
     answer = played_answer(own, fields, orders)
     if orders < 3:
         return answer
@@ -71,7 +71,7 @@ def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = 
     return Answer(header, {"values": kept[0][:orders]})
 
 
-def _reached(mechanism: Mechanism, q: float, rows: int) -> Turn:
+def reached_turn(mechanism: Mechanism, q: float, rows: int) -> Turn:
     """Return the turn from q, or from what can be reached next to it."""
     try:
         return turn_of(mechanism, q, rows)

@@ -19,7 +19,8 @@ const ROWS = 361;
  * Events: `document` it changed; `checked` its state is known; `turn` there is another turn to play;
  * `target` another path is wanted;
  * `problem` the present numbers cannot be shown, or can again; `file` title or stamp changed;
- * `connection` it was lost, or is there again; `settled` nothing is being dragged or computed.
+ * `connection` it was lost, or is there again; `settled` nothing is being dragged or computed;
+ * `run` a motion over time is shown, or no longer.
  */
 export class Model {
   /** @param {import("./link.js").Link} link */
@@ -49,6 +50,8 @@ export class Model {
     this.held = [0];
     this.axis = 0;
     this.isDragging = false;
+    /** The motion over time that is shown in place of the turn: see `run` of the protocol; or null. */
+    this.run = null;
     /** The path that a point should take: see design/deviation.js. */
     this.target = null;
     this.listeners = new Map();
@@ -57,6 +60,7 @@ export class Model {
 
   #drags;
   #before = null;
+  #turnBefore = null;
 
   /** Call a function at an event; returns one that ends it. */
   on(name, listener) {
@@ -125,6 +129,7 @@ export class Model {
   }
 
   async #become(document, place) {
+    this.endRun();
     this.document = document;
     this.rev += 1;
     if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
@@ -247,8 +252,49 @@ export class Model {
     return this.held.length === this.driverCount ? this.place : undefined;
   }
 
+  // -- a motion over time ------------------------------------------------------
+
+  /** Show a motion over time in place of the turn, until the document changes. */
+  showRun({ header, arrays }) {
+    const { payload } = header;
+    this.#turnBefore ??= { data: this.data, turn: this.turn, held: [...this.held] };
+    this.run = { header, arrays };
+    this.data = { ...payload, title: this.title, turn: { ...payload.turn, values: arrays.values } };
+    this.turn = new Turn(this.data.turn);
+    this.emit("turn");
+    this.emit("run");
+  }
+
+  /** Show the turn again. */
+  endRun() {
+    if (!this.run) return;
+    const { data, turn, held } = this.#turnBefore;
+    this.#forgetRun();
+    Object.assign(this, { data, turn, held });
+    this.emit("turn");
+    this.emit("run");
+  }
+
+  #forgetRun() {
+    this.run = null;
+    this.#turnBefore = null;
+  }
+
+  /** Be where the run is at a time. */
+  followRun(t) {
+    const { q, t: times } = this.run.arrays;
+    const rows = times.length;
+    const place = ((t - times[0]) / (times[rows - 1] - times[0])) * (rows - 1);
+    const row = Math.min(Math.max(Math.floor(place), 0), rows - 2);
+    const count = q.length / rows;
+    const at = (i) => q[row * count + i] + (place - row) * (q[(row + 1) * count + i] - q[row * count + i]);
+    this.held = this.held.map((_, i) => at(i));
+  }
+
   #show({ header, arrays }, place) {
     const { payload } = header;
+    const wasRun = this.run !== null;
+    this.#forgetRun();
     this.data = { ...payload, title: this.title, turn: { ...payload.turn, values: arrays.values } };
     this.turn = new Turn(this.data.turn);
     this.dimensions = header.dimensions;
@@ -262,6 +308,7 @@ export class Model {
     }
     this.#solve(null);
     this.emit("turn");
+    if (wasRun) this.emit("run");
   }
 
   #sketch() {

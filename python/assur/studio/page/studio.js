@@ -18,6 +18,7 @@ import { Projector } from "./design/projector.js";
 import { DesignSection } from "./design/section.js";
 import { TargetSection } from "./design/targetsection.js";
 import { JointDrag } from "./dragging.js";
+import { forceSections } from "./forces/sections.js";
 import { keep } from "./files.js";
 import { openHelp } from "./help/help.js";
 import { LessonScreen } from "./lesson_screen.js";
@@ -35,14 +36,17 @@ import { Shell } from "./shell.js";
 import { Status } from "./status.js";
 import { BUILD_WORDS } from "./words/build.js";
 import { DESIGN_WORDS } from "./words/design.js";
+import { DRIVE_WORDS } from "./words/drive.js";
 import { FIELD_WORDS } from "./words/fields.js";
 import { FRAME_WORDS } from "./words/frame.js";
 import { HELP_WORDS } from "./words/help.js";
+import { LOADS_WORDS } from "./words/loads.js";
 import { PANEL_WORDS } from "./words/panel.js";
 import { PICTURE_WORDS } from "./words/picture.js";
+import { RUN_WORDS } from "./words/run.js";
 
 const TABLES = [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS, BUILD_WORDS, DESIGN_WORDS, HELP_WORDS];
-for (const words of TABLES) learn(words);
+for (const words of [...TABLES, LOADS_WORDS, DRIVE_WORDS, RUN_WORDS]) learn(words);
 
 export class Studio {
   /**
@@ -70,7 +74,8 @@ export class Studio {
       show: (pose) => {
         const { playback } = this;
         // A sketch has no coordinate: what was held stays.
-        if (!model.isSketch) model.q = playback.q;
+        if (model.run) model.followRun(playback.q);
+        else if (!model.isSketch) model.q = playback.q;
         stage.show(pose, playback.player.speed * playback.player.sense);
         this.canvas.warn(this.#whatIsWrong());
         model.emit("pose", pose);
@@ -122,7 +127,8 @@ export class Studio {
     this.map = new MapSection(this, this.designing);
     const numbers = [Mend, DriverSection, DimensionSection, AssemblySection, PositionSection].map((One) => new One(this));
     const design = [this.map, this.design, this.target];
-    return [...numbers, ...design, new StructureSection(this), new NameSection(this)];
+    const { above, below } = forceSections(this);
+    return [...above, ...numbers, ...design, new StructureSection(this), new NameSection(this), ...below];
   }
 
   /** A drawing has no position to tell. */
@@ -158,7 +164,7 @@ export class Studio {
   /** Take the turn of the model. */
   #replace() {
     const { model, canvas, playback } = this;
-    playback.replace(model.data, model.turn, model.q);
+    playback.replace(model.data, model.turn, model.run ? model.turn.low : model.q);
     canvas.replace(model.data, model.turn);
     if (model.isNew) {
       model.isNew = false;
