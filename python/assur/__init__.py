@@ -19,6 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from assur._core import version
+from assur.description.remedy import Remedy
 from assur.description.structure import Group, Structure
 from assur.description.words import Cylinder, Drive, Slide, Status
 from assur.errors import (
@@ -114,6 +115,7 @@ __all__ = [
     "MotionError",
     "PositionError",
     "Pressure",
+    "Remedy",
     "Run",
     "Sensitivity",
     "SingularLocus",

@@ -45,6 +45,7 @@ __all__ = [
     "gas_pressures",
     "instant_centre",
     "panic_in_chunk",
+    "remedies",
     "simd_level",
     "sin_cos",
     "slider_crank_deviation",
@@ -87,6 +88,17 @@ class _Group(TypedDict):
     links: list[str]
     joints: list[str]
     slides: list[str]
+
+class _Remedy(TypedDict):
+    kind: str
+    names: list[str]
+    text: str
+    detail: str
+    joints: list[tuple[str, float, float]]
+    links: list[tuple[str, list[str]]]
+    slides: list[tuple[str, _Slide]]
+    drivers: list[tuple[str, str | None]]
+    assembly: list[tuple[str, int]]
 
 class _FlywheelNumbers(TypedDict):
     inertia: _Float
@@ -427,6 +439,13 @@ def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: 
 def crank_rocker_run(case: dict[str, Any], ground: Callable[[float], float]) -> _JammingRun: ...
 def gas_pressures(gas: Gas, area: float, values: _Float) -> _Float: ...
 def table_values(table: Table, points: _Float) -> _Float: ...
+def remedies(
+    joints: list[tuple[str, float, float]],
+    links: list[tuple[str, list[str]]],
+    slides: list[tuple[str, Slide]],
+    drivers: list[str | Drive],
+    assembly: list[tuple[str, int]],
+) -> list[_Remedy]: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
 def four_bar_drawing(mode: Literal["open", "crossed"]) -> _Drawing: ...
 def slider_crank_drawing() -> _Drawing: ...

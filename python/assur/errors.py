@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from assur.description.remedy import Remedy
 
 __all__ = [
     "AssurError",
@@ -89,6 +94,8 @@ class AssurError(Exception):
 class StructureError(AssurError, ValueError):
     """An invalid linkage, or one whose mobility differs from its number of drivers.
 
+    `remedies` has what would make a mechanism of it.
+
     Examples
     --------
     >>> import assur
@@ -101,6 +108,37 @@ class StructureError(AssurError, ValueError):
     ...
     assur.errors.StructureError: the linkage cannot move (mobility 0, counted 0 by ...
     """
+
+    # Finds the remedies of the description that was refused, when they are first asked for.
+    _find_remedies: Callable[[], tuple[Remedy, ...]] | None = None
+    _remedies: tuple[Remedy, ...] | None = None
+
+    @property
+    def remedies(self) -> tuple[Remedy, ...]:
+        """Up to three changes that make a mechanism of the linkage, the likeliest first.
+
+        Each was built before it is offered. Empty where none was found, and where what is wrong is
+        no matter of structure: a name, a number.
+
+        Examples
+        --------
+        >>> import assur
+        >>> try:
+        ...     assur.Mechanism(
+        ...         joints={"A": (0, 0), "B": (1, 0), "C": (0, 1)},
+        ...         links={"ground": "AC", "crank": "AB", "rod": "BC"},
+        ...         driver="crank",
+        ...     )
+        ... except assur.StructureError as error:
+        ...     print(error.remedies[0])
+        ...     m = assur.Mechanism(**error.remedies[0].arguments)
+        Let C slide on the ground: rod stays, its foot follows
+        >>> m.structure.formula
+        'I(crank) → II(rod, C_block)'
+        """
+        if self._remedies is None:
+            self._remedies = () if self._find_remedies is None else self._find_remedies()
+        return self._remedies
 
 
 class DimensionError(AssurError, ValueError):

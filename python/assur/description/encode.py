@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -13,8 +14,9 @@ from assur._callers import level_of_caller
 from assur._core import Mechanism as Core
 from assur._trig import arctan2
 from assur._validate import checked_name
+from assur.description.remedy import find
 from assur.description.words import Cylinder, Drive, Slide
-from assur.errors import AssurWarning, InputError
+from assur.errors import AssurWarning, InputError, StructureError
 
 DriverLike: TypeAlias = str | Drive
 
@@ -33,14 +35,19 @@ class Description(NamedTuple):
 
 
 def core_of(description: Description) -> Core:
-    """Compile a description."""
-    return Core(
-        joints=list(description.joints),
-        links=[(name, list(on)) for name, on in description.links],
-        slides=list(description.slides),
-        drivers=list(description.drivers),
-        assembly=list(description.assembly),
-    )
+    """Compile a description. What refuses it can find remedies of it."""
+    parts: dict[str, Any] = {
+        "joints": list(description.joints),
+        "links": [(name, list(on)) for name, on in description.links],
+        "slides": list(description.slides),
+        "drivers": list(description.drivers),
+        "assembly": list(description.assembly),
+    }
+    try:
+        return Core(**parts)
+    except StructureError as error:
+        error._find_remedies = partial(find, parts)
+        raise
 
 
 def items(mapping: Any, what: str) -> list[tuple[str, Any]]:

@@ -47,7 +47,7 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// batch, assemblies, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
+// remedies, batch, assemblies, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
 mod assemblies;
 mod batch;
 mod branch;
@@ -58,6 +58,7 @@ pub mod ode;
 pub mod papers;
 mod plan;
 mod query;
+mod remedies;
 mod state;
 mod structure;
 pub mod sweep;
@@ -98,6 +99,7 @@ pub use query::extremes::{Tracked, ValueAt};
 pub use query::failure::{Failure, GroupName, Reason};
 pub use query::limits::finder::{Interval, Limits, LimitsFinder, Tables};
 pub use query::metrics;
+pub use remedies::{Remedy, RemedyKind, remedies};
 pub use state::status::Status;
 pub use structure::Structure;
 pub use structure::assur_group::Group;

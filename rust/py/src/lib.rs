@@ -18,6 +18,7 @@ mod metrics;
 mod named;
 mod parallel_map;
 mod reactions;
+mod remedies;
 mod run;
 mod slider_crank;
 mod spline;
@@ -55,6 +56,8 @@ mod _core {
     use super::metrics::{acute, curvature, instant_centre};
     #[pymodule_export]
     use super::named::{class_iv_drawing, four_bar_drawing, slider_crank_drawing};
+    #[pymodule_export]
+    use super::remedies::remedies;
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

@@ -33,7 +33,7 @@ const FEW_SIGNS: usize = 12;
 /// Positions whose assemblies take only milliseconds then.
 const FEW_ASSEMBLIES: usize = 100;
 /// Links below which building a mechanism need not check for signals.
-const FEW_LINKS: usize = 64;
+pub(crate) const FEW_LINKS: usize = 64;
 /// Bytes below which a result is one array: making many takes longer than solving.
 const SMALL_RESULT: usize = 64 << 10;
 /// Number of positions that take as long as tracing one branch from the drawing; fewer without groups
@@ -93,7 +93,7 @@ fn tracked((kind, index, component): &(String, usize, usize)) -> assur::Tracked 
     }
 }
 
-fn described(
+pub(crate) fn described(
     joints: Vec<(String, f64, f64)>,
     links: Vec<(String, Vec<String>)>,
     slides: Vec<(String, Slide)>,

@@ -25,7 +25,8 @@ def jacobian(
 ) -> NDArray[np.float64]:
     """Places and unit vectors as complex arrays of one shape; the result adds two axes to it."""
     index = {n: i for i, n in enumerate(n for n in description.links if n != GROUND)}
-    base = complex(*description.joints[description.links[GROUND][0]])
+    fixed = description.links[GROUND]
+    base = complex(*description.joints[fixed[0]]) if fixed else 0j
     unit = max(abs(complex(*p) - base) for p in description.joints.values())
     at = {n: (np.asarray(p) - base) / unit for n, p in joints.items()}
     shape = np.broadcast_shapes(*(p.shape for p in at.values()))

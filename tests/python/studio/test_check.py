@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from asking import FOUR_BAR, ask, refused
+from asking import FOUR_BAR, PRESS, ask, refused
 
 WITHOUT_DRIVER = {key: value for key, value in FOUR_BAR.items() if key != "driver"}
 
@@ -50,7 +50,12 @@ def test_stuck(own: dict[str, Any]) -> None:
         "Take one out, or let a joint slide."
     )
     assert reply["concerned"]["links"] == ["crank", "coupler", "rocker", "brace"]
-    assert (reply["counted"]["mobility"], reply["remedies"]) == (0, [])
+    assert reply["counted"]["mobility"] == 0
+    assert [one["text"] for one in reply["remedies"]] == [
+        "Let brace slide on the ground at A",
+        "Take out brace",
+        "Add a link between C and brace",
+    ]
 
 
 def test_loose() -> None:
@@ -98,3 +103,94 @@ def test_no_documents(own: Any) -> None:
         assert refused("check", document=own)["message"]
     else:
         assert reply["state"] in ("empty", "invalid", "no_driver", "incomplete")
+
+
+def made(reply: Any, text: str) -> dict[str, Any]:
+    """The document of a remedy; it is what the studio takes."""
+    one = next(one for one in reply["remedies"] if one["text"] == text)
+    assert ask("check", document=one["document"])["state"] == "moves"
+    document: dict[str, Any] = one["document"]
+    return document
+
+
+def test_remedies_are_whole_documents() -> None:
+    braced = {
+        **links(brace=["P", "F"]),
+        "joints": {**FOUR_BAR["joints"], "F": [2.5, 0]},
+        "bodies": {"coupler": {"mass": 2, "inertia": 0.1}, "brace": {"mass": 3}},
+        "loads": [
+            {"type": "Gravity"},
+            {"type": "Torque", "on": "rocker", "moment": 2},
+            {"type": "Torque", "on": "brace", "moment": 2},
+        ],
+        "dimensions": {"coupler.length": 4.5, "brace.length": 4.2},
+    }
+    braced["links"]["ground"] = ["A", "D", "F"]
+    reply = ask("check", document=braced)
+    assert reply["state"] == "stuck"
+    assert [(one["text"], one["detail"], one["kind"]) for one in reply["remedies"]] == [
+        ("Let F slide on the ground", "brace stays, its foot follows", "let_slide"),
+        ("Take out brace", "crank, coupler and rocker remain", "take_out"),
+        ("Add a link between P and brace", "two links in place of one", "part"),
+    ]
+    taken = made(reply, "Take out brace")
+    assert taken["links"] == {**FOUR_BAR["links"], "ground": ["A", "D"]}
+    assert taken["bodies"] == {"coupler": {"mass": 2, "inertia": 0.1}}
+    assert taken["loads"] == braced["loads"][:2]
+    assert taken["dimensions"] == {"coupler.length": 4.5}
+    slides = made(reply, "Let F slide on the ground")
+    assert slides["bodies"] == braced["bodies"]
+    assert slides["loads"] == braced["loads"]
+    assert slides["dimensions"] == braced["dimensions"]
+    parted = made(reply, "Add a link between P and brace")
+    assert parted["dimensions"] == {"coupler.length": 4.5}
+
+
+def test_remedies_of_what_is_loose_or_without_driver() -> None:
+    loose = ask("check", document=links(rocker=None))
+    made(loose, "Add a link between C and D")
+    made(loose, "Let C slide on the ground")
+    assert made(loose, "Drive coupler too")["driver"] == ["crank", "coupler"]
+    undriven = ask("check", document=WITHOUT_DRIVER)
+    assert undriven["state"] == "no_driver"
+    assert made(undriven, "Drive rocker")["driver"] == "rocker"
+    unfinished = ask("check", document=links(coupler=["B", "C"]))
+    assert (unfinished["state"], unfinished["reason"]) == ("incomplete", "loose_joint")
+    assert made(unfinished, "Fix P to coupler")["links"]["coupler"] == ["B", "C", "P"]
+    assert "P" not in made(unfinished, "Take out P")["joints"]
+
+
+def test_motors_stay_with_their_drivers() -> None:
+    machine = {**links(rocker=None), "bodies": {"coupler": {"mass": 2}}, "motor": PRESS["motor"]}
+    reply = ask("check", document=machine)
+    assert made(reply, "Add a link between C and D")["motor"] == PRESS["motor"]
+    two = made(reply, "Drive coupler too")
+    assert two["motor"] == [PRESS["motor"], {"type": "None"}]
+    assert ask("turn", document=two)["payload"]
+    many = {**FOUR_BAR, "driver": ["crank", "rocker"], "motor": two["motor"]}
+    many["bodies"] = machine["bodies"]
+    reply = ask("check", document=many)
+    assert made(reply, "Leave rocker undriven")["motor"] == PRESS["motor"]
+    assert "motor" not in made(reply, "Leave crank undriven")
+
+
+def test_cylinders_and_guides_stay_in_remedies() -> None:
+    lift = {
+        "driver": "lift",
+        "joints": {"foot": [0, 0], "eye": [2, 1], "base": [1, -1], "Q": [3, 0]},
+        "links": {"ground": ["foot", "base", "Q"], "boom": ["foot", "eye"], "brace": ["eye", "Q"]},
+        "slides": {"lift": {"base": "base", "end": "eye"}},
+        "dimensions": {"brace.length": 1.5},
+    }
+    reply = ask("check", document=lift)
+    assert reply["state"] == "stuck"
+    taken = made(reply, "Take out brace")
+    assert taken["slides"] == lift["slides"]
+    assert taken["links"] == {"ground": ["foot", "base"], "boom": ["foot", "eye"]}
+    guided = {**PRESS}
+    guided["slides"] = {"guide": {"link": "ram", "on": "ground", "along": ["O", "B"]}}
+    guided["joints"] = {**PRESS["joints"], "E": [0.2, 0.3]}
+    guided["links"] = {**PRESS["links"], "rod": ["A", "B", "E"], "brace": ["O", "E"]}
+    again = made(ask("check", document=guided), "Take out brace")
+    assert again["slides"] == guided["slides"]
+    assert again["loads"] == PRESS["loads"]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from assur.errors import AssurError
+from assur.errors import AssurError, StructureError
 from assur.studio import document
+from assur.studio.kinds.remedied import remedied
 from assur.studio.kinds.structure import described
 from assur.studio.request import Fields
 from assur.studio.session import Answer
@@ -63,8 +64,20 @@ def _without_driver(own: dict[str, Any], session: Session) -> Answer:
         structure = structure or described(mechanism)["structure"]
     if candidates or first is None or first.kind == "cannot_drive":
         message = "Nothing drives it yet. Click the link that is driven."
-        return _state(own, "no_driver", message, candidates=candidates, structure=structure)
+        more = {"candidates": candidates, "structure": structure}
+        return _state(own, "no_driver", message, **more, remedies=_drives(own))
     return _refused(own, first)
+
+
+def _drives(own: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return what would drive it, as remedies."""
+    undriven = {**own, "driver": []}
+    try:
+        document.read_mechanism(undriven)
+    except AssurError as error:
+        cause = error.__cause__
+        return remedied(undriven, cause.remedies) if isinstance(cause, StructureError) else []
+    return []
 
 
 def _on_ground(own: dict[str, Any]) -> list[str]:
@@ -115,8 +128,7 @@ def _refused(own: dict[str, Any], error: AssurError) -> Answer:
         link=error.link,
         slide=error.slide,
         concerned=concerned,
-        # Up to three, each {"text", "document"}, once the core finds them.
-        remedies=list(getattr(cause, "remedies", ())),
+        remedies=remedied(own, cause.remedies) if isinstance(cause, StructureError) else [],
         **extra,
     )
 

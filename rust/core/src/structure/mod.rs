@@ -253,6 +253,28 @@ fn locked_rank(
     Ok(skeleton.rank(&system, pose)?)
 }
 
+/// Names of the links and slides of a linkage that cannot move which keep its drivers from moving:
+/// they bear a load where one drives, and without one of them it would move. Together with the links
+/// that are over-constrained, if there are any.
+///
+/// # Errors
+///
+/// Those of [`rotations`], and [`StructureError::Interrupted`].
+pub(crate) fn holding_drivers(
+    linkage: &Linkage,
+    cancel: Option<&AtomicBool>,
+) -> Result<Vec<String>, StructureError> {
+    let closure = Closure::of(linkage);
+    let none_left_out = LeftOut::default();
+    let (free, classes) = rotations(linkage, &none_left_out, false)?;
+    let skeleton = Skeleton::new(linkage, &closure, &free, classes, cancel);
+    let (rotation, _) = rotations(linkage, &none_left_out, true)?;
+    let locked = System::new(linkage, &closure, &none_left_out, &rotation, true);
+    // A coordinate of a driver is one unknown less: the load it makes is a self-stress.
+    let rank = skeleton.rank(&locked, skeleton.drawing())?;
+    Ok(skeleton.stressed_names(&locked, &rank.stresses))
+}
+
 /// Checks that nothing can move while all drivers are locked; else names a driver at fault.
 fn check_drivers(
     linkage: &Linkage,

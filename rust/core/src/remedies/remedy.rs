@@ -1,0 +1,46 @@
+//! A remedy: an edit of a description that is refused, after which it is a mechanism.
+
+use strum::{IntoStaticStr, VariantNames};
+
+use crate::description::Description;
+
+/// What a remedy does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "snake_case")]
+#[non_exhaustive]
+pub enum RemedyKind {
+    /// A joint slides along a guide, by a new block; or a link slides itself.
+    LetSlide,
+    /// Links or slides are taken out.
+    TakeOut,
+    /// A link is parted from a joint, with a new link between them.
+    Part,
+    /// A new link between two joints, or a joint and the ground.
+    Join,
+    /// Joints are held on the ground.
+    Hold,
+    /// Two links become one.
+    Unite,
+    /// A link or slide drives: too, or in place of another.
+    Drive,
+    /// A driver is left out.
+    LeaveUndriven,
+    /// A joint that is on no link, or the guide of a slide, gets its place.
+    Place,
+}
+
+/// An edit of a description that is refused. The edited one was built before this was offered: it
+/// is a mechanism with as many drivers as freedoms, also at the drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remedy {
+    /// What it does.
+    pub kind: RemedyKind,
+    /// The joints, links and slides concerned.
+    pub names: Vec<String>,
+    /// What to do: "Let F slide on the ground".
+    pub text: String,
+    /// What becomes of the rest: "brace stays, its foot follows".
+    pub detail: String,
+    /// The description with the edit made.
+    pub description: Description,
+}

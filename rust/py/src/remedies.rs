@@ -1,0 +1,60 @@
+//! Remedies of a description that is refused.
+
+use assur::DriverDescription;
+use pyo3::prelude::*;
+
+use crate::convert::description::{Driver, Slide};
+use crate::mechanism::{FEW_LINKS, described};
+use crate::{detach, error_map};
+
+/// A remedy; for Python the dictionary of its fields.
+#[derive(IntoPyObject)]
+pub(crate) struct RemedyFields {
+    kind: &'static str,
+    names: Vec<String>,
+    text: String,
+    detail: String,
+    joints: Vec<(String, f64, f64)>,
+    links: Vec<(String, Vec<String>)>,
+    slides: Vec<(String, Slide)>,
+    /// Each a link or slide, or a link and the one it is measured from.
+    drivers: Vec<(String, Option<String>)>,
+    assembly: Vec<(String, i64)>,
+}
+
+impl From<assur::Remedy> for RemedyFields {
+    fn from(remedy: assur::Remedy) -> Self {
+        let own = remedy.description;
+        let driver = |driver| match driver {
+            DriverDescription::Named(name) => (name, None),
+            DriverDescription::Relative { link, relative_to } => (link, Some(relative_to)),
+        };
+        Self {
+            kind: remedy.kind.into(),
+            names: remedy.names,
+            text: remedy.text,
+            detail: remedy.detail,
+            joints: own.joints.into_iter().map(|(name, [x, y])| (name, x, y)).collect(),
+            links: own.links,
+            slides: own.slides.into_iter().map(Slide::with_name).collect(),
+            drivers: own.drivers.into_iter().map(driver).collect(),
+            assembly: own.assembly,
+        }
+    }
+}
+
+/// Edits after which a description that is refused is a mechanism.
+#[pyfunction]
+pub(crate) fn remedies(
+    py: Python<'_>,
+    joints: Vec<(String, f64, f64)>,
+    links: Vec<(String, Vec<String>)>,
+    slides: Vec<(String, Slide)>,
+    drivers: Vec<Driver>,
+    assembly: Vec<(String, i64)>,
+) -> PyResult<Vec<RemedyFields>> {
+    let description = described(joints, links, slides, drivers, assembly);
+    let small = description.links.len() < FEW_LINKS / 4;
+    let found = detach::run(py, small, |cancel| assur::remedies(&description, Some(cancel)))?;
+    Ok(found.map_err(error_map::structure)?.into_iter().map(RemedyFields::from).collect())
+}
