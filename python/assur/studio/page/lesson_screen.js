@@ -5,14 +5,14 @@ import { button } from "../../pictures/page/panel.js";
 import { say } from "../../pictures/page/words.js";
 import { Lesson } from "./lesson/lesson.js";
 
-const BACK = "M10 6l-6 6 6 6M4 12h16";
+const LEAVE = "M10 6l-6 6 6 6M4 12h16";
 
 export class LessonScreen {
   /** @param {import("./studio.js").Studio} studio */
   constructor(studio) {
     this.studio = studio;
     this.lesson = null;
-    this.back = button(say("backFromLesson"), BACK, say("backFromLesson"));
+    this.back = button(say("backFromLesson"), LEAVE, say("backFromLesson"));
     this.back.classList.add("back");
     this.back.addEventListener("click", () => this.close());
     studio.bar.element.prepend(this.back);
