@@ -110,8 +110,8 @@ export class Studio {
     this.resize();
     this.observer?.disconnect();
     this.observer = new ResizeObserver(() => this.resize());
-    // The picture also changes where what stands beside it does.
-    for (const one of [root, this.canvas.picture]) this.observer.observe(one);
+    // The picture and the diagrams also change where what stands beside them does.
+    for (const one of [root, this.canvas.picture, this.playback.chartRow]) this.observer.observe(one);
     this.#enable();
     if (wasInLesson) this.lesson();
     if (this.isKept) keep(model);
@@ -173,7 +173,6 @@ export class Studio {
     }
     if (model.isSketch) playback.pause();
     this.#enable();
-    this.playback.resize();
     playback.show();
     if (!model.isDragging) playback.tell();
   }
