@@ -18,7 +18,7 @@ __all__ = ["Remedy"]
 class Remedy:
     """A change of a linkage that is refused, after which it is a mechanism.
 
-    `StructureError.remedies` has up to three. Each was built before it is offered: it has as many
+    ``StructureError.remedies`` has up to three. Each was built before it is offered: it has as many
     drivers as degrees of freedom, and is not drawn at a dead point.
 
     Attributes
