@@ -11,7 +11,7 @@ from assur.dynamics.machine import Machine
 from assur.errors import AssurError, InputError
 from assur.studio import document
 from assur.studio.answers import answered, failed
-from assur.studio.bundle import script
+from assur.studio.bundle import widget_script
 from assur.studio.limits import EXPORT_SECONDS, SECONDS
 from assur.studio.request import MalformedError, parse
 from assur.studio.session import Deadline, Session
@@ -64,7 +64,7 @@ class Explorer(anywidget.AnyWidget):
     3.2
     """
 
-    _esm = script()
+    _esm = widget_script()
 
     document = traitlets.Dict().tag(sync=True)
     q = traitlets.Any(0.0).tag(sync=True)

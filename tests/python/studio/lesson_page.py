@@ -8,20 +8,14 @@ import numpy as np
 import pytest
 
 import assur
+from assur.studio.bundle import joined
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page, Route
 
 # In place of the studio's own beginning: the lesson alone, with a clock of its own if wanted.
-BEGINNING = """
-import { speak } from "/pictures/page/words.js";
-import { connect } from "/studio/page/link.js";
-import { Lesson } from "/studio/page/lesson/lesson.js";
+BEGINNING = """{
 history.replaceState(null, "", "/");
-const style = document.createElement("link");
-style.rel = "stylesheet";
-style.href = "/studio/page/lesson/lesson.css";
-document.head.append(style);
 const root = document.getElementById("assur");
 root.className = "assur";
 let now = 1000;
@@ -53,7 +47,7 @@ window.renew = async (isWound, language) => {
 const link = connect((isOpen) => {
   if (isOpen) window.isConnected = true;
 });
-"""
+}"""
 DEGREE = np.pi / 180.0
 
 
@@ -66,8 +60,7 @@ class LessonPage:
         self.complaints: list[str] = []
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.on("console", lambda message: self.complaints.append(message.text))
-        # In place of the first module of the page.
-        self.page.route("**/start.js", begin)
+        self.page.route("**/studio.js", begin)
         self.page.goto(address)
         self.until("window.isConnected === true")
 
@@ -193,4 +186,6 @@ def slid(lengths: tuple[float, float, float], least: float, phi1: float, side: s
 
 
 def begin(route: Route) -> None:
-    route.fulfill(body=BEGINNING, content_type="text/javascript")
+    """Answer with the lesson's modules in place of the studio's."""
+    script = joined("studio/page/lesson/lesson.js")
+    route.fulfill(body=script + BEGINNING, content_type="text/javascript")

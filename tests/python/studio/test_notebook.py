@@ -18,7 +18,7 @@ import pytest
 import assur
 from asking import FOUR_BAR
 from assur.studio import document
-from assur.studio.bundle import script
+from assur.studio.bundle import widget_script
 from assur.studio.frame import decode
 from assur.studio.notebook import Explorer
 from browsers import chromium
@@ -113,9 +113,9 @@ def test_without_anywidget(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_bundle_is_a_module(tmp_path: Path) -> None:
     path = tmp_path / "widget.mjs"
-    path.write_text(script(), encoding="utf-8")
+    path.write_text(widget_script(), encoding="utf-8")
     run_node("--check", str(path))
-    assert "import {" not in script()
+    assert "import {" not in widget_script()
 
 
 # -- in JupyterLab -----------------------------------------------------------

@@ -15,7 +15,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from asking import FOUR_BAR, PRESS, Reply
 from assur.studio import connection, limits, workers
-from assur.studio.app import application, listed
+from assur.studio.app import application, pages
 from assur.studio.frame import decode
 from assur.studio.kinds import KINDS
 from assur.studio.session import Answer, TimeIsUpError
@@ -58,11 +58,11 @@ def asked(socket: WebSocketTestSession, message: Any) -> Reply:
 def test_the_page_with_its_token(client: TestClient) -> None:
     page = client.get(f"/?token={TOKEN}", headers={"sec-fetch-site": "cross-site"})
     assert page.status_code == 200
-    assert '<script type="module" src="/studio/page/start.js">' in page.text
+    assert '<script type="module" src="/studio.js">' in page.text
     cookie = page.headers["set-cookie"]
     assert cookie == f"{COOKIE}; Path=/; HttpOnly; SameSite=Strict"
     client.cookies.clear()
-    for path in listed():
+    for path in pages():
         found = client.get(path, headers=without("origin"))
         assert found.status_code == 200
         assert "set-cookie" not in found.headers
@@ -76,9 +76,7 @@ def test_the_page_with_its_token(client: TestClient) -> None:
         for part in ("default-src 'none'", "script-src 'self'", "frame-ancestors 'none'"):
             assert part in policy
     assert (
-        client.get("/pictures/page/turn.js", headers=OWN)
-        .headers["content-type"]
-        .startswith("text/javascript")
+        client.get("/studio.js", headers=OWN).headers["content-type"].startswith("text/javascript")
     )
 
 
@@ -117,7 +115,7 @@ def test_others_are_refused(client: TestClient, headers: dict[str, str]) -> None
 
 
 @pytest.mark.parametrize(
-    "address", ["/?token=", "/?token=x", "/?tok=1", f"/studio/page/studio.js?token={TOKEN}"]
+    "address", ["/?token=", "/?token=x", "/?tok=1", f"/studio.js?token={TOKEN}"]
 )
 def test_the_token_opens_the_page_alone(client: TestClient, address: str) -> None:
     client.cookies.clear()
@@ -148,8 +146,8 @@ def test_pages_are_only_read(client: TestClient, method: str) -> None:
         "/studio/page/__init__.py",
         "//etc/passwd",
         "/studio//etc/passwd",
-        "/studio/page/studio.js/",
-        "/studio/page/studio.js%00.html",
+        "/studio.js/",
+        "/studio.js%00.html",
         "/socket",
     ],
 )

@@ -43,10 +43,14 @@ def script() -> str:
     return "".join(inlined(module(name)) for name in MODULES)
 
 
+def plain(source: str) -> str:
+    """Return a module without imports and exports."""
+    return _EXPORT.sub("", _IMPORT.sub("", source))
+
+
 def inlined(source: str) -> str:
     """Return a module without imports, exports, comments and needless blanks."""
-    source = _EXPORT.sub("", _IMPORT.sub("", source))
-    lines = _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", source)))
+    lines = _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", plain(source))))
     return _PIECE.sub(lambda piece: piece[1] or piece[2], lines)
 
 
