@@ -21,17 +21,8 @@ if TYPE_CHECKING:
 
 PAGE_ENTRY, WIDGET_ENTRY = "studio/page/start.js", "studio/page/widget.js"
 STYLES = (
-    *(),
-    *(),
-)
-    "studio",
-    "forces/forces",
-    "build/build",
-    "panel/panel",
-    "design/design",
-    "design/projector",
-    "help/help",
-    "lesson/lesson",
+    *("studio", "forces/forces", "build/build", "panel/panel"),
+    *("design/design", "design/projector", "help/help", "lesson/lesson"),
 )
 _IMPORT = re.compile(r'^import \{[^}]*\} from "(\.[^"]*)";$', re.MULTILINE)
 
