@@ -469,3 +469,14 @@ def test_fingers(browser: Browser) -> None:
         one.page.evaluate(tap, [ax + 40.0, ay - 90.0, 0])
         hand.settle()
         assert one.document["links"]["link2"] == ["A", "C"]
+
+
+def test_a_double_click_opens_the_fields_of_a_joint(browser: Browser) -> None:
+    with window(browser) as one:
+        one.page.mouse.dblclick(*one.joint_px("C"))
+        field = one.page.locator(".item-field")
+        field.get_by_role("textbox", name="Name").fill("K")
+        field.get_by_role("button", name="Apply").click()
+        one.settle()
+        assert "K" in one.document["joints"]
+        assert "C" not in one.document["joints"]

@@ -46,6 +46,17 @@ export class Press {
       if (builder.tool || event.detail === 0 || Math.hypot(x - pressed[0], y - pressed[1]) > CLICK_REACH) return;
       builder.choice.choose(builder.aim.itemAt(x, y, event.pointerType === "touch"));
     });
+    // A double click, the other button, or a finger that rests.
+    for (const kind of ["dblclick", "contextmenu"]) {
+      picture.addEventListener(kind, (event) => {
+        const item = builder.tool ? null : builder.aim.itemAt(...place(event), event.pointerType === "touch");
+        if (kind === "contextmenu") event.preventDefault();
+        if (!item) return;
+        builder.studio.gestures.cancel();
+        builder.choice.choose(item);
+        builder.choice.field.open();
+      });
+    }
   }
 
   /**

@@ -12,6 +12,8 @@ const BACK = "M9 7L4 12l5 5M4 12h10a5 5 0 0 1 0 10h-2";
 
 /** Steps that follow each other sooner are one step of undo, ms. */
 const STEPS_END_AFTER = 500;
+/** Effects that are less are rounding: their numbers are written as 0. */
+const LEAST_EFFECT = 1e-12;
 
 export class DimensionRow {
   #written = "";
@@ -172,7 +174,7 @@ export class DimensionRow {
   affect(value, most) {
     const isKnown = Number.isFinite(value);
     this.effect.textContent = isKnown ? signed(digits(value)) : "";
-    const part = isKnown && most > 0 ? (50 * value) / most : 0;
+    const part = isKnown && most > LEAST_EFFECT ? (50 * value) / most : 0;
     this.bar.style.left = `${part < 0 ? 50 + part : 50}%`;
     this.bar.style.width = `${Math.abs(part)}%`;
   }
