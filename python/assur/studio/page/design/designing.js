@@ -4,6 +4,7 @@
 import { setDimension } from "../document/machine.js";
 import { newestOnly } from "../link.js";
 import { problemText } from "../panel/problem.js";
+import { designChoices } from "./choices.js";
 
 export class Designing {
   /**
@@ -15,6 +16,7 @@ export class Designing {
     this.model = model;
     /** Called when a design was shown or refused, and at the end. */
     this.listeners = new Set();
+    this.choices = designChoices(model);
     this.isOn = false;
     /** What was wanted, by dimension, SI, and why it cannot be had, or an empty text. */
     this.wanted = {};
