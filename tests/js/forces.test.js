@@ -8,7 +8,7 @@ import { readField, notNegative, positive } from "../../python/assur/studio/page
 import { forceQuantities } from "../../python/assur/studio/page/forces/force_quantities.js";
 import { runRequest, firstRun } from "../../python/assur/studio/page/forces/laws.js";
 import { withOpposite } from "../../python/assur/studio/page/forces/load_form.js";
-import { LOAD_FIELDS, loadText, newLoad } from "../../python/assur/studio/page/forces/load_kinds.js";
+import { LOAD_FIELDS, loadText, newLoad, slideAt } from "../../python/assur/studio/page/forces/load_kinds.js";
 import { bodyWith, gravityOf, withWeight } from "../../python/assur/studio/page/forces/masses.js";
 import { peakOf } from "../../python/assur/studio/page/forces/peaks.js";
 import { discDiameter, surplusAreas, tangentsOf } from "../../python/assur/studio/page/forces/surplus.js";
@@ -167,6 +167,20 @@ test("every new load names parts of the document, and is said in words", () => {
     assert.ok(what && size, type);
   }
   assert.equal(loadText({ type: "Pressure", slide: "bore", pressure: 1e5 }, (key) => key).what, "pressureIn");
+});
+
+test("a new force on what slides is against its slide", () => {
+  const ram = { ...ROCKER, links: { ...ROCKER.links, ram: ["C"] }, slides: { guide: { link: "ram", angle: Math.PI / 2 } } };
+  const down = { ...ram, joints: { ...ram.joints }, links: { ground: ["A", "D"], crank: ["A", "B"], rod: ["B", "C"], ram: ["C"] } };
+  assert.deepEqual(newLoad(down, "Force"), { type: "Force", at: "C", force: [0, -100] });
+  const across = { ...down, slides: { guide: { link: "ram", on: "ground", along: ["A", "D"] } } };
+  assert.deepEqual(newLoad(across, "Force").force, [-100, 0]);
+  assert.equal(slideAt(across, "C").name, "guide");
+  // What the file says of the angle counts more than the drawing; a guide that moves has no way of its own.
+  const turned = { ...down, dimensions: { "guide.angle": Math.PI } };
+  assert.deepEqual(newLoad(turned, "Force").force, [100, 0]);
+  assert.equal(slideAt({ ...down, slides: { guide: { link: "ram", on: "crank", angle: 0 } } }, "C"), null);
+  assert.deepEqual(newLoad(ROCKER, "Force").force, [0, -100]);
 });
 
 test("a load that opposes the motion is two, one for each way", () => {

@@ -43,9 +43,8 @@ class Hand:
         self.one = one
         self.mouse = one.page.mouse
         if is_empty:
-            if one.button("Open").is_visible():
-                one.button("Open").click()
-                one.page.get_by_role("menuitem", name="New").click()
+            if one.button("New").is_visible():
+                one.button("New").click()
             else:
                 one.page.evaluate("assurStudio.begin()")
             self.settle()

@@ -414,3 +414,34 @@ def test_a_turn_tells_where_several_drivers_can_go() -> None:
     # Where a dyad's links meet at a cylinder that is driven, the angle is always right.
     least = {one["at"]: one["least"] for one in reply["transmission"]}
     assert least["boom_eye"] == pytest.approx(np.pi / 2)
+
+
+def find_crank(value: float, **changed: Any) -> Reply:
+    opened = ask("open", example="crank_rocker")
+    x = {"dimension": "crank.length", "low": 0.02, "high": 0.08}
+    asked = {"x": x, "metric": {"metric": "span", "of": "rocker"}, "value": value, **changed}
+    return ask("find", document=opened["document"], **asked)
+
+
+def test_find_gives_the_crank_of_a_swing() -> None:
+    reply = find_crank(np.pi / 3.0)
+    # Crank and coupler are in line at the ends of the swing.
+    crank, coupler, rocker, ground = reply["value"], 0.12, 0.08, 0.1
+
+    def rocker_angle(diagonal: float) -> float:
+        cosine = (ground**2 + rocker**2 - diagonal**2) / (2.0 * ground * rocker)
+        return float(np.arccos(cosine))
+
+    swing = rocker_angle(coupler + crank) - rocker_angle(coupler - crank)
+    assert swing == pytest.approx(np.pi / 3.0, abs=1e-5)
+    assert reply["metric"] == pytest.approx(np.pi / 3.0, abs=1e-6)
+
+
+def test_find_says_what_there_is_where_there_is_none() -> None:
+    reply = find_crank(3.0)
+    assert reply["value"] is None
+    assert reply["metric"] is None
+    assert 0.0 < reply["least"] < reply["greatest"] < 3.0
+    # A dimension with which nothing can be assembled has no metric at all.
+    reply = find_crank(1.0, x={"dimension": "coupler.length", "low": 1.0, "high": 2.0})
+    assert (reply["value"], reply["least"], reply["greatest"]) == (None, None, None)

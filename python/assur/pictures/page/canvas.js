@@ -8,6 +8,10 @@ import { say } from "./words.js";
 const FIT = "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5";
 /** Below this width the switches stand under the picture, px. */
 const NARROW = 700;
+/** Where what lies over the picture begins, px. */
+const TOP = 12;
+/** What reaches over this part of the width is over the picture's middle. */
+const FAR = 0.42;
 
 export class Canvas {
   /**
@@ -80,7 +84,9 @@ export class Canvas {
     // The scale bar stands beside the switches, or above them.
     stage.foot = isNarrow ? 0 : row.offsetHeight;
     stage.barFoot = !isNarrow && row.offsetWidth > width - 220 ? row.offsetHeight + 4 : 0;
-    const heights = this.covers.map((one) => one.offsetHeight);
+    // Where they reach far over the picture it begins under the lowest.
+    const reaches = (one) => one.offsetLeft + one.offsetWidth > FAR * width;
+    const heights = this.covers.map((one) => one.offsetHeight + (reaches(one) ? Math.max(one.offsetTop - TOP, 0) : 0));
     stage.head = Math.max(isNarrow ? corner.offsetHeight : 0, ...heights);
     const box = picture.getBoundingClientRect();
     stage.covers = [corner, ...this.covers, ...(isNarrow ? [] : [row])].map((over) => {

@@ -59,6 +59,8 @@ export class Playback {
   replace(data, turn, q = this.player.q) {
     this.#take(data, turn);
     this.player.turn = turn;
+    // Only between ends it goes back too.
+    if (turn.closes) this.player.sense = 1;
     this.player.q = turn.bring(q);
     turn.sample(this.player.q, this.pose);
     this.dial.replace(data, turn, this.#dialLabel());

@@ -147,6 +147,15 @@ export class Stage {
     this.zoomed();
   }
 
+  /** Whether all of the motion is in the window. */
+  isWithin() {
+    const { view, data } = this;
+    const [x0, y0, x1, y1] = data.bounds;
+    const [left, bottom] = view.px(x0, y0);
+    const [right, top] = view.px(x1, y1);
+    return left >= 0 && right <= view.width && top >= 0 && bottom <= view.height;
+  }
+
   zoom(x, y, factor) {
     this.view.zoom(x, y, factor);
     this.isFitted = false;

@@ -24,7 +24,7 @@ const WORDS = {
     dial: "Position of the driver {driver}",
     turn: "turn {n}",
     of: "{low} to {high}",
-    atDeadPoint: "Dead point at {q}: {group} is stretched flat, the driver cannot go on.",
+    atDeadPoint: "Dead point at {q}: {group} lets the driver go no further.",
     nothing: "There is no position at {q}.",
     playing: "Playing",
     paused: "Paused at {q}",

@@ -12,6 +12,7 @@ from assur.studio.kinds.assemblies import assemblies
 from assur.studio.kinds.check import check
 from assur.studio.kinds.drag import drag
 from assur.studio.kinds.export import export
+from assur.studio.kinds.find import find
 from assur.studio.kinds.forces import flywheel, reactions, steady
 from assur.studio.kinds.lesson import lesson
 from assur.studio.kinds.maps import map_of
@@ -41,6 +42,7 @@ KINDS: dict[str, Callable[[dict[str, Any], Session], Answer]] = {
     "flywheel": flywheel,
     "steady": steady,
     "map": map_of,
+    "find": find,
     "lesson": lesson,
     "save": save,
     "export": export,
@@ -50,5 +52,5 @@ LIVE = {
     "turn": "picture",
     "drag": "picture",
     **{kind: kind for kind in ("check", "assemblies", "sensitivity", "position")},
-    **{kind: kind for kind in ("reactions", "map", "lesson")},
+    **{kind: kind for kind in ("reactions", "map", "find", "lesson")},
 }

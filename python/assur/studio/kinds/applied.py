@@ -28,10 +28,16 @@ def applied_forces(
     at = Positions(
         machine, motion, found, own, rates, np.broadcast_to(np.asarray(t, dtype=float), (rows,))
     )
+    # Absurd numbers give infinite forces: so they are shown.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _acting(at, rows)
+
+
+def _acting(at: Positions, rows: int) -> tuple[list[dict[str, Any]], Float]:
     names: list[dict[str, Any]] = []
     columns: list[Float] = []
-    for index, load in enumerate(machine.loads):
-        for link in mechanism.links:
+    for index, load in enumerate(at.machine.loads):
+        for link in at.motion.mechanism.links:
             # What pulls at the ground moves nothing.
             if link == "ground" and not isinstance(load, Force):
                 continue

@@ -34,11 +34,11 @@ def map_of(data: dict[str, Any], session: Session) -> Answer:
     contents = document.read(fields["document"])
     mechanism = contents.mechanism
     n = fields.whole("n", CELLS, 2, MOST_CELLS)
-    (x, along), (y, up) = (_axis(fields.node(key), mechanism, n) for key in ("x", "y"))
+    (x, along), (y, up) = (axis(fields.node(key), mechanism, n) for key in ("x", "y"))
     if x == y:
         raise fields.error("y", f"is {y!r}, as x: two dimensions are needed")
     metric = metric_of(fields.node("metric"))
-    q = _coordinates(fields, mechanism)
+    q = measured_coordinates(fields, mechanism, ROWS)
     across, upward = np.meshgrid(along, up)
 
     def report(done: int, every: int) -> None:
@@ -74,7 +74,8 @@ def map_of(data: dict[str, Any], session: Session) -> Answer:
     )
 
 
-def _axis(node: Node, mechanism: Mechanism, n: int) -> tuple[str, Float]:
+def axis(node: Node, mechanism: Mechanism, n: int) -> tuple[str, Float]:
+    """Return a dimension and n values of it from low to high."""
     entries = node.keys(AXIS, required=AXIS)
     name = entries["dimension"].word(mechanism.dimensions)
     low, high = entries["low"].number(), entries["high"].number()
@@ -84,11 +85,11 @@ def _axis(node: Node, mechanism: Mechanism, n: int) -> tuple[str, Float]:
     return name, np.linspace(low, high, n)
 
 
-def _coordinates(fields: Fields, mechanism: Mechanism) -> Float:
+def measured_coordinates(fields: Fields, mechanism: Mechanism, usual: int) -> Float:
     """Return the positions that are measured: a turn, or from low to high."""
-    rows = fields.rows(ROWS)
+    rows = fields.rows(usual)
     if mechanism._driver_count > 1:
-        message = "a map measures the turn of one driver; this mechanism has several"
+        message = "a metric is of the turn of one driver; this mechanism has several"
         raise InputError(message)
     if "low" in fields or "high" in fields:
         return np.linspace(fields.number("low"), fields.number("high"), rows)

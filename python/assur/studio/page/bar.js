@@ -9,6 +9,7 @@ import { entry, menu } from "./menu.js";
 
 const UNDO = "M9 7L4 12l5 5M4 12h10a5 5 0 0 1 0 10h-2";
 const REDO = "M15 7l5 5-5 5M20 12H10a5 5 0 0 0 0 10h2";
+const SHEET = "M6 3h8l4 4v14H6zM14 3v4h4M12 11v6M9 14h6";
 const FOLDER = "M3 6h6l2 3h10v10H3z";
 const BOOK = "M5 4h13v16H5zM5 16h13";
 const OUT = "M12 15V4M8 8l4-4 4 4M5 14v6h14v-6";
@@ -38,6 +39,9 @@ export class Bar {
     this.redo = button(say("redo"), REDO);
     this.undo.addEventListener("click", () => model.undo());
     this.redo.addEventListener("click", () => model.redo());
+    const fresh = button(say("newDocument"), SHEET, html("span", {}, say("newDocument")));
+    fresh.classList.add("fresh");
+    fresh.addEventListener("click", () => page.begin());
     const open = menu(say("open"), FOLDER, () => this.#openEntries());
     const examples = menu(say("examples"), BOOK, () => this.#exampleEntries());
     const out = menu(say("export"), OUT, () => this.#exportEntries());
@@ -51,7 +55,7 @@ export class Bar {
     // The lesson has neither.
     for (const one of [out.element, projector]) one.classList.add("of-document");
     const brand = html("span", { class: "brand" }, say("studio"));
-    const files = page.isEmbedded ? [out.element] : [open.element, examples.element, out.element];
+    const files = page.isEmbedded ? [out.element] : [fresh, open.element, examples.element, out.element];
     const menus = html("div", { class: "menus" }, ...files, language.element, projector, schemeButton(root), help);
     const more = button(say("menu"), MENU);
     more.classList.add("more");
@@ -98,7 +102,6 @@ export class Bar {
     const { model, page } = this;
     const entries = [
       entry(say("openFile"), () => chooseFile((file) => openFile(model, file, page.start.limits.up / 2, page.notify))),
-      entry(say("newDocument"), () => page.begin()),
     ];
     if (model.file?.saves) entries.push(entry(say("save"), () => this.save(), "Ctrl S"));
     return entries;

@@ -150,6 +150,7 @@ export class Model {
     this.axis = 0;
     this.isNew = true;
     this.setTarget(null);
+    this.emit("opened");
     await this.edit(header.document, { place: header.q0, title: header.title });
     this.emit("file");
     return header;

@@ -13,6 +13,7 @@ import { Beginning } from "./build/beginning.js";
 import { Builder } from "./build/builder.js";
 import { Mend } from "./build/mend.js";
 import { Designing } from "./design/designing.js";
+import { FindSection } from "./design/findsection.js";
 import { MapSection } from "./design/mapsection.js";
 import { Projector } from "./design/projector.js";
 import { DesignSection } from "./design/section.js";
@@ -89,9 +90,9 @@ export class Studio {
     this.bar = new Bar(root, model, this);
     this.status = new Status(model);
     this.canvas.cover(this.status.element);
+    this.highlight = new Highlight(stage);
     this.caution = new TransmissionWarning(this);
     this.canvas.cover(this.caution.element);
-    this.highlight = new Highlight(stage);
     this.later = html("p", { class: "later" }, say("later"));
     this.playback.element.append(this.later);
     this.shell = new Shell(root, { bar: this.bar.element, canvas: this.canvas.element, dock: this.playback.element });
@@ -125,10 +126,10 @@ export class Studio {
     this.target = new TargetSection(this);
     this.design = new DesignSection(this, this.designing);
     this.map = new MapSection(this, this.designing);
-    const numbers = [Mend, DriverSection, DimensionSection, AssemblySection, PositionSection].map((One) => new One(this));
+    const numbers = [Mend, DriverSection, DimensionSection, FindSection, AssemblySection, PositionSection].map((One) => new One(this));
     const design = [this.map, this.design, this.target];
     const { above, below } = forceSections(this);
-    return [...above, ...numbers, ...design, new StructureSection(this), new NameSection(this), ...below];
+    return [...above, ...numbers, ...below, ...design, new StructureSection(this), new NameSection(this)];
   }
 
   /** A drawing has no position to tell. */
@@ -141,7 +142,9 @@ export class Studio {
   #whatIsWrong() {
     const { model, playback } = this;
     if (model.problem) return problemText(model.problem, this);
-    return model.isSketch ? "" : whatIsWrong(playback);
+    // Why it stops at a dead point stands over the picture already.
+    if (model.isSketch || (this.caution?.tellsEnds && playback.pose.known)) return "";
+    return whatIsWrong(playback);
   }
 
   #listen() {
@@ -169,8 +172,12 @@ export class Studio {
     if (model.isNew) {
       model.isNew = false;
       canvas.stage.fit();
+      playback.player.turns = 0;
+      playback.player.sense = 1;
       playback.setSpeed(model.data.speed);
     }
+    // What has grown out of the window comes back into it, unless a hand holds it or has placed the view.
+    else if (canvas.stage.isFitted && !model.isDragging && !canvas.stage.isWithin()) canvas.stage.fit();
     if (model.isSketch) playback.pause();
     this.#enable();
     playback.show();
@@ -250,6 +257,7 @@ export class Studio {
 
   /** Begin with nothing. */
   begin() {
+    this.builder.take("select");
     this.model.file = null;
     this.model.isNew = true;
     return this.model.edit({ joints: {}, links: { ground: [] } }, { title: "" });

@@ -41,6 +41,8 @@ export class Builder {
     this.rail = new Rail(studio.shell.rail, (name) => this.take(name));
     canvas.stage.overlays.push(this);
     model.on("document", () => this.#forget());
+    // A mechanism that was opened is looked at first.
+    model.on("opened", () => this.take("select"));
     this.end = listenForEdits(studio, this.choice);
     this.take("select");
   }

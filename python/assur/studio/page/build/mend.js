@@ -104,13 +104,18 @@ export class Mend {
       for (const event of ["pointerenter", "focusin"]) card.addEventListener(event, () => this.#preview(document));
       for (const event of ["pointerleave", "focusout"]) card.addEventListener(event, () => this.#preview(null));
       act.setAttribute("aria-label", `${say("doIt")}: ${text}`);
-      act.addEventListener("click", () => {
-        this.#preview(null);
-        model.edit(document, { place: [] });
-      });
+      act.addEventListener("click", () => this.#apply(document));
       return card;
     });
     this.remedies.replaceChildren(...(cards.length ? [html("h3", {}, say("wouldMove")), ...cards] : []));
+  }
+
+  /** Once it moves the drawing is done: what is dragged then moves it, and draws no link. */
+  async #apply(document) {
+    const { model, studio } = this;
+    this.#preview(null);
+    await model.edit(document, { place: [] });
+    if (model.checked.state === "moves") studio.builder.take("select");
   }
 
   #preview(document) {

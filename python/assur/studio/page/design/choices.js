@@ -7,6 +7,7 @@
  * @property {string} up dimension along its left side
  * @property {string} metric which metric the map shows
  * @property {string} point the joint whose path is compared with the target
+ * @property {Object} [found] what is wanted of which dimension
  * @property {string} number the quantity in large digits
  */
 

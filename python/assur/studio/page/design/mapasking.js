@@ -22,6 +22,13 @@ const MEASURED = 0.8;
  *   chosen: import("./metrics.js").MetricChoice, measured: number[] | null}} AskedMap
  */
 
+/** Return from where to where q is measured, or null for a turn. */
+export function measuredRange({ turn, data }, { isWhole }) {
+  if (data.turn.unit === "angle" && (turn.closes || isWhole)) return null;
+  const cut = ((1 - MEASURED) / 2) * (turn.high - turn.low);
+  return [turn.low + cut, turn.high - cut];
+}
+
 export class MapAsking {
   /**
    * @param {import("../model.js").Model} model
@@ -85,21 +92,13 @@ export class MapAsking {
     return designRange(own, model.data.usual, MAP_REACH);
   }
 
-  /** From where to where q goes, or null for a turn. */
-  #measured({ isWhole }) {
-    const { turn, data } = this.model;
-    if (data.turn.unit === "angle" && (turn.closes || isWhole)) return null;
-    const cut = ((1 - MEASURED) / 2) * (turn.high - turn.low);
-    return [turn.low + cut, turn.high - cut];
-  }
-
   async #ask({ document, key, n, names, axes, chosen }) {
     const { model } = this;
     // What waited while the document changed is asked again once that has settled.
     const isStale = () => model.document !== document;
     const forget = () => key === this.known && (this.known = "");
     if (isStale()) return void forget();
-    const measured = this.#measured(chosen);
+    const measured = measuredRange(model, chosen);
     const side = (i) => ({ dimension: names[i], low: axes[i][0], high: axes[i][1] });
     const part = measured ? { low: measured[0], high: measured[1] } : {};
     const began = performance.now();

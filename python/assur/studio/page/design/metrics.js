@@ -5,6 +5,7 @@ import { say } from "../../../pictures/page/words.js";
 const METRIC_WORDS = {
   least_transmission: "metricLeastTransmission",
   span: "metricSpan",
+  swing: "metricSwing",
   full_rotation: "metricFullRotation",
   time_ratio: "metricTimeRatio",
   deviation: "metricDeviation",
@@ -41,7 +42,8 @@ export function metricChoices(data, assembly, isTurning) {
   const offer = (metric, of, unit, spec, more = {}) => {
     const id = [metric, ...Object.values(spec)].join(" ");
     const term = METRIC_TERMS[metric];
-    made.push({ id, text: say(METRIC_WORDS[metric], { of }), spec: { metric, ...spec }, unit, term, ...more });
+    const word = metric === "span" && unit === "rad" ? "swing" : metric;
+    made.push({ id, text: say(METRIC_WORDS[word], { of }), spec: { metric, ...spec }, unit, term, ...more });
   };
   // The dyad next to the output first.
   for (const at of Object.keys(assembly ?? {}).reverse()) offer("least_transmission", at, "rad", { at });

@@ -10,13 +10,16 @@ import { withForceUnit } from "./drive.js";
 import { Fields, later, positive } from "./fields.js";
 import { FlywheelDiagrams } from "./flywheel_diagrams.js";
 import { foldedSection } from "./folded.js";
-import { motorWords } from "./motor.js";
+import { motorOf, motorWords } from "./motor.js";
 import { discDiameter } from "./surplus.js";
 
 /** Steel, kg/m³, and the disc that is shown at first, m. */
 const STEEL = 7850;
 const DISC = 0.06;
 const WANTED = { fluctuation: 0.05, mean_speed: null, thickness: DISC };
+
+/** How the package says that a speed must be given, in words of Python. */
+const NEEDS_SPEED = /^mean_speed is needed|pass speed=/;
 
 export class FlywheelSection {
   /**
@@ -51,6 +54,7 @@ export class FlywheelSection {
     model.on("pose", (pose) => this.isOpen && !model.run && this.diagrams.show(pose));
     this.again = later(() => this.show());
     for (const event of ["document", "checked", "settled", "run"]) model.on(event, this.again);
+    model.on("pose", () => this.meanSpeed !== this.asked?.mean && this.again());
     details.addEventListener("toggle", this.again);
     // A section that comes to be seen asks.
     this.observer = new ResizeObserver(this.again);
@@ -65,6 +69,13 @@ export class FlywheelSection {
 
   get wanted() {
     return { ...WANTED, ...this.answers.flywheelWanted };
+  }
+
+  /** The mean speed that is wanted: without a motor, which would set it, that of the page. */
+  get meanSpeed() {
+    const { mean_speed } = this.wanted;
+    if (mean_speed !== null || motorOf(this.model.document)) return mean_speed;
+    return Math.abs(this.playback.player.speed) || null;
   }
 
   #set(key, value) {
@@ -88,15 +99,16 @@ export class FlywheelSection {
     this.opener.disabled = this.pace.disabled = Boolean(model.run);
     if (!details.open || !details.offsetParent) return;
     this.#form();
-    const key = JSON.stringify([this.wanted.fluctuation, this.wanted.mean_speed]);
+    const mean = this.meanSpeed;
+    const key = JSON.stringify([this.wanted.fluctuation, mean]);
     if (model.isDragging || (this.asked?.document === model.document && this.asked.key === key)) return;
-    this.asked = { document: model.document, key };
+    this.asked = { document: model.document, key, mean };
     this.requests.push(null);
   }
 
   #form() {
     const { fields, wanted, found } = this;
-    const mean = found?.header.mean_speed;
+    const mean = this.meanSpeed ?? found?.header.mean_speed;
     fields.show(
       fields.row("flywheel fluctuation", {
         label: say("wantedDelta"),
@@ -120,11 +132,9 @@ export class FlywheelSection {
   }
 
   async #ask() {
-    const { model, wanted } = this;
+    const { model, wanted, meanSpeed } = this;
     const { document } = model;
-    const fields = {
-      fluctuation: wanted.fluctuation, ...(wanted.mean_speed === null ? {} : { mean_speed: wanted.mean_speed }),
-    };
+    const fields = { fluctuation: wanted.fluctuation, ...(meanSpeed === null ? {} : { mean_speed: meanSpeed }) };
     try {
       const [answer, without] = await Promise.all([model.ask("flywheel", fields), this.#without()]);
       if (!answer || model.document !== document) return;
@@ -137,9 +147,9 @@ export class FlywheelSection {
 
   /** The motion without a flywheel; that there is none is an answer. */
   async #without() {
-    const { mean_speed } = this.wanted;
+    const { meanSpeed } = this;
     try {
-      return await this.model.ask("steady", mean_speed === null ? {} : { speed: mean_speed });
+      return await this.model.ask("steady", meanSpeed === null ? {} : { speed: meanSpeed });
     } catch (error) {
       return { error };
     }
@@ -148,7 +158,8 @@ export class FlywheelSection {
   #take(found, without, error) {
     this.found = found;
     this.foundFor = this.model.document;
-    this.error.textContent = error?.kind === "needs_speed" ? say("giveMeanSpeed") : (error?.message ?? "");
+    const message = error?.message ?? "";
+    this.error.textContent = NEEDS_SPEED.test(message) ? say("giveMeanSpeed") : message;
     this.error.hidden = !error;
     this.result.hidden = !found;
     if (!found) return this.#openDiagrams(false);

@@ -4,7 +4,7 @@ import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
 import { setLoad } from "../document/machine.js";
 import { allLinks, listOf, tableOf } from "../document/names.js";
-import { LOAD_FIELDS, placeText, USUAL_GRAVITY } from "./load_kinds.js";
+import { LOAD_FIELDS, placeText, slideAt, USUAL_GRAVITY } from "./load_kinds.js";
 import { documentUnit } from "./masses.js";
 import { valueField } from "./value_field.js";
 
@@ -104,7 +104,11 @@ const MAKERS = {
     const options = ["always", "forward", "backward"].map((way) => [way, say(`acts_${way}`)]);
     const rows = [fields.choiceRow(key, {
       label: say("acts"), options, value: load.while_ ?? "always",
-      set: (way) => edit(way === "always" ? { while_: null, over: null } : { while_: way }),
+      // The way of a ram is that of its slide.
+      set: (way) => {
+        const over = load.over ?? slideAt(model.document, load.at)?.name ?? null;
+        edit(way === "always" ? { while_: null, over: null } : { while_: way, over });
+      },
     })];
     if (!load.while_) return rows;
     const own = [
@@ -117,9 +121,18 @@ const MAKERS = {
     }));
     const other = html("button", { type: "button", class: "button", "data-key": `${key} opposes` }, say("opposes"));
     other.addEventListener("click", () => model.edit(withOpposite(model.document, load)));
-    return [...rows, html("p", { class: "hint" }, say("opposesHint")), other];
+    const name = load.over ?? drivenName(model.document);
+    const what = say(Object.hasOwn(tableOf(model.document.slides), name) ? "positionOf" : "angleOf", { name });
+    const [means, hint] = [say("forwardMeans", { what }), say("opposesHint")].map((text) => html("p", { class: "hint" }, text));
+    return [...rows, means, hint, other];
   },
 };
+
+/** The name of the (first) driver: a slide or a link. */
+function drivenName(document) {
+  const first = Array.isArray(document.driver) ? document.driver[0] : document.driver;
+  return typeof first === "object" && first ? first.link : first;
+}
 
 /** Return a value the other way. */
 export function negated(value) {

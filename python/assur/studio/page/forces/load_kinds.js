@@ -53,6 +53,28 @@ export function drivenLink(document) {
 }
 
 /**
+ * Return the slide whose link a joint lies on, with its way on the ground, or null: what acts on a ram acts along it.
+ * @returns {{name: string, way: number[]} | null} `way` of length 1
+ */
+export function slideAt(document, joint) {
+  for (const [name, { link, on = "ground", angle, along }] of Object.entries(tableOf(document.slides))) {
+    if (on !== "ground" || !listOf(allLinks(document)[link]).includes(joint)) continue;
+    const given = tableOf(document.dimensions)[`${name}.angle`] ?? angle;
+    const [a, b] = listOf(along).map((end) => tableOf(document.joints)[end]);
+    const own = a && b ? Math.atan2(b[1] - a[1], b[0] - a[0]) : given;
+    if (Number.isFinite(own)) return { name, way: [Math.cos(own), Math.sin(own)] };
+  }
+  return null;
+}
+
+/** Return a force of 100 N: against a slide that goes forward, or down. */
+function newForce(document, at) {
+  const slide = slideAt(document, at);
+  if (!slide) return { at, force: [0, -100] };
+  return { at, force: slide.way.map((part) => Number((-100 * part).toFixed(3)) || 0) };
+}
+
+/**
  * Return a new load, for a document: it acts where something moves, and can be seen.
  * @param {string} type
  */
@@ -66,7 +88,7 @@ export function newLoad(document, type) {
   const [a, b] = [at, other].map((name) => tableOf(document.joints)[name] ?? [0, 0]);
   const length = Number(Math.hypot(a[0] - b[0], a[1] - b[1]).toPrecision(3));
   const made = {
-    Force: { at, force: [0, -100] },
+    Force: newForce(document, at),
     Torque: { link, torque: -10 },
     Spring: { first: other, second: at, stiffness: 1000, length },
     Damper: { first: other, second: at, damping: 100 },

@@ -4,8 +4,10 @@ import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
 import { listOf, tableOf } from "../document/names.js";
 import { hasMachine } from "./answers.js";
+import { driveFacts, withForceUnit } from "./drive.js";
 import { Fields, later } from "./fields.js";
 import { foldedSection } from "./folded.js";
+import { drivesSlide } from "./load_kinds.js";
 import { loadList } from "./loads.js";
 import { massTable, weightSwitch } from "./masses.js";
 import { motorForm, motorWords } from "./motor.js";
@@ -15,18 +17,28 @@ export class MachineSection {
    * @param {import("../studio.js").Studio} studio
    * @param {import("./answers.js").ForceAnswers} answers
    */
-  constructor({ model }, answers) {
+  constructor({ model, shell }, answers) {
     this.model = model;
+    // What the loads ask of the drive stands further up: one click leads there.
+    this.toDrive = html("button", { type: "button", class: "button to-drive" });
+    this.toDrive.addEventListener("click", () => {
+      shell.panel.scrollTo?.({ top: 0 });
+      shell.panel.querySelector("[data-fact=driveGreatest]")?.scrollIntoView({ block: "nearest" });
+    });
+    for (const event of ["forces", "document", "checked"]) model.on(event, () => this.#tellDrive());
     this.answers = answers;
     this.state = { open: null };
     const { element, details, body, note } = foldedSection(
       "machine", say("massesAndLoads"), "more", answers.folded, true,
     );
     Object.assign(this, { element, details, note });
-    this.fields = new Fields(body);
+    const form = html("div");
+    body.append(form, this.toDrive);
+    this.fields = new Fields(form);
     this.again = later(() => this.show());
     for (const event of ["document", "checked", "forces"]) model.on(event, this.again);
     details.addEventListener("toggle", this.again);
+    this.#tellDrive();
     this.show();
   }
 
@@ -34,6 +46,15 @@ export class MachineSection {
   #wrongAt(key) {
     const { error } = this.answers;
     return error?.key === key || error?.key?.startsWith(`${key}.`) ? error.message : "";
+  }
+
+  #tellDrive() {
+    const { answers, model, toDrive } = this;
+    toDrive.hidden = !answers.forces || !answers.canBe;
+    if (toDrive.hidden) return;
+    const { greatest, most } = driveFacts(answers.forces);
+    const torque = withForceUnit(greatest?.value ?? NaN, drivesSlide(model.document) ? "N" : "N·m", most);
+    toDrive.textContent = say("driveAbove", { torque });
   }
 
   show() {

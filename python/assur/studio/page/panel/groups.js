@@ -21,7 +21,8 @@ export class StructureSection {
 
   show() {
     const { counted, structure } = this.model.checked;
-    this.element.hidden = !counted.moving_links;
+    // Of what does not move yet, what is missing has the count.
+    this.element.hidden = !counted.moving_links || !structure;
     if (this.element.hidden) return;
     this.note.textContent = structure ? say("classOf", { n: structure.class }) : "";
     const { moving_links: links, turning_pairs: turning, sliding_pairs: sliding, mobility } = counted;
