@@ -107,7 +107,11 @@ class Guard:
         """Whether the address of the page itself has the token."""
         if scope["type"] != "http" or scope["path"] != "/":
             return False
-        query = parse_qs(scope["query_string"].decode("latin-1"), max_num_fields=8)
+        try:
+            query = parse_qs(scope["query_string"].decode("latin-1"), max_num_fields=8)
+        except ValueError:
+            # More fields than that.
+            return False
         return any(self._is_token(one) for one in query.get("token", []))
 
     def _has_cookie(self, headers: dict[str, list[str]]) -> bool:

@@ -115,7 +115,14 @@ def test_others_are_refused(client: TestClient, headers: dict[str, str]) -> None
 
 
 @pytest.mark.parametrize(
-    "address", ["/?token=", "/?token=x", "/?tok=1", f"/studio.js?token={TOKEN}"]
+    "address",
+    [
+        "/?token=",
+        "/?token=x",
+        "/?tok=1",
+        "/?" + "token=x&" * 50,
+        f"/studio.js?token={TOKEN}",
+    ],
 )
 def test_the_token_opens_the_page_alone(client: TestClient, address: str) -> None:
     client.cookies.clear()

@@ -48,7 +48,8 @@ export function chartRange(values, places, size, height, beyond = BEYOND) {
   }
   let span = high - low;
   const isConstant = span <= CONSTANT * Math.max(size, Math.abs(low), Math.abs(high));
-  if (isConstant) span = Math.max(Math.abs(high), size);
+  // Nothing moves at speed 0: any range shows it.
+  if (isConstant) span = Math.max(Math.abs(high), size) || 1;
   const room = Math.max(HEADROOM, NUMBER / Math.max(height - 2 * NUMBER, NUMBER)) * span;
   return { low: low - room, high: high + room, isCut, isConstant };
 }

@@ -13,6 +13,8 @@ const PLAY = "M8 5v14l11-7z";
 const PAUSE = "M7 5h4v14H7zM13 5h4v14h-4z";
 const HOME = "M6 5h2.4v14H6zM19 5v14L9.5 12z";
 const DEGREE = Math.PI / 180;
+/** Nothing is faster, rad/s or m/s: beyond, accelerations are no numbers any more. */
+const FASTEST = 1e9;
 const SPEED_UNITS = { angle: "rad/s", length: "m/s", time: "" };
 
 export class Playback {
@@ -180,7 +182,7 @@ export class Playback {
   #readSpeed() {
     const text = this.speed.value.trim();
     const value = Number(text.replace(",", ".").replace("−", "-"));
-    const isGood = text !== "" && Number.isFinite(value);
+    const isGood = text !== "" && Math.abs(value) <= FASTEST;
     this.speed.setAttribute("aria-invalid", String(!isGood));
     if (!isGood) return;
     this.#pace(value);

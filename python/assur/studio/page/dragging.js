@@ -36,7 +36,7 @@ export class JointDrag {
     this.builder = builder;
     this.canvas = canvas;
     this.playback = playback;
-    this.previews = newestOnly((document) => model.preview(document));
+    this.previews = newestOnly(({ gesture, document }) => model.isUnderWay(gesture) && model.preview(document));
   }
 
   /** Grip a joint at a place of the picture; null where there is none. */
@@ -47,35 +47,57 @@ export class JointDrag {
     return { joint: joint.name, from: [place.x, place.y] };
   }
 
-  /** Move it to a place in the plane, m. */
+  /** The gesture before, until its last answer has come. */
+  #ending = null;
+
+  /** Move it to a place in the plane, m; not before the gesture before has ended. */
   move(grip, to) {
-    const { model } = this;
-    if (!grip.isMoving) {
-      model.begin();
-      grip.isMoving = true;
-    }
-    const { at, target } = this.builder.aimJoint(grip.joint, to, grip.from);
-    grip.target = target;
-    if (model.moves) model.dragJoint(grip.joint, at);
-    else this.previews.push(moveJoint(model.document, grip.joint, at));
+    grip.to = to;
+    if (!this.#ending) return this.#move(grip);
+    grip.waits ??= this.#ending.then(() => {
+      grip.waits = null;
+      this.#move(grip);
+    });
+    return undefined;
   }
 
-  async drop(grip) {
-    if (!grip.isMoving) return;
+  #move(grip) {
     const { model } = this;
+    if (grip.isCancelled) return;
+    grip.gesture ??= model.begin();
+    if (!model.isUnderWay(grip.gesture)) return;
+    const { at, target } = this.builder.aimJoint(grip.joint, grip.to, grip.from);
+    grip.target = target;
+    if (model.moves) model.dragJoint(grip.joint, at);
+    else this.previews.push({ gesture: grip.gesture, document: moveJoint(model.document, grip.joint, at) });
+  }
+
+  drop(grip) {
+    const before = this.#ending ?? Promise.resolve();
+    const ending = before.then(() => this.#drop(grip)).finally(() => {
+      if (this.#ending === ending) this.#ending = null;
+    });
+    this.#ending = ending;
+  }
+
+  async #drop(grip) {
+    await grip.waits;
+    const { model } = this;
+    const { gesture } = grip;
+    if (!gesture) return;
     this.builder.unaim();
     await this.previews.settled();
-    if (grip.target) {
+    if (grip.target && model.isUnderWay(gesture)) {
       await model.dragged();
       await model.preview(await this.builder.joined(grip.joint, grip.target));
     }
-    await model.commit();
+    await model.commit(gesture);
   }
 
   async cancel(grip) {
-    if (!grip.isMoving) return;
+    grip.isCancelled = true;
+    if (!grip.gesture) return;
     this.builder.unaim();
-    await this.previews.settled();
-    await this.model.cancel();
+    await this.model.cancel(grip.gesture);
   }
 }

@@ -2,6 +2,7 @@
 
 import { html } from "../../pictures/page/elements.js";
 import { say } from "../../pictures/page/words.js";
+import { hasShapeOfDocument, isTargetPath } from "./document/shape.js";
 
 /** Where this browser keeps the document. */
 const KEPT = "assur-studio";
@@ -25,6 +26,15 @@ export function chooseFile(take) {
   input.click();
 }
 
+/** Return the text of a file: UTF-8, else what Windows programs write. */
+function textOf(bytes) {
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder("windows-1252").decode(bytes);
+  }
+}
+
 /**
  * Open a file of the person, if it is a mechanism; the old one stays if not.
  * @param {import("./model.js").Model} model
@@ -39,7 +49,7 @@ export async function openFile(model, file, limit, tell) {
     return;
   }
   try {
-    const { omitted } = await model.open({ text: await file.text(), name });
+    const { omitted } = await model.open({ text: textOf(await file.arrayBuffer()), name });
     if (omitted?.length) tell(say("omitted", { what: omitted.join(" ") }));
   } catch (error) {
     tell(say("notAMechanism", { name, reason: error.message }));
@@ -76,7 +86,14 @@ export function kept(stamp) {
   for (const store of stamp ? ["sessionStorage"] : ["sessionStorage", "localStorage"]) {
     try {
       const own = JSON.parse(window[store].getItem(KEPT));
-      if (own && typeof own.document === "object" && own.stamp === stamp) return own;
+      if (!own || own.stamp !== stamp || !hasShapeOfDocument(own.document)) continue;
+      const { document, title, held, target } = own;
+      return {
+        document,
+        title: typeof title === "string" ? title : "",
+        held: [held ?? []].flat().every(Number.isFinite) ? held : undefined,
+        target: isTargetPath(target) ? target : null,
+      };
     } catch {
       // Not ours, or there is no store.
     }

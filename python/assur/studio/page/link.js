@@ -1,8 +1,13 @@
 // The socket: requests with numbers, answers as frames (docs/studio_protocol.md).
 
+import { say } from "../../pictures/page/words.js";
+
+/** Bytes of a letter, at most. */
+const BYTES_OF_LETTER = 3;
 /** Waits between attempts to connect again, ms: each twice the one before, up to the last. */
 const FIRST_WAIT = 500;
 const LONGEST_WAIT = 8000;
+const FORBIDDEN = 403;
 
 /**
  * Return the header and the arrays of a frame.
@@ -32,6 +37,10 @@ export function decode(frame) {
 export class Link {
   #waiting = new Map();
   #id = 0;
+  /** Why the server takes no requests of this window, if it has said so. */
+  #refusal = null;
+  /** The longest message that the server takes, bytes. */
+  most = Infinity;
 
   /** @param {Carrier} carrier its owner calls `take` with frames and `lost` when it breaks */
   constructor(carrier) {
@@ -58,26 +67,42 @@ export class Link {
     const id = ++this.#id;
     return new Promise((resolve, reject) => {
       if (!this.isOpen) return reject(disconnected());
+      const text = JSON.stringify({ id, rev, kind, ...fields });
+      if (BYTES_OF_LETTER * text.length > this.most && new TextEncoder().encode(text).length > this.most) {
+        return reject(tooLong(this.most));
+      }
       this.#waiting.set(id, { resolve, reject });
-      this.carrier.send(JSON.stringify({ id, rev, kind, ...fields }));
+      this.carrier.send(text);
     });
   }
 
   /** Take an answer. */
   take(frame) {
     const { header, arrays } = decode(frame);
+    if (header.id === null && header.error) this.#refusal = errorOf(header.error);
     const own = this.#waiting.get(header.id);
     if (!own) return;
     this.#waiting.delete(header.id);
-    if (header.error) own.reject(Object.assign(new Error(header.error.message), header.error));
+    if (header.error) own.reject(errorOf(header.error));
     else own.resolve(header.dropped ? null : { header, arrays });
   }
 
   /** The carrier broke: what was asked has no answer. */
   lost() {
-    for (const { reject } of this.#waiting.values()) reject(disconnected());
+    const error = this.#refusal ?? disconnected();
+    this.#refusal = null;
+    for (const { reject } of this.#waiting.values()) reject(error);
     this.#waiting.clear();
   }
+}
+
+function errorOf(error) {
+  return Object.assign(new Error(error.message), error);
+}
+
+/** What a request says that is longer than the server takes. */
+function tooLong(most) {
+  return errorOf({ message: say("tooLong", { limit: Math.floor(most / 1024) }), kind: "too_large" });
 }
 
 /** What a request says that the connection has lost. */
@@ -85,12 +110,22 @@ function disconnected() {
   return Object.assign(new Error("disconnected"), { kind: "disconnected" });
 }
 
+/** Whether a server is there that does not let this page in: a socket that fails does not say why. */
+async function isRefused() {
+  try {
+    return (await fetch("/", { method: "HEAD" })).status === FORBIDDEN;
+  } catch {
+    return false;
+  }
+}
+
 /**
  * Connect to the server, and again whenever the connection is lost.
  * @param {(isOpen: boolean) => void} changed
+ * @param {() => void} refused called when another server is there: started anew, it has another token
  * @returns {Link}
  */
-export function connect(changed) {
+export function connect(changed, refused) {
   let socket = null;
   let wait = FIRST_WAIT;
   const link = new Link({
@@ -102,14 +137,17 @@ export function connect(changed) {
   const open = () => {
     socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/socket`);
     socket.binaryType = "arraybuffer";
+    let wasOpen = false;
     socket.onopen = () => {
       wait = FIRST_WAIT;
+      wasOpen = true;
       changed(true);
     };
     socket.onmessage = (event) => link.take(event.data);
     socket.onclose = () => {
       link.lost();
       changed(false);
+      if (!wasOpen) isRefused().then((is) => is && refused());
       setTimeout(open, wait);
       wait = Math.min(2 * wait, LONGEST_WAIT);
     };

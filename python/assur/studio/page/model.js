@@ -8,6 +8,8 @@ import { sketchScene } from "./document/sketch.js";
 /** Rows of a turn while something is dragged, and at rest. */
 const ROWS_DRAGGED = 91;
 const ROWS = 361;
+/** How long to wait for a server that is busy, ms. */
+const SERVER_BUSY_WAIT = 400;
 
 /**
  * What a document says: see `check` in docs/studio_protocol.md.
@@ -59,8 +61,11 @@ export class Model {
   }
 
   #drags;
-  #before = null;
+  /** The gesture under way: what was before it; or null. */
+  #gesture = null;
   #turnBefore = null;
+  /** The document whose turn is shown. */
+  #shown = null;
 
   /** Call a function at an event; returns one that ends it. */
   on(name, listener) {
@@ -107,18 +112,22 @@ export class Model {
 
   /** Show another document: a step that can be undone. */
   async edit(document, { place, title } = {}) {
-    this.history.push(this.#before ?? this.#snapshot());
-    this.#before = null;
+    this.history.push(this.#gesture?.before ?? this.#snapshot());
+    this.#leave();
     if (title !== undefined) this.title = title;
     await this.#become(document, place);
   }
 
   async undo() {
-    await this.#go(this.history.undo(this.#snapshot()));
+    // What is under way is what is undone first.
+    if (this.#gesture && !this.#gesture.isOver) return this.cancel();
+    this.finish();
+    return this.#go(this.history.undo(this.#snapshot()));
   }
 
   async redo() {
-    await this.#go(this.history.redo(this.#snapshot()));
+    this.finish();
+    return this.#go(this.history.redo(this.#snapshot()));
   }
 
   async #go(snapshot) {
@@ -158,14 +167,27 @@ export class Model {
 
   // -- gestures: previews until they are committed or cancelled ---------------
 
+  /** Begin a gesture; another one that is not yet done is a step as far as it has come. */
   begin() {
-    this.#before = this.#snapshot();
+    this.finish();
+    this.#gesture = { before: this.#snapshot(), isOver: false };
     this.isDragging = true;
+    return this.#gesture;
+  }
+
+  /** Whether a gesture is still under way: another document may have come meanwhile. */
+  isUnderWay(gesture) {
+    return gesture !== null && gesture === this.#gesture;
+  }
+
+  #leave() {
+    this.#gesture = null;
+    this.isDragging = false;
   }
 
   /** Move a joint of a mechanism that moves; its dimensions follow. */
   dragJoint(joint, to) {
-    this.#drags.push({ joint, to, q: this.place });
+    this.#drags.push({ gesture: this.#gesture, joint, to, q: this.place });
   }
 
   /** Wait until the joint is where it was moved to last. */
@@ -174,34 +196,46 @@ export class Model {
   }
 
   /** Show a document that is not yet a step. */
-  preview(document) {
-    return this.#become(document);
+  async preview(document) {
+    if (this.#gesture) await this.#become(document);
   }
 
-  async commit() {
+  /** Make a step of a gesture, once its last answer has come. */
+  async commit(gesture = this.#gesture) {
+    if (!this.isUnderWay(gesture)) return;
+    gesture.isOver = true;
     await this.#drags.settled();
-    this.isDragging = false;
-    const before = this.#before;
-    this.#before = null;
-    if (!before || before.document === this.document) return;
-    this.history.push(before);
+    if (!this.isUnderWay(gesture)) return;
+    this.#step();
+    if (gesture.before.document === this.document) return;
     this.emit("document");
     await this.look();
   }
 
-  async cancel() {
-    await this.#drags.settled();
-    this.isDragging = false;
-    const before = this.#before;
-    this.#before = null;
-    if (before && before.document !== this.document) await this.#become(before.document, before.place);
+  /** Make a step of the gesture as far as it has come, at once. */
+  finish() {
+    if (this.#gesture) this.#step();
   }
 
-  async #drag(fields) {
-    if (!this.isDragging) return;
+  #step() {
+    const { before } = this.#gesture;
+    this.#leave();
+    if (before.document !== this.document) this.history.push(before);
+  }
+
+  /** As if the gesture had not begun: answers that still come are not for it. */
+  async cancel(gesture = this.#gesture) {
+    if (!this.isUnderWay(gesture)) return;
+    const { before } = gesture;
+    this.#leave();
+    if (before.document !== this.document) await this.#become(before.document, before.place);
+  }
+
+  async #drag({ gesture, ...fields }) {
+    if (!this.isUnderWay(gesture)) return;
     try {
       const answer = await this.ask("drag", { ...fields, rows: ROWS_DRAGGED, orders: 2, axis: this.axis });
-      if (!answer || !this.#before) return;
+      if (!answer || !this.isUnderWay(gesture)) return;
       const { header } = answer;
       this.document = header.document;
       this.rev += 1;
@@ -209,7 +243,7 @@ export class Model {
       this.#show(answer, header.q);
       this.emit("document");
     } catch (error) {
-      this.#fail(error);
+      if (this.isUnderWay(gesture)) this.#fail(error);
     }
   }
 
@@ -222,15 +256,34 @@ export class Model {
     if (rev === this.rev) this.emit("settled");
   }
 
+  /** Ask; while the server is busy with what took too long, again a little later. */
+  async #patiently(rev, kind, fields) {
+    while (rev === this.rev) {
+      try {
+        return await this.ask(kind, fields);
+      } catch (error) {
+        if (error.kind !== "busy") throw error;
+      }
+      await new Promise((resolve) => setTimeout(resolve, SERVER_BUSY_WAIT));
+    }
+    return null;
+  }
+
   async #check(rev) {
     try {
-      const answer = await this.ask("check");
+      const answer = await this.#patiently(rev, "check");
       if (!answer || rev !== this.rev) return;
       this.checked = answer.header;
       if (!this.moves) this.#sketch();
       this.emit("checked");
     } catch (error) {
-      if (rev === this.rev) this.#fail(error);
+      if (rev !== this.rev || error.kind === "disconnected") return;
+      // What was said of another document is not true of this one.
+      this.checked = { state: "unchecked", message: error.message, counted: {}, structure: null, remedies: [] };
+      // More than the server takes is more than can be drawn.
+      if (this.#shown !== this.document && !error.kind?.startsWith("too_")) this.#sketch();
+      this.#fail(error);
+      this.emit("checked");
     }
   }
 
@@ -239,7 +292,7 @@ export class Model {
     if (!this.document.driver || !this.document.driver.length) return;
     try {
       const rows = this.isDragging ? { rows: ROWS_DRAGGED, orders: 2 } : { rows: ROWS };
-      const answer = await this.ask("turn", { q: this.#known(), ...rows, axis: Math.min(this.axis, this.driverCount - 1) });
+      const answer = await this.#patiently(rev, "turn", { q: this.#known(), ...rows, axis: Math.min(this.axis, this.driverCount - 1) });
       if (!answer || rev !== this.rev) return;
       this.#show(answer, undefined);
     } catch (error) {
@@ -302,6 +355,7 @@ export class Model {
     this.transmission = header.transmission ?? null;
     this.reach = header.reach ?? null;
     this.isSketch = false;
+    this.#shown = this.document;
     if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
     else if (this.held.length !== this.driverCount) {
       const { q0 } = this.checked;
@@ -348,9 +402,12 @@ export class Model {
 
   /** Write the document to the file of the command. */
   async save(force = false) {
-    const { header } = await this.ask("save", { stamp: this.file.stamp, ...(force ? { force } : {}) });
-    this.file.stamp = header.stamp;
-    this.savedDocument = this.document;
+    const { file, document } = this;
+    if (!file) return;
+    const { header } = await this.ask("save", { stamp: file.stamp, ...(force ? { force } : {}) });
+    file.stamp = header.stamp;
+    // It may have changed while it was written.
+    this.savedDocument = document;
     this.emit("file");
   }
 }

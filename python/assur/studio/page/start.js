@@ -13,41 +13,63 @@ history.replaceState(null, "", "/");
 
 const root = document.getElementById("assur");
 let studio = null;
-const link = connect((isOpen) => {
-  if (isOpen && !studio) begin();
-  else if (studio) {
+let isBeginning = false;
+const changed = (isOpen) => {
+  if (studio) {
     studio.model.emit("connection");
     if (isOpen) studio.model.look();
-  }
-});
+  } else if (isOpen && !isBeginning) begin();
+};
+const refused = () => {
+  if (studio) studio.notify(say("startedAgain"), { kind: "offline" });
+  else showFailure(root, say("startedAgain"));
+};
+const link = connect(changed, refused);
 
 async function begin() {
-  const language = navigator.language.slice(0, 2);
+  isBeginning = true;
+  const language = (navigator.language ?? "").slice(0, 2);
   if (["de", "ru", "uk"].includes(language)) speak(language);
   try {
-    studio = await openStudio(root, link);
-    const { model, start } = studio;
-    if (start.file) await openGiven();
-    else if (kept(null)) await restore(kept(null));
-    else await model.open({ example: FIRST });
-    if (!start.file) model.history.clear();
-    model.emit("file");
-    studio.keep();
-    window.assurStudio = studio;
+    const opened = await openStudio(root, link);
+    await openFirst(opened);
+    opened.model.emit("file");
+    opened.keep();
+    studio = window.assurStudio = opened;
   } catch (error) {
-    showFailure(root, error.message);
+    // With the next connection it begins anew.
+    showFailure(root, error.kind === "disconnected" ? say("offlineYet") : error.message);
+  } finally {
+    isBeginning = false;
   }
 }
 
+/** Open the file given; else, or if it is no mechanism, what this browser kept, or an example. */
+async function openFirst(studio) {
+  const { model, start } = studio;
+  if (start.file) {
+    try {
+      return await openGiven(studio);
+    } catch (error) {
+      if (error.kind === "disconnected") throw error;
+      studio.notify(say("notAMechanism", { name: start.file.title, reason: error.message }));
+    }
+  }
+  const own = kept(null);
+  if (own) await restore(studio, own);
+  else await model.open({ example: FIRST });
+  model.history.clear();
+}
+
 /** Open the file of the command; what this window had not saved of it comes back, as a step. */
-async function openGiven() {
+async function openGiven(studio) {
   const { model } = studio;
   const { others } = await model.open({ file: true });
   model.history.clear();
   model.savedDocument = model.document;
   const own = model.file.saves ? kept(model.file.stamp) : null;
   if (own && JSON.stringify(own.document) !== JSON.stringify(model.document)) {
-    await restore(own);
+    await restore(studio, own);
     studio.notify(say("restored"));
   }
   const copy = () => {
@@ -57,8 +79,8 @@ async function openGiven() {
   if (others) studio.notify(say("others"), { action: { text: say("copy"), act: copy } });
 }
 
-async function restore({ document: own, title, held, target }) {
-  studio.model.setTarget(Array.isArray(target?.points) ? target : null);
+async function restore(studio, { document: own, title, held, target }) {
+  studio.model.setTarget(target);
   await studio.model.edit(own, { place: held, title });
   studio.canvas.stage.fit();
 }

@@ -23,7 +23,7 @@ export class Status {
     const parts = [mark, html("b", {}, say(state))];
     if (state === "moves") {
       parts.push(html("span", { class: "note" }, say("mobility", { n: structure.mobility })), formula(structure.formula));
-    } else if (state !== "empty") {
+    } else if (checked.counted.mobility !== undefined && state !== "empty") {
       parts.push(html("span", { class: "note" }, say("mobility", { n: checked.counted.mobility })));
     }
     this.element.replaceChildren(...parts);

@@ -267,6 +267,8 @@ export class Studio {
   speak(code) {
     speak(code);
     document.documentElement.lang = spoken();
+    // The picture that is dragged will be gone.
+    this.model.finish();
     const { speed, q } = this.playback.player;
     this.playback.pause();
     this.#build();
@@ -288,6 +290,7 @@ export class Studio {
  */
 export async function openStudio(root, link) {
   const { header } = await link.ask("start", 0, {});
+  link.most = header.limits.up;
   return new Studio(root, link, header);
 }
 

@@ -1,8 +1,10 @@
 // The studio in a cell of a notebook: the kernel computes, over the model of its widget.
 
 import { html } from "../../pictures/page/elements.js";
+import { hasShapeOfDocument } from "./document/shape.js";
 import { Link } from "./link.js";
 import { openStudio } from "./studio.js";
+import { say } from "../../pictures/page/words.js";
 
 /** Changes go to the kernel at most so often, ms. */
 const SEND_AFTER = 80;
@@ -30,6 +32,7 @@ export function render({ model: cell, el }) {
     const document = cell.get("document");
     // What comes back from here is no news.
     if (!studio || JSON.stringify(document) === own) return;
+    if (!hasShapeOfDocument(document) || !document.joints) return studio.notify(say("notADocument"));
     own = JSON.stringify(document);
     const { model } = studio;
     model.isNew = JSON.stringify(Object.keys(document.joints)) !== JSON.stringify(Object.keys(model.document.joints));

@@ -69,10 +69,19 @@ export class Beginning {
     }
   }
 
+  async #open(example) {
+    const { model, studio } = this.builder;
+    try {
+      await model.open({ example });
+    } catch (error) {
+      studio.notify(say("failed", { reason: error.kind === "disconnected" ? say("offline") : error.message }));
+    }
+  }
+
   #card(name, document) {
     const title = html("span", {}, name.replaceAll("_", " "));
     const card = html("button", { type: "button", class: "offer", "data-example": name }, smallPicture(document), title);
-    card.addEventListener("click", () => this.builder.model.open({ example: name }));
+    card.addEventListener("click", () => this.#open(name));
     return card;
   }
 }

@@ -149,9 +149,9 @@ export class Choice {
     if (!this.nudging) {
       const at = this.#jointAt(joint);
       if (!at) return;
-      model.begin();
+      const gesture = model.begin();
       canvas.stage.isFitted = false;
-      this.nudging = { joint, at };
+      this.nudging = { joint, at, gesture };
     }
     const own = this.nudging;
     const step = (isShift ? NUDGE_SHIFT : NUDGE) / canvas.stage.view.scale;
@@ -169,6 +169,6 @@ export class Choice {
     this.nudging = null;
     clearTimeout(own.timer);
     await own.shown;
-    await this.builder.model.commit();
+    await this.builder.model.commit(own.gesture);
   }
 }

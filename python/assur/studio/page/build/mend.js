@@ -72,7 +72,8 @@ export class Mend {
     const { model } = this;
     const { document, checked } = model;
     const isEmpty = checked.state === "empty" && !Object.keys(tableOf(document.joints)).length;
-    const isSeen = checked.state !== "moves" && !isEmpty;
+    // What could not be checked has nothing to mend.
+    const isSeen = !["moves", "unchecked"].includes(checked.state) && !isEmpty;
     this.#turnTab();
     this.element.hidden = !isSeen;
     if (!isSeen) return this.#preview(null);

@@ -40,7 +40,7 @@ export class Designing {
     const { model } = this;
     this.#isEnding = false;
     if (!this.isOn) {
-      model.begin();
+      this.gesture = model.begin();
       this.isOn = true;
       this.wanted = {};
       this.good = this.start = model.document;
@@ -50,8 +50,8 @@ export class Designing {
   }
 
   async #preview(values) {
-    if (!this.isOn) return;
     const { model } = this;
+    if (!this.isOn || !model.isUnderWay(this.gesture)) return;
     let document = this.start;
     for (const name in values) document = setDimension(document, name, values[name]);
     await model.preview(document);
@@ -79,9 +79,9 @@ export class Designing {
     if (!this.#isEnding || this.#closing) return undefined;
     this.#closing = this.#close(async () => {
       // Without any good one it is as if it had not begun.
-      if (this.good === this.start) return this.model.cancel();
-      if (this.model.document !== this.good) await this.model.preview(this.good);
-      return this.model.commit();
+      if (this.good === this.start) return this.model.cancel(this.gesture);
+      if (this.model.document !== this.good && this.model.isUnderWay(this.gesture)) await this.model.preview(this.good);
+      return this.model.commit(this.gesture);
     });
     return this.#closing;
   }
@@ -91,7 +91,7 @@ export class Designing {
     if (!this.isOn || this.#closing) return;
     await this.previews.settled();
     this.refusal = "";
-    this.#closing = this.#close(() => this.model.cancel());
+    this.#closing = this.#close(() => this.model.cancel(this.gesture));
     await this.#closing;
   }
 

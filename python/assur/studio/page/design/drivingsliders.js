@@ -68,11 +68,13 @@ export class DrivingSliders {
 
   #showDriver({ range, value, element }, i) {
     const reach = this.reach[i];
-    element.classList.toggle("waits", !reach);
-    range.disabled = !reach;
-    if (!reach) return;
-    const { low, high, unit } = reach;
     const q = i === this.model.axis ? this.page.playback.pose.q : this.model.held[i];
+    // Between two documents there may be more drivers than coordinates.
+    const isKnown = Boolean(reach) && Number.isFinite(q);
+    element.classList.toggle("waits", !isKnown);
+    range.disabled = !isKnown;
+    if (!isKnown) return;
+    const { low, high, unit } = reach;
     Object.assign(range, { min: String(low), max: String(high), step: String((high - low) / COORDINATE_STEPS) });
     range.value = String(q);
     value.textContent = unit === "angle" ? degrees(q) : valueText(this.model.data, q, "m");
@@ -99,6 +101,7 @@ export class DrivingSliders {
       row.range.disabled = !model.link.isOpen;
     };
     row.range.addEventListener("input", () => {
+      if (!present()) return;
       designing.set({ [name]: Number(row.range.value) / unitShown(model.data, present().unit).factor });
       row.show();
     });

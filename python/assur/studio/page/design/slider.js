@@ -51,6 +51,7 @@ export class DimensionSlider {
   }
 
   #slide() {
+    if (!this.dimension) return;
     const { unit } = this.dimension;
     const { factor } = unitShown(this.model.data, unit);
     this.designing.set({ [this.name]: Number(this.range.value) / factor });
@@ -58,6 +59,8 @@ export class DimensionSlider {
   }
 
   async #type() {
+    // What is typed as the dimension goes is of no use: the field that is taken away says so too.
+    if (!this.dimension) return;
     const { unit } = this.dimension;
     const read = parseQuantity(this.field.value, unit, unitShown(this.model.data, unit).name);
     if (read.error) {

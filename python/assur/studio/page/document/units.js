@@ -59,6 +59,9 @@ function unitNamed(text, unit) {
   return alike.length === 1 ? alike[0] : undefined;
 }
 
+/** No quantity of a machine is larger, SI: beyond, squares and differences are no numbers any more. */
+const LARGEST_QUANTITY = 1e15;
+
 /**
  * Read factors: numbers and π, multiplied and divided.
  * @returns {{value: number, rest: string, hasPi: boolean, hasZero: boolean} | null} hasZero: as a divisor
@@ -120,7 +123,7 @@ export function parseQuantity(text, unit, shown = unit) {
   if (!scale) return refusal("notAUnitHere", { given: rest || shown, units: unitList(unit) });
   const number = (value * scale[0]) / scale[1];
   if (hasZero) return refusal("dividedByZero");
-  if (!Number.isFinite(number)) return refusal("tooLargeNumber");
+  if (!(Math.abs(number) <= LARGEST_QUANTITY)) return refusal("tooLargeNumber");
   return { value: sign.startsWith("-") ? -number : number };
 }
 

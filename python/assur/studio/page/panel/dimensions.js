@@ -20,7 +20,8 @@ export class DimensionSection {
   #rows = new Map();
   #built = "";
   #edited = "";
-  #steps = newestOnly((document) => this.model.preview(document));
+  #gesture = null;
+  #steps = newestOnly(({ gesture, document }) => this.model.isUnderWay(gesture) && this.model.preview(document));
 
   /** @param {import("../studio.js").Studio} studio */
   constructor(studio) {
@@ -146,19 +147,19 @@ export class DimensionSection {
     const { model } = this;
     if (!model.link.isOpen) return;
     this.#edited = name;
-    if (!model.isDragging) model.begin();
-    this.#steps.push(withDimension(model.document, name, value));
+    if (!model.isUnderWay(this.#gesture)) this.#gesture = model.begin();
+    this.#steps.push({ gesture: this.#gesture, document: withDimension(model.document, name, value) });
   }
 
   /** All steps are one step of undo. */
   async #settle(row) {
     await this.#steps.settled();
-    if (!row.isStepping) await this.model.commit();
+    if (!row.isStepping) await this.model.commit(this.#gesture);
   }
 
   async #restore() {
     await this.#steps.settled();
-    await this.model.cancel();
+    await this.model.cancel(this.#gesture);
   }
 
   /** What the present numbers cannot be shown for stands under the field that was changed. */
