@@ -71,7 +71,7 @@ DRAG_SCRIPT = """([joint, count]) => new Promise((resolve) => {
     sent = performance.now();
     send("pointermove", ++i);
   };
-  const end = model.on("turn", () => {
+  const end = model.on("picture", () => {
     const own = sent;
     requestAnimationFrame(() => {
       const channel = new MessageChannel();

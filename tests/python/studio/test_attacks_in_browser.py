@@ -1,4 +1,4 @@
-"""Attacks on the page: slow answers and quick hands, garbage in stores, other servers, no answers."""
+"""Attacks on the page: slow answers, quick hands, garbage in stores, other servers, no answers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import pytest
 from asking import FOUR_BAR
 from assur.studio.kinds import KINDS
 from assur.studio.session import Given
-from browsers import chromium
 from browsing import Server, Window, window
 
 if TYPE_CHECKING:
@@ -26,12 +25,6 @@ SLOW = """(ms) => {
   link.take = (frame) => setTimeout(() => take(frame), ms);
 }"""
 STUDIO = "window.assurStudio"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import assur
-from browsers import chromium
 from browsing import Window, window
 
 if TYPE_CHECKING:
@@ -18,12 +17,6 @@ if TYPE_CHECKING:
 
 COUPLER, ROCKER = "coupler.length", "rocker.length"
 STUDIO = "window.assurStudio"
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module")

@@ -9,12 +9,9 @@ import pytest
 
 import assur
 from asking import FOUR_BAR
-from browsers import chromium
 from browsing import Window, window
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from playwright.sync_api import Browser
 
 Place = tuple[float, float]
@@ -28,12 +25,6 @@ SIX_BAR: dict[str, Place] = {
     "A": (0.0, 0.05), "B": (0.01, 0.09), "C": (0.09, 0.13), "D": (0.1, 0.05), "E": (0.13, 0.11),
     "F": (0.19, 0.12), "G": (0.18, 0.05),
 }  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 class Hand:

@@ -12,7 +12,6 @@ import pytest
 import assur
 from asking import FOUR_BAR, PRESS
 from assur.studio import document
-from browsers import chromium
 from browsing import Window, window
 
 if TYPE_CHECKING:
@@ -22,12 +21,6 @@ if TYPE_CHECKING:
 
 SPEED = 10.0
 UNITS = {"N·m": 1.0, "kN·m": 1e3, "mN·m": 1e-3, "N": 1.0, "kN": 1e3, "W": 1.0, "kW": 1e3}
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module")

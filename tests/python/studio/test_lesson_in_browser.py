@@ -11,7 +11,6 @@ import pytest
 import tomllib
 
 import assur
-from browsers import chromium
 from browsing import Server
 from lesson_page import DEGREE, LessonPage
 
@@ -28,12 +27,6 @@ SCREEN = "button, input, select, [role=slider]"
 
 
 @pytest.fixture(scope="module")
-def lesson_browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
 def address() -> Iterator[str]:
     server = Server()
     yield server.address
@@ -41,8 +34,8 @@ def address() -> Iterator[str]:
 
 
 @pytest.fixture(scope="module")
-def opened(lesson_browser: Browser, address: str) -> Iterator[LessonPage]:
-    page = LessonPage(lesson_browser, address)
+def opened(browser: Browser, address: str) -> Iterator[LessonPage]:
+    page = LessonPage(browser, address)
     yield page
     page.close()
 

@@ -10,12 +10,9 @@ import pytest
 
 from asking import ask
 from assur.studio import document
-from browsers import chromium
 from browsing import Window, window
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from playwright.sync_api import Browser
 
 SECONDS = 6.0
@@ -51,7 +48,9 @@ class Monkey:
         """Do something."""
         own = (self.click, self.click, self.type, self.drag, self.drag, self.key, self.key)
         more = (self.wheel, self.undo, self.tool, self.tool)
-        chosen = self.rng.choice((*own, *more, self.example if self.rng.random() < 0.3 else self.key))
+        chosen = self.rng.choice(
+            (*own, *more, self.example if self.rng.random() < 0.3 else self.key)
+        )
         self.acts.append((chosen.__name__, chosen()))
 
     def _control(self, wanted: str) -> Any:
@@ -117,12 +116,6 @@ class Monkey:
         name = self.rng.choice(EXAMPLES)
         self.page.evaluate(f"(example) => {{ {STUDIO}.model.open({{ example }}) }}", name)
         return name
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @pytest.mark.parametrize("seed", [1])

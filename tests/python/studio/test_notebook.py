@@ -21,7 +21,6 @@ from assur.studio import document
 from assur.studio.bundle import widget_script
 from assur.studio.frame import decode
 from assur.studio.notebook import Explorer
-from browsers import chromium
 from node import run_node
 
 if TYPE_CHECKING:
@@ -119,12 +118,6 @@ def test_the_bundle_is_a_module(tmp_path: Path) -> None:
 
 
 # -- in JupyterLab -----------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @contextmanager

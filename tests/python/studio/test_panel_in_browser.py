@@ -10,7 +10,6 @@ import pytest
 import assur
 from assur.description.words import Status
 from assur.errors import AssurError
-from browsers import chromium
 from browsing import Window, window
 
 if TYPE_CHECKING:
@@ -19,12 +18,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
 
 DEGREE = np.pi / 180.0
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,6 @@ import pytest
 import assur
 from asking import FOUR_BAR
 from assur.studio import document
-from browsers import chromium
 from browsing import WIDTHS, Server, Window, window
 
 if TYPE_CHECKING:
@@ -19,12 +18,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from playwright.sync_api import Browser
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 @pytest.fixture

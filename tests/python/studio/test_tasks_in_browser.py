@@ -12,24 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from browsers import chromium
 from browsing import window
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from playwright.sync_api import Browser, Locator
 
     from browsing import Window
 
 DEGREE = np.pi / 180.0
 TURN = 2.0 * np.pi
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
 
 
 def field(one: Window, name: str) -> Locator:

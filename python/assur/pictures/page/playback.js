@@ -57,8 +57,9 @@ export class Playback {
    * @param {Object} data
    * @param {import("./turn.js").Turn} turn
    * @param {number} [q] where to go on
+   * @param {boolean} [isPassing] the next one comes at once: diagrams wait for the last
    */
-  replace(data, turn, q = this.player.q) {
+  replace(data, turn, q = this.player.q, isPassing = false) {
     this.#take(data, turn);
     this.player.turn = turn;
     // Only between ends it goes back too.
@@ -66,6 +67,7 @@ export class Playback {
     this.player.q = turn.bring(q);
     turn.sample(this.player.q, this.pose);
     this.dial.replace(data, turn, this.#dialLabel());
+    if (isPassing) return;
     this.#chart(data, turn);
     this.#pace(this.player.speed);
   }

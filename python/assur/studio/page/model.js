@@ -8,6 +8,8 @@ import { sketchScene } from "./document/sketch.js";
 /** Rows of a turn while something is dragged, and at rest. */
 const ROWS_DRAGGED = 91;
 const ROWS = 361;
+/** While something is dragged fields and diagrams follow so often, ms. */
+const PASSING = 60;
 /** How long to wait for a server that is busy, ms. */
 const SERVER_BUSY_WAIT = 400;
 
@@ -18,7 +20,7 @@ const SERVER_BUSY_WAIT = 400;
  */
 
 /**
- * Events: `document` it changed; `checked` its state is known; `turn` there is another turn to play;
+ * Events: `document` it changed; `picture` another turn is seen while something is dragged; `checked` its state is known; `turn` there is another turn to play;
  * `target` another path is wanted;
  * `problem` the present numbers cannot be shown, or can again; `file` title or stamp changed;
  * `connection` it was lost, or is there again; `settled` nothing is being dragged or computed;
@@ -64,6 +66,7 @@ export class Model {
   /** The gesture under way: what was before it; or null. */
   #gesture = null;
   #turnBefore = null;
+  #passing = 0;
   /** The document whose turn is shown. */
   #shown = null;
 
@@ -241,7 +244,6 @@ export class Model {
       this.rev += 1;
       this.changed = header.changed;
       this.#show(answer, header.q);
-      this.emit("document");
     } catch (error) {
       if (this.isUnderWay(gesture)) this.#fail(error);
     }
@@ -306,6 +308,16 @@ export class Model {
     return this.held.length === this.driverCount ? this.place : undefined;
   }
 
+  /** While something is dragged the picture follows at once, all else a few times a second. */
+  #pass() {
+    this.emit("picture");
+    this.#passing ||= setTimeout(() => {
+      this.#passing = 0;
+      this.emit("document");
+      this.emit("turn");
+    }, PASSING);
+  }
+
   // -- a motion over time ------------------------------------------------------
 
   /** Show a motion over time in place of the turn, until the document changes. */
@@ -362,7 +374,8 @@ export class Model {
       this.held = Array.isArray(q0) ? [...q0] : [payload.turn.at];
     }
     this.#solve(null);
-    this.emit("turn");
+    if (this.isDragging) this.#pass();
+    else this.emit("turn");
     if (wasRun) this.emit("run");
   }
 

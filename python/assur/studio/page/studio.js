@@ -149,6 +149,7 @@ export class Studio {
 
   #listen() {
     const { model, canvas, playback, root } = this;
+    model.on("picture", () => this.#replace(true));
     model.on("turn", () => this.#replace());
     model.on("problem", () => canvas.warn(this.#whatIsWrong()));
     model.on("document", () => (root.dataset.state = model.checked.state));
@@ -165,9 +166,9 @@ export class Studio {
   #keys = null;
 
   /** Take the turn of the model. */
-  #replace() {
+  #replace(isPassing = false) {
     const { model, canvas, playback } = this;
-    playback.replace(model.data, model.turn, model.run ? model.turn.low : model.q);
+    playback.replace(model.data, model.turn, model.run ? model.turn.low : model.q, isPassing);
     canvas.replace(model.data, model.turn);
     if (model.isNew) {
       model.isNew = false;
