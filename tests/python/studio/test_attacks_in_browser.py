@@ -1,4 +1,4 @@
-"""Attacks on the page: slow answers, quick hands, garbage in stores, other servers, no answers."""
+"""Attacks on the page: slow answers and quick hands, garbage kept, other servers, no answers."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from playwright.sync_api import Browser
+
+    from assur.studio.session import Answer, Session
 
 SLOW = """(ms) => {
   const { link } = window.assurStudio.model;
@@ -162,6 +164,11 @@ def test_more_than_the_server_takes(browser: Browser, monkeypatch: pytest.Monkey
     """No answer, or none in time: what was said of the document before is not said of this one."""
     many = {f"J{i}": [i / 7, i / 9] for i in range(9000)}
     check = KINDS["check"]
+
+    def slowly(data: dict[str, Any], session: Session) -> Answer:
+        time.sleep(0.6)
+        return check(data, session)
+
     with window(browser) as one:
         one.open({**FOUR_BAR, "joints": {**FOUR_BAR["joints"], **many}})
         assert one.state == "unchecked"
@@ -173,7 +180,7 @@ def test_more_than_the_server_takes(browser: Browser, monkeypatch: pytest.Monkey
         monkeypatch.setattr("assur.studio.connection.SECONDS", 0.1)
         monkeypatch.setattr("assur.studio.workers.GRACE", 0.1)
         with monkeypatch.context() as late:
-            late.setitem(KINDS, "check", lambda *a: (time.sleep(0.6), check(*a))[1])
+            late.setitem(KINDS, "check", slowly)
             one.open({**FOUR_BAR, "links": {**FOUR_BAR["links"], "brace": ["B", "D"]}})
             assert one.state == "unchecked"
         # Busy with what took too long; then it answers.

@@ -1,4 +1,4 @@
-"""A monkey with a seed at the studio: whatever it does, the page answers, tells the truth, loses nothing."""
+"""A monkey with a seed at the studio: the page answers, tells the truth and loses nothing."""
 
 from __future__ import annotations
 
@@ -33,7 +33,8 @@ CONTROLS = """(wanted) => [...document.querySelectorAll(wanted)].map((one) => {
   const { left, top, width, height } = one.getBoundingClientRect();
   const [x, y] = [left + width / 2, top + height / 2];
   const seen = width && height && x >= 0 && y >= 0 && document.elementFromPoint(x, y);
-  return seen && (one.contains(seen) || seen.contains(one)) && !/gif/i.test(one.textContent) ? [x, y] : null;
+  const isOver = seen && (one.contains(seen) || seen.contains(one));
+  return isOver && !/gif/i.test(one.textContent) ? [x, y] : null;
 }).filter(Boolean)"""
 
 

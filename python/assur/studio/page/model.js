@@ -314,7 +314,8 @@ export class Model {
     this.#passing ||= setTimeout(() => {
       this.#passing = 0;
       this.emit("document");
-      this.emit("turn");
+      // An answer that comes meanwhile is shown before the diagrams are drawn.
+      setTimeout(() => this.emit("turn"));
     }, PASSING);
   }
 

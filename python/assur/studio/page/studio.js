@@ -169,7 +169,8 @@ export class Studio {
   #replace(isPassing = false) {
     const { model, canvas, playback } = this;
     playback.replace(model.data, model.turn, model.run ? model.turn.low : model.q, isPassing);
-    canvas.replace(model.data, model.turn);
+    // While something is dragged the picture has taken it before.
+    if (canvas.stage.turn !== model.turn) canvas.replace(model.data, model.turn);
     if (model.isNew) {
       model.isNew = false;
       canvas.stage.fit();
