@@ -1,15 +1,40 @@
-"""What tests of several folders share: a browser."""
+"""Hypothesis profiles: `fast` (the same cases every time), `slow` (HYPOTHESIS_PROFILE=slow)."""
 
 from __future__ import annotations
 
+import os
+import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from playwright.sync_api import Browser
+
+settings.register_profile("fast", deadline=None, derandomize=True, max_examples=100)
+settings.register_profile(
+    "slow",
+    deadline=None,
+    max_examples=10_000,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fast"))
+
+
+def pytest_sessionstart() -> None:
+    """`make wheel` names the environment that the tested package must lie in."""
+    import assur
+
+    wanted = os.environ.get("ASSUR_INSTALLED_IN")
+    found = Path(assur.__file__).resolve()
+    if wanted and not (found.is_relative_to(wanted) and "site-packages" in found.parts):
+        message = f"{found} would be tested, not the package installed in {wanted}"
+        raise pytest.UsageError(message)
 
 
 @pytest.fixture(scope="module")
@@ -19,3 +44,31 @@ def browser() -> Iterator[Browser]:
 
     with chromium() as running:
         yield running
+
+
+@pytest.fixture
+def threads_at_once() -> Iterator[None]:
+    """Threads start for small work too. Releases have no such hook: there one thread does it."""
+    from assur import _core
+
+    if hasattr(_core, "start_threads_at_once"):
+        _core.start_threads_at_once(True)
+        yield
+        _core.start_threads_at_once(False)
+    else:
+        yield
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Which vector instructions ran."""
+    from assur import _core
+
+    terminalreporter.write_line(f"assur computed with {_core.simd_level()}")
+
+
+@pytest.fixture(autouse=True)
+def _figures_closed() -> Iterator[None]:
+    yield
+    # Where nothing is drawn matplotlib need not be there.
+    if pyplot := sys.modules.get("matplotlib.pyplot"):
+        pyplot.close("all")

@@ -208,7 +208,9 @@ def answered(ask: Callable[[], Any], write: Callable[[Any], list[Any]]) -> Any:
         try:
             found: Any = write(ask())
         except assur.AssurError as error:
-            fields = {name: of for name, of in error.__dict__.items() if name != "hint"}
+            # What has a name of its own alone is no result.
+            kept = [name for name in error.__dict__ if name != "hint" and name[0] != "_"]
+            fields = {name: error.__dict__[name] for name in kept}
             found = [type(error).__name__, repr(sorted(fields.items()))]
     return [found, [one.category.__name__ for one in caught]]
 

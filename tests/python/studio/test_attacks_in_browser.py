@@ -133,6 +133,7 @@ def test_a_server_with_another_token(browser: Browser) -> None:
     server = Server()
     one = Window(browser, server, "wide", dark=False)
     hold(one, "C", (20.0, 0.0))
+    one.wait_until(f"{STUDIO}.model.link.isQuiet")
     before = one.document
     server.stop()
     one.page.mouse.up()

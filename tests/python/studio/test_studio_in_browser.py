@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -186,7 +187,12 @@ def test_examples_and_undo_across_them(browser: Browser, file: Path) -> None:
         assert_drawn_as_solved(one)
 
 
-@pytest.mark.parametrize("name", sorted(assur.examples.ALL))
+# Every third; `make campaign` opens all.
+ALL = sorted(assur.examples.ALL)
+SHOWN = ALL if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else ALL[::3]
+
+
+@pytest.mark.parametrize("name", SHOWN)
 def test_every_example_is_drawn_as_it_is_solved(example_window: Window, name: str) -> None:
     one = example_window
     one.page.evaluate("(example) => window.assurStudio.model.open({ example })", name)
@@ -327,7 +333,8 @@ def test_a_lost_connection(browser: Browser) -> None:
     server.stop()
     one.context.close()
     # The browser itself says that it cannot connect; nothing else is said.
-    assert all("WebSocket connection" in text for text in one.complaints)
+    own = ("WebSocket connection", "ERR_CONNECTION_REFUSED")
+    assert all(any(part in text for part in own) for text in one.complaints), one.complaints
 
 
 @pytest.mark.parametrize("what", ["TOML", "SVG", "DXF", "CSV", "HTML"])
