@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import time
 from typing import TYPE_CHECKING, Any
@@ -9,8 +10,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from asking import FOUR_BAR
+from assur.studio.answers import answered
+from assur.studio.bundle import widget_script
 from assur.studio.kinds import KINDS
-from assur.studio.session import Given
+from assur.studio.request import parse
+from assur.studio.session import Deadline, Given, Session
 from browsing import Server, Window, window
 
 if TYPE_CHECKING:
@@ -19,7 +23,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser
 
-    from assur.studio.session import Answer, Session
+    from assur.studio.session import Answer
 
 SLOW = """(ms) => {
   const { link } = window.assurStudio.model;
@@ -129,6 +133,31 @@ def test_garbage_that_the_browser_kept(browser: Browser) -> None:
         server.stop()
 
 
+def test_a_slider_that_tells_no_change(slow: Window, fresh: dict[str, Any]) -> None:
+    """Browsers tell none if the value was put back while it was pressed: letting go is enough."""
+    slow.page.evaluate(
+        """() => {
+             const range = document.querySelector(".slider input[type=range]");
+             range.value = String((Number(range.min) + 3 * Number(range.max)) / 4);
+             range.dispatchEvent(new Event("input", { bubbles: true }));
+             range.dispatchEvent(new PointerEvent("pointerup", { bubbles: true }));
+           }"""
+    )
+    slow.settle()
+    assert undone(slow) == 1
+    assert slow.document == fresh
+
+
+def test_undo_by_key_ends_a_drag_that_nobody_ends(slow: Window, fresh: dict[str, Any]) -> None:
+    slow.page.evaluate(f"{{ {STUDIO}.model.begin(); {STUDIO}.canvas.picture.focus() }}")
+    slow.page.evaluate(
+        f"{STUDIO}.model.preview({{ ...{STUDIO}.model.document, driver: 'rocker' }})"
+    )
+    slow.page.keyboard.press("Control+z")
+    slow.settle()
+    assert slow.document == fresh
+
+
 def test_a_server_with_another_token(browser: Browser) -> None:
     server = Server()
     one = Window(browser, server, "wide", dark=False)
@@ -208,3 +237,56 @@ def test_a_file_that_is_none_leaves_a_page_that_works(browser: Browser, tmp_path
     one.close()
     server.stop()
     assert path.read_bytes() == bytes(range(256))
+
+
+CELL = """async ([code, document]) => {
+  const blob = new Blob([code], { type: "text/javascript" });
+  const { default: widget } = await import(URL.createObjectURL(blob));
+  const on = {};
+  const values = { document, q: 0, height: 640 };
+  const cell = window.cell = {
+    get: (name) => values[name], set: (name, value) => (values[name] = value),
+    save_changes: () => {},
+    on: (name, act) => (on[name] = act), off: (name) => delete on[name],
+    send: async ({ text }) => {
+      const bytes = Uint8Array.from(atob(await window.kernel(text)), (one) => one.charCodeAt(0));
+      on["msg:custom"]?.({}, [new DataView(bytes.buffer)]);
+    },
+    tell: (name, value) => { values[name] = value; on[`change:${name}`]?.(); },
+    message: (...given) => on["msg:custom"](...given),
+  };
+  window.close = widget.render({ model: cell, el: window.document.body });
+}"""
+
+
+def test_nonsense_in_a_notebook(browser: Browser) -> None:
+    def kernel(text: str) -> str:
+        frame = answered(parse(text), Session(None, Deadline(5.0)))
+        return base64.b64encode(frame).decode()
+
+    complaints: list[str] = []
+    page = browser.new_page()
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.expose_function("kernel", kernel)
+    shown = "window.document.querySelector('.assur-explorer').studio"
+    page.evaluate(CELL, [widget_script(), FOUR_BAR])
+    page.wait_for_function(f"{shown}?.model.checked.state === 'moves'")
+    nonsense: tuple[Any, ...] = ({}, [], 5, None, "x", {"joints": 5}, {**FOUR_BAR, "loads": [None]})
+    for own in nonsense:
+        page.evaluate("(own) => window.cell.tell('document', own)", own)
+        page.wait_for_timeout(30)
+        assert page.evaluate(f"{shown}.model.document") == FOUR_BAR
+    page.get_by_text("not a description of a mechanism").wait_for()
+    places: tuple[Any, ...] = (None, "x", [], {})
+    for q in places:
+        page.evaluate("(q) => window.cell.tell('q', q)", q)
+    page.evaluate("window.cell.message({}); window.cell.message({}, []); window.cell.message(null)")
+    other = {**FOUR_BAR, "driver": "rocker"}
+    page.evaluate("(own) => window.cell.tell('document', own)", other)
+    page.wait_for_function(f"{shown}.model.data.driver === 'rocker'")
+    # Closed and opened again.
+    page.evaluate("window.close(); window.document.body.replaceChildren()")
+    page.evaluate(CELL, [widget_script(), FOUR_BAR])
+    page.wait_for_function(f"{shown}?.model.checked.state === 'moves'")
+    assert complaints == []
+    page.close()

@@ -15,7 +15,7 @@ from browsing import Window, window
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-SECONDS = 6.0
+SECONDS = 4.5
 BATCH = 12
 STUDIO = "window.assurStudio"
 TYPED = (
@@ -36,6 +36,12 @@ CONTROLS = """(wanted) => [...document.querySelectorAll(wanted)].map((one) => {
   const isOver = seen && (one.contains(seen) || seen.contains(one));
   return isOver && !/gif/i.test(one.textContent) ? [x, y] : null;
 }).filter(Boolean)"""
+
+# Where joints are seen.
+JOINTS = """() => [...document.querySelectorAll(".picture circle.joint")]
+  .map((one) => one.getBoundingClientRect())
+  .map(({ left, top, width, height }) => [left + width / 2, top + height / 2])
+  .filter(([x, y]) => x > 0 && y > 0 && x < 1440 && y < 900)"""
 
 
 class Monkey:
@@ -74,11 +80,10 @@ class Monkey:
         return text
 
     def _place(self) -> tuple[float, float]:
-        joints = self.page.evaluate(f"{STUDIO}.canvas.stage.data.joints.map((one) => one.name)")
-        if joints and self.rng.random() < 0.6:
-            x, y = self.one.joint_px(self.rng.choice(joints))
-            if 0.0 <= x <= 1440.0 and 0.0 <= y <= 900.0:
-                return x, y
+        seen = self.page.evaluate(JOINTS)
+        if seen and self.rng.random() < 0.6:
+            x, y = self.rng.choice(seen)
+            return float(x), float(y)
         return 60.0 + 1000.0 * self.rng.random(), 60.0 + 580.0 * self.rng.random()
 
     def drag(self) -> Any:

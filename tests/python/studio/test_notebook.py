@@ -179,8 +179,16 @@ def wait_until(page: Page, condition: str) -> None:
 
 
 def run_cell(page: Page, i: int) -> None:
-    page.locator(".jp-CodeCell .cm-content").nth(i).click()
-    page.keyboard.press("Control+Enter")
+    """Run a cell; a notebook that is still opening takes no notice of keys."""
+    cell = page.locator(".jp-CodeCell").nth(i)
+    for _ in range(10):
+        cell.locator(".cm-content").click()
+        page.keyboard.press("Control+Enter")
+        for _ in range(30):
+            if (cell.locator(".jp-InputPrompt").text_content() or "").strip() != "[ ]:":
+                return
+            page.wait_for_timeout(100)
+    pytest.fail(f"cell {i} does not run")
 
 
 def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:

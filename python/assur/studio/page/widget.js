@@ -22,7 +22,11 @@ export function render({ model: cell, el }) {
   el.append(host);
 
   const link = new Link({ send: (text) => cell.send({ text }), isOpen: true });
-  const take = (_, [frame]) => link.take(frame.buffer.slice(frame.byteOffset, frame.byteOffset + frame.byteLength));
+  // Messages without a frame are others'.
+  const take = (_, buffers) => {
+    const frame = buffers?.[0];
+    if (frame) link.take(frame.buffer.slice(frame.byteOffset, frame.byteOffset + frame.byteLength));
+  };
   cell.on("msg:custom", take);
   let studio = null;
   let own = null;
@@ -36,12 +40,14 @@ export function render({ model: cell, el }) {
     own = JSON.stringify(document);
     const { model } = studio;
     model.isNew = JSON.stringify(Object.keys(document.joints)) !== JSON.stringify(Object.keys(model.document.joints));
-    await model.edit(document, { place: cell.get("q"), title: "" });
+    const q = cell.get("q");
+    // A place that is none is that of the drawing.
+    await model.edit(document, { place: [q].flat().every(Number.isFinite) ? q : [], title: "" });
   };
   const seek = () => {
     const { model, playback } = studio ?? {};
     const q = cell.get("q");
-    if (!studio || typeof q !== "number" || q === model.q) return;
+    if (!studio || !Number.isFinite(q) || q === model.q) return;
     playback.seek(q);
   };
   const later = (act) => {

@@ -34,7 +34,8 @@ export function listenForEdits({ root, isEmbedded, model, bar }, choice) {
     if (!act || isTyping || root.classList.contains("in-lesson") || event.composedPath()[0].closest?.("dialog")) return;
     event.preventDefault();
     await choice.finish();
-    if (!model.isDragging) act();
+    // Undo ends what is dragged.
+    if (!model.isDragging || key === "z") act();
   };
   listening.addEventListener("keydown", listener);
   return () => listening.removeEventListener("keydown", listener);

@@ -86,6 +86,14 @@ export class Designing {
     return this.#closing;
   }
 
+  /**
+   * End it when a slider is let go.
+   * @param {HTMLInputElement} range which tells no change if its value was put back meanwhile
+   */
+  endWith(range) {
+    for (const event of ["change", "pointerup", "pointercancel", "blur"]) range.addEventListener(event, () => this.end());
+  }
+
   /** As if it had not begun. */
   async cancel() {
     if (!this.isOn || this.#closing) return;

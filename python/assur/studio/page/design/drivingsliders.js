@@ -105,7 +105,7 @@ export class DrivingSliders {
       designing.set({ [name]: Number(row.range.value) / unitShown(model.data, present().unit).factor });
       row.show();
     });
-    row.range.addEventListener("change", () => designing.end());
+    designing.endWith(row.range);
     return row;
   }
 

@@ -35,7 +35,7 @@ export class DimensionSlider {
     }
     this.element = html("div", { class: "slider" }, head, this.range, this.note);
     this.range.addEventListener("input", () => this.#slide());
-    this.range.addEventListener("change", () => designing.end());
+    designing.endWith(this.range);
     // Arrows are the slider's, not those of the crank.
     this.range.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && designing.isOn) designing.cancel();
