@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import assur
+from studio_page import chain
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -307,21 +308,6 @@ def assert_names_are_clear(page: Page) -> None:
     for i, (left, right, top, bottom) in enumerate(boxes):
         for left2, right2, top2, bottom2 in boxes[:i]:
             assert left >= right2 or right <= left2 or top >= bottom2 or bottom <= top2
-
-
-def chain(links: int) -> assur.Mechanism:
-    """Return a crank with dyads, each driven by the one before: a mechanism of many links."""
-    joints: dict[str, tuple[float, float]] = {"A": (0.0, 0.0), "B": (0.3, 0.6)}
-    members: dict[str, list[str]] = {"ground": ["A"], "crank": ["A", "B"]}
-    last = "B"
-    for i in range((links - 2) // 2):
-        x = 1.5 * (i + 1)
-        joints |= {f"C{i}": (x, 1.4), f"D{i}": (x, 0.0), f"E{i}": (x + 0.2, 0.8)}
-        members["ground"].append(f"D{i}")
-        members[f"rod{i}"] = [last, f"C{i}"]
-        members[f"rocker{i}"] = [f"D{i}", f"C{i}", f"E{i}"]
-        last = f"E{i}"
-    return assur.Mechanism(joints, members, "crank")
 
 
 def test_a_frame_of_thirty_links_takes_little_script(browser: Browser, tmp_path: Path) -> None:

@@ -85,6 +85,8 @@ def test_what_cannot_be_played_in_time_is_refused(tmp_path: Path) -> None:
     with pytest.raises(assur.InputError, match=r"batch \(2,\)"):
         batch.follow(law, np.linspace(0.0, 1.0, 11)).to_html(out)
     run = MACHINE.run(t_end=1.0, q0=0.3, speed0=2.0)
+    with pytest.raises(assur.InputError, match="goes back, from t = 0 s to -1 s"):
+        MACHINE.run(t_end=-1.0, q0=0.3, speed0=2.0).to_html(out)
     with pytest.raises(assur.InputError, match="cannot be written"):
         run.to_html(tmp_path / "missing" / "run.html")
     assert not out.exists()

@@ -11,6 +11,8 @@ from assur.description.words import Slide
 from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
     from assur.papers.crank_rocker.jamming import JammingRun
@@ -33,11 +35,16 @@ def jamming_picture(run: JammingRun, what: str, ax: Any, degrees: bool, dark: bo
 
 def mechanism_of(run: JammingRun) -> Mechanism:
     """Return the mechanism with its support on a slide: of two drivers, the crank and the slide."""
-    from assur.kinematics.mechanism import Mechanism
-
     joints: dict[str, tuple[float, float]] = {"A": (0.0, 0.0)}
     for name, points in (("B", run.B), ("C", run.C), ("D", run.D)):
         joints[name] = (float(points[0, 0]), float(points[0, 1]))
+    return with_sliding_support(joints)
+
+
+def with_sliding_support(joints: Mapping[str, Any]) -> Mechanism:
+    """Return the crank-rocker of A, B, C, D whose support D slides along the line through A."""
+    from assur.kinematics.mechanism import Mechanism
+
     links = {
         "ground": ["A"],
         "crank": ["A", "B"],

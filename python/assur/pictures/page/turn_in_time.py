@@ -32,6 +32,10 @@ def turn_of_run(run: Run) -> Turn:
 
 def course_of_run(run: Run, rows: int | None = None) -> tuple[Float, Float, Float, Float]:
     """Return t, q, speed and acceleration of a run at equal steps of time."""
+    if run.t[-1] < run.t[0]:
+        message = f"this run goes back, from t = {run.t[0]:g} s to {run.t[-1]:g} s: a page plays "
+        message += "forward; run it from its end"
+        raise InputError(message)
     if not run.t[-1] > run.t[0]:
         message = f"this run ends where it begins, at t = {run.t[0]:g} s: nothing moves"
         raise InputError(message)

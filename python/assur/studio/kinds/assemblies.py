@@ -11,6 +11,7 @@ from assur.files.read_machine import SECTIONS
 from assur.kinematics.assembly import SAME
 from assur.kinematics.place import size_of
 from assur.studio import document
+from assur.studio.kinds.turn import reach_of
 from assur.studio.request import Fields
 from assur.studio.session import Answer
 
@@ -71,9 +72,4 @@ def _reach(drawn: Mechanism) -> dict[str, Any] | None:
         limits = drawn.limits()
     except AssurError:
         return None
-    return {
-        "intervals": limits.intervals,
-        "full_rotation": limits.full_rotation,
-        "period": limits.period,
-        "dead_points": [{"q": point.q, "group": point.group} for point in limits.dead_points],
-    }
+    return reach_of(limits)

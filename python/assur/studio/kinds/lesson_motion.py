@@ -16,6 +16,7 @@ from assur._trig import arctan2, sin_cos
 from assur.description.words import Slide
 from assur.kinematics.mechanism import Mechanism
 from assur.papers import crank_rocker
+from assur.papers.crank_rocker.jamming_picture import with_sliding_support
 from assur.pictures.scene.course import TURN
 
 if TYPE_CHECKING:
@@ -206,15 +207,7 @@ def _with_moving_support(
     by_ground = np.full((2, 2), np.nan)
     if np.isnan(places["C"]).any():
         return value, first, second, by_ground
-    links = {
-        "ground": ["A"],
-        "crank": ["A", "B"],
-        "coupler": ["B", "C"],
-        "rocker": ["D", "C"],
-        "support": ["D"],
-    }
-    slides = {"line": Slide("support", on="ground", angle=0.0, origin="A")}
-    mechanism = Mechanism(places, links, ["crank", "line"], slides)
+    mechanism = with_sliding_support(places)
     q = np.atleast_2d(mechanism.q0)
     motion = mechanism.solve(q, order=2, on_error="nan")
     rates = np.array([speed, -ground_speed])

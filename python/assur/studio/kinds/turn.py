@@ -66,7 +66,10 @@ def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = 
     shown = payload(
         played_of(own), "", speed, fields["paths"], fields["diagrams"], encode=kept.append
     )
-    shown["turn"] |= {"orders": orders, "limits": _limits(own.limits)}
+    shown["turn"] |= {
+        "orders": orders,
+        "limits": None if own.limits is None else reach_of(own.limits),
+    }
     header = {"payload": shown, "dimensions": dimensions_of(own.mechanism)}
     return Answer(header, {"values": kept[0][:orders]})
 
@@ -139,10 +142,8 @@ def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
     return known
 
 
-def _limits(limits: Limits | None) -> dict[str, Any] | None:
+def reach_of(limits: Limits) -> dict[str, Any]:
     """Return where the driver can be; null stands for no end."""
-    if limits is None:
-        return None
     return {
         "intervals": limits.intervals,
         "full_rotation": limits.full_rotation,
