@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from playwright.sync_api import sync_playwright
 
 import assur
 
@@ -115,6 +114,8 @@ def chain(links: int) -> assur.Mechanism:
 @contextmanager
 def studio(mechanism: assur.Mechanism) -> Iterator[tuple[Page, int]]:
     """Open the studio of a server of its own; yield the page and the server's process."""
+    from playwright.sync_api import sync_playwright
+
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "chain.toml"
         mechanism.save(path)
