@@ -103,6 +103,15 @@ test("a row without a position leaves a gap of two cells", () => {
   assert.deepEqual(known, [true, false, false, false, true]);
 });
 
+test("of some links alone nothing else is touched", () => {
+  const turn = linear(3, Float64Array);
+  const whole = turn.sample(1.2345);
+  const own = turn.sample(1.2345, turn.pose(), [0, 1]);
+  for (const key of ["q", "known", "value", "d1", "d2"]) assert.deepEqual(own[key], whole[key]);
+  const none = turn.sample(1.2345, turn.pose(), [0]);
+  assert.deepEqual([...none.value.slice(3)], [0, 0, 0]);
+});
+
 test("the ground has its own frame", () => {
   const values = new Float64Array(9 * 2);
   const turn = new Turn({ grid: { kind: "linear", low: 0, high: 1 }, closes: false, rows: 2, orders: 3, values, ground: [1, 2, 0.5] });

@@ -1,4 +1,4 @@
-"""One page: reads its requests, computes one at a time, keeps of live kinds the newest."""
+"""One page: reads its requests, computes them in two lanes, keeps of live kinds the newest."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from assur.studio.answers import answered, failed
 from assur.studio.frame import encode
-from assur.studio.kinds import LIVE
+from assur.studio.kinds import LIVE, LONG
 from assur.studio.limits import EXPORT_SECONDS, MOST_CONNECTIONS, MOST_WAITING, SECONDS
 from assur.studio.request import MalformedError, Request, parse
 from assur.studio.session import Deadline, Session, TimeIsUpError
@@ -49,19 +49,41 @@ class Studio:
             self.connections.discard(connection)
 
 
+class Lane:
+    """Requests that are computed one at a time, the oldest first."""
+
+    def __init__(self) -> None:
+        self.waiting: list[Request] = []
+        self._is_waiting = asyncio.Event()
+
+    def add(self, request: Request) -> None:
+        """Let a request wait."""
+        self.waiting.append(request)
+        self._is_waiting.set()
+
+    async def next(self) -> Request:
+        """Return the oldest once there is one."""
+        await self._is_waiting.wait()
+        request = self.waiting.pop(0)
+        if not self.waiting:
+            self._is_waiting.clear()
+        return request
+
+
 class Connection:
     """One page."""
 
     def __init__(self, studio: Studio, socket: WebSocket) -> None:
         self._studio, self._socket = studio, socket
-        self._waiting: list[Request] = []
-        self._is_waiting = asyncio.Event()
+        # What a hand waits for, and what may take long: neither waits for the other.
+        self._quick, self._long = Lane(), Lane()
         self._sending = asyncio.Lock()
         self.has_file = False
 
     async def serve(self) -> None:
         """Read until the page leaves; compute meanwhile."""
-        computing = asyncio.create_task(self._compute())
+        lanes = (self._quick, self._long)
+        computing = asyncio.gather(*(self._compute(lane) for lane in lanes))
         try:
             while True:
                 message = await self._socket.receive()
@@ -82,25 +104,21 @@ class Connection:
         except MalformedError as error:
             await self._send(failed({"id": error.id, "rev": None, "kind": None}, error))
             return
+        lane = self._long if request.kind in LONG else self._quick
         place = LIVE.get(request.kind)
-        older = [one for one in self._waiting if place is not None and LIVE.get(one.kind) == place]
+        older = [one for one in lane.waiting if place is not None and LIVE.get(one.kind) == place]
         for one in older:
-            self._waiting.remove(one)
+            lane.waiting.remove(one)
             await self._send(encode({**_head(one), "dropped": True}, {}))
-        if len(self._waiting) >= MOST_WAITING:
+        if len(lane.waiting) >= MOST_WAITING:
             await self._send(failed(_head(request), BusyError()))
             return
-        self._waiting.append(request)
-        self._is_waiting.set()
+        lane.add(request)
 
-    async def _compute(self) -> None:
-        """Answer what waits, the oldest first."""
+    async def _compute(self, lane: Lane) -> None:
+        """Answer what waits in a lane."""
         while True:
-            await self._is_waiting.wait()
-            request = self._waiting.pop(0)
-            if not self._waiting:
-                self._is_waiting.clear()
-            await self._send(await self._answer(request))
+            await self._send(await self._answer(await lane.next()))
 
     async def _answer(self, request: Request) -> bytes:
         seconds = EXPORT_SECONDS if request.kind == "export" else SECONDS

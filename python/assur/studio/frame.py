@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 # Where each array begins, so that a page can lay a Float64Array over it.
 ALIGNED = 8
+# Arrays of other types become Float64.
+AS_THEY_ARE = (np.uint8, np.float32)
 COMPACT = (",", ":")
 
 
@@ -39,7 +41,7 @@ def encode(header: Mapping[str, Any], arrays: Mapping[str, npt.NDArray[Any]]) ->
     """
     packed = {name: _packed(array) for name, array in arrays.items()}
     listed = [
-        {"name": name, "type": "uint8" if array.itemsize == 1 else "float64", "shape": array.shape}
+        {"name": name, "type": array.dtype.name, "shape": array.shape}
         for name, array in packed.items()
     ]
     text = _json({**header, "arrays": listed})
@@ -63,7 +65,7 @@ def decode(frame: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
     at = 4 + length + len(_zeros(4 + length))
     arrays = {}
     for one in header["arrays"]:
-        kind: Any = np.dtype("u1" if one["type"] == "uint8" else "<f8")
+        kind: Any = np.dtype(one["type"]).newbyteorder("<")
         count = math.prod(one["shape"])
         arrays[one["name"]] = np.frombuffer(frame, kind, count, at).reshape(one["shape"])
         at += count * kind.itemsize
@@ -99,7 +101,7 @@ def plain(value: Any) -> Any:
 
 
 def _packed(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    kind = "u1" if array.dtype == np.uint8 else "<f8"
+    kind = array.dtype.newbyteorder("<") if array.dtype in AS_THEY_ARE else "<f8"
     return np.ascontiguousarray(array, dtype=kind)
 
 

@@ -21,7 +21,7 @@ from assur.pictures.page.bundle import MODULES as NAMES
 from assur.pictures.page.bundle import module, script
 from assur.pictures.page.html import css
 from assur.pictures.page.payload import payload, played_of
-from assur.pictures.page.turn import turn_of, turn_of_rows
+from assur.pictures.page.turn import passing_turn, turn_of, turn_of_rows
 from node import MODULES, run_node
 
 EVIL = "</script><img/src=x/onerror=alert(1)>"
@@ -424,3 +424,28 @@ def test_what_cannot_be_played_has_a_repr_alone() -> None:
     assert batch._repr_svg_() is None
     assert batch.solve([0.0, 1.0])._repr_html_() is None
     assert example("crank_rocker").solve(1.0)._repr_html_() is None
+
+
+@pytest.mark.parametrize("name", sorted(assur.examples.ALL))
+def test_a_turn_that_passes_is_the_whole_one_or_none(name: str) -> None:
+    """Where the driver is seen to go round, its limits need not be looked for."""
+    made = example(name)
+    if made._driver_count > 1:
+        assert passing_turn(made, 0.0, 61) is None
+        return
+    passing, whole = (f(made, float(made.q0), 61) for f in (passing_turn, turn_of))
+    assert whole is not None
+    assert (passing is not None) == (whole.closes and whole.grid["high"] == 2.0 * np.pi)
+    if passing is None:
+        return
+    assert (passing.closes, passing.grid, passing.at) == (whole.closes, whole.grid, whole.at)
+    for own, wanted in zip(passing.frames.values, whole.frames.values, strict=False):
+        assert own == pytest.approx(wanted, rel=1e-13, abs=1e-13)
+
+
+def test_no_turn_of_a_driven_slide_passes() -> None:
+    guide = assur.Slide(link="block", on="ground", angle=0.0, origin="A")
+    joints = {"A": (0.0, 0.0), "B": (0.6, 0.8), "C": (3.0, 0.0)}
+    links = {"ground": ["A"], "crank": ["A", "B"], "rod": ["B", "C"], "block": ["C"]}
+    sliding = assur.Mechanism(joints, links, driver="guide", slides={"guide": guide})
+    assert passing_turn(sliding, float(sliding.q0), 61) is None

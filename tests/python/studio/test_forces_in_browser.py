@@ -264,7 +264,7 @@ def test_a_run_by_the_motor(press: Window) -> None:
     # Forces along the run: those of the motion, with its acceleration.
     torque = float(machine(PRESS).reactions(end.q, end.speed, end.acceleration).driver)
     now = press.page.locator("[data-section=drive] output.big-number")
-    assert quantity(now.inner_text()) == pytest.approx(torque, rel=6e-3)
+    assert quantity(now.text_content() or "") == pytest.approx(torque, rel=6e-3)
     press.button("Back to the turn").click()
     assert press.q == pytest.approx(0.5)
     assert press.page.evaluate("window.assurStudio.playback.player.speed") == SPEED

@@ -34,6 +34,7 @@ def test_round_trip(header: dict[str, Any]) -> None:
         "none": np.zeros((0, 2)),
         "after": np.array([np.nan, np.inf, -0.0]),
         "flags": np.array([True, False]),
+        "passing": np.array([0.1, np.nan, -2.0], dtype=np.float32),
     }
     frame = encode(header, arrays)
     assert len(frame) % 8 == 0

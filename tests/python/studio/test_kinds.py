@@ -125,6 +125,32 @@ def test_assemblies() -> None:
             assert drawn.solve(q).joint(name).value == pytest.approx(at, abs=1e-9)
 
 
+def test_of_many_assemblies_those_that_differ_in_one_dyad() -> None:
+    """Nine rockers on one crank have 512; all signs but one are the present ones."""
+    joints: dict[str, tuple[float, float]] = {"A": (0, 0), "B": (0.3, 0.6)}
+    links = {"ground": ["A"], "crank": ["A", "B"]}
+    for i in range(9):
+        joints |= {f"C{i}": (1.5 + 0.1 * i, 1.4), f"D{i}": (2 + 0.1 * i, 0)}
+        links |= {f"rod{i}": ["B", f"C{i}"], f"rocker{i}": [f"D{i}", f"C{i}"]}
+        links["ground"].append(f"D{i}")
+    mechanism = assur.Mechanism(joints, links, "crank")
+    q = float(mechanism.q0) + 0.05
+    reply = ask("assemblies", document=document.document_of(mechanism), q=q)
+    assert reply["most"] == 512
+    own = dict(mechanism.assembly)
+    assert reply["assemblies"][0]["is_current"]
+    assert reply["assemblies"][0]["signs"] == own
+    differ = [
+        [name for name in own if one["signs"][name] != own[name]] for one in reply["assemblies"][1:]
+    ]
+    assert all(len(names) == 1 for names in differ)
+    for one in reply["assemblies"]:
+        drawn = document.read_mechanism(one["document"]).solve(q)
+        for name, at in one["joints"].items():
+            assert drawn.joint(name).value == pytest.approx(at, abs=1e-9)
+    assert {name for names in differ for name in names} == set(own)
+
+
 def test_sensitivity_by_differences() -> None:
     reply = ask("sensitivity", document=FOUR_BAR, q=0.7, of="P.x")
     mechanism = document.read_mechanism(FOUR_BAR)

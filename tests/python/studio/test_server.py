@@ -330,6 +330,19 @@ def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
     opened.set()
 
 
+def test_what_takes_long_does_not_hold_a_hand(
+    client: TestClient, gate: threading.Event, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(KINDS, "map", KINDS["position"])
+    with client.websocket_connect("/socket", headers=OWN) as socket:
+        socket.send_text(json.dumps({"id": 1, "rev": 1, "kind": "map", "q": 1}))
+        time.sleep(0.05)
+        drag = {"document": FOUR_BAR, "joint": "C", "to": [4, 3], "rows": 9}
+        assert asked(socket, {"id": 2, "rev": 1, "kind": "drag", **drag})["id"] == 2
+        gate.set()
+        assert read(socket)["id"] == 1
+
+
 def test_only_the_newest_that_waits(client: TestClient, gate: threading.Event) -> None:
     with client.websocket_connect("/socket", headers=OWN) as socket:
 

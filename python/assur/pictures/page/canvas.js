@@ -1,6 +1,6 @@
 // The picture with what lies on it: messages, switches, the choice of points.
 
-import { html, svg } from "./elements.js";
+import { html, svg, write } from "./elements.js";
 import { button, pointChoice, switchRow } from "./panel.js";
 import { Stage } from "./stage.js";
 import { say } from "./words.js";
@@ -73,7 +73,7 @@ export class Canvas {
   /** Say what is wrong, or nothing. */
   warn(text) {
     this.warning.hidden = !text;
-    this.warning.textContent = text;
+    write(this.warning, text);
   }
 
   /** The window has another size. */

@@ -1,6 +1,6 @@
 // A diagram of one quantity over the coordinate, with a cursor and its extremes.
 
-import { html, put, svg } from "./elements.js";
+import { html, put, svg, write } from "./elements.js";
 import { pathOf } from "./draw.js";
 import { angleTicks, degrees, digits, ticks, tickText } from "./numbers.js";
 import { roleOf, unitOf } from "./quantities.js";
@@ -151,7 +151,7 @@ export class Chart {
     const places = turn.coordinates(count);
     const values = places.map((q, i) => {
       // The last of a closed motion is the first: angles have gone on by a turn.
-      turn.sample(turn.closes && i === count ? q - 1e-9 : q, pose);
+      turn.sample(turn.closes && i === count ? q - 1e-9 : q, pose, quantity.links);
       return pose.known ? quantity.value(pose, this.speed) : NaN;
     });
     const right = width - CHART_MARGIN.right;
@@ -228,6 +228,6 @@ export class Chart {
     put(this.cursor, "x2", px);
     put(this.point, "cx", px);
     put(this.point, "cy", Number.isFinite(value) ? this.y(value).toFixed(2) : "-99");
-    this.value.textContent = `${digits(value)}${name === "°" ? "" : " "}${name}`;
+    write(this.value, `${digits(value)}${name === "°" ? "" : " "}${name}`);
   }
 }

@@ -1,7 +1,7 @@
 // The driver's dial: a ring with what is within reach, dead points, the drawing, and a knob; a
 // straight bar if the coordinate is no angle.
 
-import { put, svg } from "./elements.js";
+import { put, svg, write } from "./elements.js";
 import { degrees } from "./numbers.js";
 
 const TURN = 2 * Math.PI;
@@ -131,8 +131,8 @@ export class Dial {
     this.q = q;
     const [x, y] = this.place(q);
     put(this.knob, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
-    this.text.textContent = this.options.text(q);
-    this.second.textContent = second;
+    write(this.text, this.options.text(q));
+    write(this.second, second);
   }
 
   /** Tell screen readers; not for each frame. */

@@ -107,7 +107,7 @@ export class Drawing {
   /** Whether another scene has the same parts, perhaps of other sizes. */
   fits(scene) {
     const { parts, links } = this.scene;
-    const isSame = (part, i) => PART_KEYS.every((key) => String(part[key]) === String(scene.parts[i][key])) && part.at.length === scene.parts[i].at.length;
+    const isSame = (part, i) => PART_KEYS.every((key) => part[key] === scene.parts[i][key]) && part.at.length === scene.parts[i].at.length;
     return links.join() === scene.links.join() && parts.length === scene.parts.length && parts.every(isSame);
   }
 

@@ -42,3 +42,8 @@ export function icon(path) {
 export function put(element, name, value) {
   if (element.getAttribute(name) !== value) element.setAttribute(name, value);
 }
+
+/** Write a text only if it differs. */
+export function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}

@@ -50,8 +50,8 @@ export function clearance(cx, cy, hx, hy, [ax, ay], [bx, by]) {
 }
 
 /** Return the distance of two boxes. */
-function apart(cx, cy, hx, hy, other) {
-  return Math.max(Math.abs(cx - other.x) - hx - other.hx, Math.abs(cy - other.y) - hy - other.hy);
+function apart(cx, cy, hx, hy, x, y, rx, ry) {
+  return Math.max(Math.abs(cx - x) - hx - rx, Math.abs(cy - y) - hy - ry);
 }
 
 /**
@@ -72,11 +72,14 @@ export function placeLabels(labels, lines, bounds) {
     const hy = label.height / 2;
     const gap = label.radius + REACH;
     const far = gap + 2 * Math.max(hx, hy) + ENOUGH;
+    const isNear = ({ x, y }, rx, ry) => Math.abs(x - label.x) < far + rx && Math.abs(y - label.y) < far + ry;
     const near = segments.filter(
       ([a, b]) =>
         Math.min(a[0], b[0]) < label.x + far && Math.max(a[0], b[0]) > label.x - far &&
         Math.min(a[1], b[1]) < label.y + far && Math.max(a[1], b[1]) > label.y - far,
     );
+    const others = labels.filter((other) => other !== label && isNear(other, other.radius, other.radius));
+    const boxes = taken.filter((other) => isNear(other, other.hx, other.hy));
     const score = (place) => {
       const [dx, dy] = DIRECTIONS[place];
       const away = gap + Math.abs(dx) * hx + Math.abs(dy) * hy;
@@ -87,12 +90,8 @@ export function placeLabels(labels, lines, bounds) {
         bounds.high[0] - x - hx, bounds.high[1] - y - hy, ENOUGH,
       );
       for (const [a, b] of near) free = Math.min(free, clearance(x, y, hx, hy, a, b));
-      for (const other of taken) free = Math.min(free, apart(x, y, hx, hy, other));
-      for (const other of labels) {
-        if (other === label) continue;
-        const point = { x: other.x, y: other.y, hx: other.radius, hy: other.radius };
-        free = Math.min(free, apart(x, y, hx, hy, point));
-      }
+      for (const other of boxes) free = Math.min(free, apart(x, y, hx, hy, other.x, other.y, other.hx, other.hy));
+      for (const other of others) free = Math.min(free, apart(x, y, hx, hy, other.x, other.y, other.radius, other.radius));
       return { x, y, hx, hy, free: free - HABITS[place], place };
     };
     let best = label.place === undefined ? null : score(label.place);

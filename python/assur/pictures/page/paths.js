@@ -1,6 +1,6 @@
 // Paths of chosen joints, and other positions of the links: what stays while the mechanism moves.
 
-import { svg } from "./elements.js";
+import { put, svg } from "./elements.js";
 import { pathOf } from "./draw.js";
 import { pointState } from "./quantities.js";
 
@@ -16,8 +16,9 @@ const POSITIONS = 12;
 export function pathLines(turn, joint, scale) {
   const lines = [];
   let line = null;
+  const pose = turn.pose();
   for (const q of turn.coordinates(POINTS)) {
-    const pose = turn.sample(q);
+    turn.sample(q, pose, [joint.link]);
     if (!pose.known) {
       line = null;
       continue;
@@ -61,13 +62,9 @@ export class Paths {
         if (i % 2) path.style.strokeDasharray = "6 4";
         this.layer.append(path);
       }
-      const { low, high } = this.turn;
-      for (let k = 0; k < DOTS; k++) {
-        const pose = this.turn.sample(low + (k / DOTS) * (high - low));
-        if (!pose.known) continue;
-        const { x, y } = pointState(pose, joint.link, joint.at);
-        this.layer.append(svg("circle", { class: "dot", cx: (x * scale).toFixed(2), cy: (-y * scale).toFixed(2), r: 2.4 * size }));
-      }
+      const dots = svg("path", { class: "dots", d: this.#dots(joint, scale) });
+      dots.style.strokeWidth = 4.8 * size;
+      this.layer.append(dots);
       const marker = svg("circle", { class: "marker", r: 4.6 * size });
       this.above.append(marker);
       return marker;
@@ -75,11 +72,24 @@ export class Paths {
     this.scale = scale;
   }
 
+  /** Return strokes without length: round ends make them dots. */
+  #dots({ link, at }, scale) {
+    const { low, high } = this.turn;
+    const pose = this.turn.pose();
+    let d = "";
+    for (let k = 0; k < DOTS; k++) {
+      if (!this.turn.sample(low + (k / DOTS) * (high - low), pose, [link]).known) continue;
+      const { x, y } = pointState(pose, link, at);
+      d += `M${(x * scale).toFixed(2)} ${(-y * scale).toFixed(2)}h0`;
+    }
+    return d;
+  }
+
   /** Move the markers. */
   show(pose) {
     this.joints.forEach((joint, i) => {
       const { x, y } = pointState(pose, joint.link, joint.at);
-      this.markers[i].setAttribute("transform", `translate(${(x * this.scale).toFixed(2)} ${(-y * this.scale).toFixed(2)})`);
+      put(this.markers[i], "transform", `translate(${(x * this.scale).toFixed(2)} ${(-y * this.scale).toFixed(2)})`);
     });
   }
 }

@@ -43,22 +43,16 @@ class Played:
 
     def bounds(self) -> tuple[Float, Float]:
         """Return the corners of the whole motion, m."""
-        ends, known = [], self.frames.values[0][self.known()]
-        for link, points in self._corners().items():
-            x, y, angle = known[:, self.frames.links.index(link)].T
-            cosine, sine = np.cos(angle), np.sin(angle)
-            px, py = np.array(points).T[:, :, None]
-            across, up = x + cosine * px - sine * py, y + sine * px + cosine * py
-            ends += [(across.min(), across.max()), (up.min(), up.max())]
-        lows, highs = np.array(ends).reshape(-1, 2, 2).transpose(2, 0, 1)
-        return lows.min(axis=0), highs.max(axis=0)
-
-    def _corners(self) -> dict[str, list[tuple[float, float]]]:
-        """Return the points of the scene by the link that they are fixed to."""
-        found: dict[str, list[tuple[float, float]]] = {}
-        for link, x, y in corners(self.scene):
-            found.setdefault(link, []).append((x, y))
-        return found
+        index = {link: i for i, link in enumerate(self.frames.links)}
+        fixed = np.array([(index[link], x, y) for link, x, y in corners(self.scene)])
+        links = fixed[:, 0].astype(int)
+        px, py = fixed[:, 1:].T
+        x, y, angle = self.frames.values[0][self.known()].transpose(2, 0, 1)
+        cosine, sine = np.cos(angle)[:, links], np.sin(angle)[:, links]
+        across = x[:, links] + cosine * px - sine * py
+        up = y[:, links] + sine * px + cosine * py
+        lows, highs = ([f(across), f(up)] for f in (np.min, np.max))
+        return np.array(lows), np.array(highs)
 
     def row(self) -> int:
         """Return the row next to where the page begins."""

@@ -72,6 +72,13 @@ export class Playback {
     this.#pace(this.player.speed);
   }
 
+  /** Draw the diagrams alone. */
+  draw() {
+    this.#chart(this.data, this.turn);
+    this.#pace(this.player.speed);
+    for (const chart of this.charts) chart.show(this.pose);
+  }
+
   /** Make the diagrams that are wanted; those that are there show the same as before, if they can. */
   #chart(data, turn) {
     const groups = [...allQuantities(data), ...this.more];
@@ -94,12 +101,7 @@ export class Playback {
    */
   offer(groups) {
     this.more = groups;
-    this.#chart(this.data, this.turn);
-    // Only drawn: where it is may be about to change.
-    for (const chart of this.charts) {
-      chart.draw();
-      chart.show(this.pose);
-    }
+    this.draw();
   }
 
   #take(data, turn) {

@@ -81,6 +81,7 @@ export function slideState(pose, slide) {
  * @property {number} order how many derivatives by time it has
  * @property {boolean} isAngle of a link
  * @property {number} size what is large, if the coordinate goes with speed 1: rad, m
+ * @property {number[]} [links] whose frames it needs; by default all
  * @property {(pose: import("./turn.js").Pose, speed: number) => number} value in SI units
  * @property {string} [unit] SI, of what is no angle and no length: "N"
  * @property {string} [role] its colour
@@ -114,23 +115,23 @@ export function unitOf({ isAngle, order, size, unit }, greatest) {
 export function allQuantities(scene) {
   const [x0, y0, x1, y1] = scene.bounds;
   const size = Math.max(x1 - x0, y1 - y0);
-  const group = (name, isAngle, list) => {
+  const group = (name, isAngle, links, list) => {
     const make = ([suffix, what, order, value]) => {
       const id = suffix ? `${name}.${suffix}` : name;
-      return { id, of: name, what, order, isAngle, size: isAngle ? 1 : size, value };
+      return { id, of: name, what, order, isAngle, links, size: isAngle ? 1 : size, value };
     };
     return { name, quantities: list.map(make) };
   };
   const ofLink = (link, i) => {
     const c = 3 * i + 2;
-    return group(link, true, [
+    return group(link, true, [i], [
       ["", "angle", 0, (pose) => pose.value[c]],
       ["omega", "omega", 1, (pose, speed) => pose.d1[c] * speed],
       ["alpha", "alpha", 2, (pose, speed) => pose.d2[c] * speed * speed],
     ]);
   };
   const ofSlide = (slide) =>
-    group(slide.name, false, [
+    group(slide.name, false, [slide.link, slide.on], [
       ["", "value", 0, (pose) => slideState(pose, slide)[0]],
       ["v", "v", 1, (pose, speed) => slideState(pose, slide)[1] * speed],
       ["a", "a", 2, (pose, speed) => slideState(pose, slide)[2] * speed * speed],
@@ -138,7 +139,7 @@ export function allQuantities(scene) {
   const ofJoint = (joint) => {
     const at = (pose) => pointState(pose, joint.link, joint.at);
     const length = (x, y) => Math.hypot(x, y);
-    return group(joint.name, false, [
+    return group(joint.name, false, [joint.link], [
       ["x", "x", 0, (pose) => at(pose).x],
       ["y", "y", 0, (pose) => at(pose).y],
       ["v", "v", 1, (pose, speed) => length(at(pose).x1, at(pose).y1) * Math.abs(speed)],

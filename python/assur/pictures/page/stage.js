@@ -1,7 +1,7 @@
 // The picture: layers of paths, other positions, the mechanism, vectors and names, in a view.
 
 import { Drawing } from "./draw.js";
-import { put, svg } from "./elements.js";
+import { put, svg, write } from "./elements.js";
 import { placeLabels } from "./labels.js";
 import { lengthUnit, niceLength } from "./numbers.js";
 import { otherPositions, Paths } from "./paths.js";
@@ -180,7 +180,7 @@ export class Stage {
     const px = length * scale;
     const { name, factor } = lengthUnit(length);
     this.barWidth = px;
-    this.barText.textContent = `${Number((length * factor).toPrecision(3))} ${name}`;
+    write(this.barText, `${Number((length * factor).toPrecision(3))} ${name}`);
     this.panned();
   }
 

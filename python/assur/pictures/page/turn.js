@@ -128,18 +128,26 @@ export class Turn {
    * Return the position at a coordinate.
    * @param {number} q brought into the range
    * @param {Pose} [pose] to overwrite
+   * @param {number[]} [only] the links that are wanted: the others stay as they are
    * @returns {Pose}
    */
-  sample(q, pose = this.pose()) {
-    q = this.bring(q);
-    const { row, part, step, du, d2u } = this.#locate(q);
-    const [c0, c1, c2] = cubic(part);
-    const w = quintic(part);
+  sample(q, pose = this.pose(), only) {
+    pose.q = this.bring(q);
+    const cell = this.#locate(pose.q);
+    cell.cubic = cubic(cell.part);
+    cell.quintic = quintic(cell.part);
+    pose.known = true;
+    if (only) for (const link of only) this.#place(pose, cell, 3 * link - 3, 3 * link);
+    else this.#place(pose, cell, 0, 3 * this.links - 3);
+    return pose;
+  }
+
+  /** Fill columns of a pose, of the ground none. */
+  #place(pose, { row, step, du, d2u, cubic: [c0, c1, c2], quintic: w }, from, to) {
+    const { values, orders } = this;
     const columns = 3 * (this.links - 1);
     const order = this.rows * columns;
-    const { values, orders } = this;
-    let known = true;
-    for (let c = 0; c < columns; c++) {
+    for (let c = Math.max(from, 0); c < to; c++) {
       const a = row * columns + c;
       const b = a + columns;
       const f0 = values[a];
@@ -167,11 +175,8 @@ export class Turn {
       pose.value[c + 3] = value;
       pose.d1[c + 3] = d1;
       pose.d2[c + 3] = (second - d1 * d2u) / (du * du);
-      known &&= Number.isFinite(value);
+      pose.known &&= Number.isFinite(value);
     }
-    pose.q = q;
-    pose.known = known;
-    return pose;
   }
 
   /** Find the cell of a coordinate, and how the parameter goes with it. */

@@ -114,6 +114,28 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
     return Turn(mechanism, frames, grid, False, unit, q0, dead, limits)
 
 
+def passing_turn(mechanism: Mechanism, at: float, rows: int) -> Turn | None:
+    """Return a turn that is known at every row and comes back, or None.
+
+    Limits are not looked for: what cannot be reached between two rows is not seen. So it is for
+    pictures that pass, while a hand moves a joint.
+    """
+    if mechanism._driver_count > 1 or mechanism.driver in mechanism.slides:
+        return None
+    frames = _linear(mechanism, 0.0, TURN, rows, order=1)
+    if frames is None or not _comes_back(frames):
+        return None
+    grid = {"kind": "linear", "low": 0.0, "high": TURN}
+    return Turn(mechanism, frames, grid, True, "angle", at % TURN)
+
+
+def _comes_back(frames: Frames) -> bool:
+    """Whether the last row is the first; angles may differ by turns."""
+    apart = frames.values[0][-1] - frames.values[0][0]
+    apart[:, 2] -= TURN * np.round(apart[:, 2] / TURN)
+    return bool((np.abs(apart) < 1e-9).all())
+
+
 def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
     """Return the positions of a motion, in their order.
 
@@ -153,11 +175,7 @@ def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
     acceleration = _slope(speed, t)
     frames = frames_in_time(again, speed, acceleration)
     grid = {"kind": "linear", "low": 0.0, "high": duration}
-    values = frames.values[0]
-    # Angles may differ by turns.
-    apart = values[-1] - values[0]
-    apart[:, 2] -= TURN * np.round(apart[:, 2] / TURN)
-    return Turn(mechanism, frames, grid, bool((np.abs(apart) < 1e-9).all()), "time", 0.0)
+    return Turn(mechanism, frames, grid, _comes_back(frames), "time", 0.0)
 
 
 def _slope(values: Float, t: Float) -> Float:
@@ -205,8 +223,10 @@ def _closes(q: Float, unit: Unit, motion: Motion) -> bool:
     return all(bool(np.abs(joint[-1] - joint[0]).max() < 1e-9) for joint in joints)
 
 
-def _linear(mechanism: Mechanism, low: float, high: float, rows: int) -> Frames | None:
-    motion = mechanism.solve(np.linspace(low, high, rows), order=2, on_error="nan")
+def _linear(
+    mechanism: Mechanism, low: float, high: float, rows: int, order: int = 2
+) -> Frames | None:
+    motion = mechanism.solve(np.linspace(low, high, rows), order=order, on_error="nan")
     return frames_of(motion) if bool((motion.status < 3).all()) else None
 
 

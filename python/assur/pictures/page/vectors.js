@@ -62,8 +62,10 @@ export class Vectors {
   /** Return nearly the greatest of the turn: at dead points it is infinite. */
   #usualGreatest(joints) {
     const sizes = [];
+    const pose = this.turn.pose();
+    const links = joints.map((joint) => joint.link);
     for (const q of this.turn.coordinates(90)) {
-      const pose = this.turn.sample(q);
+      this.turn.sample(q, pose, links);
       for (const joint of joints) sizes.push(Math.hypot(...VECTOR_KINDS[this.kind].of(pointState(pose, joint.link, joint.at))));
     }
     const known = sizes.filter(Number.isFinite).sort((a, b) => a - b);

@@ -1,4 +1,8 @@
-"""``assemblies``: every way to put the mechanism together at one coordinate."""
+"""``assemblies``: every way to put the mechanism together at one coordinate.
+
+There are 2 to the number of dyads. Of many those are listed that differ from the present one in one
+dyad: step by step all can be reached.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.description.words import Status
 from assur.errors import AssurError
 from assur.files.read_machine import SECTIONS
-from assur.kinematics.assembly import SAME
+from assur.kinematics.assembly import SAME, Assembly
 from assur.kinematics.place import size_of
 from assur.studio import document
 from assur.studio.kinds.turn import reach_of
@@ -16,9 +21,11 @@ from assur.studio.request import Fields
 from assur.studio.session import Answer
 
 if TYPE_CHECKING:
-    from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
     from assur.studio.session import Session
+
+# Of how many at most all are listed.
+MOST_LISTED = 64
 
 
 def assemblies(data: dict[str, Any], session: Session) -> Answer:
@@ -26,41 +33,51 @@ def assemblies(data: dict[str, Any], session: Session) -> Answer:
     fields = Fields(data, ("document", "q"), ("document",))
     mechanism = document.read_mechanism(fields["document"])
     q = fields.drivers("q", mechanism)
-    found = mechanism.assemblies(q)
+    most = 2 ** len(mechanism.assembly)
+    if most > MOST_LISTED:
+        listed = _neighbours(mechanism, q)
+        rest: dict[str, Any] = {"failures": [], "is_complete": True, "complex_count": []}
+    else:
+        found = mechanism.assemblies(q)
+        # Each with its joints where the driver is.
+        listed = [(one, dict(one.joints or {})) for one in found]
+        rest = {"failures": found.failures, "is_complete": found.is_complete}
+        rest |= {"complex_count": found.complex_count}
     machine = {key: fields["document"][key] for key in SECTIONS if key in fields["document"]}
-    listed = []
-    for one in found:
+    described = []
+    for one, joints in listed:
         session.deadline.check()
-        listed.append(_described(mechanism, one, q, machine))
-    return Answer(
-        {
-            "q": q,
-            "assemblies": listed,
-            "complex_count": found.complex_count,
-            "is_complete": found.is_complete,
-            "failures": found.failures,
-        }
-    )
+        drawn = mechanism.with_assembly(one)
+        described.append(
+            {
+                "joints": joints,
+                "signs": dict(one),
+                "is_double": one.is_double,
+                "is_current": _is_current(mechanism, joints, q),
+                "reach": _reach(drawn),
+                "document": {**document.document_of(drawn), **machine},
+            }
+        )
+    return Answer({"q": q, "assemblies": described, "most": most, **rest})
 
 
-def _described(
-    mechanism: Mechanism, one: Assembly, q: Any, machine: dict[str, Any]
-) -> dict[str, Any]:
-    drawn = mechanism.with_assembly(one)
-    return {
-        "joints": dict(one.joints or {}),
-        "signs": dict(one),
-        "is_double": one.is_double,
-        "is_current": _is_current(mechanism, one, q),
-        "reach": _reach(drawn),
-        "document": {**document.document_of(drawn), **machine},
-    }
+def _neighbours(mechanism: Mechanism, q: Any) -> list[tuple[Assembly, dict[str, Any]]]:
+    """Return the present assembly and those that differ in one dyad, as far as they exist at q."""
+    signs = dict(mechanism.assembly)
+    flipped = [{**signs, name: -sign} for name, sign in signs.items()]
+    listed = []
+    for own in (Assembly(signs), *map(Assembly, flipped)):
+        motion = mechanism.solve(q, order=0, assembly=own, on_error="nan")
+        if motion.status < Status.SINGULAR:
+            joints = {name: motion.joint(name).value.tolist() for name in mechanism.joints}
+            listed.append((own, joints))
+    return listed
 
 
-def _is_current(mechanism: Mechanism, one: Assembly, q: Any) -> bool:
+def _is_current(mechanism: Mechanism, joints: dict[str, Any], q: Any) -> bool:
     motion = mechanism.solve(q, order=0, on_error="nan")
-    there = np.array([motion.joint(name).value for name in mechanism.joints])
-    own = np.array(list((one.joints or {}).values()))
+    there = np.array([motion.joint(name).value for name in joints])
+    own = np.array(list(joints.values()))
     return bool((np.abs(there - own) <= SAME * size_of(mechanism)).all())
 
 

@@ -10,7 +10,7 @@ from assur.description.words import Status
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
 from assur.pictures.page.payload import payload, played_of
-from assur.pictures.page.turn import Turn, frames_in_time, turn_of
+from assur.pictures.page.turn import Turn, frames_in_time, passing_turn, turn_of
 from assur.pictures.scene.course import FREE_STROKE, TURN
 from assur.studio import document
 from assur.studio.kinds.least import least_transmission
@@ -46,7 +46,13 @@ def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
     rows, orders = fields.rows(ROWS), fields.whole("orders", 3, 2, 3)
     axis = fields.whole("axis", 0, 0, mechanism._driver_count - 1)
     one = mechanism._driver_count == 1
-    own = reached_turn(mechanism, q, rows) if one else _along(mechanism, np.asarray(q), axis, rows)
+    own = passing_turn(mechanism, q, rows) if one and orders < 3 else None
+    if own is None:
+        own = (
+            reached_turn(mechanism, q, rows)
+            if one
+            else _along(mechanism, np.asarray(q), axis, rows)
+        )
     answer = played_answer(own, fields, orders)
     if orders < 3:
         return answer
@@ -71,7 +77,9 @@ def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = 
         "limits": None if own.limits is None else reach_of(own.limits),
     }
     header = {"payload": shown, "dimensions": dimensions_of(own.mechanism)}
-    return Answer(header, {"values": kept[0][:orders]})
+    values = kept[0][:orders]
+    # Pictures that pass need no more digits than the screen has.
+    return Answer(header, {"values": values if orders > 2 else values.astype(np.float32)})
 
 
 def reached_turn(mechanism: Mechanism, q: float, rows: int) -> Turn:

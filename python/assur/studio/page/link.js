@@ -8,6 +8,7 @@ const BYTES_OF_LETTER = 3;
 const FIRST_WAIT = 500;
 const LONGEST_WAIT = 8000;
 const FORBIDDEN = 403;
+const ARRAYS = { uint8: Uint8Array, float32: Float32Array, float64: Float64Array };
 
 /**
  * Return the header and the arrays of a frame.
@@ -22,7 +23,7 @@ export function decode(frame) {
   const arrays = {};
   for (const { name, type, shape } of header.arrays) {
     const count = shape.reduce((product, n) => product * n, 1);
-    arrays[name] = type === "uint8" ? new Uint8Array(frame, at, count) : new Float64Array(frame, at, count);
+    arrays[name] = new ARRAYS[type](frame, at, count);
     at = aligned(at + arrays[name].byteLength);
   }
   return { header, arrays };

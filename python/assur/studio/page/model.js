@@ -3,13 +3,12 @@
 import { Turn } from "../../pictures/page/turn.js";
 import { History } from "./history.js";
 import { newestOnly } from "./link.js";
+import { passing } from "./passing.js";
 import { sketchScene } from "./document/sketch.js";
 
 /** Rows of a turn while something is dragged, and at rest. */
-const ROWS_DRAGGED = 91;
+const ROWS_DRAGGED = 61;
 const ROWS = 361;
-/** While something is dragged fields and diagrams follow so often, ms. */
-const PASSING = 60;
 /** How long to wait for a server that is busy, ms. */
 const SERVER_BUSY_WAIT = 400;
 
@@ -66,7 +65,8 @@ export class Model {
   /** The gesture under way: what was before it; or null. */
   #gesture = null;
   #turnBefore = null;
-  #passing = 0;
+  /** While something is dragged the picture follows at once; fields and diagrams in turn. */
+  #pass = passing([() => this.emit("document"), () => this.emit("turn")]);
   /** The document whose turn is shown. */
   #shown = null;
 
@@ -308,17 +308,6 @@ export class Model {
     return this.held.length === this.driverCount ? this.place : undefined;
   }
 
-  /** While something is dragged the picture follows at once, all else a few times a second. */
-  #pass() {
-    this.emit("picture");
-    this.#passing ||= setTimeout(() => {
-      this.#passing = 0;
-      this.emit("document");
-      // An answer that comes meanwhile is shown before the diagrams are drawn.
-      setTimeout(() => this.emit("turn"));
-    }, PASSING);
-  }
-
   // -- a motion over time ------------------------------------------------------
 
   /** Show a motion over time in place of the turn, until the document changes. */
@@ -375,8 +364,10 @@ export class Model {
       this.held = Array.isArray(q0) ? [...q0] : [payload.turn.at];
     }
     this.#solve(null);
-    if (this.isDragging) this.#pass();
-    else this.emit("turn");
+    if (this.isDragging) {
+      this.emit("picture");
+      this.#pass();
+    } else this.emit("turn");
     if (wasRun) this.emit("run");
   }
 

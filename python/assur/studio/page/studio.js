@@ -150,7 +150,8 @@ export class Studio {
   #listen() {
     const { model, canvas, playback, root } = this;
     model.on("picture", () => this.#replace(true));
-    model.on("turn", () => this.#replace());
+    // While something is dragged the picture is there already.
+    model.on("turn", () => (model.isDragging && canvas.stage.turn === model.turn ? playback.draw() : this.#replace()));
     model.on("problem", () => canvas.warn(this.#whatIsWrong()));
     model.on("document", () => (root.dataset.state = model.checked.state));
     model.on("checked", () => (root.dataset.state = model.checked.state));
@@ -169,8 +170,7 @@ export class Studio {
   #replace(isPassing = false) {
     const { model, canvas, playback } = this;
     playback.replace(model.data, model.turn, model.run ? model.turn.low : model.q, isPassing);
-    // While something is dragged the picture has taken it before.
-    if (canvas.stage.turn !== model.turn) canvas.replace(model.data, model.turn);
+    canvas.replace(model.data, model.turn);
     if (model.isNew) {
       model.isNew = false;
       canvas.stage.fit();

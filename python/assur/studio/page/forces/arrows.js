@@ -104,6 +104,8 @@ export class ForceArrows {
     return this.answers.isShown && this.answers.forces !== null;
   }
 
+  #wasShown = false;
+
   /** The switch is there if there can be forces. */
   #offer() {
     const isHidden = !this.answers.canBe;
@@ -115,11 +117,14 @@ export class ForceArrows {
   }
 
   #again() {
-    this.layer.style.display = this.isShown ? "" : "none";
+    const { isShown } = this;
+    this.layer.style.display = isShown ? "" : "none";
     // Those of another document stand until their own are there.
     this.layer.style.opacity = this.answers.isPresent ? "" : "0.35";
     const { stage } = this.canvas;
-    if (stage.pose) stage.show(stage.pose, stage.speed);
+    // Labels make room for arrows, and take it back.
+    if (stage.pose && (isShown || this.#wasShown)) stage.show(stage.pose, stage.speed);
+    this.#wasShown = isShown;
   }
 
   #make() {

@@ -8,6 +8,9 @@ import { reachText } from "./reach.js";
 import { thumbnail } from "./skeleton.js";
 import { panelLength } from "./steps.js";
 
+/** Of more the server lists those that differ in one dyad. */
+const ALL_LISTED = 64;
+
 export class AssemblySection {
   #shown = null;
 
@@ -46,7 +49,7 @@ export class AssemblySection {
       this.remark.textContent = error.message;
       return;
     }
-    const { assemblies, failures, is_complete: isComplete } = header;
+    const { assemblies, failures, most, is_complete: isComplete } = header;
     this.#shown = header;
     this.note.textContent = say(assemblies.length === 1 ? "oneAssembly" : "someAssemblies", { n: assemblies.length });
     this.list.replaceChildren(...assemblies.map((one, i) => this.#card(one, i)));
@@ -54,6 +57,7 @@ export class AssemblySection {
     this.#scroll();
     if (hadFocus) this.list.querySelector("[aria-pressed=true]")?.focus();
     const remarks = [];
+    if (assemblies.length < most && most > ALL_LISTED) remarks.push(say("neighbourAssemblies", { most }));
     if (assemblies.length > 1) remarks.push(say("chooseAssembly"));
     if (assemblies.some((one) => one.is_double)) remarks.push(say("doubleAssembly"));
     if (!isComplete) remarks.push(say("notAllAssemblies", { n: failures.length }));

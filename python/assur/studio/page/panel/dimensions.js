@@ -44,7 +44,8 @@ export class DimensionSection {
     note.append(say("changeOf"), " ", html("span", { class: "choose" }, this.choice), this.per);
     this.element = element;
     const { model } = this;
-    model.on("turn", () => this.show());
+    // While something is dragged the document tells it.
+    model.on("turn", () => model.isDragging || this.show());
     model.on("checked", () => this.show());
     model.on("document", () => this.show());
     model.on("problem", () => this.#tellProblem());

@@ -8,29 +8,30 @@ const WHILE_PLAYING = 250;
 export class LiveQuestion {
   #asked = "";
   #last = 0;
-  #isVisible = false;
   #newest = newestOnly(() => this.#send());
 
   /**
    * @param {import("../studio.js").Studio} studio
    * @param {HTMLElement} element nothing is asked while it is not seen
    * @param {{kind: string, fields: () => Object | null, take: (header: Object | null, error?: Error) => void,
-   *   isLive?: boolean}} question `isLive`: also while it plays
+   *   isLive?: boolean, seen?: () => void}} question `isLive`: also while it plays; `seen`: it is seen from now on
    */
-  constructor(studio, element, { kind, fields, take, isLive = false }) {
-    Object.assign(this, { studio, kind, fields, take, isLive });
+  constructor(studio, element, { kind, fields, take, isLive = false, seen }) {
+    Object.assign(this, { studio, kind, fields, take, isLive, isSeen: false });
     for (const event of ["settled", "told"]) studio.model.on(event, () => this.ask());
     if (isLive) studio.model.on("pose", () => this.#whilePlaying());
     new IntersectionObserver((entries) => {
-      this.#isVisible = entries[entries.length - 1].isIntersecting;
-      if (this.#isVisible) this.ask();
+      this.isSeen = entries[entries.length - 1].isIntersecting;
+      if (!this.isSeen) return;
+      seen?.();
+      this.ask();
     }).observe(element);
   }
 
   get #isTold() {
     const { model, playback } = this.studio;
     const isThere = model.moves && !model.isSketch && !model.isDragging && !model.problem;
-    if (!this.#isVisible || !isThere || !model.link.isOpen) return false;
+    if (!this.isSeen || !isThere || !model.link.isOpen) return false;
     return this.isLive || !playback.player.isPlaying;
   }
 

@@ -49,8 +49,9 @@ export function signed(text) {
 export function rangesOf(turn, quantities, speed, count = 120) {
   const ranges = new Map(quantities.map(({ id }) => [id, { low: Infinity, high: -Infinity }]));
   const pose = turn.pose();
+  const links = quantities.every((one) => one.links) ? [...new Set(quantities.flatMap((one) => one.links))] : undefined;
   for (const q of turn.coordinates(count)) {
-    turn.sample(q, pose);
+    turn.sample(q, pose, links);
     if (!pose.known) continue;
     for (const { id, value } of quantities) {
       const own = value(pose, speed);

@@ -1,6 +1,6 @@
 // The numbers of the position that is shown, and how well the forces are passed on in it.
 
-import { html } from "../../../pictures/page/elements.js";
+import { html, write } from "../../../pictures/page/elements.js";
 import { degrees, digits } from "../../../pictures/page/numbers.js";
 import { allQuantities, unitOf } from "../../../pictures/page/quantities.js";
 import { say } from "../../../pictures/page/words.js";
@@ -38,15 +38,16 @@ export class PositionSection {
     Object.assign(this, { element, note });
     const { model } = this;
     model.on("turn", () => this.#replaced());
-    model.on("pose", (pose) => this.#follow(pose));
+    model.on("pose", (pose) => !model.isDragging && this.#follow(pose));
     model.on("told", () => this.#follow(studio.playback.pose));
     this.more.addEventListener("toggle", () => this.#build());
     const fields = () => ({ q: model.place });
+    const seen = () => this.#follow(studio.playback.pose);
     const take = (header) => {
       this.#transmission = header?.transmission ?? null;
-      this.#follow(studio.playback.pose);
+      seen();
     };
-    this.question = new LiveQuestion(studio, element, { kind: "position", fields, take, isLive: true });
+    this.question = new LiveQuestion(studio, element, { kind: "position", fields, take, isLive: true, seen });
     this.#build();
   }
 
@@ -88,8 +89,8 @@ export class PositionSection {
     return [this.studio.playback.player.speed, this.model.output, ...stage.chosen.map((joint) => joint.name)].join();
   }
 
-  #row(label, note, write) {
-    return { label: html("dt", {}, ...label), note: html("dd", { class: "note" }, note), value: html("dd"), write };
+  #row(label, note, text) {
+    return { label: html("dt", {}, ...label), note: html("dd", { class: "note" }, note), value: html("dd"), text };
   }
 
   #driver() {
@@ -100,7 +101,7 @@ export class PositionSection {
     return this.#row([`${name} `, symbol], "", () => playback.place(playback.q));
   }
 
-  #write(quantity) {
+  #text(quantity) {
     const { low, high } = this.#ranges.get(quantity.id);
     // Near a dead point speeds know no bounds.
     const { name, factor } = unitOf(quantity, Math.min(Math.max(Math.abs(low), Math.abs(high)), MOST));
@@ -118,7 +119,7 @@ export class PositionSection {
     if (!order && isAngle && high - low < 2 * Math.PI - 0.1) note = say("swings", { n: degrees(high - low) });
     if (!order && !isAngle) note = say("travels", { n: this.#length(quantity, high - low) });
     const name = this.#isJoint(of) ? html("i", { class: "name" }, of) : of;
-    return this.#row([name, ` ${say(what)}`], note, this.#write(quantity));
+    return this.#row([name, ` ${say(what)}`], note, this.#text(quantity));
   }
 
   #length(quantity, value) {
@@ -154,7 +155,7 @@ export class PositionSection {
     const rows = parts.map(({ name, quantities }) => {
       const cells = quantities.map((quantity) => {
         const cell = html("td");
-        this.#table.push({ cell, write: this.#write(quantity) });
+        this.#table.push({ cell, text: this.#text(quantity) });
         return cell;
       });
       const row = html("tr", {}, html("th", { scope: "row" }, name), ...cells);
@@ -166,17 +167,14 @@ export class PositionSection {
 
   #follow(pose) {
     const { element, studio } = this;
-    if (element.hidden || this.#isOld || !pose.known || element.offsetParent === null) return;
+    if (element.hidden || this.#isOld || !pose.known || !this.question?.isSeen) return;
     if (this.#key !== this.#wanted()) return this.#build();
     const { player } = studio.playback;
     const speed = player.speed * player.sense;
-    const put = (cell, text) => {
-      if (cell.textContent !== text) cell.textContent = text;
-    };
-    for (const { value, write } of this.#rows) put(value, write(pose, speed));
-    if (this.more.open) for (const { cell, write } of this.#table) put(cell, write(pose, speed));
+    for (const row of this.#rows) write(row.value, row.text(pose, speed));
+    if (this.more.open) for (const { cell, text } of this.#table) write(cell, text(pose, speed));
     const { symbol, speedUnit } = studio.playback;
     const values = { symbol: symbol.textContent, n: digits(player.speed), unit: speedUnit.textContent };
-    put(this.note, say("atSpeed", values));
+    write(this.note, say("atSpeed", values));
   }
 }
