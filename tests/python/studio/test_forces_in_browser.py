@@ -209,6 +209,18 @@ def test_bad_values_are_said_at_the_place(press: Window) -> None:
     assert press.page.locator(".loads .field-error").count() == 0
 
 
+def test_what_the_package_warns_of_stands_at_the_flywheel(press: Window) -> None:
+    """A motor that gives less than the loads take."""
+    show(press, {**PRESS, "motor": {"type": "ConstantTorque", "torque": 5.0}})
+    typed(press, "flywheel mean_speed", "20")
+    press.wait_until("!document.querySelector('[data-fact=warnings]').hidden")
+    said = fact(press, "flywheel", "warnings").text_content() or ""
+    assert "the motor gives the driver 5 N·m" in said
+    show(press, PRESS)
+    typed(press, "flywheel mean_speed", "")
+    press.wait_until("document.querySelector('[data-fact=warnings]').hidden")
+
+
 def test_the_flywheel_is_pythons(press: Window) -> None:
     typed(press, "flywheel fluctuation", "2 %")
     press.wait_until("document.querySelector('[data-fact=inertia]').textContent !== ''")

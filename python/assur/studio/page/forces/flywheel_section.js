@@ -36,6 +36,7 @@ export class FlywheelSection {
     this.error = html("p", { class: "field-error", role: "status" });
     this.number = html("output", { class: "big-number", "data-fact": "inertia" });
     this.disc = html("p", { class: "hint" });
+    this.remark = html("p", { class: "hint", role: "status", "data-fact": "warnings" });
     this.facts = html("dl", { class: "facts" });
     this.opener = button(say("flywheelDiagrams"), "M4 20V4M4 20h16M7 15c3-9 5-9 7-3s3 3 5-4", say("flywheelDiagrams"));
     this.opener.addEventListener("click", () => this.#openDiagrams(!this.isOpen));
@@ -43,7 +44,7 @@ export class FlywheelSection {
     this.pace.addEventListener("click", () => playback.setSpeed(Number(this.found.header.mean_speed.toPrecision(4))));
     const row = html("div", { class: "button-row" }, this.opener, this.pace);
     this.result = html(
-      "div", {}, html("p", { class: "note" }, say("inertiaNeeded")), this.number, this.disc, row, this.facts,
+      "div", {}, html("p", { class: "note" }, say("inertiaNeeded")), this.number, this.disc, this.remark, row, this.facts,
     );
     this.error.hidden = true;
     this.result.hidden = true;
@@ -166,6 +167,8 @@ export class FlywheelSection {
     this.diagrams.take(found, without?.arrays ? without : null);
     const { header } = found;
     this.number.textContent = `${digits(header.inertia, 4)} kg·m²`;
+    this.remark.textContent = (header.warnings ?? []).join(" ");
+    this.remark.hidden = !header.warnings;
     this.#showDisc(header.inertia);
     this.#showFacts(header, found.arrays, without);
     this.again();

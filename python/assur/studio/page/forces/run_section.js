@@ -173,7 +173,10 @@ export class RunSection {
     fact("runAt", "", place(last(arrays.q)));
     fact("runSpeed", "", rate(last(arrays.speed)));
     const children = [facts];
-    if (header.message && header.end !== "reached") children.push(html("p", { class: "hint" }, header.message));
+    const message = header.end === "reached" ? "" : header.message;
+    // That it ended early is one of the warnings too.
+    const warnings = (header.warnings ?? []).filter((text) => !message || !text.includes(message));
+    for (const text of [message, ...warnings].filter(Boolean)) children.push(html("p", { class: "hint" }, text));
     if (header.events.length) {
       const list = html("ul", { class: "events", "aria-label": say("events") });
       for (const { event, t, q } of header.events) list.append(html(
