@@ -149,9 +149,9 @@ def test_a_slider_that_tells_no_change(slow: Window, fresh: dict[str, Any]) -> N
 
 
 def test_undo_by_key_ends_a_drag_that_nobody_ends(slow: Window, fresh: dict[str, Any]) -> None:
-    slow.page.evaluate(f"{{ {STUDIO}.model.begin(); {STUDIO}.canvas.picture.focus() }}")
+    slow.page.evaluate(f"{{ {STUDIO}.model.previews.begin(); {STUDIO}.canvas.picture.focus() }}")
     slow.page.evaluate(
-        f"{STUDIO}.model.preview({{ ...{STUDIO}.model.document, driver: 'rocker' }})"
+        f"{STUDIO}.model.previews.show({{ ...{STUDIO}.model.document, driver: 'rocker' }})"
     )
     slow.page.keyboard.press("Control+z")
     slow.settle()

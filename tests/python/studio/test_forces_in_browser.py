@@ -37,7 +37,7 @@ def press(opened: Window) -> Window:
 
 
 def show(one: Window, own: dict[str, Any]) -> None:
-    one.page.evaluate("() => { window.assurStudio.model.endRun(); }")
+    one.page.evaluate("() => { window.assurStudio.model.shownRun.end(); }")
     one.open(own)
     one.page.evaluate(
         """(speed) => {

@@ -36,7 +36,7 @@ export class JointDrag {
     this.builder = builder;
     this.canvas = canvas;
     this.playback = playback;
-    this.previews = newestOnly(({ gesture, document }) => model.isUnderWay(gesture) && model.preview(document));
+    this.previews = newestOnly(({ gesture, document }) => model.previews.isUnderWay(gesture) && model.previews.show(document));
   }
 
   /** Grip a joint at a place of the picture; null where there is none. */
@@ -64,11 +64,11 @@ export class JointDrag {
   #move(grip) {
     const { model } = this;
     if (grip.isCancelled) return;
-    grip.gesture ??= model.begin();
-    if (!model.isUnderWay(grip.gesture)) return;
+    grip.gesture ??= model.previews.begin();
+    if (!model.previews.isUnderWay(grip.gesture)) return;
     const { at, target } = this.builder.aimJoint(grip.joint, grip.to, grip.from);
     grip.target = target;
-    if (model.moves) model.dragJoint(grip.joint, at);
+    if (model.moves) model.previews.dragJoint(grip.joint, at);
     else this.previews.push({ gesture: grip.gesture, document: moveJoint(model.document, grip.joint, at) });
   }
 
@@ -87,17 +87,17 @@ export class JointDrag {
     if (!gesture) return;
     this.builder.unaim();
     await this.previews.settled();
-    if (grip.target && model.isUnderWay(gesture)) {
-      await model.dragged();
-      await model.preview(await this.builder.joined(grip.joint, grip.target));
+    if (grip.target && model.previews.isUnderWay(gesture)) {
+      await model.previews.dragged();
+      await model.previews.show(await this.builder.joined(grip.joint, grip.target));
     }
-    await model.commit(gesture);
+    await model.previews.commit(gesture);
   }
 
   async cancel(grip) {
     grip.isCancelled = true;
     if (!grip.gesture) return;
     this.builder.unaim();
-    await this.model.cancel(grip.gesture);
+    await this.model.previews.cancel(grip.gesture);
   }
 }

@@ -2,12 +2,12 @@
 
 import { Turn } from "../../pictures/page/turn.js";
 import { History } from "./history.js";
-import { newestOnly } from "./link.js";
 import { passing } from "./passing.js";
+import { Previews, ROWS_DRAGGED } from "./previews.js";
+import { ShownRun } from "./shown_run.js";
 import { sketchScene } from "./document/sketch.js";
 
-/** Rows of a turn while something is dragged, and at rest. */
-const ROWS_DRAGGED = 61;
+/** Rows of a turn at rest. */
 const ROWS = 361;
 /** How long to wait for a server that is busy, ms. */
 const SERVER_BUSY_WAIT = 400;
@@ -52,19 +52,13 @@ export class Model {
     /** Coordinates of all drivers; the one that moves is number `axis`. */
     this.held = [0];
     this.axis = 0;
-    this.isDragging = false;
-    /** The motion over time that is shown in place of the turn: see `run` of the protocol; or null. */
-    this.run = null;
     /** The path that a point should take: see design/deviation.js. */
     this.target = null;
     this.listeners = new Map();
-    this.#drags = newestOnly((fields) => this.#drag(fields));
+    this.previews = new Previews(this);
+    this.shownRun = new ShownRun(this);
   }
 
-  #drags;
-  /** The gesture under way: what was before it; or null. */
-  #gesture = null;
-  #turnBefore = null;
   /** While something is dragged the picture follows at once; fields and diagrams in turn. */
   #pass = passing([() => this.emit("document"), () => this.emit("turn")]);
   /** The document whose turn is shown. */
@@ -84,6 +78,16 @@ export class Model {
   /** Send a request about the present document. */
   ask(kind, fields = {}) {
     return this.link.ask(kind, this.rev, { document: this.document, ...fields });
+  }
+
+  /** Whether a gesture is under way. */
+  get isDragging() {
+    return this.previews.isDragging;
+  }
+
+  /** The motion over time that is shown in place of the turn: see `run` of the protocol; or null. */
+  get run() {
+    return this.shownRun.answer;
   }
 
   get moves() {
@@ -109,39 +113,41 @@ export class Model {
     this.held[this.axis] = value;
   }
 
-  #snapshot() {
+  /** What a step of undo brings back. */
+  snapshot() {
     return { document: this.document, title: this.title, place: [...this.held] };
   }
 
   /** Show another document: a step that can be undone. */
   async edit(document, { place, title } = {}) {
-    this.history.push(this.#gesture?.before ?? this.#snapshot());
-    this.#leave();
+    this.history.push(this.previews.before ?? this.snapshot());
+    this.previews.leave();
     if (title !== undefined) this.title = title;
-    await this.#become(document, place);
+    await this.become(document, place);
   }
 
   async undo() {
     // What is under way is what is undone first.
-    if (this.#gesture && !this.#gesture.isOver) return this.cancel();
-    this.finish();
-    return this.#go(this.history.undo(this.#snapshot()));
+    if (!this.previews.isOver) return this.previews.cancel();
+    this.previews.finish();
+    return this.#go(this.history.undo(this.snapshot()));
   }
 
   async redo() {
-    this.finish();
-    return this.#go(this.history.redo(this.#snapshot()));
+    this.previews.finish();
+    return this.#go(this.history.redo(this.snapshot()));
   }
 
   async #go(snapshot) {
     if (!snapshot) return;
     this.title = snapshot.title;
-    await this.#become(snapshot.document, snapshot.place);
+    await this.become(snapshot.document, snapshot.place);
     this.emit("file");
   }
 
-  async #become(document, place) {
-    this.endRun();
+  /** Be another document: no step of undo by itself. */
+  async become(document, place) {
+    this.shownRun.end();
     this.document = document;
     this.rev += 1;
     if (place !== undefined) this.held = Array.isArray(place) ? [...place] : [place];
@@ -166,87 +172,6 @@ export class Model {
     await this.edit(header.document, { place: header.q0, title: header.title });
     this.emit("file");
     return header;
-  }
-
-  // -- gestures: previews until they are committed or cancelled ---------------
-
-  /** Begin a gesture; another one that is not yet done is a step as far as it has come. */
-  begin() {
-    this.finish();
-    this.#gesture = { before: this.#snapshot(), isOver: false };
-    this.isDragging = true;
-    return this.#gesture;
-  }
-
-  /** Whether a gesture is still under way: another document may have come meanwhile. */
-  isUnderWay(gesture) {
-    return gesture !== null && gesture === this.#gesture;
-  }
-
-  #leave() {
-    this.#gesture = null;
-    this.isDragging = false;
-  }
-
-  /** Move a joint of a mechanism that moves; its dimensions follow. */
-  dragJoint(joint, to) {
-    this.#drags.push({ gesture: this.#gesture, joint, to, q: this.place });
-  }
-
-  /** Wait until the joint is where it was moved to last. */
-  dragged() {
-    return this.#drags.settled();
-  }
-
-  /** Show a document that is not yet a step. */
-  async preview(document) {
-    if (this.#gesture) await this.#become(document);
-  }
-
-  /** Make a step of a gesture, once its last answer has come. */
-  async commit(gesture = this.#gesture) {
-    if (!this.isUnderWay(gesture)) return;
-    gesture.isOver = true;
-    await this.#drags.settled();
-    if (!this.isUnderWay(gesture)) return;
-    this.#step();
-    if (gesture.before.document === this.document) return;
-    this.emit("document");
-    await this.look();
-  }
-
-  /** Make a step of the gesture as far as it has come, at once. */
-  finish() {
-    if (this.#gesture) this.#step();
-  }
-
-  #step() {
-    const { before } = this.#gesture;
-    this.#leave();
-    if (before.document !== this.document) this.history.push(before);
-  }
-
-  /** As if the gesture had not begun: answers that still come are not for it. */
-  async cancel(gesture = this.#gesture) {
-    if (!this.isUnderWay(gesture)) return;
-    const { before } = gesture;
-    this.#leave();
-    if (before.document !== this.document) await this.#become(before.document, before.place);
-  }
-
-  async #drag({ gesture, ...fields }) {
-    if (!this.isUnderWay(gesture)) return;
-    try {
-      const answer = await this.ask("drag", { ...fields, rows: ROWS_DRAGGED, orders: 2, axis: this.axis });
-      if (!answer || !this.isUnderWay(gesture)) return;
-      const { header } = answer;
-      this.document = header.document;
-      this.rev += 1;
-      this.changed = header.changed;
-      this.#show(answer, header.q);
-    } catch (error) {
-      if (this.isUnderWay(gesture)) this.#fail(error);
-    }
   }
 
   // -- what the server says ---------------------------------------------------
@@ -284,7 +209,7 @@ export class Model {
       this.checked = { state: "unchecked", message: error.message, counted: {}, structure: null, remedies: [] };
       // More than the server takes is more than can be drawn.
       if (this.#shown !== this.document && !error.kind?.startsWith("too_")) this.#sketch();
-      this.#fail(error);
+      this.fail(error);
       this.emit("checked");
     }
   }
@@ -296,10 +221,10 @@ export class Model {
       const rows = this.isDragging ? { rows: ROWS_DRAGGED, orders: 2 } : { rows: ROWS };
       const answer = await this.#patiently(rev, "turn", { q: this.#known(), ...rows, axis: Math.min(this.axis, this.driverCount - 1) });
       if (!answer || rev !== this.rev) return;
-      this.#show(answer, undefined);
+      this.show(answer, undefined);
     } catch (error) {
       // Of what does not move `check` has said it by now.
-      if (rev === this.rev && (this.moves || error.kind === "time_limit")) this.#fail(error);
+      if (rev === this.rev && (this.moves || error.kind === "time_limit")) this.fail(error);
     }
   }
 
@@ -308,49 +233,11 @@ export class Model {
     return this.held.length === this.driverCount ? this.place : undefined;
   }
 
-  // -- a motion over time ------------------------------------------------------
-
-  /** Show a motion over time in place of the turn, until the document changes. */
-  showRun({ header, arrays }) {
-    const { payload } = header;
-    this.#turnBefore ??= { data: this.data, turn: this.turn, held: [...this.held] };
-    this.run = { header, arrays };
-    this.data = { ...payload, title: this.title, turn: { ...payload.turn, values: arrays.values } };
-    this.turn = new Turn(this.data.turn);
-    this.emit("turn");
-    this.emit("run");
-  }
-
-  /** Show the turn again. */
-  endRun() {
-    if (!this.run) return;
-    const { data, turn, held } = this.#turnBefore;
-    this.#forgetRun();
-    Object.assign(this, { data, turn, held });
-    this.emit("turn");
-    this.emit("run");
-  }
-
-  #forgetRun() {
-    this.run = null;
-    this.#turnBefore = null;
-  }
-
-  /** Be where the run is at a time. */
-  followRun(t) {
-    const { q, t: times } = this.run.arrays;
-    const rows = times.length;
-    const place = ((t - times[0]) / (times[rows - 1] - times[0])) * (rows - 1);
-    const row = Math.min(Math.max(Math.floor(place), 0), rows - 2);
-    const count = q.length / rows;
-    const at = (i) => q[row * count + i] + (place - row) * (q[(row + 1) * count + i] - q[row * count + i]);
-    this.held = this.held.map((_, i) => at(i));
-  }
-
-  #show({ header, arrays }, place) {
+  /** Show a turn that was answered; a drag also says where the drivers are. */
+  show({ header, arrays }, place) {
     const { payload } = header;
     const wasRun = this.run !== null;
-    this.#forgetRun();
+    this.shownRun.forget();
     this.data = { ...payload, title: this.title, turn: { ...payload.turn, values: arrays.values } };
     this.turn = new Turn(this.data.turn);
     this.dimensions = header.dimensions;
@@ -385,7 +272,8 @@ export class Model {
     this.isSketch = true;
   }
 
-  #fail(error) {
+  /** Say why the present document cannot be shown. */
+  fail(error) {
     if (error.kind === "disconnected") return;
     this.#solve(error);
   }

@@ -75,7 +75,7 @@ export class Studio {
       show: (pose) => {
         const { playback } = this;
         // A sketch has no coordinate: what was held stays.
-        if (model.run) model.followRun(playback.q);
+        if (model.run) model.shownRun.follow(playback.q);
         else if (!model.isSketch) model.q = playback.q;
         stage.show(pose, playback.player.speed * playback.player.sense);
         this.canvas.warn(this.#whatIsWrong());
@@ -270,7 +270,7 @@ export class Studio {
     speak(code);
     document.documentElement.lang = spoken();
     // The picture that is dragged will be gone.
-    this.model.finish();
+    this.model.previews.finish();
     const { speed, q } = this.playback.player;
     this.playback.pause();
     this.#build();

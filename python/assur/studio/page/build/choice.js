@@ -149,15 +149,15 @@ export class Choice {
     if (!this.nudging) {
       const at = this.#jointAt(joint);
       if (!at) return;
-      const gesture = model.begin();
+      const gesture = model.previews.begin();
       canvas.stage.isFitted = false;
       this.nudging = { joint, at, gesture };
     }
     const own = this.nudging;
     const step = (isShift ? NUDGE_SHIFT : NUDGE) / canvas.stage.view.scale;
     own.at = [own.at[0] + dx * step, own.at[1] + dy * step];
-    if (model.moves) model.dragJoint(joint, own.at);
-    else own.shown = model.preview(moveJoint(model.document, joint, own.at));
+    if (model.moves) model.previews.dragJoint(joint, own.at);
+    else own.shown = model.previews.show(moveJoint(model.document, joint, own.at));
     clearTimeout(own.timer);
     own.timer = setTimeout(() => this.finish(), NUDGE_PAUSE);
   }
@@ -169,6 +169,6 @@ export class Choice {
     this.nudging = null;
     clearTimeout(own.timer);
     await own.shown;
-    await this.builder.model.commit(own.gesture);
+    await this.builder.model.previews.commit(own.gesture);
   }
 }

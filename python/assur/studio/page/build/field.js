@@ -105,20 +105,20 @@ export class ItemField {
     this.close();
     canvas.picture.focus();
     canvas.stage.isFitted = false;
-    model.begin();
+    model.previews.begin();
     if (to[0] !== this.at[0] || to[1] !== this.at[1]) await this.#move(name, to);
     if (typed !== name) {
       const rename = { joint: renameJoint, link: renameLink, slide: renameSlide }[kind];
       this.choice.item = { kind, name: typed };
-      await model.preview(rename(model.document, name, typed));
+      await model.previews.show(rename(model.document, name, typed));
     }
-    await model.commit();
+    await model.previews.commit();
   }
 
   async #move(joint, to) {
     const { model } = this.builder;
-    if (!model.moves) return model.preview(moveJoint(model.document, joint, to));
-    model.dragJoint(joint, to);
-    return model.dragged();
+    if (!model.moves) return model.previews.show(moveJoint(model.document, joint, to));
+    model.previews.dragJoint(joint, to);
+    return model.previews.dragged();
   }
 }

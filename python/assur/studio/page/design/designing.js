@@ -40,7 +40,7 @@ export class Designing {
     const { model } = this;
     this.#isEnding = false;
     if (!this.isOn) {
-      this.gesture = model.begin();
+      this.gesture = model.previews.begin();
       this.isOn = true;
       this.wanted = {};
       this.good = this.start = model.document;
@@ -51,10 +51,10 @@ export class Designing {
 
   async #preview(values) {
     const { model } = this;
-    if (!this.isOn || !model.isUnderWay(this.gesture)) return;
+    if (!this.isOn || !model.previews.isUnderWay(this.gesture)) return;
     let document = this.start;
     for (const name in values) document = setDimension(document, name, values[name]);
-    await model.preview(document);
+    await model.previews.show(document);
     const isGood = model.moves && !model.problem;
     if (isGood) this.good = document;
     this.refusal = isGood ? "" : this.#reason();
@@ -79,9 +79,9 @@ export class Designing {
     if (!this.#isEnding || this.#closing) return undefined;
     this.#closing = this.#close(async () => {
       // Without any good one it is as if it had not begun.
-      if (this.good === this.start) return this.model.cancel(this.gesture);
-      if (this.model.document !== this.good && this.model.isUnderWay(this.gesture)) await this.model.preview(this.good);
-      return this.model.commit(this.gesture);
+      if (this.good === this.start) return this.model.previews.cancel(this.gesture);
+      if (this.model.document !== this.good && this.model.previews.isUnderWay(this.gesture)) await this.model.previews.show(this.good);
+      return this.model.previews.commit(this.gesture);
     });
     return this.#closing;
   }
@@ -99,7 +99,7 @@ export class Designing {
     if (!this.isOn || this.#closing) return;
     await this.previews.settled();
     this.refusal = "";
-    this.#closing = this.#close(() => this.model.cancel(this.gesture));
+    this.#closing = this.#close(() => this.model.previews.cancel(this.gesture));
     await this.#closing;
   }
 

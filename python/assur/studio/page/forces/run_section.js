@@ -37,7 +37,7 @@ export class RunSection {
     this.start.classList.add("primary");
     this.start.addEventListener("click", () => this.run());
     this.back = button(say("backToTurn"), "", say("backToTurn"));
-    this.back.addEventListener("click", () => model.endRun());
+    this.back.addEventListener("click", () => model.shownRun.end());
     this.result = html("div", { class: "run-result", role: "status" });
     body.append(this.form, html("div", { class: "run-row" }, this.start, this.back), this.error, this.result);
     this.again = later(() => this.show());
@@ -126,7 +126,7 @@ export class RunSection {
       const by = wanted.by === "machine" && !hasMachine(document) ? "speed" : wanted.by;
       const answer = await model.ask("run", runRequest({ ...wanted, by }, model.q, hasMachine(document)));
       if (!answer || model.document !== document) return;
-      model.showRun(answer);
+      model.shownRun.show(answer);
       const name = model.data.driver;
       const own = this.#isSlide ? `${name}.v` : `${name}.omega`;
       answers.chartBefore ??= this.playback.charts[0]?.quantity?.id;

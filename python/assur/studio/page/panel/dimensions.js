@@ -21,7 +21,7 @@ export class DimensionSection {
   #built = "";
   #edited = "";
   #gesture = null;
-  #steps = newestOnly(({ gesture, document }) => this.model.isUnderWay(gesture) && this.model.preview(document));
+  #steps = newestOnly(({ gesture, document }) => this.model.previews.isUnderWay(gesture) && this.model.previews.show(document));
 
   /** @param {import("../studio.js").Studio} studio */
   constructor(studio) {
@@ -148,19 +148,19 @@ export class DimensionSection {
     const { model } = this;
     if (!model.link.isOpen) return;
     this.#edited = name;
-    if (!model.isUnderWay(this.#gesture)) this.#gesture = model.begin();
+    if (!model.previews.isUnderWay(this.#gesture)) this.#gesture = model.previews.begin();
     this.#steps.push({ gesture: this.#gesture, document: withDimension(model.document, name, value) });
   }
 
   /** All steps are one step of undo. */
   async #settle(row) {
     await this.#steps.settled();
-    if (!row.isStepping) await this.model.commit(this.#gesture);
+    if (!row.isStepping) await this.model.previews.commit(this.#gesture);
   }
 
   async #restore() {
     await this.#steps.settled();
-    await this.model.cancel(this.#gesture);
+    await this.model.previews.cancel(this.#gesture);
   }
 
   /** What the present numbers cannot be shown for stands under the field that was changed. */
