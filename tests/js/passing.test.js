@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { passing } from "../../python/assur/studio/page/passing.js";
+import { passing } from "../../python/assur/studio/page/model/passing.js";
 
 const wait = (time) => new Promise((resolve) => setTimeout(resolve, time));
 

@@ -80,7 +80,7 @@ def test_the_page_reads_the_same() -> None:
         "--input-type=module",
         "-e",
         """
-        import { decode } from "./python/assur/studio/page/link.js";
+        import { decode } from "./python/assur/studio/page/model/link.js";
         const bytes = Uint8Array.from(JSON.parse(process.argv[1]));
         const { header, arrays } = decode(bytes.buffer);
         const listed = Object.entries(arrays).map(([name, one]) => [name, [...one].map(String)]);

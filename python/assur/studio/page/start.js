@@ -1,7 +1,7 @@
 // Begins the page: connects, and opens the file given, what this browser kept, or an example.
 
-import { kept } from "./files.js";
-import { connect } from "./link.js";
+import { kept } from "./window/files.js";
+import { connect } from "./model/link.js";
 import { openStudio, showFailure } from "./studio.js";
 import { say, speak } from "../../pictures/page/words.js";
 

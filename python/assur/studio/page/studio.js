@@ -8,7 +8,7 @@ import { listenForKeys, playingKey } from "../../pictures/page/keys.js";
 import { tellPosition, whatIsWrong } from "../../pictures/page/main.js";
 import { Playback } from "../../pictures/page/playback.js";
 import { learn, say, speak, spoken } from "../../pictures/page/words.js";
-import { Bar } from "./bar.js";
+import { Bar } from "./window/bar.js";
 import { Beginning } from "./build/beginning.js";
 import { Builder } from "./build/builder.js";
 import { Mend } from "./build/mend.js";
@@ -18,12 +18,12 @@ import { MapSection } from "./design/mapsection.js";
 import { Projector } from "./design/projector.js";
 import { DesignSection } from "./design/section.js";
 import { TargetSection } from "./design/targetsection.js";
-import { JointDrag } from "./dragging.js";
+import { JointDrag } from "./window/dragging.js";
 import { forceSections } from "./forces/sections.js";
-import { keep } from "./files.js";
+import { keep } from "./window/files.js";
 import { openHelp } from "./help/help.js";
-import { LessonScreen } from "./lesson_screen.js";
-import { Model } from "./model.js";
+import { LessonScreen } from "./window/lesson_screen.js";
+import { Model } from "./model/model.js";
 import { AssemblySection } from "./panel/assemblies.js";
 import { DimensionSection } from "./panel/dimensions.js";
 import { DriverSection } from "./panel/drivers.js";
@@ -33,8 +33,8 @@ import { NameSection } from "./panel/naming.js";
 import { PositionSection } from "./panel/position.js";
 import { problemText } from "./panel/problem.js";
 import { TransmissionWarning } from "./panel/transmission.js";
-import { Shell } from "./shell.js";
-import { Status } from "./status.js";
+import { Shell } from "./window/shell.js";
+import { Status } from "./window/status.js";
 import { BUILD_WORDS } from "./words/build.js";
 import { DESIGN_WORDS } from "./words/design.js";
 import { DRIVE_WORDS } from "./words/drive.js";
@@ -52,7 +52,7 @@ for (const words of [...TABLES, LOADS_WORDS, DRIVE_WORDS, RUN_WORDS]) learn(word
 export class Studio {
   /**
    * @param {HTMLElement} root
-   * @param {import("./link.js").Link} link
+   * @param {import("./model/link.js").Link} link
    * @param {Object} start what `start` answered
    */
   constructor(root, link, start) {
@@ -288,7 +288,7 @@ export class Studio {
 /**
  * Show the studio.
  * @param {HTMLElement} root
- * @param {import("./link.js").Link} link that is open
+ * @param {import("./model/link.js").Link} link that is open
  */
 export async function openStudio(root, link) {
   const { header } = await link.ask("start", 0, {});

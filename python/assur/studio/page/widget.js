@@ -2,7 +2,7 @@
 
 import { html } from "../../pictures/page/elements.js";
 import { hasShapeOfDocument } from "./document/shape.js";
-import { Link } from "./link.js";
+import { Link } from "./model/link.js";
 import { openStudio } from "./studio.js";
 import { say } from "../../pictures/page/words.js";
 

@@ -2,7 +2,7 @@
 
 import { isInside, linkAt } from "../../../pictures/page/drag.js";
 import { pointState } from "../../../pictures/page/quantities.js";
-import { jointAt } from "../dragging.js";
+import { jointAt } from "../window/dragging.js";
 import { allLinks, tableOf } from "../document/names.js";
 import { snapped } from "../document/snap.js";
 import { placeOf } from "../document/structure.js";
@@ -10,7 +10,7 @@ import { areOnOneLink } from "./steps.js";
 
 export class Aim {
   /**
-   * @param {import("../model.js").Model} model
+   * @param {import("../model/model.js").Model} model
    * @param {import("../../../pictures/page/canvas.js").Canvas} canvas
    * @param {import("../../../pictures/page/playback.js").Playback} playback
    */

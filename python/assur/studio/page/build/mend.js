@@ -3,7 +3,7 @@
 import { html, icon } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
 import { allLinks, tableOf } from "../document/names.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { checklist, isOnGround, linksApart } from "./checklist.js";
 
 const DONE = "M5 12l5 5 9-10";

@@ -13,7 +13,7 @@ function isAtDrawing({ document, driverCount, q, checked }) {
 
 /**
  * Return the document of a model, drawn in the position that is shown.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  */
 export async function asSeen(model) {
   const { document } = model;

@@ -16,7 +16,7 @@ const CHOICES = new WeakMap();
 
 /**
  * Return what one chose for a document's window.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @returns {Choices}
  */
 export function designChoices(model) {

@@ -2,7 +2,7 @@
 // cannot be assembled the last good design stays.
 
 import { setDimension } from "../document/machine.js";
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 import { problemText } from "../panel/problem.js";
 import { designChoices } from "./choices.js";
 

@@ -4,7 +4,7 @@
 import { html } from "../../../pictures/page/elements.js";
 import { degrees } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 import { designRange, dimensionText, sliderSteps, unitShown, valueText } from "./ranges.js";
 
 /** Steps of a coordinate. */

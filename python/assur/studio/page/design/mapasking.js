@@ -1,6 +1,6 @@
 // Asks for the map of the present design, again whenever what it depends on has changed.
 
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 import { designRange } from "./ranges.js";
 
 /** Cells along a side at rest, and while something moves. */
@@ -31,7 +31,7 @@ export function measuredRange({ turn, data }, { isWhole }) {
 
 export class MapAsking {
   /**
-   * @param {import("../model.js").Model} model
+   * @param {import("../model/model.js").Model} model
    * @param {{got: (map: AskedMap) => void, failed: (text: string) => void, again: () => void}} on
    *   `again` where it should be followed once more
    */

@@ -4,7 +4,7 @@ import { html } from "../../../pictures/page/elements.js";
 import { tickText } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
 import { helpButton } from "../help/help.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { colourRange } from "./cells.js";
 import { colourBar, MapPicture } from "./chartmap.js";
 import { designChoices } from "./choices.js";

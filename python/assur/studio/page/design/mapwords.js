@@ -7,7 +7,7 @@ import { reasonText } from "./metrics.js";
 import { dimensionText, unitShown, valueText } from "./ranges.js";
 
 export class MapWords {
-  /** @param {import("../model.js").Model} model */
+  /** @param {import("../model/model.js").Model} model */
   constructor(model) {
     this.model = model;
     /** The map that is shown, with `names` of its dimensions and the metric `chosen`. */

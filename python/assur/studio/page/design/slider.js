@@ -11,7 +11,7 @@ const SLIDER_DIGITS = 5;
 
 export class DimensionSlider {
   /**
-   * @param {import("../model.js").Model} model
+   * @param {import("../model/model.js").Model} model
    * @param {import("./designing.js").Designing} designing
    * @param {string} name of the dimension
    * @param {(() => void) | null} remove takes the slider away

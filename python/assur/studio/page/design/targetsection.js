@@ -5,7 +5,7 @@ import { pathLines } from "../../../pictures/page/paths.js";
 import { say } from "../../../pictures/page/words.js";
 import { writeWithUnit } from "../document/units.js";
 import { helpButton } from "../help/help.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { designChoices } from "./choices.js";
 import { deviationFrom } from "./deviation.js";
 import { unitShown } from "./ranges.js";

@@ -1,7 +1,7 @@
 // Forces of the present document, over the turn at the present speed, or along the run that is shown.
 
 import { isTable, listOf, tableOf } from "../document/names.js";
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 import { Along } from "./along.js";
 
 /** A speed that is being typed is asked for when it has rested, ms. */
@@ -29,7 +29,7 @@ export function hasMachine(document) {
 export class ForceAnswers {
   /**
    * What is kept with the model: it stays when the window is made anew.
-   * @param {import("../model.js").Model} model
+   * @param {import("../model/model.js").Model} model
    */
   static of(model) {
     return (model.forces ??= new ForceAnswers(model));

@@ -4,7 +4,7 @@ import { html } from "../../../pictures/page/elements.js";
 import { degrees, digits } from "../../../pictures/page/numbers.js";
 import { button } from "../../../pictures/page/panel.js";
 import { say } from "../../../pictures/page/words.js";
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 import { hasMachine } from "./answers.js";
 import { withForceUnit } from "./drive.js";
 import { Fields, later, positive } from "./fields.js";

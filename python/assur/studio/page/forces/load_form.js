@@ -10,7 +10,7 @@ import { valueField } from "./value_field.js";
 
 /**
  * Make the fields of a load; of one that cannot be edited here what stands in the file.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @param {import("./fields.js").Fields} fields
  * @param {Object} load
  * @param {number} i its place in the list

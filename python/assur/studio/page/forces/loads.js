@@ -9,7 +9,7 @@ import { LOAD_FIELDS, loadText, newLoad } from "./load_kinds.js";
 
 /**
  * Make the list.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @param {import("./fields.js").Fields} fields
  * @param {{open: number | null}} state which load is open
  * @param {() => void} again makes the list anew

@@ -49,7 +49,7 @@ export function massUnits(document) {
 
 /**
  * Make the table.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @param {import("./fields.js").Fields} fields
  * @param {(key: string) => string} wrongAt what the server says of a place of the document
  */

@@ -33,7 +33,7 @@ export const motorWords = (document) => say(`motor${motorOf(document)?.type ?? "
 
 /**
  * Make the fields of the motor.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @param {import("./fields.js").Fields} fields
  * @param {(key: string) => string} wrongAt what the server says of a place of the document
  */

@@ -15,7 +15,7 @@ function coordinateOf(document, over) {
 
 /**
  * Make the field.
- * @param {import("../model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @param {import("./fields.js").Fields} fields
  * @param {string} key
  * @param {{label: string, value: number | Object, unit: string, set: (value: number | Object) => void}} options

@@ -3,7 +3,7 @@
 import { put } from "../../../pictures/page/elements.js";
 import { degrees } from "../../../pictures/page/numbers.js";
 import { slowness } from "../../../pictures/page/player.js";
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 import { FiguresCard } from "./card.js";
 import { BROWSER_FRAMES, LessonClock, SupportSpeed } from "./clock.js";
 import { LessonDiagrams } from "./diagrams.js";

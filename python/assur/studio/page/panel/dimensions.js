@@ -2,8 +2,8 @@
 
 import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
-import { newestOnly } from "../link.js";
-import { section } from "../shell.js";
+import { newestOnly } from "../model/link.js";
+import { section } from "../window/shell.js";
 import { DimensionRow } from "./dimension_row.js";
 import { concernedBy, givenDimensions, groupDimensions, withDimension } from "./dimensions_of.js";
 import { LiveQuestion } from "./live.js";

@@ -5,7 +5,7 @@ import { digits } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
 import { tableOf } from "../document/names.js";
 import { parseQuantity } from "../document/units.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { fieldText, keeping, panelLength } from "./steps.js";
 
 /** Steps of an arrow key over all that can be reached. */

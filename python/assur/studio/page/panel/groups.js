@@ -2,7 +2,7 @@
 
 import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { driverList } from "./drivers.js";
 import { groupColour } from "./skeleton.js";
 

@@ -1,6 +1,6 @@
 // Questions that the server is asked again whenever what they are about has changed.
 
-import { newestOnly } from "../link.js";
+import { newestOnly } from "../model/link.js";
 
 /** While it plays, at most so often, ms. */
 const WHILE_PLAYING = 250;

@@ -6,7 +6,7 @@ import { renameJoint } from "../document/joints.js";
 import { renameLink } from "../document/links.js";
 import { allLinks, nameError, tableOf } from "../document/names.js";
 import { renameSlide, slideNameError } from "../document/slides.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { concernedBy } from "./dimensions_of.js";
 
 const movingNames = (document) => Object.keys(allLinks(document)).filter((name) => name !== "ground");

@@ -4,7 +4,7 @@ import { html, write } from "../../../pictures/page/elements.js";
 import { degrees, digits } from "../../../pictures/page/numbers.js";
 import { allQuantities, unitOf } from "../../../pictures/page/quantities.js";
 import { say } from "../../../pictures/page/words.js";
-import { section } from "../shell.js";
+import { section } from "../window/shell.js";
 import { LiveQuestion } from "./live.js";
 import { rangesOf, usualOutput } from "./outputs.js";
 

@@ -1,13 +1,13 @@
 // What is said over the picture: whether it moves and how, and what is wrong where it is.
 
-import { html, icon } from "../../pictures/page/elements.js";
-import { formula } from "../../pictures/page/panel.js";
-import { say } from "../../pictures/page/words.js";
+import { html, icon } from "../../../pictures/page/elements.js";
+import { formula } from "../../../pictures/page/panel.js";
+import { say } from "../../../pictures/page/words.js";
 
 const MARKS = { moves: "M5 12l5 5 9-10", wrong: "M6 6l12 12M18 6L6 18", open: "M12 5v9M12 18v1" };
 
 export class Status {
-  /** @param {import("./model.js").Model} model */
+  /** @param {import("../model/model.js").Model} model */
   constructor(model) {
     this.model = model;
     this.element = html("div", { class: "pill", role: "status", "aria-live": "polite" });

@@ -1,9 +1,9 @@
 // The bar: what is open, undo and redo, menus.
 
-import { html } from "../../pictures/page/elements.js";
-import { schemeButton } from "../../pictures/page/main.js";
-import { button } from "../../pictures/page/panel.js";
-import { say, spoken } from "../../pictures/page/words.js";
+import { html } from "../../../pictures/page/elements.js";
+import { schemeButton } from "../../../pictures/page/main.js";
+import { button } from "../../../pictures/page/panel.js";
+import { say, spoken } from "../../../pictures/page/words.js";
 import { chooseFile, download, openFile } from "./files.js";
 import { entry, menu } from "./menu.js";
 
@@ -23,7 +23,7 @@ export const LANGUAGES = { en: "English", de: "Deutsch", ru: "Русский", u
 export class Bar {
   /**
    * @param {HTMLElement} root
-   * @param {import("./model.js").Model} model
+   * @param {import("../model/model.js").Model} model
    * @param {{start: Object, notify: Function, lesson: () => void, help: () => void, speak: (code: string) => void, isEmbedded: boolean}} page
    */
   constructor(root, model, page) {

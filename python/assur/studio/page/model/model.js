@@ -1,11 +1,11 @@
 // The document and what the server says of it: one truth that every part of the page shows.
 
-import { Turn } from "../../pictures/page/turn.js";
+import { Turn } from "../../../pictures/page/turn.js";
 import { History } from "./history.js";
 import { passing } from "./passing.js";
 import { Previews, ROWS_DRAGGED } from "./previews.js";
 import { ShownRun } from "./shown_run.js";
-import { sketchScene } from "./document/sketch.js";
+import { sketchScene } from "../document/sketch.js";
 
 /** Rows of a turn at rest. */
 const ROWS = 361;

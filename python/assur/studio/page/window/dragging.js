@@ -1,8 +1,8 @@
 // Joints that are dragged: the dimensions of their links follow, or the drawing if it does not move.
 
-import { pointState } from "../../pictures/page/quantities.js";
-import { moveJoint } from "./document/joints.js";
-import { newestOnly } from "./link.js";
+import { pointState } from "../../../pictures/page/quantities.js";
+import { moveJoint } from "../document/joints.js";
+import { newestOnly } from "../model/link.js";
 
 /** How near to a joint one must be to grip it, px; with a finger. */
 const JOINT_GRIP = 12;
@@ -26,10 +26,10 @@ export function jointAt({ stage }, pose, x, y, isTouch) {
 
 export class JointDrag {
   /**
-   * @param {import("./model.js").Model} model
-   * @param {import("../../pictures/page/canvas.js").Canvas} canvas
-   * @param {import("../../pictures/page/playback.js").Playback} playback
-   * @param {import("./build/builder.js").Builder} builder says where a joint goes, and what it would be joined to
+   * @param {import("../model/model.js").Model} model
+   * @param {import("../../../pictures/page/canvas.js").Canvas} canvas
+   * @param {import("../../../pictures/page/playback.js").Playback} playback
+   * @param {import("../build/builder.js").Builder} builder says where a joint goes, and what it would be joined to
    */
   constructor(model, canvas, playback, builder) {
     this.model = model;

@@ -1,6 +1,6 @@
 // The socket: requests with numbers, answers as frames (docs/studio_protocol.md).
 
-import { say } from "../../pictures/page/words.js";
+import { say } from "../../../pictures/page/words.js";
 
 /** Bytes of a letter, at most. */
 const BYTES_OF_LETTER = 3;

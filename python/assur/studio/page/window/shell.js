@@ -1,7 +1,7 @@
 // The window: a bar, a rail of tools, the picture, what plays below it, and a panel of numbers.
 
-import { html } from "../../pictures/page/elements.js";
-import { say } from "../../pictures/page/words.js";
+import { html } from "../../../pictures/page/elements.js";
+import { say } from "../../../pictures/page/words.js";
 
 /** Tabs of narrow windows: each shows the sections that name it. */
 const TABS = ["dimensions", "diagrams", "assembly", "more"];

@@ -1,14 +1,14 @@
 // The lesson in place of the picture, the tools and the panel; the document waits meanwhile.
 
-import { html } from "../../pictures/page/elements.js";
-import { button } from "../../pictures/page/panel.js";
-import { say } from "../../pictures/page/words.js";
-import { Lesson } from "./lesson/lesson.js";
+import { html } from "../../../pictures/page/elements.js";
+import { button } from "../../../pictures/page/panel.js";
+import { say } from "../../../pictures/page/words.js";
+import { Lesson } from "../lesson/lesson.js";
 
 const LEAVE = "M10 6l-6 6 6 6M4 12h16";
 
 export class LessonScreen {
-  /** @param {import("./studio.js").Studio} studio */
+  /** @param {import("../studio.js").Studio} studio */
   constructor(studio) {
     this.studio = studio;
     this.lesson = null;

@@ -1,7 +1,7 @@
 // Menus of the bar: a button that opens a list; Escape and a click beside it close it.
 
-import { html } from "../../pictures/page/elements.js";
-import { button } from "../../pictures/page/panel.js";
+import { html } from "../../../pictures/page/elements.js";
+import { button } from "../../../pictures/page/panel.js";
 
 /**
  * Make a menu.

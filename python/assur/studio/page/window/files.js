@@ -1,8 +1,8 @@
 // Files: opening, saving, taking away, and what this browser keeps.
 
-import { html } from "../../pictures/page/elements.js";
-import { say } from "../../pictures/page/words.js";
-import { hasShapeOfDocument, isTargetPath } from "./document/shape.js";
+import { html } from "../../../pictures/page/elements.js";
+import { say } from "../../../pictures/page/words.js";
+import { hasShapeOfDocument, isTargetPath } from "../document/shape.js";
 
 /** Where this browser keeps the document. */
 const KEPT = "assur-studio";
@@ -37,7 +37,7 @@ function textOf(bytes) {
 
 /**
  * Open a file of the person, if it is a mechanism; the old one stays if not.
- * @param {import("./model.js").Model} model
+ * @param {import("../model/model.js").Model} model
  * @param {File} file
  * @param {number} limit bytes
  * @param {(text: string) => void} tell

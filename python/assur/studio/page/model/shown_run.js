@@ -1,6 +1,6 @@
 // A motion over time that is shown in place of the turn, until the document changes.
 
-import { Turn } from "../../pictures/page/turn.js";
+import { Turn } from "../../../pictures/page/turn.js";
 
 export class ShownRun {
   /** The answer to `run` of the protocol; or null. */
