@@ -1,24 +1,33 @@
 import assert from "node:assert/strict";
-import test from "node:test";
+import { mock, test } from "node:test";
 import { passing } from "../../python/assur/studio/page/model/passing.js";
 
-const wait = (time) => new Promise((resolve) => setTimeout(resolve, time));
+const needs = { skip: !mock.timers && "Node 20 has timers that a test moves" };
 
-test("what follows a picture is done in turn, each after a frame, and the last is not lost", async () => {
-  const order = [];
-  globalThis.requestAnimationFrame = (f) => setTimeout(() => (order.push("frame"), f()), 1);
-  const pass = passing([() => order.push("fields"), () => order.push("diagrams")]);
+test("with each picture at most one thing follows, in turn, and the last is not lost", needs, () => {
+  let now = 1000;
+  mock.timers.enable({ apis: ["setTimeout"] });
+  mock.method(performance, "now", () => now);
+  const tick = (time) => {
+    now += time;
+    mock.timers.tick(time);
+  };
+  const done = [];
+  const pass = passing([() => done.push("fields"), () => done.push("diagrams")]);
   pass();
-  pass();
-  assert.deepEqual(order, []);
-  await wait(120);
-  assert.deepEqual(order, ["frame", "fields", "frame", "diagrams"]);
-  order.length = 0;
-  // What is wanted again meanwhile waits behind the others.
-  pass();
-  while (!order.includes("fields")) await wait(1);
-  pass();
-  await wait(160);
-  assert.deepEqual(order, ["frame", "fields", "frame", "diagrams", "frame", "fields"]);
-  delete globalThis.requestAnimationFrame;
+  assert.deepEqual(done, []);
+  tick(1);
+  assert.deepEqual(done, ["fields"]);
+  // Pictures come every 10 ms: every third has one.
+  for (let i = 0; i < 6; i++) {
+    tick(10);
+    pass();
+    tick(1);
+  }
+  assert.deepEqual(done, ["fields", "diagrams", "fields"]);
+  // No picture comes any more: what the last one has not had follows once.
+  tick(200);
+  assert.deepEqual(done, ["fields", "diagrams", "fields", "diagrams"]);
+  mock.restoreAll();
+  mock.timers.reset();
 });

@@ -1,33 +1,35 @@
-// What follows the picture while something is dragged: one thing after another, each after a frame.
+// What follows the picture while something is dragged: fields, diagrams, one at a time.
 
-/** One of them so often, ms. */
+/** One of them so often, ms; if no picture comes, the next so much later. */
 const BETWEEN = 30;
 
 /**
- * Return a function that has all of these done once more, in turn: while a frame is on its way to the
- * screen nothing else delays it, and afterwards the server computes the next.
+ * Return a function that has all of these done once more, in turn: with each picture at most one, so
+ * that they share its frame and none waits for many.
  * @param {(() => void)[]} all
  */
 export function passing(all) {
   const waiting = new Set();
-  let isScheduled = false;
-  let last = 0;
-  const schedule = () => {
-    isScheduled = true;
-    // A frame is drawn between its request and a timer that is set then.
-    const afterFrame = () => requestAnimationFrame(() => setTimeout(run));
-    setTimeout(afterFrame, Math.max(BETWEEN - (performance.now() - last), 0));
+  let timer = 0;
+  let isNext = false;
+  let last = -Infinity;
+  const schedule = (delay) => {
+    clearTimeout(timer);
+    timer = setTimeout(run, delay);
   };
   const run = () => {
-    isScheduled = false;
+    isNext = false;
     last = performance.now();
     const [next] = waiting;
     waiting.delete(next);
-    if (waiting.size) schedule();
+    if (waiting.size) schedule(BETWEEN);
     next();
   };
   return () => {
     for (const one of all) waiting.add(one);
-    if (!isScheduled) schedule();
+    if (isNext) return;
+    // Between the picture and its frame there is often time.
+    isNext = performance.now() - last >= BETWEEN;
+    schedule(isNext ? 0 : BETWEEN);
   };
 }
