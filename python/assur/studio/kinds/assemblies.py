@@ -43,19 +43,19 @@ def assemblies(data: dict[str, Any], session: Session) -> Answer:
         listed = [(one, dict(one.joints or {})) for one in found]
         rest = {"failures": found.failures, "is_complete": found.is_complete}
         rest |= {"complex_count": found.complex_count}
-    machine = {key: fields["document"][key] for key in SECTIONS if key in fields["document"]}
     described = []
     for one, joints in listed:
         session.deadline.check()
-        drawn = mechanism.with_assembly(one)
+        # Limits of long chains take long: the last ones go without.
+        is_late = session.deadline.left() < session.deadline.seconds / 2.0
         described.append(
             {
                 "joints": joints,
                 "signs": dict(one),
                 "is_double": one.is_double,
                 "is_current": _is_current(mechanism, joints, q),
-                "reach": _reach(drawn),
-                "document": {**document.document_of(drawn), **machine},
+                "reach": None if is_late else _reach(mechanism, one),
+                "document": _drawn_in(fields["document"], mechanism, one),
             }
         )
     return Answer({"q": q, "assemblies": described, "most": most, **rest})
@@ -74,6 +74,14 @@ def _neighbours(mechanism: Mechanism, q: Any) -> list[tuple[Assembly, dict[str, 
     return listed
 
 
+def _drawn_in(data: dict[str, Any], mechanism: Mechanism, one: Assembly) -> dict[str, Any]:
+    """Return the document drawn in an assembly; of signs alone the drawing stays."""
+    if one.q is None:
+        return {**data, "assembly": dict(one)}
+    machine = {key: data[key] for key in SECTIONS if key in data}
+    return {**document.document_of(mechanism.with_assembly(one)), **machine}
+
+
 def _is_current(mechanism: Mechanism, joints: dict[str, Any], q: Any) -> bool:
     motion = mechanism.solve(q, order=0, on_error="nan")
     there = np.array([motion.joint(name).value for name in joints])
@@ -81,12 +89,11 @@ def _is_current(mechanism: Mechanism, joints: dict[str, Any], q: Any) -> bool:
     return bool((np.abs(there - own) <= SAME * size_of(mechanism)).all())
 
 
-def _reach(drawn: Mechanism) -> dict[str, Any] | None:
+def _reach(mechanism: Mechanism, one: Assembly) -> dict[str, Any] | None:
     """Return where the driver can move it; None with several drivers."""
-    if drawn._driver_count > 1:
+    if mechanism._driver_count > 1:
         return None
     try:
-        limits = drawn.limits()
+        return reach_of(mechanism.limits(one))
     except AssurError:
         return None
-    return reach_of(limits)
