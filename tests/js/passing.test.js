@@ -18,9 +18,9 @@ test("with each picture at most one thing follows, in turn, and the last is not 
   assert.deepEqual(done, []);
   tick(1);
   assert.deepEqual(done, ["fields"]);
-  // Pictures come every 10 ms: every third has one.
+  // Pictures come every 20 ms: every third has one.
   for (let i = 0; i < 6; i++) {
-    tick(10);
+    tick(20);
     pass();
     tick(1);
   }

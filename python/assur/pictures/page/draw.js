@@ -5,6 +5,8 @@ import { put, svg } from "./elements.js";
 /** Strokes of hatching: px across their line, and how many at most (of a link seen very large). */
 const HATCH_DEPTH = 7;
 const MOST_STROKES = 400;
+/** What is nearer, relative to a usual link, is the same place: rounding. */
+const SAME_PLACE = 1e-6;
 /** What makes a part another one; numbers of its size may differ. */
 const PART_KEYS = ["link", "name", "colour", "closed", "fill", "hatched", "floor", "disc", "hatching", "width"];
 
@@ -113,10 +115,11 @@ export class Drawing {
 
   /** Draw another scene whose parts fit, at the next zoom: what has another size. */
   resized(scene) {
+    const tiny = SAME_PLACE * scene.usual;
     scene.parts.forEach((part, i) => {
       const own = this.parts[i];
-      if (part.at.some((number, k) => number !== own.at[k])) this.stale.add(own);
-      Object.assign(own, part);
+      if (!part.at.some((number, k) => Math.abs(number - own.at[k]) > tiny)) return;
+      this.stale.add(Object.assign(own, part));
     });
     this.scene = scene;
   }

@@ -40,7 +40,7 @@ export function icon(path) {
 
 /** Set an attribute only if it differs: setting it would make the browser lay out again. */
 export function put(element, name, value) {
-  if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+  if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
 }
 
 /** Write a text only if it differs. */

@@ -2,7 +2,7 @@
 
 import { Chart } from "./chart.js";
 import { Dial } from "./dial.js";
-import { html, icon } from "./elements.js";
+import { html, icon, write } from "./elements.js";
 import { degrees, digits, lengthUnit, tickText } from "./numbers.js";
 import { button } from "./panel.js";
 import { Player } from "./player.js";
@@ -113,8 +113,8 @@ export class Playback {
     const length = lengthUnit(Math.max(x1 - x0, y1 - y0));
     this.scaled = { angle: 1 / DEGREE, length: length.factor, time: 1 }[this.unit];
     this.placeUnit = this.unit === "time" ? "s" : length.name;
-    this.symbol.textContent = this.unit === "angle" ? "ω" : "v";
-    this.speedUnit.textContent = SPEED_UNITS[this.unit];
+    write(this.symbol, this.unit === "angle" ? "ω" : "v");
+    write(this.speedUnit, SPEED_UNITS[this.unit]);
     this.speedField.hidden = this.unit === "time";
   }
 

@@ -47,8 +47,13 @@ export class Vectors {
     this.per = null;
   }
 
-  /** Draw those of other joints. */
+  /** Draw those of other joints, or of the same in another turn. */
   choose(joints) {
+    this.per = null;
+    if (joints.length === this.arrows.length && joints.every(({ name }, i) => name === this.arrows[i].joint.name)) {
+      joints.forEach((joint, i) => (this.arrows[i].joint = joint));
+      return;
+    }
     this.layer.replaceChildren();
     this.arrows = joints.map((joint) => {
       const style = { class: `vector ${this.kind}` };
@@ -56,7 +61,6 @@ export class Vectors {
       this.layer.append(arrow.line, arrow.head);
       return arrow;
     });
-    this.per = null;
   }
 
   /** Return nearly the greatest of the turn: at dead points it is infinite. */

@@ -3,6 +3,8 @@
 /** Zoom stays within these parts of the fitted scale. */
 const LEAST_ZOOM = 0.1;
 const GREATEST_ZOOM = 60;
+/** Steps of 1. */
+const DENSITIES = 20;
 
 export class View {
   constructor() {
@@ -66,10 +68,11 @@ export class View {
   }
 
   /**
-   * Return how large symbols are: 1, less where links are short.
+   * Return how large symbols are: 1, less where links are short. In steps: while a link becomes longer
+   * not every symbol is drawn anew.
    * @param {number} usual the usual length of a link, m
    */
   density(usual) {
-    return Math.min(Math.max((usual * this.scale) / 60, 0.6), 1);
+    return Math.round(DENSITIES * Math.min(Math.max((usual * this.scale) / 60, 0.6), 1)) / DENSITIES;
   }
 }

@@ -1,7 +1,7 @@
 // What follows the picture while something is dragged: fields, diagrams, one at a time.
 
 /** One of them so often, ms; if no picture comes, the next so much later. */
-const BETWEEN = 30;
+const BETWEEN = 60;
 
 /**
  * Return a function that has all of these done once more, in turn: with each picture at most one, so

@@ -1,6 +1,6 @@
 // One dimension: its field, why a value is not taken, and what it does to the output.
 
-import { html, icon } from "../../../pictures/page/elements.js";
+import { html, icon, write } from "../../../pictures/page/elements.js";
 import { digits } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
 import { parseQuantity } from "../document/units.js";
@@ -153,10 +153,10 @@ export class DimensionRow {
    */
   show(value, scale, usual, isGiven) {
     this.back.classList.toggle("given", isGiven);
-    this.back.disabled = !isGiven;
+    if (this.back.disabled === isGiven) this.back.disabled = !isGiven;
     this.usual = usual;
     this.scale = scale;
-    this.unitText.textContent = scale.name;
+    write(this.unitText, scale.name);
     if (this.isStepping) return;
     const isEdited = this.isFocused && this.field.value !== this.#written;
     this.value = value;
