@@ -48,38 +48,53 @@ FRAME_SCRIPT = """(count) => new Promise((resolve) => {
   };
   playback.toggle();
 })"""
-# From the event of the pointer to the first frame that can show its answer.
-DRAG_SCRIPT = """([joint, count]) => new Promise((resolve) => {
+# From the event of the pointer to the first frame with the joint under it (checked), and to the
+# first that can show all that the server has computed of it.
+DRAG_SCRIPT = """([joint, count]) => new Promise((resolve, reject) => {
   const { model, canvas } = window.assurStudio;
   const [x, y] = window.placeOf(joint);
   const box = canvas.picture.getBoundingClientRect();
+  const circles = [...canvas.picture.querySelectorAll("circle.joint")];
+  const middle = (one) => {
+    const own = one.getBoundingClientRect();
+    return [own.x + own.width / 2 - box.x, own.y + own.height / 2 - box.y];
+  };
+  const away = (one, [px, py]) => Math.hypot(middle(one)[0] - px, middle(one)[1] - py);
+  const circle = circles.reduce((a, b) => (away(b, [x, y]) < away(a, [x, y]) ? b : a));
   canvas.picture.setPointerCapture = () => {};
+  const at = (i) => [x + 8 * Math.sin(i / 9), y + 8 * (Math.cos(i / 9) - 1)];
   const send = (type, i) => canvas.picture.dispatchEvent(new PointerEvent(type, {
-    clientX: box.left + x + 8 * Math.sin(i / 9), clientY: box.top + y + 8 * (Math.cos(i / 9) - 1),
+    clientX: box.x + at(i)[0], clientY: box.y + at(i)[1],
     pointerId: 1, bubbles: true, button: 0, pointerType: "mouse",
   }));
-  const times = [];
+  // A message is taken up after the frame's layout and paint were handed over.
+  const afterFrame = (act) => requestAnimationFrame(() => {
+    const channel = new MessageChannel();
+    channel.port1.onmessage = act;
+    channel.port2.postMessage(0);
+  });
+  const seen = [], computed = [];
   let sent = 0, i = 0;
   const next = () => {
-    if (times.length === count) {
+    if (computed.length === count && seen.length === count) {
       end();
       send("pointerup", i);
-      resolve(times);
+      resolve({ seen, computed });
       return;
     }
-    sent = performance.now();
+    const own = (sent = performance.now());
     send("pointermove", ++i);
+    afterFrame(() => {
+      seen.push(performance.now() - own);
+      if (away(circle, at(i)) > 1) reject(new Error(`the joint is ${away(circle, at(i))} px away`));
+      if (seen.length === computed.length) next();
+    });
   };
   const end = model.on("picture", () => {
     const own = sent;
-    requestAnimationFrame(() => {
-      const channel = new MessageChannel();
-      // A message is taken up after the frame's layout and paint were handed over.
-      channel.port1.onmessage = () => {
-        times.push(performance.now() - own);
-        next();
-      };
-      channel.port2.postMessage(0);
+    afterFrame(() => {
+      computed.push(performance.now() - own);
+      if (seen.length === computed.length) next();
     });
   });
   send("pointerdown", 0);
@@ -151,7 +166,8 @@ def measure(links: int) -> None:
         drags = page.evaluate(DRAG_SCRIPT, [f"C{(links - 4) // 4}", DRAGS])
     print(
         f"{links:3d} links: script of a frame {both(frames['script'])}, between frames "
-        f"{both(frames['between'])}, a drag until it is seen {both(drags)}"
+        f"{both(frames['between'])}; a drag until it is seen {both(drags['seen'])}, "
+        f"until all is computed {both(drags['computed'])}"
     )
 
 

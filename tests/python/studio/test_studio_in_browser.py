@@ -87,6 +87,87 @@ def test_a_joint_is_dragged_and_its_dimensions_follow(browser: Browser, file: Pa
         assert one.document == after
 
 
+# The nearest circle of a joint, px from a place of the window.
+NEAREST = """([x, y]) => {
+  const distance = (one) => {
+    const box = one.getBoundingClientRect();
+    return Math.hypot(box.x + box.width / 2 - x, box.y + box.height / 2 - y);
+  };
+  return Math.min(...[...document.querySelectorAll(".picture circle.joint")].map(distance));
+}"""
+# Answers to `drag` wait until they are let through.
+HOLD = """() => {
+  const { link } = window.assurStudio.model;
+  const ask = link.ask.bind(link);
+  const gate = new Promise((resolve) => (window.letThrough = resolve));
+  link.ask = async (kind, ...rest) => {
+    if (kind === "drag") await gate;
+    return ask(kind, ...rest);
+  };
+}"""
+
+
+@pytest.mark.parametrize("joint", ["B", "C", "D"])
+def test_a_joint_is_under_the_hand_before_the_server_answers(
+    browser: Browser, file: Path, joint: str
+) -> None:
+    with window(browser, file) as one:
+        one.page.evaluate(HOLD)
+        before = one.document
+        x, y = one.joint_px(joint)
+        to = (x + 30.0, y - 20.0)
+
+        def drag() -> None:
+            one.page.mouse.move(x, y)
+            one.page.mouse.down()
+            one.page.mouse.move(*to, steps=4)
+            one.page.wait_for_timeout(50)
+
+        drag()
+        assert one.document == before
+        assert one.page.evaluate(NEAREST, to) < 1.0
+        assert one.page.evaluate(NEAREST, (x, y)) > 10.0
+        one.page.keyboard.press("Escape")
+        one.page.mouse.up()
+        assert one.page.evaluate(NEAREST, (x, y)) < 0.1
+        drag()
+        one.page.evaluate("window.letThrough()")
+        one.page.mouse.up()
+        one.settle()
+        assert one.document != before
+        assert one.joint_px(joint) == pytest.approx(to, abs=0.1)
+        assert one.page.evaluate(NEAREST, to) < 0.1
+        assert_drawn_as_solved(one)
+
+
+def test_what_cannot_be_is_not_drawn(browser: Browser, file: Path) -> None:
+    """Where no mechanism has the joint, the last one that does stays."""
+    with window(browser, file) as one:
+        one.page.evaluate(
+            """() => {
+                 const { link } = window.assurStudio.model;
+                 const ask = link.ask.bind(link);
+                 link.ask = async (kind, ...rest) => {
+                   if (kind === "drag") throw new Error("there is none");
+                   return ask(kind, ...rest);
+                 };
+               }"""
+        )
+        before = one.document
+        x, y = one.joint_px("C")
+        one.page.mouse.move(x, y)
+        one.page.mouse.down()
+        for i in range(4):
+            one.page.mouse.move(x + 10.0 * (i + 1), y)
+            one.page.wait_for_timeout(30)
+            assert one.page.evaluate(NEAREST, (x, y)) < 0.1
+        assert "there is none" in one.page.locator(".warning").inner_text()
+        one.page.mouse.up()
+        one.settle()
+        assert one.document == before
+        assert one.page.evaluate(NEAREST, (x, y)) < 0.1
+
+
 def test_escape_ends_a_gesture_as_if_it_had_not_begun(browser: Browser, file: Path) -> None:
     with window(browser, file) as one:
         before = one.document

@@ -149,7 +149,10 @@ export class Studio {
 
   #listen() {
     const { model, canvas, playback, root } = this;
-    model.on("picture", () => this.#replace(true));
+    model.on("picture", () => {
+      this.#replace(true);
+      this.joints.passed();
+    });
     // While something is dragged the picture is there already.
     model.on("turn", () => (model.isDragging && canvas.stage.turn === model.turn ? playback.draw() : this.#replace()));
     model.on("problem", () => canvas.warn(this.#whatIsWrong()));

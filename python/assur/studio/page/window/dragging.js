@@ -3,6 +3,7 @@
 import { pointState } from "../../../pictures/page/quantities.js";
 import { moveJoint } from "../document/joints.js";
 import { newestOnly } from "../model/link.js";
+import { Pulling } from "./pulling.js";
 
 /** How near to a joint one must be to grip it, px; with a finger. */
 const JOINT_GRIP = 12;
@@ -36,6 +37,8 @@ export class JointDrag {
     this.builder = builder;
     this.canvas = canvas;
     this.playback = playback;
+    this.pulling = new Pulling(canvas.stage);
+    model.on("problem", () => model.problem && this.pulling.letGo());
     this.previews = newestOnly(({ gesture, document }) => model.previews.isUnderWay(gesture) && model.previews.show(document));
   }
 
@@ -49,6 +52,26 @@ export class JointDrag {
 
   /** The gesture before, until its last answer has come. */
   #ending = null;
+  /** The grip of a joint whose links are drawn where the hand has it. */
+  #held = null;
+
+  /** Another turn is drawn: the hand may have gone on meanwhile. */
+  passed() {
+    if (this.#held) this.#pull(this.#held);
+  }
+
+  #pull(grip) {
+    this.#held = grip;
+    // Where it cannot be it is not drawn either; while it plays the hand holds it for no longer than a frame.
+    if (this.playback.player.isPlaying) this.pulling.letGo();
+    else if (!this.model.problem) this.pulling.pull(grip.joint, grip.at, this.playback.pose);
+  }
+
+  #letGo(grip) {
+    if (this.#held !== grip) return;
+    this.#held = null;
+    this.pulling.letGo();
+  }
 
   /** Move it to a place in the plane, m; not before the gesture before has ended. */
   move(grip, to) {
@@ -65,11 +88,13 @@ export class JointDrag {
     const { model } = this;
     if (grip.isCancelled) return;
     grip.gesture ??= model.previews.begin();
-    if (!model.previews.isUnderWay(grip.gesture)) return;
+    if (!model.previews.isUnderWay(grip.gesture)) return this.#letGo(grip);
     const { at, target } = this.builder.aimJoint(grip.joint, grip.to, grip.from);
-    grip.target = target;
-    if (model.moves) model.previews.dragJoint(grip.joint, at);
-    else this.previews.push({ gesture: grip.gesture, document: moveJoint(model.document, grip.joint, at) });
+    Object.assign(grip, { at, target });
+    if (model.moves) {
+      this.#pull(grip);
+      model.previews.dragJoint(grip.joint, at);
+    } else this.previews.push({ gesture: grip.gesture, document: moveJoint(model.document, grip.joint, at) });
   }
 
   drop(grip) {
@@ -92,10 +117,12 @@ export class JointDrag {
       await model.previews.show(await this.builder.joined(grip.joint, grip.target));
     }
     await model.previews.commit(gesture);
+    this.#letGo(grip);
   }
 
   async cancel(grip) {
     grip.isCancelled = true;
+    this.#letGo(grip);
     if (!grip.gesture) return;
     this.builder.unaim();
     await this.model.previews.cancel(grip.gesture);
