@@ -193,6 +193,8 @@ def test_an_interrupt_from_the_keyboard() -> None:
     """While it waits for the standard input: one line and 130."""
     code = (
         "import os, signal, threading\n"
+        # A shell's job in the background ignores it.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "from assur.cli import main\n"
         "kill = lambda: os.kill(os.getpid(), signal.SIGINT)\n"
         "threading.Timer(0.05, kill).start()\n"
@@ -203,7 +205,7 @@ def test_an_interrupt_from_the_keyboard() -> None:
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as process:
         assert process.stdin is not None
         assert process.stderr is not None
-        assert process.wait() == 130
+        assert process.wait(60.0) == 130
         assert process.stderr.read() == b"assur: interrupted\n"
         process.stdin.close()
 
