@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from playwright.sync_api import Browser, Page
+    from playwright.sync_api import Browser, Locator, Page
 
 # The cells of the notebook.
 CELLS = (
@@ -197,9 +197,12 @@ def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:
         page = browser.new_page(viewport={"width": 1300, "height": 1000})
         errors: list[str] = []
         page.on("pageerror", lambda error: errors.append(str(error.stack or error)))
+
+        def accept(asked: Locator) -> None:
+            asked.locator("button").last.click()
+
         # On a slow machine JupyterLab may ask for a kernel, or say that it waits.
-        asked = page.locator(".jp-Dialog")
-        page.add_locator_handler(asked, lambda: asked.locator("button").last.click())
+        page.add_locator_handler(page.locator(".jp-Dialog"), accept)
         page.goto(address)
         page.locator(".jp-CodeCell").nth(2).wait_for(timeout=60_000)
         page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for(timeout=60_000)
