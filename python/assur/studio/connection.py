@@ -83,7 +83,7 @@ class Connection:
     async def serve(self) -> None:
         """Read until the page leaves; compute meanwhile."""
         lanes = (self._quick, self._long)
-        computing = asyncio.gather(*(self._compute(lane) for lane in lanes))
+        tasks = [asyncio.create_task(self._compute(lane)) for lane in lanes]
         try:
             while True:
                 message = await self._socket.receive()
@@ -94,9 +94,12 @@ class Connection:
         except WebSocketDisconnect:
             return
         finally:
-            computing.cancel()
-            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
-                await computing
+            # Each by itself: one may have failed at a page that left.
+            for task in tasks:
+                task.cancel()
+            for task in tasks:
+                with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
+                    await task
 
     async def _take(self, text: str | bytes) -> None:
         try:

@@ -151,6 +151,20 @@ def test_of_many_assemblies_those_that_differ_in_one_dyad() -> None:
     assert {name for names in differ for name in names} == set(own)
 
 
+def test_a_group_above_class_ii_among_many_dyads_may_have_more_assemblies() -> None:
+    own = ask("open", example="triad")["document"]
+    x, y = own["joints"]["A"]
+    links = {**own["links"], "ground": [*own["links"]["ground"], *(f"d{i}" for i in range(7))]}
+    joints = dict(own["joints"])
+    for i in range(7):
+        joints |= {f"c{i}": [x + 1.5 + 0.1 * i, y + 1], f"d{i}": [x + 2.2 + 0.1 * i, y - 1]}
+        links |= {f"rod{i}": ["A", f"c{i}"], f"rocker{i}": [f"d{i}", f"c{i}"]}
+    many = {**own, "joints": joints, "links": links}
+    reply = ask("assemblies", document=many)
+    assert (reply["most"], reply["is_complete"]) == (128, False)
+    assert len(reply["assemblies"]) == 8
+
+
 def test_sensitivity_by_differences() -> None:
     reply = ask("sensitivity", document=FOUR_BAR, q=0.7, of="P.x")
     mechanism = document.read_mechanism(FOUR_BAR)

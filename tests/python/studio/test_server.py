@@ -343,6 +343,35 @@ def test_what_takes_long_does_not_hold_a_hand(
         assert read(socket)["id"] == 1
 
 
+def test_a_page_that_left_leaves_no_task_behind() -> None:
+    class Left:
+        """A socket whose page has gone before the answer."""
+
+        def __init__(self) -> None:
+            self.asked = False
+            self.is_tried = asyncio.Event()
+
+        async def receive(self) -> dict[str, Any]:
+            if not self.asked:
+                self.asked = True
+                return {"type": "websocket.receive", "text": '{"id": 1, "rev": 1, "kind": "start"}'}
+            await self.is_tried.wait()
+            await asyncio.sleep(0.01)
+            return {"type": "websocket.disconnect"}
+
+        async def send_bytes(self, frame: bytes) -> None:
+            del frame
+            self.is_tried.set()
+            raise WebSocketDisconnect
+
+    async def served() -> int:
+        socket: Any = Left()
+        await connection.Connection(connection.Studio(), socket).serve()
+        return len(asyncio.all_tasks())
+
+    assert asyncio.run(served()) == 1
+
+
 def test_only_the_newest_that_waits(client: TestClient, gate: threading.Event) -> None:
     with client.websocket_connect("/socket", headers=OWN) as socket:
 

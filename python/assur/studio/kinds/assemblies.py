@@ -36,7 +36,9 @@ def assemblies(data: dict[str, Any], session: Session) -> Answer:
     most = 2 ** len(mechanism.assembly)
     if most > MOST_LISTED:
         listed = _neighbours(mechanism, q)
-        rest: dict[str, Any] = {"failures": [], "is_complete": True, "complex_count": []}
+        # Other solutions of a group above class II are not looked for.
+        is_complete = mechanism._core.cls <= 2
+        rest: dict[str, Any] = {"failures": [], "is_complete": is_complete, "complex_count": []}
     else:
         found = mechanism.assemblies(q)
         # Each with its joints where the driver is.

@@ -57,10 +57,11 @@ export class AssemblySection {
     this.#scroll();
     if (hadFocus) this.list.querySelector("[aria-pressed=true]")?.focus();
     const remarks = [];
-    if (assemblies.length < most && most > ALL_LISTED) remarks.push(say("neighbourAssemblies", { most }));
+    const isOfNeighbours = most > ALL_LISTED;
+    if (isOfNeighbours) remarks.push(say("neighbourAssemblies", { most: isComplete ? most : `${most}+` }));
     if (assemblies.length > 1) remarks.push(say("chooseAssembly"));
     if (assemblies.some((one) => one.is_double)) remarks.push(say("doubleAssembly"));
-    if (!isComplete) remarks.push(say("notAllAssemblies", { n: failures.length }));
+    if (!isComplete && !isOfNeighbours) remarks.push(say("notAllAssemblies", { n: failures.length }));
     this.remark.textContent = remarks.join(" ");
   }
 
