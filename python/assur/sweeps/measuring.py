@@ -91,6 +91,8 @@ class Measuring:
         values = {name: np.full(count, np.nan) for name in self.metrics}
         status = np.zeros(count, dtype=np.uint8)
         kept = np.zeros(count, dtype=np.bool_)
+        # Room for the indices is taken now: a sweep that has no memory for them ends at once.
+        room = np.empty(count, dtype=np.intp)
         parts = list(blocks(count, len(self.q)))
         # Here one block after another takes the same memory.
         size = designs.size * max((part.stop - part.start for part in parts), default=0)
@@ -100,6 +102,7 @@ class Measuring:
             for name, value in found.items():
                 values[name][part] = value
             report(part.stop)
+        del room
         indices = np.flatnonzero(kept)
         for array in (*values.values(), status, indices):
             array.flags.writeable = False

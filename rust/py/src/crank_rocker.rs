@@ -5,7 +5,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::metrics::check_same_length;
-use crate::{detach, error_map};
+use crate::{detach, error_map, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -23,10 +23,10 @@ pub(crate) fn crank_rocker_solve<'py>(
     rates: [Flat<'py>; 2],
     printed: bool,
 ) -> PyResult<Array<'py>> {
-    let phi1 = phi1.as_slice()?.to_vec();
+    let phi1 = reserve::copied(&phi1)?;
     let mut columns = Vec::new();
     for column in lengths.iter().chain(&rates) {
-        let column = column.as_slice()?.to_vec();
+        let column = reserve::copied(&column)?;
         check_same_length(phi1.len(), column.len())?;
         columns.push(column);
     }
@@ -99,8 +99,8 @@ pub(crate) fn crank_rocker_ground_range<'py>(
     margins: [f64; 2],
     gamma_min: Flat<'py>,
 ) -> PyResult<Array<'py>> {
-    let (coupler, rocker) = (coupler.as_slice()?.to_vec(), rocker.as_slice()?.to_vec());
-    let gamma_min = gamma_min.as_slice()?.to_vec();
+    let (coupler, rocker) = (reserve::copied(&coupler)?, reserve::copied(&rocker)?);
+    let gamma_min = reserve::copied(&gamma_min)?;
     check_same_length(coupler.len(), rocker.len())?;
     check_same_length(coupler.len(), gamma_min.len())?;
     let ends = detach::map(py, coupler.len(), |i| {
@@ -142,7 +142,7 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
     friction: [Flat<'py>; 4],
     rocker: Flat<'py>,
 ) -> PyResult<Array<'py>> {
-    let (rows, rocker) = (designs(&friction)?, rocker.as_slice()?.to_vec());
+    let (rows, rocker) = (designs(&friction)?, reserve::copied(&rocker)?);
     check_same_length(rows.len(), rocker.len())?;
     let least = |i: usize| core::least_gamma(rows[i], rocker[i]).unwrap_or(f64::NAN);
     Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least)?))

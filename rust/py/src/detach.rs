@@ -11,12 +11,10 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 
-use crate::error;
+use crate::{error, reserve};
 
 /// Time between checks for signals.
 pub(crate) const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
-/// Items between checks for cancellation.
-const ITEMS_PER_CHECK: usize = 256;
 /// Length from which a list takes long enough to check for signals.
 const LONG_LIST: usize = 16_384;
 /// The same for items that take about a tenth of a millisecond each.
@@ -87,10 +85,11 @@ fn map_list<T: Send>(
     long: usize,
     one: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
+    let _room = reserve::room(py, count.saturating_mul(2 * size_of::<T>()))?;
     run(py, count < long, |cancel| {
         let mut results = Vec::with_capacity(count);
         for index in 0..count {
-            if index.is_multiple_of(ITEMS_PER_CHECK) && cancel.load(Ordering::Relaxed) {
+            if cancel.load(Ordering::Relaxed) {
                 break;
             }
             results.push(one(index));
@@ -104,22 +103,31 @@ fn run_unguarded<T: Send>(
     small: bool,
     work: impl Fn(&AtomicBool) -> T + Sync,
 ) -> PyResult<T> {
+    reserve::ensure(py)?;
     let cancel = AtomicBool::new(false);
-    if small {
-        return Ok(py.detach(|| work(&cancel)));
-    }
+    let call = reserve::Call::begin(&cancel);
+    let result = if small { py.detach(|| work(&cancel)) } else { in_a_thread(py, &cancel, work)? };
+    call.end().map(|()| result)
+}
+
+/// Runs `work` in a thread of its own, so that the calling thread can check for signals.
+fn in_a_thread<T: Send>(
+    py: Python<'_>,
+    cancel: &AtomicBool,
+    work: impl Fn(&AtomicBool) -> T + Sync,
+) -> PyResult<T> {
     py.detach(|| {
         let (done, finished) = channel();
         thread::scope(|scope| {
             let job = || {
-                let result = work(&cancel);
+                let result = work(cancel);
                 // This only wakes the caller; `join` returns the result.
                 let _ = done.send(());
                 result
             };
             let Ok(worker) = thread::Builder::new().spawn_scoped(scope, job) else {
                 // Without a thread the work cannot be interrupted.
-                return Ok(work(&cancel));
+                return Ok(work(cancel));
             };
             let mut signal = Ok(());
             while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(SIGNAL_INTERVAL)
@@ -132,7 +140,9 @@ fn run_unguarded<T: Send>(
                     )]
                     let checked = Python::attach(|py| py.check_signals());
                     signal = checked;
-                    cancel.store(signal.is_err(), Ordering::Relaxed);
+                    if signal.is_err() {
+                        cancel.store(true, Ordering::Relaxed);
+                    }
                 }
             }
             match worker.join() {

@@ -9,6 +9,7 @@ use assur::{
     DriverFault, Failure, FirstFailure, GroupName, Hint, Named, Overconstraint, Reason, SolveError,
     StructureError,
 };
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use strum::VariantNames;
 
@@ -125,6 +126,9 @@ fn driver_fault<'a>(drivers: &'a [String], fault: &'a DriverFault) -> Fields<'a>
 pub(crate) fn solve(error: SolveError) -> PyErr {
     use SolveError as E;
     let none = Fields::default;
+    if let E::OutOfMemory { .. } = error {
+        return PyMemoryError::new_err(error.with_hint());
+    }
     let (class, fields) = match &error {
         E::TooManyAssemblies { group } => {
             (Class::Structure, Fields { group: Some(group), ..none() })
@@ -225,6 +229,9 @@ fn tuple_text(index: &[usize]) -> String {
 pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
     if let RunError::Callback(error) = error {
         return error;
+    }
+    if let RunError::OutOfMemory { .. } = error {
+        return PyMemoryError::new_err(error.with_hint());
     }
     let none = Fields::default;
     let (class, fields) = match &error {

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::convert::word::{Word, Words};
 use crate::parallel_map::parallel_map;
-use crate::{detach, error, error_map};
+use crate::{detach, error, error_map, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -16,6 +16,8 @@ type Outcome = Result<Flywheel, TableError>;
 
 /// Tables per thread; up to this number one thread does all.
 const TABLES_PER_THREAD: usize = 64;
+/// Numbers of a spline and of what is made of it, for each of its table.
+const SPLINES: usize = 8;
 
 /// What to solve for each table.
 #[derive(Clone, Copy)]
@@ -121,6 +123,9 @@ impl Flywheels {
         corners: Option<Vec<usize>>,
     ) -> PyResult<Self> {
         let (Word(ends), Word(task), Word(mean)) = (spline, task, mean);
+        let numbers: usize =
+            [&phi, &moment, &inertia].iter().map(|array| array.as_array().len()).sum();
+        let _room = reserve::room_for(py, SPLINES * numbers)?;
         let [phi, moment, inertia, first, second] =
             [&phi, &moment, &inertia, &first, &second].map(|a| a.as_slice().map(<[f64]>::to_vec));
         let (phi, moment, inertia, first, second) = (phi?, moment?, inertia?, first?, second?);

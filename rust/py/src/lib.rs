@@ -19,6 +19,7 @@ mod named;
 mod parallel_map;
 mod reactions;
 mod remedies;
+mod reserve;
 mod run;
 mod slider_crank;
 mod spline;

@@ -26,7 +26,7 @@ use crate::mechanism::Mechanism;
 use crate::parallel_map::parallel_map;
 use crate::reactions::{self, Inputs, Key};
 use crate::run::{PythonCallbacks, Run};
-use crate::{equilibria, error, error_map};
+use crate::{equilibria, error, error_map, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -240,8 +240,12 @@ impl Machine {
         };
         let mechanism = &mechanism.get().inner;
         let drivers = mechanism.q0().len();
+        let inputs = [&dimensions, &q, &speed, &function_values];
+        let numbers: usize = inputs.iter().map(|array| array.as_array().len()).sum();
+        let _room =
+            reserve::room_for(py, numbers + drivers * drivers * drivers * q.as_array().len())?;
         let [dimensions, q, speed, given] =
-            [&dimensions, &q, &speed, &function_values].map(|a| a.as_slice().map(<[f64]>::to_vec));
+            inputs.map(|array| array.as_slice().map(<[f64]>::to_vec));
         let (dimensions, q, speed, given) = (dimensions?, q?, speed?, given?);
         let size = mechanism.dimensions().len();
         let designs = dimensions.len() / size;
@@ -459,6 +463,7 @@ impl Machine {
         work: impl FnOnce(&mut PythonCallbacks) -> T + Send,
     ) -> PyResult<T> {
         let functions = self.functions.iter().map(|function| function.clone_ref(py)).collect();
+        reserve::ensure(py)?;
         let mut callbacks = PythonCallbacks::new(functions, event_functions);
         let result = catch_panic(|| {
             Ok(if callbacks.need_gil() {

@@ -20,7 +20,7 @@ use crate::detach::{self, catch_panic};
 use crate::known_signs::KnownSigns;
 use crate::memory::Memory;
 use crate::sweep::{self, Found};
-use crate::{assemblies, error, error_map, limits};
+use crate::{assemblies, error, error_map, limits, reserve};
 
 /// Positions below which a call with one driver takes only milliseconds and need not check for
 /// signals. With several drivers each position is followed from the drawing: this many knots.
@@ -440,6 +440,7 @@ impl Mechanism {
         per_design: bool,
         signs: Vec<i8>,
     ) -> PyResult<Diagnostics<'py>> {
+        let _room = reserve::room_for(py, dimensions.as_array().len() + 3 * q.as_array().len())?;
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let (size, drivers) = (self.inner.dimensions().len(), self.inner.q0().len());
         let designs = dimensions.len().checked_div(size).unwrap_or(1);
@@ -487,6 +488,7 @@ impl Mechanism {
         per_design: bool,
         threads: Option<usize>,
     ) -> PyResult<Vec<assemblies::Found>> {
+        let _room = reserve::room_for(py, dimensions.as_array().len() + q.as_array().len())?;
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let (mechanism, dimensions, q) = (&self.inner, &dimensions[..], &q[..]);
         let question = assemblies::Question { mechanism, dimensions, q, per_design };
@@ -505,6 +507,7 @@ impl Mechanism {
         signs: Vec<i8>,
         threads: Option<usize>,
     ) -> PyResult<limits::FoundLimits<'py>> {
+        let _room = reserve::room_for(py, 2 * dimensions.as_array().len())?;
         let dimensions = dimensions.as_slice()?.to_vec();
         let designs = dimensions.len() / self.inner.dimensions().len().max(1);
         let small = self.inner.structure().class() <= 2 && designs < FEW_ASSEMBLIES;

@@ -27,11 +27,15 @@ pub(crate) fn parallel_map<T: Send>(
         return run_share(0);
     }
     thread::scope(|scope| {
-        let workers: Vec<_> =
-            (0..count).step_by(share).map(|first| scope.spawn(move || run_share(first))).collect();
-        let joined = workers.into_iter().flat_map(|worker| match worker.join() {
-            Ok(done) => done,
-            Err(panic) => resume_unwind(panic),
+        let start = |first: usize| {
+            let worker = thread::Builder::new().spawn_scoped(scope, move || run_share(first));
+            // Where the system has no further thread, this one does the share.
+            worker.map_err(|_| run_share(first))
+        };
+        let workers: Vec<_> = (0..count).step_by(share).map(start).collect();
+        let joined = workers.into_iter().flat_map(|worker| match worker.map(|one| one.join()) {
+            Ok(Ok(done)) | Err(done) => done,
+            Ok(Err(panic)) => resume_unwind(panic),
         });
         joined.collect()
     })

@@ -8,7 +8,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::metrics::check_same_length;
-use crate::{detach, error_map};
+use crate::{detach, error_map, reserve};
 
 /// Values below which summing a series need not check for signals.
 const FEW_VALUES: usize = 4096;
@@ -36,7 +36,7 @@ fn map_pairs<'py>(
     ratio: &Flat<'py>,
     of: impl Fn(f64, f64) -> Jet + Sync,
 ) -> PyResult<Orders<'py>> {
-    let (phi, ratio) = (phi.as_slice()?.to_vec(), ratio.as_slice()?.to_vec());
+    let (phi, ratio) = (reserve::copied(&phi)?, reserve::copied(&ratio)?);
     check_same_length(phi.len(), ratio.len())?;
     let jets = detach::map(py, phi.len(), |i| of(phi[i], ratio[i]))?;
     Ok(orders(py, &jets))
@@ -82,7 +82,7 @@ pub(crate) fn slider_crank_series<'py>(
     harmonics: usize,
     terms: Option<usize>,
 ) -> PyResult<Orders<'py>> {
-    let (phi, k) = (phi.as_slice()?.to_vec(), k.as_slice()?.to_vec());
+    let (phi, k) = (reserve::copied(&phi)?, reserve::copied(&k)?);
     check_same_length(phi.len(), k.len())?;
     let jets = detach::run(py, phi.len() < FEW_VALUES, |cancel| {
         // Neighbouring values mostly belong to one design, with the same k.
@@ -109,7 +109,7 @@ pub(crate) fn slider_crank_fourier<'py>(
     harmonics: usize,
     terms: Option<usize>,
 ) -> PyResult<Array<'py>> {
-    let k = k.as_slice()?.to_vec();
+    let k = reserve::copied(&k)?;
     let all = detach::run(py, k.len() < FEW_VALUES, |cancel| {
         let mut all = Vec::new();
         for &k in k.iter().take_while(|_| !cancel.load(Ordering::Relaxed)) {
@@ -130,8 +130,8 @@ pub(crate) fn slider_crank_rod_point<'py>(
     along: Flat<'py>,
     across: Flat<'py>,
 ) -> PyResult<Orders<'py>> {
-    let (phi, lambda) = (phi.as_slice()?.to_vec(), lambda_.as_slice()?.to_vec());
-    let (along, across) = (along.as_slice()?.to_vec(), across.as_slice()?.to_vec());
+    let (phi, lambda) = (reserve::copied(&phi)?, reserve::copied(&lambda_)?);
+    let (along, across) = (reserve::copied(&along)?, reserve::copied(&across)?);
     check_same_length(phi.len(), lambda.len())?;
     check_same_length(along.len(), across.len())?;
     check_same_length(phi.len(), along.len())?;
@@ -147,7 +147,7 @@ pub(crate) fn slider_crank_greatest_speed<'py>(
     k: Flat<'py>,
     exact: bool,
 ) -> PyResult<AnglesAndValues<'py>> {
-    let k = k.as_slice()?.to_vec();
+    let k = reserve::copied(&k)?;
     let of = |k: f64| {
         if exact { Ok(core::greatest_speed(k)) } else { core::greatest_speed_by_series(k) }
     };
@@ -163,7 +163,7 @@ pub(crate) fn slider_crank_greatest_acceleration<'py>(
     py: Python<'py>,
     k: Flat<'py>,
 ) -> PyResult<AnglesAndValues<'py>> {
-    let k = k.as_slice()?.to_vec();
+    let k = reserve::copied(&k)?;
     let found = detach::map(py, k.len(), |i| core::greatest_acceleration(k[i]))?;
     let (angles, values) = found.iter().map(|g| (g.at, g.value)).unzip();
     Ok(angles_and_values(py, angles, values))
@@ -178,7 +178,7 @@ pub(crate) fn slider_crank_deviation<'py>(
     order: usize,
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, Array<'py>)> {
     let quantity = [Quantity::Stroke, Quantity::First, Quantity::Second][order.min(2)];
-    let lambda = lambda_.as_slice()?.to_vec();
+    let lambda = reserve::copied(&lambda_)?;
     let found = detach::map_slow(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
     let relative = |of: fn(&core::Greatest) -> f64| {
         let one = |d: &core::Deviation| d.relative.as_ref().map_or(f64::NAN, of);

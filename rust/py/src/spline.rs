@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::convert::word::Word;
 use crate::detach::catch_panic;
-use crate::error_map;
+use crate::{error_map, reserve};
 
 /// The pieces of a spline: for each its value and derivatives, divided by 1, 1, 2, 6, at its first
 /// knot (flat).
@@ -18,6 +18,7 @@ pub(crate) fn spline_pieces<'py>(
     ends: Word<EndCondition>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (knots, values) = (knots.as_slice()?, values.as_slice()?);
+    let _room = reserve::room_for(py, 8 * knots.len())?;
     let pieces = catch_panic(|| {
         spline(knots, values, ends.0).map_err(|error| error_map::table(&error, "the table", None))
     })?;

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use crate::convert::metric::{MetricSpec, condition};
 use crate::convert::word::Word;
 use crate::mechanism::is_short;
-use crate::{detach, error_map};
+use crate::{detach, error_map, reserve};
 
 /// Values of each metric, statuses, and which designs are kept.
 pub(crate) type Found<'py> =
@@ -32,6 +32,7 @@ pub(crate) fn measure<'py>(
     let sweep = Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions };
     let designs = dimensions.len() / mechanism.dimensions().len().max(1);
     let small = is_short(mechanism, designs, q.len());
+    let _room = reserve::room_for(py, designs.saturating_mul(metrics.len() + 2))?;
     let measured = detach::run(py, small, |cancel| {
         let control = Control { threads, cancel: Some(cancel), ..Control::default() };
         mechanism.measure(&sweep, &control)

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use crate::detach;
 use crate::metrics::check_same_length;
+use crate::reserve;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -17,6 +18,7 @@ pub(crate) fn sin_cos<'py>(
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<(Array<'py>, Array<'py>)> {
     let x = x.as_slice()?;
+    let _room = reserve::room_for(py, 2 * x.len())?;
     detach::catch_panic(|| {
         let (mut sines, mut cosines) = (Vec::new(), Vec::new());
         let (groups, rest) = x.as_chunks::<LANES>();
@@ -62,6 +64,7 @@ fn angles<'py>(
 ) -> PyResult<Array<'py>> {
     let (y, x) = (y.as_slice()?, x.as_slice()?);
     check_same_length(y.len(), x.len())?;
+    let _room = reserve::room_for(py, y.len())?;
     detach::catch_panic(|| {
         let mut angles = Vec::new();
         for (y, x) in y.chunks(LANES).zip(x.chunks(LANES)) {
@@ -78,7 +81,9 @@ fn angles<'py>(
 /// Arc sines.
 #[pyfunction]
 pub(crate) fn asin<'py>(py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Array<'py>> {
-    let (groups, rest) = x.as_slice()?.as_chunks::<LANES>();
+    let x = x.as_slice()?;
+    let _room = reserve::room_for(py, x.len())?;
+    let (groups, rest) = x.as_chunks::<LANES>();
     detach::catch_panic(|| {
         let mut angles = Vec::new();
         for group in groups {

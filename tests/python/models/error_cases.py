@@ -24,6 +24,7 @@ UNREACHABLE: dict[str, dict[str, str]] = {
     "structure": {"interrupted": "Ctrl-C raises KeyboardInterrupt."},
     "request": {
         "interrupted": "Ctrl-C raises KeyboardInterrupt.",
+        "out_of_memory": "It is Python's MemoryError.",
         "shape": "Python checks shapes first.",
         "order": "Python checks the order first.",
     },
@@ -33,6 +34,7 @@ UNREACHABLE: dict[str, dict[str, str]] = {
     },
     "run": {
         "callback": "An exception of a function is raised as it is.",
+        "out_of_memory": "It is Python's MemoryError.",
         "no_initial_position": "The error has the kind of the position.",
         "wrong_count": "Python checks the numbers of drivers and dimensions first.",
     },

@@ -14,6 +14,7 @@ use super::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
+use crate::math::room::has_room;
 use crate::plan::mechanism::Mechanism;
 
 impl Mechanism {
@@ -54,6 +55,10 @@ pub(crate) fn solve(
     let [designs, positions] = request.shape(mechanism)?;
     let rows = product(designs, positions)?;
     let columns = request.columns(mechanism);
+    let numbers = rows.saturating_mul(1 + columns.iter().map(|c| c.width).sum::<usize>());
+    if !has_room(numbers) {
+        return Err(SolveError::OutOfMemory { numbers });
+    }
     let mut values: Vec<Vec<f64>> = columns.iter().map(|c| vec![0.0; rows * c.width]).collect();
     let mut status = vec![0; rows];
     // SAFETY: `fill` stores only initialised numbers.

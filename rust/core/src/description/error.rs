@@ -387,6 +387,9 @@ pub enum SolveError {
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),
+    /// What the work needs does not fit in memory.
+    #[error("out of memory: {numbers} numbers at once do not fit")]
+    OutOfMemory { numbers: usize },
     /// The order is outside 0..=3.
     #[error("order is {0}: analogues are given to order 3")]
     Order(usize),
@@ -401,6 +404,7 @@ impl Hint for SolveError {
             }
             Self::CoordinateTooFar { .. } => Some("take whole turns off an angle".into()),
             Self::Redundant { name, .. } => Some(format!("leave {name:?} out")),
+            Self::OutOfMemory { .. } => Some("ask for fewer designs or positions at once".into()),
             _ => None,
         }
     }

@@ -9,6 +9,7 @@ pub(crate) mod polynomial;
 pub(crate) mod quadrature;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod registers;
+pub(crate) mod room;
 pub(crate) mod root;
 pub(crate) mod simd;
 pub(crate) mod stride;

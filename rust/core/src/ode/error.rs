@@ -58,6 +58,11 @@ pub enum Error<E> {
         /// The component.
         component: usize,
     },
+    /// What the run records does not fit in memory.
+    OutOfMemory {
+        /// The steps that it has taken.
+        steps: usize,
+    },
     /// An error of the system.
     System(E),
 }
@@ -88,6 +93,9 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             }
             Self::NotFinite { t, component } => {
                 write!(f, "component {component} or its rate is NaN or infinite at t = {t:e}")
+            }
+            Self::OutOfMemory { steps } => {
+                write!(f, "out of memory: the run has taken {steps} steps, and no more fit")
             }
             Self::System(error) => error.fmt(f),
         }

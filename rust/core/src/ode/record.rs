@@ -1,5 +1,7 @@
 //! Output of a run while it is computed.
 
+use std::collections::TryReserveError;
+
 use super::options::Output;
 use super::pair::dense::{DenseOutput, Interpolant};
 use super::solution::Event;
@@ -58,10 +60,21 @@ impl<'a> Record<'a> {
     }
 
     /// Adds a step of full width h, accepted as far as `end`.
-    pub(super) fn step(&mut self, interpolant: &Interpolant, n: usize, t: f64, h: f64, end: f64) {
+    ///
+    /// # Errors
+    ///
+    /// Memory has no room for it.
+    pub(super) fn step(
+        &mut self,
+        interpolant: &Interpolant,
+        n: usize,
+        t: f64,
+        h: f64,
+        end: f64,
+    ) -> Result<(), TryReserveError> {
         match self.output {
             Output::End => {}
-            Output::Dense => self.dense.push(interpolant, t, h, end),
+            Output::Dense => self.dense.push(interpolant, t, h, end)?,
             Output::At(times) => {
                 while let Some(at) = times.get(self.reached)
                     && (end - at) * self.direction >= 0.0
@@ -73,5 +86,6 @@ impl<'a> Record<'a> {
                 }
             }
         }
+        Ok(())
     }
 }

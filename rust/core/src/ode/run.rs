@@ -348,7 +348,9 @@ impl<'a, S: System> Run<'a, S> {
         let reached = cut.as_ref().map_or(t_new, |cut| cut.t);
         self.statistics.add_step((reached - self.t).abs(), last || cut.is_some(), self.stiff);
         if reached != self.t {
-            self.record.step(&self.integrator.interpolant, self.integrator.n, self.t, h, reached);
+            let Integrator { interpolant, n, .. } = &*self.integrator;
+            let recorded = self.record.step(interpolant, *n, self.t, h, reached);
+            recorded.map_err(|_| Error::OutOfMemory { steps: self.record.dense.ends().len() })?;
             self.restarts_in_place = 0;
         }
         self.restarts_in_place += 1;

@@ -4,6 +4,7 @@ use super::course::Course;
 use super::judge::{Batch, Probes};
 use super::metric::{Metric, Need};
 use super::request::{Measured, Sweep};
+use super::scratch::Scratch;
 use super::threads::Measure;
 use crate::batch::chunks::Chunks;
 use crate::batch::dispatch;
@@ -14,6 +15,7 @@ use crate::batch::solve::as_unwritten;
 use crate::batch::writer::Writer;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
+use crate::math::room::has_room;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
@@ -57,6 +59,11 @@ impl Mechanism {
         let writer = Writer::of(self, &derivatives, &request);
         let sources = sources(sweep.metrics, &writer.columns);
         let probes = Probes::new(&course);
+        let results = shape.designs.saturating_mul(sweep.metrics.len() + 2);
+        if !has_room(results) {
+            return Err(SolveError::OutOfMemory { numbers: results });
+        }
+        Scratch::check(&writer.columns, shape.positions, control)?;
         // After the metrics 1 of each design that is kept.
         let mut values = vec![vec![f64::NAN; shape.designs]; sweep.metrics.len() + 1];
         let mut status = vec![Status::Ok as u8; shape.designs];

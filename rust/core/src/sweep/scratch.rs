@@ -1,9 +1,14 @@
 //! The memory into which a thread solves one design after another.
 
+use std::num::NonZeroUsize;
+
 use crate::batch::outputs::Column;
+use crate::batch::schedule::{Control, available_threads};
 use crate::batch::solve::as_unwritten;
 use crate::batch::worker::Job;
 use crate::batch::writer::RowSlices;
+use crate::description::error::SolveError;
+use crate::math::room::has_room;
 
 /// Columns for the positions of one design.
 #[derive(Debug, Default)]
@@ -16,6 +21,18 @@ pub(crate) struct Scratch {
 pub(crate) struct ScratchRows<'a>(RowSlices<'a>);
 
 impl Scratch {
+    /// Whether memory has room for one of each thread.
+    pub(crate) fn check(
+        columns: &[Column],
+        positions: usize,
+        control: &Control<'_>,
+    ) -> Result<(), SolveError> {
+        let widths: usize = columns.iter().map(|column| column.width).sum();
+        let threads = control.threads.map_or_else(available_threads, NonZeroUsize::get);
+        let numbers = positions.saturating_mul(widths + 1).saturating_mul(threads);
+        if has_room(numbers) { Ok(()) } else { Err(SolveError::OutOfMemory { numbers }) }
+    }
+
     pub(crate) fn new(columns: &[Column], positions: usize) -> Self {
         let values =
             columns.iter().map(|column| vec![f64::NAN; positions * column.width]).collect();

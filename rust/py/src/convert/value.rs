@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use super::Classes;
 use super::word::Word;
 use crate::detach::catch_panic;
-use crate::{error, error_map};
+use crate::{error, error_map, reserve};
 
 pub(crate) const MODULE: Classes = Classes("assur.dynamics.table");
 
@@ -112,6 +112,9 @@ impl TableFields<'_> {
     }
 }
 
+/// Numbers of a spline for each knot of its table.
+const SPLINE: usize = 8;
+
 /// The values of a `Table` at coordinates; NaN beyond it. At a jump the value behind it.
 #[pyfunction]
 pub(crate) fn table_values<'py>(
@@ -119,6 +122,7 @@ pub(crate) fn table_values<'py>(
     table: TableFields<'py>,
     points: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let _room = reserve::room_for(py, SPLINE * table.q.as_array().len() + points.as_array().len())?;
     catch_panic(|| {
         let table = table.over_coordinate()?;
         Ok(PyArray1::from_iter(py, points.as_array().iter().map(|&at| table.at(at))))

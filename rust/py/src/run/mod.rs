@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 use self::state::{EventState, RunState};
 use self::stop_reason::StopReasonState;
 use crate::detach::{self, SIGNAL_INTERVAL, catch_panic};
-use crate::error;
+use crate::{error, reserve};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -22,13 +22,20 @@ pub(crate) struct PythonCallbacks {
     loads: Vec<Py<PyAny>>,
     events: Vec<Py<PyAny>>,
     last_check: Instant,
-    /// What a signal handler raised.
+    refusals: usize,
+    /// What a signal handler raised, or `MemoryError`.
     pub(crate) signal: Option<PyErr>,
 }
 
 impl PythonCallbacks {
     pub(crate) fn new(loads: Vec<Py<PyAny>>, events: Vec<Py<PyAny>>) -> Self {
-        Self { loads, events, last_check: Instant::now(), signal: None }
+        Self {
+            loads,
+            events,
+            last_check: Instant::now(),
+            refusals: reserve::refusals(),
+            signal: None,
+        }
     }
 
     /// Whether there are functions to call, so that the work must hold the GIL.
@@ -107,6 +114,10 @@ impl Callbacks for PythonCallbacks {
         if self.signal.is_some() {
             return true;
         }
+        if let Err(out_of_memory) = reserve::check(self.refusals) {
+            self.signal = Some(out_of_memory);
+            return true;
+        }
         if self.last_check.elapsed() < SIGNAL_INTERVAL {
             return false;
         }
@@ -156,6 +167,7 @@ impl Run {
     fn at<'py>(&self, py: Python<'py>, points: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
         let own = &self.0.samples;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
+        let _room = reserve::room_for(py, points.len() * (3 * nan.len() + 2))?;
         let nothing = Sample {
             t: f64::NAN,
             q: nan.clone(),

@@ -71,6 +71,7 @@ impl Machine {
         }
         let derivatives = DerivativeTables::new(shape.drivers, plan.order);
         let writer = Writer::of(mechanism, &derivatives, &request);
+        Scratch::check(&writer.columns, shape.positions, control)?;
         let linkage = mechanism.linkage();
         let links_at: Vec<Vec<usize>> =
             (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();

@@ -79,6 +79,12 @@ pub enum RunError<E> {
         /// End of the interval.
         to: f64,
     },
+    /// What the run records does not fit in memory.
+    #[error("out of memory: the run has taken {steps} steps, and no more fit")]
+    OutOfMemory {
+        /// The steps that it has taken.
+        steps: usize,
+    },
     /// A table does not cover the initial state.
     #[error("a {what} covers {} to {}: {} is not in it", number(*from), number(*to), number(*q))]
     TableEnds {
@@ -101,6 +107,7 @@ impl<E: std::fmt::Display> Hint for RunError<E> {
             )),
             Self::NoInitialPosition(failure) => failure.hint(),
             Self::Locked { .. } => Some("start elsewhere, or with less friction".into()),
+            Self::OutOfMemory { .. } => Some("run for a shorter time, in parts".into()),
             Self::TableEnds { .. } => Some("extend the table, or start within it".into()),
             _ => None,
         }
@@ -113,6 +120,7 @@ impl<E: std::fmt::Display> RunError<E> {
         match error {
             IntegratorError::System(error) => error,
             IntegratorError::NotFinite { t, .. } => Self::NotFinite { along, at: t },
+            IntegratorError::OutOfMemory { steps } => Self::OutOfMemory { steps },
             IntegratorError::InitialState { .. } => Self::NotFinite { along, at: from },
             other => Self::Options(other.to_string()),
         }

@@ -17,6 +17,7 @@ use crate::description::error::Hint;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
 use crate::math::derivatives::DerivativeTables;
+use crate::math::room::has_room;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
@@ -143,6 +144,11 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     let solution = integrator
         .run(&mut system, from, &start, to, &ode_options)
         .map_err(|error| RunError::of_integrator(error, options.along, from))?;
+    // Samples are made of the record, and Python's arrays of these.
+    let steps = solution.dense.ends().len();
+    if !has_room(COPIES * (3 * options.q.len() + 4) * (steps + 2)) {
+        return Err(RunError::OutOfMemory { steps });
+    }
     Ok(assemble_run(system, options, from, solution, clipped))
 }
 
@@ -162,6 +168,8 @@ fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>)
     clipped
 }
 
+/// How often a sample is in memory at once: here, and twice in Python's arrays.
+const COPIES: usize = 3;
 /// Least number of steps of a run with friction and functions among the loads.
 const STEPS_AT_REST: f64 = 1000.0;
 /// Largest step (rad, or of the size) with events on angles of the mechanism.

@@ -4,6 +4,8 @@
 //! F₁ = h f₀ − F₀, F₂ = F₀ − h f₁ − F₁ (the cubic of Hermite) and the others sums of the stages
 //! (Hairer, Nørsett & Wanner I, II.6; the form is that of DOPRI5 and DOP853).
 
+use std::collections::TryReserveError;
+
 use super::stages::{Block, Stages};
 use super::tableau::HERMITE_ROWS;
 
@@ -122,13 +124,18 @@ impl DenseOutput {
         start: f64,
         width: f64,
         end: f64,
-    ) {
+    ) -> Result<(), TryReserveError> {
         self.n = interpolant.n;
         self.stride = interpolant.rows.len();
+        for list in [&mut self.starts, &mut self.widths, &mut self.ends] {
+            list.try_reserve(1)?;
+        }
+        self.rows.try_reserve(interpolant.rows.len())?;
         self.starts.push(start);
         self.widths.push(width);
         self.ends.push(end);
         self.rows.extend_from_slice(&interpolant.rows);
+        Ok(())
     }
 
     /// Ends of the steps.

@@ -1,0 +1,85 @@
+"""Where the system refuses memory a call raises `MemoryError`, and the process goes on."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+resource = pytest.importorskip("resource", reason="limits of memory are set by POSIX")
+
+pytestmark = pytest.mark.skipif(
+    not sys.platform.startswith("linux"), reason="the size of a process is read from /proc"
+)
+
+# Each call within so many MiB more than the process has: some are enough, some are not.
+CALLS = """
+import resource
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import assur
+from assur import metric
+
+N = 200_000
+many = np.linspace(0.0, 6.0, N)
+few = np.linspace(0.0, 6.0, 5)
+four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+designs = four_bar.with_dimensions({"coupler.length": np.linspace(2.9, 3.1, N)})
+crank = assur.SliderCrank(0.1, 0.35)
+bodies = {"piston": assur.Body(1.0), "crank": assur.Body(inertia=0.01)}
+loads = [assur.Force("B", (-100.0, 0.0), on="piston")]
+smooth = assur.Machine(crank, bodies, loads)
+rough = assur.Machine(crank, bodies, loads, friction={"A": assur.JointFriction(0.1, 0.01)})
+angles = np.linspace(0.0, 2.0 * np.pi, N)
+calls = {
+    "assemblies": lambda: four_bar.assemblies(many),
+    "assemblies of designs": lambda: designs.assemblies(1.0),
+    "conditions": lambda: four_bar.solve(many).condition,
+    "effort": lambda: rough.effort(many, speed=1.0),
+    "flywheel": lambda: assur.flywheel.from_table(
+        angles, np.sin(angles), fluctuation=0.1, mean_speed=20.0
+    ),
+    "limits": lambda: designs.limits(),
+    "reactions": lambda: rough.reactions(many, speed=1.0),
+    "run": lambda: smooth.run(t_end=1e9, q0=1.0, speed0=10.0),
+    "self-locking": lambda: rough.self_locking(n=N),
+    "solve": lambda: four_bar.solve(many),
+    "sweep": lambda: assur.sweep(
+        four_bar,
+        {"coupler.length": np.linspace(2.9, 3.1, 10 * N)},
+        few,
+        metrics={"stroke": metric.span("C.x")},
+        where=[metric.span("C.x") > 100.0],
+    ),
+}
+_, hard = resource.getrlimit(resource.RLIMIT_AS)
+four_bar.solve(few)
+for name, call in calls.items():
+    for extra in (44, 100):
+        size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (size + (extra << 20), hard))
+        try:
+            call()
+            outcome = "done"
+        except MemoryError:
+            outcome = "MemoryError"
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        four_bar.solve(1.0)
+        print(name, extra, outcome, sep=", ", flush=True)
+"""
+
+
+def test_a_call_that_finds_no_memory_ends_in_order() -> None:
+    command = [sys.executable, "-c", CALLS]
+    found = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert found.returncode == 0, (found.returncode, found.stdout, found.stderr[-2000:])
+    assert not found.stderr
+    rows = [line.split(", ") for line in found.stdout.splitlines()]
+    assert {row[2] for row in rows} <= {"done", "MemoryError"}
+    refused = {row[0] for row in rows if row[2] == "MemoryError"}
+    assert len(refused) >= 8, rows
