@@ -1,6 +1,7 @@
 //! A dyad on a crank and the ground: its change points, and whether it goes through a turn, follow from
 //! the extremes of one distance, without solving a position.
 
+use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Form};
 use crate::plan::plan::{EdgeSlide, Plan, Step};
@@ -16,8 +17,10 @@ const NEAR: f64 = 1.0e-9;
 pub(crate) struct CrankDyad {
     /// Index of the dyad.
     pub dyad: usize,
-    /// The crank's edge, and the fixed point about which it turns.
-    pub(crate) crank: usize,
+    /// The crank's edge, and whether it leads from the pin to the pivot.
+    pub(super) crank: usize,
+    backward: bool,
+    /// The fixed point about which the crank turns.
     pub(crate) pivot: usize,
     /// The dyad's fixed point; the crank's pin is its other one.
     pub(crate) ground: usize,
@@ -38,27 +41,39 @@ impl CrankDyad {
             [true, false] => (dyad.end, dyad.start),
             _ => return None,
         };
-        let (crank, pivot) = plan.steps.iter().find_map(|step| match *step {
+        let (crank, backward, pivot) = plan.steps.iter().find_map(|step| match *step {
             Step::Place { edge, backward } => {
                 let [from, to] = plan.edges[edge].ends(backward);
                 let rigid = plan.edges[edge].along == EdgeSlide::Nothing;
-                (to == pin && plan.fixed[from] && rigid).then_some((edge, from))
+                (to == pin && plan.fixed[from] && rigid).then_some((edge, backward, from))
             }
             _ => None,
         })?;
         (plan.edges[crank].class == 0).then_some(Self {
             dyad: dyad.index,
             crank,
+            backward,
             pivot,
             ground,
             guide,
         })
     }
 
+    /// The vector from the crank's pivot to its pin where the driver is at 0.
+    pub(crate) fn arm(&self, constants: &DesignConstants) -> Vector {
+        let edge = constants.edge_vector[self.crank];
+        if self.backward { -edge } else { edge }
+    }
+
+    /// The crank's turns for each turn of the driver: 1, or −1 if it turns against it.
+    pub(crate) fn rate(&self, plan: &Plan) -> f64 {
+        f64::from(plan.orientations[plan.edges[self.crank].orientation].turns[0])
+    }
+
     /// Whether the dyad certainly does not close at one of the positions that go round in even steps
     /// (rad). If false, it may close or not.
     pub(crate) fn misses_position(&self, constants: &DesignConstants, step: f64) -> bool {
-        let crank = constants.edge_vector[self.crank].norm();
+        let crank = self.arm(constants).norm();
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
         let [a, b] = &constants.legs[self.dyad];
         if let Some(guide) = self.guide {
@@ -72,7 +87,7 @@ impl CrankDyad {
 
     /// Whether the dyad is nowhere near flat at the extremes, so that its sign never changes.
     pub(crate) fn keeps_sign(&self, constants: &DesignConstants) -> bool {
-        let crank = constants.edge_vector[self.crank].norm();
+        let crank = self.arm(constants).norm();
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
         let [a, b] = &constants.legs[self.dyad];
         if let Some(guide) = self.guide {

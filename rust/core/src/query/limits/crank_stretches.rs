@@ -51,12 +51,10 @@ pub(crate) fn crank_stretches(
 
 /// `None` if the crank has no length.
 fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<Reach> {
-    let crank = constants.edge_vector[dyad.crank];
+    let arm = dyad.arm(constants);
     let frame = constants.fixed[dyad.ground] - constants.fixed[dyad.pivot];
     let [a, b] = &constants.legs[dyad.dyad];
-    let turns = &plan.orientations[plan.edges[dyad.crank].orientation].turns;
-    let way = f64::from(turns[0]);
-    let radius = crank.norm();
+    let radius = arm.norm();
     // Squares of the sines of half the angles at which the dyad is flat.
     let (direction, [outer, inner]) = if let Some(guide) = dyad.guide {
         let line = frame + constants.edge_vector[guide];
@@ -79,7 +77,7 @@ fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<R
     }
     let angle = |half: f64| 2.0 * asin(half.sqrt());
     Some(Reach::Between {
-        middle: way * (direction - crank.angle()),
+        middle: dyad.rate(plan) * (direction - arm.angle()),
         nearest: (inner > TOUCH).then(|| angle(inner)),
         farthest: (outer < 1.0 - TOUCH).then(|| angle(outer)),
     })
