@@ -65,8 +65,10 @@ class Limits:
     ----------
     intervals : ndarray
         Intervals of q, shape S + (K, 2), rad or m; NaN where a design has fewer than K. In class
-        II all within a turn, each with its middle in (−π, π]; with a group above class II the one
-        that holds `q0`, in counted turns. (−inf, inf) where nothing ends it.
+        II all within a turn (or the period of the motion), each with its middle within half of
+        that of the mechanism's `q0`: the interval that `q0` is in holds `q0` itself, the others are
+        next to it. With a group above class II the one that holds `q0`, in counted turns.
+        (−inf, inf) where nothing ends it.
     full_rotation : bool or ndarray of bool
         Whether the driver goes round and the motion closes.
     period : int or None, or ndarray
@@ -77,6 +79,10 @@ class Limits:
     >>> import assur
     >>> assur.FourBar(3.0, 2.5, 2.0, 4.0).limits().intervals.round(5)
     array([[-1.37156,  1.37156]])
+    >>> drawn = assur.FourBar(1.9, 3.6, 2.4, 2.7)
+    >>> drawn = drawn.with_assembly(drawn.assemblies(-1.5)[0])
+    >>> drawn.q0, drawn.limits().intervals.round(5).tolist()
+    (-1.5, [[-5.88567, -0.39751]])
     >>> turning = assur.FourBar(1.0, 3.0, 2.5, 3.0).limits()
     >>> turning.full_rotation, turning.period
     (True, 1)

@@ -78,9 +78,10 @@ class Search:
             return
         limits = self.mechanism.limits(assembly)
         for low, high in limits.intervals.tolist():
-            turns = np.arange(-1, 2) * (math.tau if self.is_angle else 0.0)
-            shifted = [q + turn for turn in turns.tolist() if low <= q + turn <= high]
-            if shifted:
+            # The first q from the low end on, of an angle in any turn.
+            goes_round = not self.is_angle or math.isinf(low)
+            first = q if goes_round else q + math.tau * math.ceil((low - q) / math.tau)
+            if low <= first <= high:
                 dead = {one.q: one.group for one in limits.dead_points}
                 self.branches.append(Branch(assembly, low, high, limits.period))
                 self.groups.append((dead.get(low), dead.get(high)))

@@ -1,10 +1,10 @@
 //! Limits of designs, one after another.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::crank_stretches::crank_stretches;
 use super::search::Search;
-use super::stretch::{Stretch, intersections, normalise};
+use super::stretch::{Stretch, intersections, shift_near};
 use crate::branch::branch::{CELLS_PER_TURN, MAX_TURNS};
 use crate::branch::crank_dyad::CrankDyad;
 use crate::branch::design::Design;
@@ -26,7 +26,8 @@ const WIDENING: f64 = 8.0;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Limits {
     /// Intervals of the coordinate, rad or m: without groups above class II all within a turn of the
-    /// driver, else the one that holds the drawing's.
+    /// driver (or the period of its motion), each with its middle within half a turn of the drawing's
+    /// coordinate, so that one that holds it holds it itself; else only the one that holds it.
     pub intervals: Vec<Interval>,
     /// Turns after which the motion closes; none if it does not, or the driver is a slide.
     pub period: Option<u32>,
@@ -126,7 +127,7 @@ impl<'m> LimitsFinder<'m> {
             let own = crank_stretches(crank, plan, constants, sign)?;
             stretches = intersections(&stretches, &own);
         }
-        normalise(&mut stretches);
+        shift_near(&mut stretches, self.design.q0[0], TAU);
         Some(stretches)
     }
 
@@ -193,8 +194,8 @@ impl<'m> LimitsFinder<'m> {
         }
         if design.has_groups() {
             stretches.retain(|stretch| stretch.ends[0] <= q0 && q0 <= stretch.ends[1]);
-        } else if is_periodic && half <= PI {
-            normalise(&mut stretches);
+        } else if is_periodic {
+            shift_near(&mut stretches, q0, 2.0 * half);
         }
         stretches
     }

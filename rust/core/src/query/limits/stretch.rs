@@ -1,6 +1,6 @@
 //! Stretches of a coordinate, with what ends them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// A stretch over which an assembly exists.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,13 +49,14 @@ pub(crate) fn intersections(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> 
     common
 }
 
-/// Shifts stretches of an angle by whole turns so that their middles are in (−π, π], and sorts them.
-pub(crate) fn normalise(stretches: &mut [Stretch]) {
+/// Shifts stretches of an angle by whole periods so that their middles are within half a period of
+/// `near`, and sorts them: the stretch that holds `near` itself holds it, not a copy of it.
+pub(crate) fn shift_near(stretches: &mut [Stretch], near: f64, period: f64) {
     for stretch in stretches.iter_mut().filter(|stretch| !stretch.is_whole()) {
         let middle = 0.5 * (stretch.ends[0] + stretch.ends[1]);
-        let turns = ((middle - PI) / TAU).ceil();
-        if turns != 0.0 {
-            stretch.ends = stretch.ends.map(|end| end - turns * TAU);
+        let periods = ((middle - near) / period - 0.5).ceil();
+        if periods != 0.0 {
+            stretch.ends = stretch.ends.map(|end| end - periods * period);
         }
     }
     stretches.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]));
