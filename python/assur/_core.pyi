@@ -249,6 +249,7 @@ class Mechanism:
         signs: list[int],
         coordinate: tuple[str, int, int],
         order: int,
+        within: float | None = None,
     ) -> list[tuple[float, float]] | None: ...
     def stretches_beyond(
         self,

@@ -57,7 +57,8 @@ class Extremes:
     least, greatest : ValueAt
         The value (m or rad, per unit of the driver's coordinate to the power of the order) and
         its place q. Derivatives are infinite at dead points, and so is the angle of a link that
-        goes round.
+        goes round. Turns of q and of angles count as in the intervals of `limits`: in the one that
+        `q0` is in they are those of the motion from the drawing.
     time_ratio : float or None
         Of the way from one extreme to the other and back at constant speed: the longer time over
         the shorter; None if the driver does not go round.
@@ -176,7 +177,7 @@ def extremes(
     if mechanism._driver_count > 1:
         message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"
         raise InputError(message)
-    order = whole_number(order, "order", 0, 2, needed="0, 1 or 2 is needed")
+    order = whole_number(order, "order", 0, 3, needed="0, 1, 2 or 3 is needed")
     tracked = coordinate(mechanism, name)
     if isinstance(assembly, Assembly):
         drawn = drawn_in(mechanism, assembly)

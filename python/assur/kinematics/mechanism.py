@@ -780,8 +780,8 @@ class Mechanism:
         ----------
         name : str
             A joint's ``"B.x"`` or ``"B.y"``, a link (its angle) or a slide (its value).
-        order : {0, 1, 2}
-            Of the derivative by q: 0 the coordinate itself, 1 and 2 its analogues.
+        order : {0, 1, 2, 3}
+            Of the derivative by q: 0 the coordinate itself, 1 to 3 its analogues.
         assembly : mapping of str to int, optional
             As for `solve`; the drawing's by default.
 

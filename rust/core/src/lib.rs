@@ -95,7 +95,7 @@ pub use math::{lanes, pair::Lanes, tolerance, trig};
 pub use plan::mechanism::Mechanism;
 pub use plan::redraw::Pose;
 pub use query::diagnosis::Diagnosis;
-pub use query::extremes::{Tracked, ValueAt};
+pub use query::extremes::tracked::{Tracked, ValueAt};
 pub use query::failure::{Failure, GroupName, Reason};
 pub use query::limits::finder::{Interval, Limits, LimitsFinder, Tables};
 pub use query::metrics;

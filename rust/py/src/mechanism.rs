@@ -166,7 +166,9 @@ impl Mechanism {
     }
 
     /// Least and greatest value of a coordinate (a joint's with its component, a link's, a slide's)
-    /// or of a derivative of it, each with its place; none if the assembly does not exist.
+    /// or of a derivative of it, each with its place, over all intervals or the one that holds `within`;
+    /// none if the assembly does not exist there.
+    #[pyo3(signature = (dimensions, signs, coordinate, order, within=None))]
     fn extremes(
         &self,
         py: Python<'_>,
@@ -174,11 +176,12 @@ impl Mechanism {
         signs: Vec<i8>,
         coordinate: (String, usize, usize),
         order: usize,
+        within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
-        let tracked = tracked(&coordinate);
+        let asked = (tracked(&coordinate), order);
         let small = self.inner.structure().class() <= 2;
         let found =
-            detach::run(py, small, |_| self.inner.extremes(&dimensions, &signs, tracked, order))?;
+            detach::run(py, small, |_| self.inner.extremes(&dimensions, &signs, asked, within))?;
         let pair = |one: assur::ValueAt| (one.value, one.q);
         Ok(found.map_err(error_map::solve)?.map(|both| both.map(pair)))
     }

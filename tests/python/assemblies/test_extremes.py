@@ -242,7 +242,7 @@ def test_refusals() -> None:
     refused(assur.InputError, "one design", lambda: batch.find("rocker", 1.0))
     refused(assur.InputError, "one design", lambda: batch.with_driver("rocker", q=1.0))
     refused(assur.InputError, '"C.x" or "C.y"', lambda: four_bar.extremes("C"))
-    refused(assur.InputError, "order is 3", lambda: four_bar.extremes("C.x", order=3))
+    refused(assur.InputError, "order is 4", lambda: four_bar.extremes("C.x", order=4))
     refused(assur.InputError, "finite number", lambda: four_bar.find("rocker", math.nan))
     refused(assur.InputError, "one driver", lambda: five_bar().extremes("P.x"))
     refused(assur.InputError, "one driver", lambda: five_bar().limits())

@@ -2,6 +2,7 @@
 
 use super::outputs::{Arrays, Column, Outputs, columns};
 use crate::description::error::SolveError;
+use crate::math::derivatives::MAX_ORDER;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::query::failure::redundant_name;
@@ -131,7 +132,7 @@ pub(crate) struct Shape {
 
 impl Shape {
     pub(crate) fn of(mechanism: &Mechanism, request: &Request<'_>) -> Result<Self, SolveError> {
-        if request.order > 3 {
+        if request.order > MAX_ORDER {
             return Err(SolveError::Order(request.order));
         }
         let (dimensions, drivers) = (mechanism.dimensions().len(), mechanism.q0().len());

@@ -1,4 +1,4 @@
-//! Partial derivatives of products, to order 3, in any number of drivers.
+//! Partial derivatives of products, to any order, in any number of drivers.
 //!
 //! A jet lists all partial derivatives of one quantity in graded order. The tables here give the
 //! terms in the derivative of a product (Leibniz) and of a unit vector `U = exp(iΘ)`, from
@@ -16,6 +16,9 @@ pub(crate) struct Term {
     /// Entry of the second jet.
     pub right: usize,
 }
+
+/// Highest order that the kernels know; the general formulas serve any order.
+pub(crate) const MAX_ORDER: usize = ONE_DRIVER.len() - 1;
 
 /// [`DerivativeTables::rotation`] for one driver to order 3, as a constant.
 pub(crate) const ONE_DRIVER: [&[Term]; 4] = [

@@ -28,9 +28,8 @@ struct Uses {
     slides: Vec<bool>,
 }
 
-#[cfg(any(test, feature = "test-hooks"))]
 impl Plan {
-    /// Leaves all dyads and groups to the general formulas.
+    /// Leaves all dyads and groups to the general formulas, which serve derivatives of any order.
     pub(crate) fn generalize(&mut self) {
         self.is_general = true;
         for step in &mut self.steps {
@@ -43,6 +42,7 @@ impl Plan {
             edge.on_leg = None;
         }
         self.tape = Tape::whole(self);
+        self.tracing_tape = Tape::for_dyads(self, &vec![true; self.classes]);
     }
 }
 

@@ -49,9 +49,9 @@ pub struct Mechanism {
     pub(crate) number: PlanNumber,
 }
 
-#[cfg(any(test, feature = "test-hooks"))]
 impl Mechanism {
-    /// The same mechanism, solved by the general formulas alone: to compare kernels with them.
+    /// The same mechanism, solved by the general formulas alone: for derivatives of higher orders, and to
+    /// compare kernels with them.
     #[doc(hidden)]
     #[must_use]
     pub fn with_general_kernels(mut self) -> Self {

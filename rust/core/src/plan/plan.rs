@@ -149,7 +149,7 @@ pub(crate) struct Plan {
     pub may_change: Vec<bool>,
     /// The edges whose sums the legs are.
     pub leg_edges: LegEdges,
-    /// Whether the general formulas solve what kernels could: to compare both.
+    /// Whether the general formulas solve what kernels could: for higher orders, and to compare both.
     pub is_general: bool,
     /// All steps as they are run.
     pub tape: Tape,

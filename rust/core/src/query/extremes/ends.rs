@@ -1,0 +1,155 @@
+//! Values toward the ends of an interval, and where they go through infinity within it.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::curve::Curve;
+use super::known::{ByAngle, Known};
+use super::tracked::ValueAt;
+use super::window::{NEAR_END, Window};
+
+/// Halvings toward a pole, and how many times greater than at the nodes the value is there.
+const HALVINGS: usize = 40;
+const POLE: f64 = 1.0e6;
+/// How far (in halves of the window) a slide is followed to see where a value goes, and by what factor
+/// one grows that has no limit.
+const FAR: [f64; 2] = [1.0e2, 1.0e4];
+const GROWS: f64 = 10.0;
+/// How near (in halves of the window) to an end without a fold a value is compared.
+const BESIDE_END: [f64; 2] = [1.0e-6, 1.0e-4];
+/// The coefficient of a pole at a dead point, relative to the greatest of the weighted values: below, it
+/// is the rounding of its extrapolation.
+const LEAST_POLE: f64 = 1.0e-7;
+
+impl Curve<'_> {
+    /// Values at both ends.
+    pub(super) fn at_ends(&mut self, window: &Window, known: &Known) -> Vec<ValueAt> {
+        let mut values = Vec::new();
+        for side in [0, 1] {
+            values.extend(if window.folds[side] {
+                self.at_dead_point(window, known, side)
+            } else if window.infinite[side] {
+                self.at_infinity(window, side)
+            } else if window.is_open(side) {
+                self.at_open_end(window, side)
+            } else {
+                None
+            });
+        }
+        values
+    }
+
+    /// Where a value goes through infinity between two angles: it steps back although it grows at both,
+    /// or forward although it falls.
+    pub(super) fn pole(
+        &mut self,
+        window: &Window,
+        (mut from, [first, rate, _]): (f64, ByAngle),
+        (mut to, [last, later, _]): (f64, ByAngle),
+    ) -> Option<f64> {
+        let way = 1.0_f64.copysign(rate);
+        if rate * later <= 0.0 || way * (last - first) >= 0.0 {
+            return None;
+        }
+        let (mut above, mut below) = (first, last);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (from + to);
+            let value = self.value(window.at(middle))?;
+            if way * (value - above) >= 0.0 {
+                (from, above) = (middle, value);
+            } else {
+                (to, below) = (middle, value);
+            }
+        }
+        let size = first.abs().max(last.abs());
+        (above.abs().min(below.abs()) > POLE * size).then_some(window.at(from))
+    }
+
+    /// The value where an interval ends without a fold: infinite if a joint is at infinity there, for
+    /// then it grows without end.
+    fn at_open_end(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
+        let inward = if side == 0 { window.half } else { -window.half };
+        let end = window.ends()[side];
+        let [near, far] = BESIDE_END.map(|part| self.value(end + inward * part));
+        let (near, far) = (near?, far?);
+        if near.abs() > GROWS * far.abs() {
+            return Some(ValueAt { value: f64::INFINITY.copysign(near), q: end });
+        }
+        let [beside, beyond] = BESIDE_END;
+        Some(ValueAt { value: near + (near - far) * beside / (beyond - beside), q: end })
+    }
+
+    /// Where the value goes as a slide goes on without end.
+    fn at_infinity(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
+        let way = if side == 0 { -1.0 } else { 1.0 };
+        let [near, far] = FAR.map(|part| self.value(window.middle + way * part * window.half));
+        let (near, far) = (near?, far?);
+        let grows = far.abs() > GROWS * near.abs();
+        let value = if grows { f64::INFINITY.copysign(far) } else { far };
+        Some(ValueAt { value, q: way * f64::INFINITY })
+    }
+
+    /// The value at a dead point. A derivative is infinite there unless the coefficients of all its
+    /// poles are zero.
+    fn at_dead_point(&mut self, window: &Window, known: &Known, side: usize) -> Option<ValueAt> {
+        let way = [1.0, -1.0][side];
+        let mut beside = Vec::new();
+        for part in [4.0, 8.0, 12.0].map(|part| part * NEAR_END) {
+            let angle = if side == 0 { part } else { PI - part };
+            beside.push((part, angle, self.by_angle(window, angle)?));
+        }
+        let extrapolated = |pole: usize| {
+            let poles = [0, 1].map(|end| if end == side { pole } else { 0 });
+            let nodes = beside.iter().map(|&(part, angle, [value, slope, _])| {
+                let [value, slope] = window.weight(angle, poles).of([value, slope]);
+                (part, value, way * slope)
+            });
+            (hermite_at_zero(&nodes.collect::<Vec<_>>()), poles)
+        };
+        let q = window.ends()[side];
+        // Even terms of the series in the square root of the distance have no poles.
+        for pole in (1..=window.poles(self.order)[side]).rev().step_by(2) {
+            let (coefficient, poles) = extrapolated(pole);
+            let own = |angle: f64| if side == 0 { angle <= FRAC_PI_2 } else { angle >= FRAC_PI_2 };
+            let size = known
+                .weighted(window, 0, poles)
+                .filter(|&(angle, _)| own(angle))
+                .fold(0.0_f64, |size, (_, [_, weighted])| size.max(weighted));
+            if coefficient.abs() > LEAST_POLE * size {
+                return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
+            }
+        }
+        Some(ValueAt { value: extrapolated(0).0, q })
+    }
+}
+
+/// The value at 0 of the polynomial through values and slopes at nodes.
+fn hermite_at_zero(nodes: &[(f64, f64, f64)]) -> f64 {
+    let weight = |i: usize| {
+        let (own, ..) = nodes[i];
+        let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);
+        let (mut basis, mut slope) = (1.0, 0.0);
+        for (_, &(other, ..)) in others {
+            basis *= -other / (own - other);
+            slope += 1.0 / (own - other);
+        }
+        (own, basis * basis, slope)
+    };
+    let term = |i: usize| {
+        let (own, square, slope) = weight(i);
+        let (_, value, rate) = nodes[i];
+        square * (value * (1.0 + 2.0 * own * slope) - rate * own)
+    };
+    (0..nodes.len()).map(term).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interpolation_reproduces_a_polynomial() {
+        let of = |x: f64| (3.0 - x + 0.5 * x * x - x.powi(5), -1.0 + x - 5.0 * x.powi(4));
+        let nodes: Vec<_> = [0.1, 0.25, 0.4].map(|x| (x, of(x).0, of(x).1)).to_vec();
+        assert!((hermite_at_zero(&nodes) - 3.0).abs() < 1e-13);
+    }
+}

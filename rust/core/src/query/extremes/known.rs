@@ -1,0 +1,89 @@
+//! What is known at the nodes of a window: values that are not computed twice, and how far rounding
+//! reaches between them.
+
+use super::window::Window;
+use crate::math::angle::whole_part;
+
+/// Rounding of a value, relative to the greatest around it.
+const NOISE: f64 = 1.0e-11;
+/// A coordinate stands whose derivative is below this part of its unit.
+const STANDS: f64 = 1.0e-13;
+
+/// A coordinate's derivative with its first two derivatives by the window's angle.
+pub(super) type ByAngle = [f64; 3];
+
+/// Values at the nodes.
+pub(super) struct Known {
+    pub nodes: Vec<f64>,
+    pub values: Vec<Option<ByAngle>>,
+}
+
+impl Known {
+    /// The value at a node; `None` elsewhere.
+    pub(super) fn at(&self, angle: f64) -> Option<Option<ByAngle>> {
+        let index = self.nodes.binary_search_by(|node| node.total_cmp(&angle)).ok()?;
+        Some(self.values[index])
+    }
+
+    /// Weighted sizes at the nodes of a window, of entry `entry` of the values.
+    pub(super) fn weighted<'a>(
+        &'a self,
+        window: &'a Window,
+        entry: usize,
+        poles: [usize; 2],
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + 'a {
+        self.nodes.iter().zip(&self.values).map(move |(&angle, value)| {
+            // A node without a value counts as zero.
+            let plain = value.map_or(0.0, |value| value[entry].abs());
+            let factor = window.weight(angle, poles).factor;
+            (angle, [plain, if plain > 0.0 { plain * factor } else { 0.0 }])
+        })
+    }
+}
+
+/// A bound of the rounding of weighted values, all along a window.
+///
+/// Beside a pole values are far greater than elsewhere, so the bound is that of the values around. Where
+/// the weight is small they are either large, and of one size with their weights, or not, and of one
+/// size without.
+pub(super) struct Rounding {
+    first: f64,
+    step: f64,
+    /// Greatest size around each cell, plain and weighted.
+    around: Vec<[f64; 2]>,
+    /// The size in most of the window.
+    typical: f64,
+}
+
+impl Rounding {
+    /// Of entry `entry` of the values with the weight of `poles`; `unit`: the natural size.
+    pub(super) fn new(
+        known: &Known,
+        window: &Window,
+        (entry, poles): (usize, [usize; 2]),
+        unit: f64,
+    ) -> Self {
+        let sizes: Vec<[f64; 2]> =
+            known.weighted(window, entry, poles).map(|(_, size)| size).collect();
+        let around = (0..sizes.len())
+            .map(|cell| {
+                let near = &sizes[cell.saturating_sub(1)..(cell + 3).min(sizes.len())];
+                [0, 1].map(|i| near.iter().fold(0.0, |size, own| own[i].max(size)))
+            })
+            .collect();
+        let mut plain: Vec<f64> = sizes.iter().map(|size| size[0]).collect();
+        plain.sort_by(f64::total_cmp);
+        let typical = plain[plain.len() / 2].max(STANDS / NOISE * unit);
+        let [first, second] = [known.nodes[0], known.nodes[1]];
+        Self { first, step: second - first, around, typical }
+    }
+
+    /// At an angle, where the weight is `factor`.
+    pub(super) fn at(&self, angle: f64, factor: f64) -> f64 {
+        let cell = ((angle - self.first) / self.step).max(0.0).floor();
+        let last = self.around.len() - 1;
+        let cell = whole_part(cell).min(last);
+        let [plain, weighted] = self.around[cell];
+        NOISE * (factor * self.typical).max(weighted.min(factor * plain))
+    }
+}

@@ -1,0 +1,129 @@
+//! Extremes of a coordinate of the motion, or of a derivative of it, over all of an assembly's
+//! intervals.
+
+mod curve;
+mod ends;
+mod known;
+pub(crate) mod tracked;
+mod window;
+
+use curve::Curve;
+use tracked::{Tracked, ValueAt};
+use window::Window;
+
+use super::evaluator::{Evaluator, Queries};
+use super::limits::finder::{LimitsFinder, Tables};
+use crate::description::error::SolveError;
+use crate::math::derivatives::{DerivativeTables, MAX_ORDER};
+use crate::plan::mechanism::Mechanism;
+
+impl Mechanism {
+    /// The least and the greatest value of a derivative of order 0 to 3 of a coordinate, over all
+    /// intervals or the one that holds `within`; none if the assembly does not exist there. At a dead
+    /// point derivatives are infinite, and so is the angle of a link that goes round.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`LimitsFinder`], and an order above 3.
+    pub fn extremes(
+        &self,
+        dimensions: &[f64],
+        signs: &[i8],
+        (tracked, order): (Tracked, usize),
+        within: Option<f64>,
+    ) -> Result<Option<[ValueAt; 2]>, SolveError> {
+        let mut found: Option<[ValueAt; 2]> = None;
+        self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
+            let [low, high] = window.ends();
+            if within.is_some_and(|q| !window.is_period && !(low <= q && q <= high)) {
+                return;
+            }
+            for one in curve.candidates(window) {
+                found = Some(match found {
+                    None => [one; 2],
+                    Some([least, greatest]) => [
+                        if one.value < least.value { one } else { least },
+                        if one.value > greatest.value { one } else { greatest },
+                    ],
+                });
+            }
+        })?;
+        Ok(found)
+    }
+
+    /// Stretches of q over which a derivative of order 0 to 3 of a coordinate is at least `level`, or
+    /// at most.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::extremes`].
+    pub fn stretches_beyond(
+        &self,
+        dimensions: &[f64],
+        signs: &[i8],
+        (tracked, order): (Tracked, usize),
+        (level, at_least): (f64, bool),
+    ) -> Result<Vec<[f64; 2]>, SolveError> {
+        let mut found = Vec::new();
+        let sign = if at_least { 1.0 } else { -1.0 };
+        self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
+            let mut own = curve.stretches(window, |value| sign * (value - level));
+            if window.is_period {
+                join(&mut own, window.ends());
+            }
+            found.extend(own);
+        })?;
+        Ok(found)
+    }
+
+    /// Hands every interval of an assembly to `visit`.
+    fn over_intervals(
+        &self,
+        (dimensions, signs): (&[f64], &[i8]),
+        tracked: Tracked,
+        order: usize,
+        mut visit: impl FnMut(&mut Curve<'_>, &Window),
+    ) -> Result<(), SolveError> {
+        if order > MAX_ORDER {
+            return Err(SolveError::Order(order));
+        }
+        let tables = Tables::default();
+        let limits = LimitsFinder::new(self, signs, &tables)?.limits(dimensions)?;
+        // An extreme is a root of the next derivative, found with its slope. Kernels end at
+        // `MAX_ORDER`; the general formulas serve any order.
+        let highest = order + 2;
+        let general;
+        let mechanism = if highest > MAX_ORDER {
+            general = self.clone().with_general_kernels();
+            &general
+        } else {
+            self
+        };
+        let derivatives = DerivativeTables::new(1, highest);
+        let evaluator = Evaluator::with_signs(
+            mechanism,
+            (dimensions, signs),
+            &derivatives,
+            Queries::Any,
+            matches!(tracked, Tracked::Link(_)),
+        );
+        let mut curve = Curve { evaluator, tracked, order };
+        let turns = limits.period.map_or(1.0, f64::from);
+        for interval in &limits.intervals {
+            let window = Window::of(self, &curve.evaluator, interval, turns);
+            visit(&mut curve, &window);
+        }
+        Ok(())
+    }
+}
+
+/// Joins the first and the last stretch if they are one, over the end of a period.
+fn join(stretches: &mut Vec<[f64; 2]>, [from, to]: [f64; 2]) {
+    if let [[first, _], .., [_, last]] = stretches[..]
+        && first == from
+        && last == to
+        && let Some([start, _]) = stretches.pop()
+    {
+        stretches[0][0] = start - (to - from);
+    }
+}

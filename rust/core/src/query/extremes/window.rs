@@ -1,0 +1,177 @@
+//! An interval of the driver's coordinate as a function of an angle from 0 to π.
+//!
+//! Near a dead point a coordinate x is a power series of s, the square root of the distance from it, so
+//! its k-th derivative by q grows as s^(1 − 2k). With q = middle − half · cos θ the series is one of θ,
+//! and times a weight that is zero at the end to the order of the pole, the derivative is smooth there.
+//! Where two guides become parallel, x has a simple pole in the distance itself.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::math::angle::whole_part;
+use crate::math::trig::sin_cos;
+use crate::plan::mechanism::Mechanism;
+use crate::query::evaluator::Evaluator;
+use crate::query::limits::finder::Interval;
+
+/// Nodes for each turn (or size), and at least.
+const NODES: f64 = 96.0;
+/// Nearest node to a dead point, as an angle.
+pub(super) const NEAR_END: f64 = 1.0e-3;
+
+/// An interval as a function of an angle from 0 to π: square roots at dead points are smooth in it.
+pub(super) struct Window {
+    pub middle: f64,
+    pub half: f64,
+    /// Which ends are dead points.
+    pub folds: [bool; 2],
+    /// Which ends are infinite: of a slide that nothing stops.
+    pub infinite: [bool; 2],
+    /// Whether it is one period of a motion that closes.
+    pub is_period: bool,
+    /// Turns of the driver, or its way in sizes.
+    length: f64,
+}
+
+impl Window {
+    pub(super) fn of(
+        mechanism: &Mechanism,
+        evaluator: &Evaluator<'_>,
+        interval: &Interval,
+        turns: f64,
+    ) -> Self {
+        let q0 = mechanism.q0()[0];
+        let is_turn = mechanism.plan().driven_slide(0).is_none();
+        let reach = if is_turn { PI * turns } else { evaluator.reach() };
+        let [low, high] = interval.ends;
+        let low = if low.is_finite() { low } else { q0 - reach };
+        let high = if high.is_finite() { high } else { q0 + reach };
+        let unit = if is_turn { TAU } else { evaluator.unit(0) };
+        Self {
+            middle: 0.5 * (low + high),
+            half: 0.5 * (high - low),
+            folds: interval.folds.map(|fold| fold.is_some()),
+            infinite: interval.ends.map(|end| end.is_infinite() && !is_turn),
+            is_period: is_turn && interval.ends[0].is_infinite(),
+            length: (high - low) / unit,
+        }
+    }
+
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.middle - self.half, self.middle + self.half]
+    }
+
+    fn has_folds(&self) -> bool {
+        self.folds[0] || self.folds[1]
+    }
+
+    /// Angles from end to end.
+    pub(super) fn nodes(&self) -> Vec<f64> {
+        let count = (NODES * self.length).max(NODES).ceil();
+        let margin = if self.has_folds() { NEAR_END } else { 0.0 };
+        let node = |i: usize| margin + (PI - 2.0 * margin) * i as f64 / count;
+        (0..=whole_part(count)).map(node).collect()
+    }
+
+    pub(super) fn at(&self, angle: f64) -> f64 {
+        let part = if self.has_folds() { -sin_cos(angle).1 } else { angle / (0.5 * PI) - 1.0 };
+        self.middle + self.half * part
+    }
+
+    /// First and second derivative.
+    pub(super) fn rates(&self, angle: f64) -> [f64; 2] {
+        if self.has_folds() {
+            let (sin, cos) = sin_cos(angle);
+            [self.half * sin, self.half * cos]
+        } else {
+            [self.half / (0.5 * PI), 0.0]
+        }
+    }
+    /// Whether an end is neither a dead point nor beyond all limits: a joint may be at infinity there.
+    pub(super) fn is_open(&self, side: usize) -> bool {
+        !self.folds[side] && !self.infinite[side] && !self.is_period
+    }
+
+    /// Orders of the poles, in the angle, that a derivative of a coordinate may have at the ends.
+    pub(super) fn poles(&self, order: usize) -> [usize; 2] {
+        // Beside a dead point at the other end, the distance is the square of the angle.
+        let per_distance = if self.has_folds() { 2 } else { 1 };
+        [0, 1].map(|side| {
+            if self.folds[side] {
+                (2 * order).saturating_sub(1)
+            } else if self.is_open(side) {
+                per_distance * (order + 1)
+            } else {
+                0
+            }
+        })
+    }
+
+    /// The weight that takes away poles of these orders.
+    pub(super) fn weight(&self, angle: f64, poles: [usize; 2]) -> Weight {
+        let (sin, cos) = sin_cos(0.5 * angle);
+        let mut weight = Weight { factor: 1.0, log_slope: 0.0 };
+        for (pole, [distance, rate]) in poles.into_iter().zip([[sin, cos], [cos, -sin]]) {
+            for _ in 0..pole {
+                weight.factor *= 2.0 * distance;
+                weight.log_slope += 0.5 * rate / distance;
+            }
+        }
+        weight
+    }
+}
+
+/// A factor that is zero at the ends of a window, and the derivative of its logarithm by the angle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Weight {
+    pub factor: f64,
+    log_slope: f64,
+}
+
+impl Weight {
+    /// A value and its slope, weighted.
+    pub(super) fn of(&self, [value, slope]: [f64; 2]) -> [f64; 2] {
+        [self.factor * value, self.factor * (slope + value * self.log_slope)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A swing between dead points, and one that ends where a joint is at infinity.
+    fn window(folds: [bool; 2]) -> Window {
+        Window {
+            middle: 0.3,
+            half: 1.1,
+            folds,
+            infinite: [false; 2],
+            is_period: false,
+            length: 0.2,
+        }
+    }
+
+    #[test]
+    fn weights_take_poles_away() {
+        for folds in [[true; 2], [true, false], [false; 2]] {
+            let window = window(folds);
+            for order in 0..=3 {
+                let poles = window.poles(order);
+                // 1/weight has just these poles: weighted it is constant.
+                for angle in [1.0e-3, 0.2, 1.5, 3.0, PI - 1.0e-3] {
+                    let weight = window.weight(angle, poles);
+                    let pole = 1.0 / weight.factor;
+                    let [value, slope] = weight.of([pole, -pole * weight.log_slope]);
+                    assert!((value - 1.0).abs() < 1.0e-14 && slope.abs() < 1.0e-12);
+                }
+            }
+            // The derivative of the logarithm, by differences.
+            let poles = window.poles(2);
+            let ln = |angle: f64| libm::log(window.weight(angle, poles).factor);
+            let slope = (ln(0.7001) - ln(0.6999)) / 2.0e-4;
+            assert!((slope - window.weight(0.7, poles).log_slope).abs() < 1.0e-5);
+        }
+        assert_eq!(window([true, false]).poles(2), [3, 6]);
+        assert_eq!(window([false; 2]).poles(2), [3, 3]);
+        assert_eq!(window([true; 2]).poles(0), [0, 0]);
+    }
+}
