@@ -199,10 +199,11 @@ pub(crate) fn rotations(
     let mut used_drivers = vec![false; drivers.len()];
     let mut classes = 0;
     let order = std::iter::once(linkage.ground).chain(0..linkage.links.len());
-    for root in order {
-        if rotation[root].is_some() {
+    for first in order {
+        if rotation[first].is_some() {
             continue;
         }
+        let root = if classes == 0 { first } else { base(linkage, left_out, drivers, first) };
         rotation[root] = Some(Rotation { class: classes, slides: vec![], turns: turns.clone() });
         classes += 1;
         let mut queue = std::collections::VecDeque::from([root]);
@@ -256,6 +257,45 @@ pub(crate) fn rotations(
         }
     }
     Ok((rotation.into_iter().map(Option::unwrap_or_default).collect(), classes))
+}
+
+/// The link from whose angle those of its class follow: one that no driver turns relative to another,
+/// whatever the order of the links. (If there are several, that of the first driver.)
+fn base(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], first: usize) -> usize {
+    let class = joined(linkage, left_out, drivers, first);
+    let mut base = first;
+    let mut free: Vec<&Driver> = drivers.iter().collect();
+    let mut driven = class;
+    loop {
+        let turns =
+            |driver: &&Driver| matches!(**driver, Driver::Angle { link, .. } if driven[link]);
+        let Some(&Driver::Angle { relative_to, .. }) =
+            free.iter().position(turns).map(|index| free.remove(index))
+        else {
+            break;
+        };
+        base = relative_to;
+        driven = joined(linkage, left_out, &[], base);
+    }
+    // Links that only slide relative to each other have the same rotation.
+    if driven[first] { first } else { base }
+}
+
+/// Whether each link is joined to one by slides and drivers that turn.
+fn joined(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], one: usize) -> Vec<bool> {
+    let slides = linkage.slides.iter().enumerate();
+    let slides = slides.filter(|&(slide, _)| !left_out.has_slide(linkage, slide));
+    let turned = drivers.iter().filter_map(|driver| match *driver {
+        Driver::Angle { link, relative_to } => Some([link, relative_to]),
+        Driver::Slide(_) => None,
+    });
+    let pairs: Vec<[usize; 2]> = slides.map(|(_, s)| [s.link, s.on]).chain(turned).collect();
+    let mut joined = vec![false; linkage.links.len()];
+    joined[one] = true;
+    while let Some(&[a, b]) = pairs.iter().find(|pair| joined[pair[0]] != joined[pair[1]]) {
+        (joined[a], joined[b]) = (true, true);
+    }
+    joined
 }
 
 /// Checks a slide that closes a cycle of slides. Two slides between the same links may be a
