@@ -14,6 +14,7 @@ from assur.pictures.drawing.link_part import MM, Workshop, link_drawing
 from assur.pictures.drawing.names import name_marks
 from assur.pictures.drawing.position import PX, dimensioned, outlines, schematic
 from assur.pictures.drawing.sheet import PAPERS, lay_out
+from assur.pictures.drawing.strokes import strokes
 from assur.pictures.files import checked_path, writing
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.scene.extent import usual_link
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
     from assur.pictures.drawing.marks import Mark
 
 FORMATS = (".dxf", ".svg", ".pdf")
@@ -61,13 +63,15 @@ def write_drawing(
     if title is not None and not isinstance(title, str):
         message = f"title is {short(title)}: a text is needed"
         raise InputError(message)
-    subject = _subject(mechanism, q, assembly)
+    motion = _position(mechanism, q, assembly)
+    subject = Subject(motion)
     sizes = _sizes(subject, width, hole)
     texts = [name.text for name in subject.scene.names]
     points = MM * subject.places(subject.frames[0])
     symbols = np.array([name.radius * PX for name in subject.scene.names])
 
-    slides = Slides(mechanism, subject.whole, frozenset(), frozenset())
+    exact = strokes(subject, motion)
+    slides = Slides(mechanism, subject.whole, frozenset(), frozenset(), exact)
 
     def views(per: float) -> list[list[Mark]]:
         shop = _workshop(subject, slides, *sizes, per)
@@ -138,14 +142,14 @@ def _checked_scale(scale: Any) -> float:
     return value
 
 
-def _subject(mechanism: Mechanism, q: Any, assembly: Assembly | None) -> Subject:
+def _position(mechanism: Mechanism, q: Any, assembly: Assembly | None) -> Motion:
     found = getattr(assembly, "q", None)
     at = next(one for one in (q, found, mechanism._q0_array()) if one is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if motion.shape:
         message = f"q has positions {motion.shape}: a drawing shows one"
         raise InputError(message)
-    return Subject(motion)
+    return motion
 
 
 def _sizes(subject: Subject, width: Any, hole: Any) -> tuple[float, float]:

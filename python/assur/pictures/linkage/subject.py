@@ -46,7 +46,9 @@ class Subject:
     at : Frames
         The same with the joints.
     whole : Frames
-        Those of the whole motion, which fix the frame of the picture.
+        Those of the whole motion, which fix the frame of the picture, then those of `at`.
+    is_all_seen : bool
+        Whether no part of the whole motion is out of sight.
     """
 
     def __init__(self, motion: Motion) -> None:
@@ -58,7 +60,10 @@ class Subject:
         whole = course(self.mechanism, self.assembly)
         drawing = np.array(list(self.mechanism.joints.values()))
         drawn = np.isfinite(drawing).all() and (whole.status < 3).any()
-        self.whole: Frames = nearby(frames_of(whole), at, drawing) if drawn else at
+        course_frames = frames_of(whole) if drawn else at
+        self.whole: Frames = nearby(course_frames, at, drawing) if drawn else at
+        known = int(course_frames.is_known.sum()) + int(at.is_known.sum())
+        self.is_all_seen = bool(drawn) and len(self.whole.values[0]) == known
         self.scene: Scene = scene_of(self.mechanism, self.whole)
 
     def canvas(

@@ -18,7 +18,7 @@ from assur.pictures.scene.geometry import ON_LINE, about, at, left_of, unit_vect
 from assur.pictures.scene.parts import Hatching, Line, Stroke, Vertex
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
@@ -52,14 +52,27 @@ class Axis:
         return unit_vector(self.angles[1]) * along + left_of(self.angles[1]) * self.off
 
 
-def _axis(frames: Frames, name: str, sliding: str, guide: str, block: Float, angle: Float) -> Axis:
-    """Follow the block along the guide; `angle` is the axis's at each position."""
+def _axis(
+    frames: Frames,
+    name: str,
+    sliding: str,
+    guide: str,
+    block: Float,
+    angle: Float,
+    stroke: tuple[float, float] | None = None,
+) -> Axis:
+    """Follow the block along the guide; `angle` is the axis's at each position.
+
+    `stroke`: how far it goes back and forth from the last position, if that is known.
+    """
     row = int(np.flatnonzero(frames.is_known)[0])
     angles = tuple(float((angle - frames.angle(link))[row]) for link in (sliding, guide))
     seen = frames.seen_from(guide, frames.world(sliding, block))
     along = seen @ unit_vector(angles[1])
     off = float((seen @ left_of(angles[1]))[row])
     low, high = float(np.nanmin(along)), float(np.nanmax(along))
+    if stroke is not None:
+        low, high = (float(along[-1]) + end for end in stroke)
     return Axis(name, sliding, guide, block, (angles[0], angles[1]), low, high, off)
 
 
@@ -72,7 +85,9 @@ class Slides:
         frames: Frames,
         turning: frozenset[str],
         sliding: frozenset[str],
+        strokes: Mapping[str, tuple[float, float]] | None = None,
     ) -> None:
+        self._strokes = strokes or {}
         self._mechanism = mechanism
         self._frames = frames
         self._turning = turning
@@ -102,7 +117,8 @@ class Slides:
         slide = self._mechanism.slides[name]
         own = list(self._joints(slide.link).values())
         block = own[0] if own else np.zeros(2)
-        axis = _axis(self._frames, name, slide.link, slide.on, block, self._angle(name))
+        stroke = self._strokes.get(name)
+        axis = _axis(self._frames, name, slide.link, slide.on, block, self._angle(name), stroke)
         if name not in self._sliding or axis.low < axis.high:
             return axis
         # Of several drivers the drawing tells no stroke.
