@@ -271,3 +271,34 @@ def test_extremes(tmp_path: Path) -> None:
     speed = assur.examples.engine().extremes("bore", order=1)
     assert columns(path.read_text())["value"].tolist() == [speed.least.value, speed.greatest.value]
     assert 'there is no link "bor"' in refused("extremes", "example:engine", "bor")
+
+
+def test_extremes_of_a_link_that_only_slides(tmp_path: Path) -> None:
+    """Its angle stands, its slide moves: a stroke of 0 alone would mislead."""
+    stroke = assur.examples.engine().extremes("bore").stroke
+    lines = printed("extremes", "example:engine", "piston")
+    assert lines[2] == "stroke      0.0 rad"
+    assert lines[3:] == [
+        "note        piston does not turn",
+        f"note        it slides: bore has a stroke of {stroke!r} m",
+    ]
+    # A pin in a slot, and the coupler of a parallelogram.
+    pin = assur.Mechanism(
+        {"O": (0.0, 0.0), "A": (0.03, 0.04)},
+        {"ground": "O", "crank": "OA", "block": "A", "yoke": ""},
+        "crank",
+        {
+            "block_slide": assur.Slide("block", on="yoke", angle=np.pi / 2),
+            "yoke_slide": assur.Slide("yoke", on="ground", angle=0.0, origin="O"),
+        },
+    )
+    pin.save(tmp_path / "pin.toml")
+    found = printed("extremes", tmp_path / "pin.toml", "block")[3:]
+    assert found[0] == "note        block does not turn"
+    moves = re.fullmatch(r"note        it slides: block_slide has a stroke of (\S+) m", found[1])
+    assert moves is not None
+    assert float(moves[1]) == pytest.approx(0.1, abs=1e-12)
+    locomotive = printed("extremes", "example:locomotive", "coupling_rod")[3:]
+    assert locomotive == ["note        coupling_rod does not turn"]
+    assert not any("note" in line for line in printed("extremes", "example:engine", "rod"))
+    assert not any("note" in line for line in printed("extremes", "example:engine", "crank"))

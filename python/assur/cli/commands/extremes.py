@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from assur._table import Column
     from assur.kinematics.extremes import Extremes
+    from assur.kinematics.mechanism import Mechanism
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_source(parser)
     parser.add_argument("name", metavar="NAME", help="a slide, a link, or a joint's B.x or B.y")
     parser.add_argument(
-        "--order", type=int, default=0, help="1 or 2: of the first or second analogue; 0"
+        "--order", type=int, default=0, help="1 to 3: of the first to third analogue; 0"
     )
     parser.add_argument("--degrees", action="store_true", help="angles in degrees")
     add_output(parser)
@@ -61,6 +62,26 @@ def run(given: argparse.Namespace) -> None:
         print(f"stroke      {_shown(found.stroke, unit)!r} {unit}")
         if found.time_ratio is not None:
             print(f"time ratio  {found.time_ratio!r}")
+        if is_angle and not given.order:
+            for line in _instead(mechanism, given.name, found):
+                print(line)
+
+
+def _instead(mechanism: Mechanism, link: str, found: Extremes) -> list[str]:
+    """Return, of a link that does not turn, which of its slides move."""
+    from assur.kinematics.extremes import STANDS
+    from assur.kinematics.place import size_of
+
+    if found.stroke > STANDS:
+        return []
+    lines = [f"note        {link} does not turn"]
+    for name, slide in mechanism.slides.items():
+        if link not in (slide.link, slide.on):
+            continue
+        stroke = mechanism.extremes(name).stroke
+        if stroke > STANDS * size_of(mechanism):
+            lines.append(f"note        it slides: {name} has a stroke of {float(stroke)!r} m")
+    return lines
 
 
 def _unit(in_degrees: bool, is_angle: bool) -> str:
