@@ -219,6 +219,9 @@ class Run(Tabular):
         "lost", "table ends", "stalled", "step limit" or "time limit".
     message : str
         The same as a sentence.
+    at_rest_from : float or None
+        The time from which the machine stands still until the end, s: friction holds it, or it is
+        in balance. None if it moves to the end, or only comes to rest there.
     statistics : Statistics
         Computing effort.
 
@@ -262,6 +265,7 @@ class Run(Tabular):
             )
             for one in core.events
         ]
+        self.at_rest_from = self._at_rest_from()
         self.end, self.message = self._end_and_message(events)
         if self.end in ("dead point", "rest", "near_change_point"):
             near = core.ending["near_change_point"]
@@ -275,8 +279,20 @@ class Run(Tabular):
         return (
             f"<assur.Run t = {self.t[0]:g} … {self.t[-1]:g} s, "
             f"{counted(self.statistics.steps, 'step')}, "
-            f"{counted(len(self.events), 'event')}, {self.end}>"
+            f"{counted(len(self.events), 'event')}, {self.end}{self._rest()}>"
         )
+
+    def _at_rest_from(self) -> float | None:
+        # What rests has no acceleration either, to the last bit.
+        moves = np.reshape((self.speed != 0.0) | (self.acceleration != 0.0), (len(self.t), -1))
+        moving = np.flatnonzero(moves.any(axis=1))
+        # It comes to rest at the end of a step, which still has an acceleration.
+        first = int(moving[-1]) if moving.size else 0
+        return float(self.t[first]) if first < len(self.t) - 1 else None
+
+    def _rest(self) -> str:
+        start = self.at_rest_from
+        return "" if start is None else f", stands still from t = {start:g} s on"
 
     def at(self, t: npt.ArrayLike | None = None, *, q: npt.ArrayLike | None = None) -> State:
         """Return the motion at any time within the run.
@@ -479,7 +495,7 @@ class Run(Tabular):
         # The tables over other coordinates come after those over q.
         is_over = ending["table"] is not None and ending["table"] >= self._tables
         sentences = {
-            "reached": "reached its end",
+            "reached": f"reached its end{self._rest()}",
             "event": f"{event} at {place}",
             "dead point": f"a dead point at {place}: this assembly has no motion beyond it; "
             "another driver (with_driver) may lead past it",
