@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from assur._arrays import finite_array
 from assur.dynamics.run import Run, State
+from assur.dynamics.senses import Senses, senses_of_run, senses_of_states
 from assur.dynamics.steady import SteadyState
 from assur.errors import InputError
 from assur.kinematics.timed import TimedMotion
@@ -21,12 +22,16 @@ MotionLike: TypeAlias = "npt.ArrayLike | Run | SteadyState | State | TimedMotion
 
 
 class DrivenMotion(NamedTuple):
-    """Coordinates, speeds and accelerations of the drivers, and times."""
+    """Coordinates, speeds and accelerations of the drivers, and times.
+
+    Of a run with one driver also its sense where the speed is 0.
+    """
 
     q: Any
     speed: Any
     acceleration: Any
     t: Any
+    senses: Senses | None = None
 
 
 def motion_of(q: Any, speed: Any, acceleration: Any, t: Any) -> DrivenMotion:
@@ -40,7 +45,14 @@ def motion_of(q: Any, speed: Any, acceleration: Any, t: Any) -> DrivenMotion:
             message = f"{name} is given with a {what}, which has its own: leave it out"
             raise InputError(message)
     state = q.run if isinstance(q, SteadyState) else q
-    return DrivenMotion(state.q, state.speed, state.acceleration, state.t)
+    given = state.q, state.speed, state.acceleration
+    senses: Senses | None = None
+    # A law does not say how friction holds a machine in a dwell.
+    if isinstance(state, Run) and np.ndim(state.q) == 1:
+        senses = senses_of_run(*given)
+    elif isinstance(state, State) and np.shape(state.q) == np.shape(state.t):
+        senses = senses_of_states(*given[1:])
+    return DrivenMotion(*given, state.t, senses)
 
 
 def times(t: npt.ArrayLike, shape: tuple[int, ...]) -> Float:

@@ -113,9 +113,14 @@ def duty(
     t = times(motion.t, shape)
     require_finite(x, "q")
     x, v, a = (np.broadcast_to(one, shape) for one in (x, v, a))
-    _check_path(x, v)
-    effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t), on_error))
+    senses = None if motion.senses is None else motion.senses.reshaped(shape)
+    # Without a speed only the times of a run say how long it takes.
+    is_timed = senses is not None and bool(senses.sense.any())
+    _check_path(x, v if senses is None else senses.creeping(v, with_begins=True))
+    effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t, senses), on_error))
     rows = [one.reshape(-1, shape[-1]) for one in (x, v, effort)]
+    if is_timed:
+        rows.append(t.reshape(-1, shape[-1]))
     numbers = np.empty((len(rows[0]), NUMBERS))
     is_closed, lacks_end, turn = _closing(machine, rows[0])
     lacks_end &= (t == t[..., :1]).all(axis=-1).reshape(-1)
@@ -143,7 +148,7 @@ def duty(
     lost = 0.0 * energy
     if machine.friction and machine.mechanism is not None:
         free = type(machine)(machine.mechanism, machine.bodies, machine.loads, machine.motor)
-        lost = energy - duty(free, DrivenMotion(x, v, a, t), on_error).energy
+        lost = energy - duty(free, DrivenMotion(x, v, a, t, senses), on_error).energy
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mean_power = energy / time
         efficiency = 1.0 - lost / np.maximum(energy, lost - energy)
@@ -244,15 +249,22 @@ def _ends_agree(effort: Float) -> npt.NDArray[np.bool_]:
 
 
 def _numbers(samples: list[Float], closed: bool) -> Float:
-    """Return the numbers of each row, in the order in which `duty` reads them."""
-    x, speed, effort = samples
+    """Return the numbers of each row, in the order in which `duty` reads them.
+
+    With times behind the efforts means are over these.
+    """
+    x, speed, effort, *clock = samples
     with np.errstate(all="ignore"):
         curve, power = Pieces(x, effort, closed), Pieces(x, effort * speed, closed)
         time = Pieces(x, 1.0 / speed, closed).integral()
+        for t in clock:
+            time = t[:, -1] - t[:, 0]
         # Squares are those of parts of the greatest: they stay within range.
         most = np.abs(effort).max(axis=1)
         parts = np.where(most > 0.0, most, 1.0)[:, None]
         squares = Pieces(x, (effort / parts) ** 2 / speed, closed).integral()
+        for t in clock:
+            squares = Pieces(t, (effort / parts) ** 2, closed).integral()
         rms = parts[:, 0] * np.sqrt(np.maximum(squares / time, 0.0))
         energy, size = curve.integral(), curve.integral_of_size()
         # Where the effort has one sign, the difference is rounding, perhaps negative.

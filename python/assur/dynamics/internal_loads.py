@@ -188,7 +188,10 @@ def internal_loads(
     drivers = machine._drivers
     full = shape if drivers == 1 else (*shape, drivers)
     q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in given)
-    each = DrivenMotion(q, speed, acceleration, times(motion.t, shape).ravel())
+    senses = motion.senses
+    if senses is not None:
+        senses = senses.reshaped(shape).flat()
+    each = DrivenMotion(q, speed, acceleration, times(motion.t, shape).ravel(), senses)
     with in_range(f"a load inside {link!r}"):
         beam = rod.solve(each, on_error)
         x = np.linspace(0.0, rod.length, n)

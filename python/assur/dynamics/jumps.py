@@ -78,6 +78,9 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion) -> DrivenMotion:
         np.abs(q - jumps[np.clip(after, None, jumps.size - 1)]),
     )
     size = np.maximum(1.0, np.abs(q))
-    side = np.where(np.arange(q.size) == 0, 1.0, -1.0) * np.sign(speed)
+    sense = np.sign(speed)
+    if motion.senses is not None:
+        sense = np.where(speed == 0.0, np.nan_to_num(motion.senses.sense), sense)
+    side = np.where(np.arange(q.size) == 0, 1.0, -1.0) * sense
     moved = np.where(nearest <= AT_JUMP * size, q + side * BESIDE * size, q)
     return motion._replace(q=moved)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.dynamics.along import DrivenMotion
     from assur.dynamics.model import MachineModel, OnError
+    from assur.dynamics.senses import Senses
     from assur.kinematics.mechanism import Mechanism
 
 # What the core says where it would have to search for too many solutions, or cannot know a force.
@@ -106,9 +107,11 @@ def reactions(
         keys = [*_keys(mechanism), *_keys_of_friction(machine)]
     moving = broadcast_motion(machine, motion)
     x, v, a, shape = moving
-    arrays, status, failure = _solved(
-        machine, moving, motion.t, threads, keys, squares=False, friction=(sense, solution)
+    senses = _senses_needed(machine, motion, sense, shape)
+    arrays, status, failure = _solved_in_senses(
+        machine, moving, motion.t, threads, keys, senses, (sense, solution)
     )
+    rests = np.zeros(status.size, np.bool_) if senses is None else senses.rests.ravel()
     full = shape if drivers == 1 else (*shape, drivers)
     everywhere = np.broadcast_to(x, full)
     if on_error == "raise" and failure is not None:
@@ -116,9 +119,9 @@ def reactions(
     if on_error == "raise":
         drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
         each = drives[0][:, None] if drivers == 1 else np.stack(drives, axis=-1)
-        is_locked = np.zeros(status.shape, np.bool_)
+        is_locked = rests
         if SOLUTIONS in keys:
-            is_locked = arrays[keys.index(SOLUTIONS)] <= 0.0
+            is_locked = rests | (arrays[keys.index(SOLUTIONS)] <= 0.0)
         _require_finite("reactions are", each, status, everywhere, is_locked)
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
@@ -133,7 +136,52 @@ def reactions(
     again = partial(_again, machine, motion, threads, sense)
     rubs = again if machine.friction and SOLUTIONS in found else None
     source = machine, times(motion.t, shape)
-    return Reactions(mechanism, given_motion, found, status.reshape(shape), rubs, source)
+    return Reactions(
+        mechanism, given_motion, found, status.reshape(shape), rubs, source, rests.reshape(shape)
+    )
+
+
+def _senses_needed(
+    machine: MachineModel, motion: DrivenMotion, sense: Any, shape: tuple[int, ...]
+) -> Senses | None:
+    """Return the senses of a motion with a speed of 0 somewhere, if the machine needs them."""
+    asks = bool(machine.friction) or machine._core.follows[1]
+    if motion.senses is None or sense is not None or not asks:
+        return None
+    senses = motion.senses.reshaped(shape)
+    return senses if senses.sense.any() else None
+
+
+def _solved_in_senses(
+    machine: MachineModel,
+    moving: tuple[Float, Float, Float, tuple[int, ...]],
+    t: npt.ArrayLike,
+    threads: int | None,
+    keys: list[Key],
+    senses: Senses | None,
+    friction: tuple[float | Sequence[float] | None, int],
+) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
+    """Return what `_solved` does of a motion that has these senses where its speed is 0."""
+    if senses is None:
+        return _solved(machine, moving, t, threads, keys, squares=False, friction=friction)
+    x, v, a, shape = moving
+    still = np.broadcast_to(v, shape)
+    creeping = x, senses.creeping(still, with_begins=False), a, shape
+    solution = friction[1]
+    arrays, status, failure = _solved(machine, creeping, t, threads, keys, False, (1.0, solution))
+    backward = (senses.begins & (senses.sense < 0.0)).reshape(-1)
+    if backward.any():
+        others, _, _ = _solved(machine, creeping, t, threads, keys, False, (-1.0, solution))
+        for own, other in zip(arrays, others, strict=True):
+            rows = own.reshape(backward.size, -1)
+            rows[backward] = other.reshape(rows.shape)[backward]
+    for key, own in zip(keys, arrays, strict=True):
+        rows = own.reshape(status.size, -1)
+        if key.kind in ("joint loss", "slide loss"):
+            rows[(senses.sense != 0.0).reshape(-1)] = 0.0
+        if not key.kind.startswith("shaking"):
+            rows[senses.rests.reshape(-1)] = np.nan
+    return arrays, status, failure
 
 
 def _again(
@@ -236,7 +284,7 @@ def broadcast_motion(
 ) -> tuple[Float, Float, Float, tuple[int, ...]]:
     """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
     n, designs = machine._drivers, machine.shape
-    q, speed, acceleration, _ = motion
+    q, speed, acceleration = motion[:3]
     x = real_array(q, "q")
     if machine.mechanism is not None:
         warn_if_degrees(machine.mechanism, x)
@@ -282,7 +330,12 @@ def effort(
     bare = machine
     if machine.motor is not None and machine.mechanism is not None:
         bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
-    inertia, rates, moment, _ = bare._reduce(x, v, on_error, times(motion.t, shape), sense)
+    senses = _senses_needed(machine, motion, sense, shape)
+    rests, going = np.zeros(shape, np.bool_), v
+    if senses is not None:
+        rests, sense = senses.rests, 1.0
+        going = senses.creeping(np.broadcast_to(v, shape), with_begins=True)
+    inertia, rates, moment, _ = bare._reduce(x, going, on_error, times(motion.t, shape), sense)
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment
@@ -298,4 +351,5 @@ def effort(
         solved = np.full(out.size // n, Status.OK, dtype=np.uint8)
         _require_finite("effort is", out.reshape(-1, n), solved, np.broadcast_to(x, full))
     out[np.isinf(out)] = np.nan
+    out[rests] = np.nan
     return out[..., 0][()] if n == 1 else out

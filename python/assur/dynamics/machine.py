@@ -117,7 +117,10 @@ class Machine(MachineModel):
             Times for functions among the loads, s, broadcast to the positions.
         sense : int, optional
             +1 or −1 (one for each driver): in which way the drive is about to move where the speed
-            is 0. Friction needs it.
+            is 0. Friction needs it. A run or state has its own: at the start, and where it leaves
+            its rest, that of the motion that follows; where it comes to rest or turns back, that
+            of the motion before, as its acceleration there is. Where it stays at rest all forces
+            are NaN (`Reactions.at_rest`).
         threads : int, optional
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
@@ -343,8 +346,8 @@ class Machine(MachineModel):
         Raises
         ------
         InputError
-            Several drivers, fewer than two positions, q that turns back, a speed that is 0 or
-            against q, shapes that do not fit, numbers that are not finite.
+            Several drivers, fewer than two positions, q that turns back, a speed that is 0 (but at
+            the ends of a run) or against q, shapes that do not fit, numbers that are not finite.
         PositionError, MotionError
             See `effort`.
 

@@ -64,7 +64,7 @@ def find_peak(
     at = int(np.argmax(measure))
     best = Peak(float(value[at]), float(x[at]), float(q[at, 0]) if q.shape[1] == 1 else q[at])
     steps = np.diff(q[:, 0])
-    steady = all((part == part[0]).all() for part in motion[1:])
+    steady = all((part == part[0]).all() for part in motion[1:4])
     ordered = (steps > 0.0).all() or (steps < 0.0).all()
     if q.shape[1] > 1 or not is_row or not steady or not ordered:
         return best

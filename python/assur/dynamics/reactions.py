@@ -98,6 +98,9 @@ class Reactions(Tabular):
         `assur.Status` of every position.
     undetermined : tuple of str
         Reactions that redundant links leave undetermined.
+    at_rest : ndarray of bool
+        Where a run stays at rest, so that friction is anything up to what would let it slide:
+        forces are NaN there.
     locked : ndarray of bool
         Where friction leaves no solution: the drive cannot move the machine against its loads,
         however strong it is. Forces are NaN there.
@@ -138,6 +141,7 @@ class Reactions(Tabular):
         status: npt.NDArray[np.uint8],
         again: Callable[[list[Key], int], Reactions] | None = None,
         source: tuple[MachineModel, Float] | None = None,
+        at_rest: npt.NDArray[np.bool_] | None = None,
     ) -> None:
         self._mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
@@ -146,6 +150,8 @@ class Reactions(Tabular):
         # The machine and the times: with them what acts can be drawn.
         self._source = source
         self.status = status
+        rests = np.zeros(status.shape, np.bool_) if at_rest is None else at_rest
+        self.at_rest: Any = rests[()]
 
     def __getstate__(self) -> dict[str, Any]:
         # Functions of the user cannot be pickled.
@@ -208,7 +214,7 @@ class Reactions(Tabular):
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
-        solved = self.status <= Status.NEAR_SINGULAR
+        solved = (self.status <= Status.NEAR_SINGULAR) & ~self.at_rest
         joints, links = self._mechanism._joint_names, list(self._mechanism.links)
         slides = list(self._mechanism.slides)
         names = []

@@ -9,7 +9,9 @@ import numpy as np
 from assur._arrays import finite_array, short
 from assur._validate import checked_name
 from assur.dynamics.acting import Positions, acting_on
+from assur.dynamics.along import DrivenMotion
 from assur.dynamics.beam import Density, PointLoad, solve_beam
+from assur.dynamics.kinetostatics import reactions
 from assur.dynamics.loads import Body, Gravity
 from assur.dynamics.places import joint_place, mass_centre
 from assur.errors import InputError
@@ -17,7 +19,6 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.dynamics.acting import Acting
-    from assur.dynamics.along import DrivenMotion
     from assur.dynamics.beam import Beam
     from assur.dynamics.machine import Machine
     from assur.dynamics.model import OnError
@@ -41,7 +42,9 @@ class Rod(NamedTuple):
         machine, first = self.machine, self.along[0]
         one = motion.q.shape[1] == 1
         given = [part[:, 0] if one else part for part in motion[:3]]
-        found = machine.reactions(*given, t=motion.t, on_error=on_error)
+        q, speed, acceleration = given
+        own = DrivenMotion(q, speed, acceleration, motion.t, motion.senses)
+        found = reactions(machine, own, None, on_error)
         solved = found._mechanism.solve(given[0], order=2, on_error=on_error)
         a, b = (solved.joint(joint).value for joint in self.along)
         e = (b - a) / self.length

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.dynamics.run import State
 from assur.pictures.page.turn_in_time import course_of_run, turn_over_time
 from assur.studio import document
 from assur.studio.kinds.applied import applied_forces
@@ -54,7 +55,10 @@ def run(data: dict[str, Any], session: Session) -> Answer:
     if wants_forces:
         assert machine is not None
         session.deadline.check()
-        found = machine.reactions(q, speed, acceleration, t=t, on_error="nan")
+        # Of a run the sense of its motion is known where its speed is 0.
+        own = (State(t, q, speed, acceleration),) if by == "machine" else (q, speed, acceleration)
+        given = {} if by == "machine" else {"t": t}
+        found = machine.reactions(*own, **given, on_error="nan")
         named, forces = forces_of(mechanism, found)
         applied, forces["applied"] = applied_forces(machine, mechanism, found, q, speed, t)
         header["reactions"] = {**named, "applied": applied}
