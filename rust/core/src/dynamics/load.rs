@@ -226,10 +226,7 @@ fn damp(damping: f64, rate: impl Fn(usize) -> f64, speed: &[f64], out: &mut Redu
 
 /// Unit vector along the x axis of a link, or of the frame.
 pub(super) fn axis_of(pose: &SolvedPose<'_>, link: Option<usize>) -> Vector {
-    link.map_or(Vector::ONE, |link| {
-        let place = |at| pose.point(Point::Link { link, at }, 0);
-        place([1.0, 0.0]) - place([0.0; 2])
-    })
+    link.map_or(Vector::ONE, |link| pose.frame(link, 0))
 }
 
 /// Derivative by a driver of a link's angle relative to another link.
