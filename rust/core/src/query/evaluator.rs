@@ -146,6 +146,11 @@ impl<'m> Evaluator<'m> {
         1.0 / self.design.units.coordinate[driver]
     }
 
+    /// The unit of length of the design, m: a power of 2.
+    pub(crate) fn unit_of_length(&self) -> f64 {
+        self.design.constants.scale
+    }
+
     /// How far a slide may go, m.
     pub(crate) fn reach(&self) -> f64 {
         self.design.reach() * self.design.constants.scale

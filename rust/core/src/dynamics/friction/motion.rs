@@ -4,6 +4,9 @@
 //! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D₁ α + D₂ τ, is what the
 //! motor gives; so α is linear in the friction τ, and with it each pair's reaction. What remains is the law
 //! of friction as for a given motion.
+//!
+//! D₁ is the effort of the inertia forces at α = 1 alone, without loads and speeds: a difference of two
+//! efforts would have lost its digits beside the loads.
 
 use crate::batch::outputs::{Column, Quantity, columns};
 use crate::dynamics::kinematics::{Point, SolvedPose};
@@ -39,12 +42,16 @@ pub(crate) struct RubbingState {
 /// Work space of a machine's accelerations under friction.
 pub(crate) struct FrictionMotion<'m> {
     machine: &'m Machine,
+    /// Its bodies alone, without loads and weight.
+    bodies: Machine,
     plan: ForcePlan,
     rubbing: Vec<Rubbing>,
     columns: Vec<Column>,
     sources: Sources,
     guides: Vec<Vector>,
     size: f64,
+    /// The unit of length, m: a power of 2.
+    unit: f64,
     values: Vec<Vec<f64>>,
     scene: Scene<f64>,
 }
@@ -53,10 +60,17 @@ pub(crate) struct FrictionMotion<'m> {
 const ROW: Rows = Rows { first: 0, last: 0 };
 
 impl<'m> FrictionMotion<'m> {
-    /// For a design with one driver and friction.
-    pub(crate) fn new(machine: &'m Machine, mechanism: &Mechanism, dimensions: &[f64]) -> Self {
+    /// For a design with one driver and friction; `unit`: its unit of length.
+    pub(crate) fn new(
+        machine: &'m Machine,
+        mechanism: &Mechanism,
+        dimensions: &[f64],
+        unit: f64,
+    ) -> Self {
         let plan = ForcePlan::new(mechanism, machine);
         let columns = columns(&plan.outputs, 1, plan.order);
+        let mut scene = Scene::new(&plan);
+        scene.per_metre = 1.0 / unit;
         let linkage = mechanism.linkage();
         let links_at: Vec<Vec<usize>> =
             (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();
@@ -64,9 +78,11 @@ impl<'m> FrictionMotion<'m> {
             sources: Sources::new(&plan, &columns),
             guides: guide_directions(mechanism, dimensions),
             size: mechanism.linkage().size(),
+            unit,
             values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
-            scene: Scene::new(&plan),
+            scene,
             rubbing: Rubbing::of(&plan, &links_at, &machine.friction),
+            bodies: Machine { bodies: machine.bodies.clone(), ..Machine::default() },
             machine,
             columns,
             plan,
@@ -86,7 +102,7 @@ impl<'m> FrictionMotion<'m> {
         let (tables, over): (Vec<_>, Vec<_>) = (of_one(numbers.tables), of_one(numbers.over));
         let ways: Vec<Vec<f64>> = numbers.ways.iter().map(|&way| vec![way]).collect();
         let external: Vec<f64> = numbers.external.iter().map(|&[value, _]| value).collect();
-        let Self { machine, plan, rubbing, sources, guides, values, scene, .. } = self;
+        let Self { machine, bodies, plan, rubbing, sources, guides, values, scene, .. } = self;
         let rubbing = &rubbing[..];
         let values_of_loads = Values {
             tables: &tables,
@@ -96,38 +112,24 @@ impl<'m> FrictionMotion<'m> {
             callbacks: external.len(),
         };
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let moving =
+            |speed, acceleration| Solved { columns: &columns, speed, acceleration, positions: 1 };
+        scene.read(plan, sources, guides, &moving(&[0.0], &[1.0]), ROW);
+        scene.apply(plan, bodies, Values::default(), ROW);
+        scene.start(plan);
+        let per_acceleration = scene.pair_reactions(plan, rubbing);
+        let inertia = scene.driver[0] + drive.inertia;
         let speed = [state.speed];
-        let load = |acceleration: f64, scene: &mut Scene<f64>| {
-            let acceleration = [acceleration];
-            let (columns, speed, acceleration) = (&columns[..], &speed[..], &acceleration[..]);
-            let solved = Solved { columns, speed, acceleration, positions: 1 };
-            scene.read(plan, sources, guides, &solved, ROW);
-            scene.apply(plan, machine, values_of_loads, ROW);
-            let pairs = (&*plan, rubbing);
-            scene.read_rubbing(pairs, sources, (&solved, ROW), &[state.sense], self.size);
-        };
-        load(1.0, scene);
-        let accelerated = (scene.link_force.clone(), scene.link_moment.clone());
-        load(0.0, scene);
+        let still = moving(&speed, &[0.0]);
+        scene.read(plan, sources, guides, &still, ROW);
+        scene.apply(plan, machine, values_of_loads, ROW);
+        let pairs = (&*plan, rubbing);
+        scene.read_rubbing(pairs, sources, (&still, ROW), &[state.sense], self.size);
         scene.rubs.is_static = Some(state.is_static);
-        let still = (scene.link_force.clone(), scene.link_moment.clone());
         scene.drag(plan, rubbing);
         scene.start(plan);
         let base = scene.pair_reactions(plan, rubbing);
         let effort = scene.driver[0];
-        for (own, (one, other)) in
-            scene.link_force.iter_mut().zip(accelerated.0.iter().zip(&still.0))
-        {
-            *own = *one - *other;
-        }
-        for (own, (one, other)) in
-            scene.link_moment.iter_mut().zip(accelerated.1.iter().zip(&still.1))
-        {
-            *own = one - other;
-        }
-        scene.start(plan);
-        let per_acceleration = scene.pair_reactions(plan, rubbing);
-        let inertia = scene.driver[0] + drive.inertia;
         let mut per_friction = Vec::new();
         scene.respond(plan, rubbing, |scene| per_friction.push(scene.driver[0]));
         // α = (motors − D₀ − D₂ τ)/D₁.
@@ -143,10 +145,17 @@ impl<'m> FrictionMotion<'m> {
             }
         }
         let (problem, used) = scene.problem(rubbing, 0);
+        let problem = problem.in_forces(self.unit);
         let all = problem.solve().ok()?;
         let friction = all.first()?;
-        let of_friction: f64 =
-            used.iter().zip(friction).map(|(&pair, friction)| per_friction[pair] * friction).sum();
+        let of_friction: f64 = used
+            .iter()
+            .zip(&problem.pairs)
+            .zip(friction)
+            .map(|((&used, pair), friction)| {
+                per_friction[used] * (pair.law.unit(self.unit) * friction)
+            })
+            .sum();
         Some(free - of_friction / inertia)
     }
 

@@ -44,6 +44,25 @@ impl Law {
         }
     }
 
+    /// The law if moments are divided by a unit of length.
+    fn in_forces(self, unit: f64) -> Self {
+        match self {
+            Self::Journal { circle } => Self::Journal { circle: circle / unit },
+            Self::Guide { coefficient, half_length } => {
+                Self::Guide { coefficient, half_length: half_length / unit }
+            }
+        }
+    }
+
+    /// The unit of its friction, if moments are divided by a unit of length: that of a moment, or of a
+    /// force.
+    pub(super) fn unit(self, length: f64) -> f64 {
+        match self {
+            Self::Journal { .. } => length,
+            Self::Guide { .. } => 1.0,
+        }
+    }
+
     /// The forms, linear in R, of which one is the size where it is greatest.
     pub(super) fn faces(self) -> Vec<[f64; 2]> {
         match self {
@@ -85,6 +104,26 @@ pub(crate) struct FrictionProblem {
 }
 
 impl FrictionProblem {
+    /// The same with all moments divided by a unit of length, so that frictions, and what is small beside
+    /// them, compare as forces.
+    pub(super) fn in_forces(mut self, unit: f64) -> Self {
+        let units: Vec<f64> = self.pairs.iter().map(|pair| pair.law.unit(unit)).collect();
+        for (pair, own) in self.pairs.iter_mut().zip(&units) {
+            // The second number of R is a force at a pin, a moment at a guide.
+            let second = match pair.law {
+                Law::Journal { .. } => 1.0,
+                Law::Guide { .. } => unit,
+            };
+            pair.law = pair.law.in_forces(unit);
+            pair.rate *= own;
+            pair.base[1] /= second;
+            for (slope, by) in pair.slopes.iter_mut().zip(&units) {
+                *slope = [slope[0] * by, slope[1] * by / second];
+            }
+        }
+        self
+    }
+
     /// The reaction of a pair.
     pub(super) fn reaction(&self, pair: usize, friction: &[f64]) -> [f64; 2] {
         let RubbingPair { base, slopes, .. } = &self.pairs[pair];

@@ -46,6 +46,9 @@ pub(crate) struct Scene<R: Real> {
     /// Torque or force of every driver.
     pub driver: Vec<R>,
     pub(crate) rubs: Rubs<R>,
+    /// How many units of length a metre is: groups are solved in that unit, so that pivots do not depend on
+    /// metres.
+    pub(crate) per_metre: R,
     pub(super) matrix: Vec<[R; 1]>,
     pub(super) right: Vec<R>,
 }
@@ -75,6 +78,7 @@ impl<R: Real> Scene<R> {
             slide_moment: vec![R::ZERO; slides],
             driver: vec![R::ZERO; plan.drivers],
             rubs: Rubs::default(),
+            per_metre: R::ONE,
             matrix: Vec::new(),
             right: Vec::new(),
         }

@@ -78,7 +78,7 @@ impl<R: Real> Scene<R> {
             let sign = R::splat(sign);
             match unknown {
                 Unknown::Class(class) if class == plan.edges[edge].class => {
-                    sum += self.span(plan, edge).left().scale(sign);
+                    sum += self.span(plan, edge).left().scale(sign * self.per_metre);
                 }
                 Unknown::Slide(slide) if Some(slide) == plan.edges[edge].slide => {
                     sum += self.guides[slide].scale(sign);
@@ -101,7 +101,7 @@ impl<R: Real> Scene<R> {
                     for &link in links {
                         sum += self.moment[link];
                     }
-                    sum
+                    sum * self.per_metre
                 }
                 &LoadedUnknown::Slide(slide) => self.sliding[slide],
             };

@@ -186,7 +186,8 @@ impl<'m> MechanismModel<'m> {
         let lifted = machine.needs_angles();
         let evaluator = Evaluator::new(mechanism, dimensions, derivatives, Queries::Any, lifted);
         let rubs = !machine.friction.is_empty() && mechanism.q0().len() == 1;
-        let friction = rubs.then(|| FrictionMotion::new(machine, mechanism, dimensions));
+        let unit = evaluator.unit_of_length();
+        let friction = rubs.then(|| FrictionMotion::new(machine, mechanism, dimensions, unit));
         let (held, followers) = (Held::default(), Followers::default());
         Self { machine, derivatives, evaluator, held, followers, friction }
     }
