@@ -59,7 +59,9 @@ impl Control {
 
 /// Width of the first step (Hairer, Nørsett & Wanner I, II.4, "starting step size"): first one with
 /// an error of about 0.01 in Euler's method, then one from the second derivative that this step
-/// shows. At most `limit`; `direction` is its sign. `probe` is workspace.
+/// shows. Their formula adds numbers of different units, and so depends on the unit of t. Here its unit
+/// is the time in which the state changes by itself. At most `limit`; `direction` is its sign. `probe` is
+/// workspace.
 pub(super) fn first_width<S: System>(
     stages: &mut Stages,
     system: &mut S,
@@ -68,12 +70,17 @@ pub(super) fn first_width<S: System>(
     (limit, direction): (f64, f64),
     probe: &mut [Block],
 ) -> Result<f64, S::Error> {
-    /// Norm below which it says nothing about the width, and the width used instead.
-    const NEGLIGIBLE: (f64, f64) = (1e-5, 1e-6);
+    /// A change by less than this many tolerances up to `limit` says nothing about the width; and the part of
+    /// `limit` that is the unit instead.
+    const NEGLIGIBLE: (f64, f64) = (1e-5, 1e-4);
+    /// The part of the unit that Euler's step is.
+    const EULER: f64 = 0.01;
     let norm = |e: &[Block]| scale.square_sum(e, y, y).sqrt();
-    let (d0, d1) = (norm(y), norm(stages.rates(0)));
-    let euler = if d0 < NEGLIGIBLE.0 || d1 < NEGLIGIBLE.0 { NEGLIGIBLE.1 } else { 0.01 * d0 / d1 };
-    let euler = euler.min(limit);
+    let (d0, d1) = (norm(y).max(scale.usual_size), norm(stages.rates(0)));
+    let unit = d0 / d1;
+    let shows = d1 * limit >= NEGLIGIBLE.0 && unit > 0.0 && unit.is_finite();
+    let unit = if shows { unit } else { NEGLIGIBLE.1 * limit };
+    let euler = (EULER * unit).min(limit);
     let rates = stages.rates(0);
     for ((p, y), k) in probe.iter_mut().zip(y).zip(rates) {
         *p = std::array::from_fn(|l| y[l] + direction * euler * k[l]);
@@ -89,13 +96,9 @@ pub(super) fn first_width<S: System>(
         *p = std::array::from_fn(|l| (f1[l] - f0[l]) / euler);
     }
     let d2 = norm(probe);
-    let largest = d1.max(d2);
+    let largest = (d1 * unit).max(d2 * unit * unit);
     let order = f64::from(stages.tableau.order);
-    let by_slope = if largest <= 1e-15 {
-        NEGLIGIBLE.1.max(1e-3 * euler)
-    } else {
-        pow(0.01 / largest, 1.0 / order)
-    };
+    let by_slope = if largest <= 1e-15 { euler } else { unit * pow(0.01 / largest, 1.0 / order) };
     let width = by_slope.min(100.0 * euler).min(limit);
     Ok(if width > 0.0 { width } else { euler })
 }

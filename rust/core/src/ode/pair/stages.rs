@@ -33,6 +33,9 @@ pub(in crate::ode) enum Refusal<E> {
 pub(in crate::ode) struct Scale {
     relative: Vec<Block>,
     absolute: Vec<Block>,
+    /// The size of a usual state in tolerances, if they are parts of it; 0 if not. A state that begins at
+    /// zero does not show it.
+    pub usual_size: f64,
 }
 
 impl Scale {
@@ -44,7 +47,9 @@ impl Scale {
             all.zip(list.iter().cycle().take(n)).for_each(|(to, from)| *to = *from);
             tolerances
         };
-        Self { relative: to_blocks(relative), absolute: to_blocks(absolute) }
+        let greatest = relative.iter().fold(0.0_f64, |most, &part| most.max(part));
+        let usual_size = if greatest > 0.0 { 1.0 / greatest } else { 0.0 };
+        Self { relative: to_blocks(relative), absolute: to_blocks(absolute), usual_size }
     }
 
     /// Σ (eᵢ / (aᵢ + rᵢ max(|yᵢ|, |zᵢ|)))² (Hairer, Nørsett & Wanner I, eq. II.4.10 and 4.11).
