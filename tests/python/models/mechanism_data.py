@@ -61,7 +61,8 @@ def described(m: assur.Mechanism) -> Description:
     given = m.driver if isinstance(m.driver, tuple) else (m.driver,)
     drivers: list[DriverSpec] = []
     for driver in given:
-        name = str(driver)
-        drivers.append(("slide", name) if name in m.slides else ("angle", name, GROUND))
+        link, relative = getattr(driver, "link", driver), getattr(driver, "relative_to", GROUND)
+        name = str(link)
+        drivers.append(("slide", name) if name in m.slides else ("angle", name, relative))
     links = {name: list(joints) for name, joints in m.links.items()}
     return Description(dict(m.joints), links, slides, drivers)

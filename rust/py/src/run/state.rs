@@ -70,6 +70,7 @@ struct TailState {
     work: f64,
     dead_point: f64,
     sign: f64,
+    unit: f64,
     root: f64,
     b: f64,
     slope: f64,
@@ -175,16 +176,17 @@ impl From<StatisticsState> for Statistics {
 
 impl From<Tail> for TailState {
     fn from(tail: Tail) -> Self {
-        let Tail { last, dead_point, sign, root, b, slope } = tail;
+        let Tail { last, dead_point, sign, unit, root, b, slope } = tail;
         let Sample { t, q, speed, acceleration, work } = last;
-        Self { t, q, speed, acceleration, work, dead_point, sign, root, b, slope }
+        Self { t, q, speed, acceleration, work, dead_point, sign, unit, root, b, slope }
     }
 }
 
 impl From<TailState> for Tail {
     fn from(state: TailState) -> Self {
-        let TailState { t, q, speed, acceleration, work, dead_point, sign, root, b, slope } = state;
+        let TailState { t, q, speed, acceleration, work, dead_point, sign, unit, root, b, slope } =
+            state;
         let last = Sample { t, q, speed, acceleration, work };
-        Self { last, dead_point, sign, root, b, slope }
+        Self { last, dead_point, sign, unit, root, b, slope }
     }
 }

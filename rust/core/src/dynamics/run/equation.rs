@@ -7,7 +7,7 @@ use super::callbacks::Callbacks;
 use super::error::{RunError, outside_table};
 use super::model::ReducedModel;
 use super::station_cursor::StationCursor;
-use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, SAME_KNOT_RTOL, TableCursor};
+use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, TableCursor, same_within};
 use crate::dynamics::friction::motion::{Drive, RubbingState};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
@@ -80,6 +80,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         drivers: usize,
     ) -> Self {
         let count = callbacks.count();
+        let unit = model.unit(0);
         Self {
             model,
             callbacks,
@@ -87,7 +88,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             motors,
             flywheel: 0.0,
             extra_moment: 0.0,
-            cursor: TableCursor::new(),
+            cursor: TableCursor::new(unit),
             stations: StationCursor::default(),
             sense: 0.0,
             motor_cells: vec![Cell::default(); motors.len()],
@@ -233,7 +234,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         self.sense = sense;
         let [low, high] = [self.cursor.low, self.cursor.high];
         let edge = if sense > 0.0 { high } else { low };
-        if self.stations.has_begun() && (q - edge).abs() <= SAME_KNOT_RTOL * q.abs().max(1.0) {
+        let near = same_within(q, self.model.unit(0));
+        if self.stations.has_begun() && (q - edge).abs() <= near {
             let _ = self.face(q, sense > 0.0);
         }
     }

@@ -9,7 +9,7 @@ use super::options::{EventKind, RunOptions};
 use super::sample::Samples;
 use super::stick_slip::Change;
 use super::system::{Ended, RunSystem};
-use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, SAME_KNOT_RTOL};
+use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, same_within};
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use super::variable::Variable;
@@ -108,7 +108,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         Variable::Time => options.breaks.to_vec(),
         Variable::Coordinate => {
             let given = [options.breaks, &stations].concat();
-            breaks_of(system.equation.tables, &given, [from, to])?
+            breaks_of(system.equation.tables, &given, [from, to], sizes[0])?
         }
     };
     let [relative, absolute] = tolerances(&mut system, options, sizes)?;
@@ -118,7 +118,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         options.events.iter().any(|event| matches!(event.kind, EventKind::Angle(..)));
     let (mut max_step, mut max_change) = (options.max_step, Vec::new());
     if has_angle_events && options.along == Variable::Coordinate {
-        max_step = max_step.min(ANGLE_EVENT_STEP);
+        max_step = max_step.min(ANGLE_EVENT_STEP * sizes[0]);
     } else if has_angle_events || sizes.len() > 1 {
         // With several drivers each position is solved from the one before.
         let largest = if has_angle_events { ANGLE_EVENT_STEP } else { SEVERAL_DRIVERS_STEP };
@@ -193,29 +193,30 @@ pub(crate) fn stations_between<S: ReducedModel, E>(
         return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
     let mut found = model.stations([from.min(to), from.max(to)]);
-    let is_at = |q: f64, end: f64| (q - end).abs() <= SAME_KNOT_RTOL * end.abs().max(1.0);
+    let is_at = |q: f64, end: f64| (q - end).abs() <= same_within(end, unit);
     found.retain(|&q| !is_at(q, from) && !is_at(q, to));
     Ok(found)
 }
 
 /// Knots of tables between two coordinates, together with given breaks; knots of several tables
-/// that coincide count once.
+/// that coincide count once. `unit` is that of the coordinate.
 pub(crate) fn breaks_of<E>(
     tables: &[Table],
     given: &[f64],
     [from, to]: [f64; 2],
+    unit: f64,
 ) -> Result<Vec<f64>, RunError<E>> {
     let count: f64 = tables.iter().map(|table| table.knots_in((to - from).abs())).sum();
     let far = from.abs().max(to.abs());
     // Beyond this coordinate rounding exceeds the accuracy of the knots.
-    if count > MAX_KNOTS || (!tables.is_empty() && far > MAX_COORDINATE) {
+    if count > MAX_KNOTS || (!tables.is_empty() && far > MAX_COORDINATE * unit) {
         return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
     let range = [from.min(to), from.max(to)];
     let mut breaks = given.to_vec();
     breaks.extend(tables.iter().flat_map(|table| table.knots_within(range)));
     breaks.sort_unstable_by(f64::total_cmp);
-    breaks.dedup_by(|a, b| (*a - *b).abs() <= SAME_KNOT_RTOL * b.abs().max(1.0));
+    breaks.dedup_by(|a, b| (*a - *b).abs() <= same_within(*b, unit));
     Ok(breaks)
 }
 
@@ -306,7 +307,8 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     let tail = match (&stop_reason, samples.last()) {
         (StopReason::DeadPoint | StopReason::Lost(_), Some(last)) if last.q.len() == 1 => {
             let dead_point = system.equation.model.dead_point_ahead(last.q[0], last.speed[0]);
-            dead_point.and_then(|dead_point| Tail::of(&last, dead_point))
+            let unit = system.equation.model.unit(0);
+            dead_point.and_then(|dead_point| Tail::of(&last, dead_point, unit))
         }
         _ => None,
     };

@@ -1,6 +1,6 @@
 //! The stations around the coordinate of a motion in time: found as far as it has come.
 
-use super::table_cursor::SAME_KNOT_RTOL;
+use super::table_cursor::same_within;
 
 /// Part of a turn (or of the size) that is searched at a time.
 const CHUNK: f64 = std::f64::consts::TAU;
@@ -29,7 +29,7 @@ impl StationCursor {
         unit: f64,
         mut search: impl FnMut([f64; 2]) -> Vec<f64>,
     ) -> [f64; 2] {
-        let (near, chunk) = (SAME_KNOT_RTOL * q.abs().max(unit), CHUNK * unit);
+        let (near, chunk) = (same_within(q, unit), CHUNK * unit);
         let [mut from, mut to] = self.range.unwrap_or([q, q]);
         while to <= q + near {
             self.found.extend(search([to, to + chunk]));

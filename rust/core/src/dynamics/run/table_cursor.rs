@@ -3,27 +3,34 @@
 
 use crate::dynamics::tables::table::{Cell, Table};
 
-/// Knots closer than this, relative to their size (or to 1), count as one: coordinates that count
-/// turns are no more accurate.
+/// Knots closer than this, relative to their size (or to the coordinate's unit), count as one:
+/// coordinates that count turns are no more accurate.
 pub(crate) const SAME_KNOT_RTOL: f64 = 1.0e-12;
+
+/// How near another coordinate is the same as this one; `unit` is that of the coordinate.
+pub(crate) fn same_within(x: f64, unit: f64) -> f64 {
+    SAME_KNOT_RTOL * x.abs().max(unit)
+}
 
 /// Largest number of table knots in a run along the coordinate: they are all listed beforehand.
 pub(crate) const MAX_KNOTS: f64 = 1.0e7;
-/// Coordinates beyond this are too coarse for a table's knots.
+/// Coordinates beyond this many units are too coarse for a table's knots.
 pub(crate) const MAX_COORDINATE: f64 = 1.0e9;
 
 /// The current piece of every table, and the interval between their nearest knots.
 #[derive(Debug, Clone)]
 pub(crate) struct TableCursor {
     cells: Vec<Cell>,
+    /// That of the coordinate.
+    unit: f64,
     pub low: f64,
     pub high: f64,
 }
 
 impl TableCursor {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(unit: f64) -> Self {
         // An empty interval: no piece yet.
-        Self { cells: Vec::new(), low: f64::INFINITY, high: f64::NEG_INFINITY }
+        Self { cells: Vec::new(), unit, low: f64::INFINITY, high: f64::NEG_INFINITY }
     }
 
     /// Looks up a coordinate in all tables.
@@ -50,7 +57,7 @@ impl TableCursor {
     /// Index of the table that ends there.
     pub(crate) fn cross(&mut self, tables: &[Table], up: bool) -> Result<f64, usize> {
         let border = if up { self.high } else { self.low };
-        let near = SAME_KNOT_RTOL * border.abs().max(1.0);
+        let near = same_within(border, self.unit);
         for (which, (table, cell)) in tables.iter().zip(&mut self.cells).enumerate() {
             let end = table.ends(*cell)[usize::from(up)];
             if (end - border).abs() <= near {

@@ -63,9 +63,14 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
         initial.max((accelerations[driver].abs() * sizes[driver]).sqrt())
     };
     let greatest = (0..n).map(typical).fold(0.0, f64::max);
-    // A machine at rest in balance: one radian (or size) per second.
+    // A machine at rest in balance: one radian (or size) over the run.
+    let duration = (options.end - options.t).abs();
     let scale = |driver: usize| {
-        if greatest > 0.0 { typical(driver).max(1e-3 * greatest) } else { sizes[driver] }
+        if greatest > 0.0 {
+            typical(driver).max(1e-3 * greatest)
+        } else {
+            sizes[driver] / if duration > 0.0 { duration } else { 1.0 }
+        }
     };
     Ok((0..n).map(|driver| 1e-3 * scale(driver)).collect())
 }

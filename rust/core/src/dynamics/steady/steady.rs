@@ -134,8 +134,9 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         self.equation.begin_along(range, &stations).map_err(SteadyError::Run)?;
         given.extend(stations);
         self.from = q;
+        let unit = self.equation.model.unit(0);
         self.breaks =
-            breaks_of(self.equation.tables, &given, [q, q + span]).map_err(SteadyError::Run)?;
+            breaks_of(self.equation.tables, &given, range, unit).map_err(SteadyError::Run)?;
         Ok(())
     }
 
