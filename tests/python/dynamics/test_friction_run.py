@@ -43,6 +43,23 @@ def test_a_block_on_a_spring() -> None:
     assert run.energy.error < 1e-9
 
 
+def test_a_run_says_from_when_on_it_stands_still() -> None:
+    machine = block(coefficient=0.3, length=0.1)
+    run = machine.run(t_end=15.0, q0=0.05)
+    assert (run.end, run.at_rest_from) == ("reached", run.events[-1].t)
+    assert repr(run).endswith("1 event, reached, stands still from t = 0.471239 s on>")
+    assert run.message == "reached its end, stands still from t = 0.471239 s on"
+    # Not where it moves, nor where it only comes to rest at the end.
+    moving = machine.run(t_end=0.4, q0=0.05)
+    assert (moving.at_rest_from, moving.message) == (None, "reached its end")
+    stopped = machine.run(t_end=1.0, q0=0.05, events=[assur.events.Rest()])
+    assert (stopped.end, stopped.at_rest_from) == ("event", None)
+    assert engine(1.0).run(t_end=0.3, q0=0.3, speed0=40.0).at_rest_from is None
+    # A machine in balance stands still without friction, too.
+    still = Machine(assur.SliderCrank(0.1, 0.4), {"crank": Body(inertia=1.0)}).run(t_end=1.0)
+    assert still.at_rest_from == 0.0
+
+
 def test_static_friction_holds_earlier() -> None:
     """With 0.9 at rest it stays after the second half swing."""
     machine = block(coefficient=0.3, length=0.1, static_coefficient=0.9)

@@ -149,19 +149,3 @@ def test_what_follows_from_reactions_of_a_run_from_rest() -> None:
     assert np.isfinite(inside.moment).all()
     assert math.isfinite(inside.peak("moment").value)
     assert np.isfinite(machine.reactions(run).bearing("A", "rod").size).all()
-
-
-def test_a_run_says_from_when_on_it_stands_still() -> None:
-    machine = block(Spring("O", "B", 800.0, 0.45), coefficient=0.3, length=0.1)
-    run = machine.run(t_end=1.0)
-    assert run.at_rest_from == run.events[-1].t
-    assert run.end == "reached"
-    assert repr(run).endswith("1 event, reached, stands still from t = 0.471239 s on>")
-    assert run.message == "reached its end, stands still from t = 0.471239 s on"
-    # Not where it moves, nor where it only comes to rest at the end.
-    assert machine.run(t_end=0.4).at_rest_from is None
-    assert machine.run(t_end=0.4).message == "reached its end"
-    stopped = machine.run(t_end=1.0, events=[assur.events.Rest()])
-    assert (stopped.end, stopped.at_rest_from) == ("event", None)
-    moving = engine(Torque("crank", 5.0)).run(t_end=0.3, q0=0.3)
-    assert moving.at_rest_from is None
