@@ -129,6 +129,13 @@ def _drawn(name: str, mechanism: Mechanism, place: Place) -> list[str]:
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
     own, numbers = place.mechanism, place.numbers
+    if not np.isfinite([*own._drawn_at(place, mechanism._core).joints.values()]).all():
+        at = ", ".join(f"{q:.6g}" for q in place.q)
+        message = (
+            f"{short(mechanism)} cannot be saved: with its signs it does not exist at q = {at}, "
+            "where its assembly was found: with_assembly() of one that assemblies() finds"
+        )
+        raise InputError(message)
     signs = dict(zip((n for n, _ in own._core.assembly), numbers["signs"], strict=True))
     entries: dict[str, Any] = {
         "q": list(place.q),

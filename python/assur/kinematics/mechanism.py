@@ -24,7 +24,7 @@ from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.curve import search as curves
 from assur.kinematics.dimensions import Dimensions
 from assur.kinematics.named_dimensions import dimensions_by_name
-from assur.kinematics.pose import redrive
+from assur.kinematics.pose import redrive, with_signs
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -426,10 +426,23 @@ class Mechanism:
         >>> crossed.assembly
         Assembly({'C': -1})
         """
+        return self._in_assembly(assembly)
+
+    def _in_assembly(self, assembly: Mapping[str, int] | None) -> Mechanism:
+        """Return the mechanism drawn in an assembly, itself in its own."""
+        if assembly is None:
+            return self
         drawn = drawn_in(self, assembly)
         if drawn is not self:
             return drawn
-        signs = solver.checked_assembly(self, assembly)
+        return self._in_signs(solver.checked_assembly(self, assembly))
+
+    def _in_signs(self, signs: list[int]) -> Mechanism:
+        """Return the mechanism drawn with these signs of all its dyads."""
+        if signs == self._signs:
+            return self
+        if self._place is not None:
+            return with_signs(self, self._place, signs)
         named = zip((name for name, _ in self._core.assembly), signs, strict=True)
         description = self._description._replace(assembly=tuple(named))
         return self._make(description, np.array(self._values))

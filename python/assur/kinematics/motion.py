@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.kinematics.held import Results
+    from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.request import SolveRequest
 
 __all__ = ["Motion"]
@@ -31,8 +32,6 @@ class Motion:
 
     Attributes
     ----------
-    mechanism : Mechanism
-        The mechanism solved.
     q : numpy.ndarray
         Coordinates of the driver, rad or m.
     order : int
@@ -58,7 +57,7 @@ class Motion:
     def _replace_with(
         self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
     ) -> None:
-        self.mechanism = request.mechanism
+        self._mechanism: Mechanism | None = None
         self.q = request.q
         self.order = request.order
         self._status = status
@@ -68,6 +67,17 @@ class Motion:
         self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
         self.kept: npt.NDArray[np.intp] | None = None
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism solved, drawn in the assembly that was solved."""
+        request = self._request
+        if request.signs == request.mechanism._signs:
+            return request.mechanism
+        # Made when first needed: solving need not compile it.
+        if self._mechanism is None:
+            self._mechanism = request.mechanism._in_signs(request.signs)
+        return self._mechanism
 
     @property
     def _results(self) -> Results:
@@ -123,14 +133,14 @@ class Motion:
         return self._status.shape
 
     def __repr__(self) -> str:
-        formula = self.mechanism._core.formula
+        formula = self._request.mechanism._core.formula
         return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
 
     def _find(
         self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str
     ) -> tuple[Float, ...]:
         if checked_name(name, kind) not in held:
-            self.mechanism._core.require(kind, name)
+            self._request.mechanism._core.require(kind, name)
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
         return held[name]
@@ -273,7 +283,7 @@ class Motion:
             from assur.kinematics.select import part_of
 
             return part_of(self, index)
-        kinds = self.mechanism._indices
+        kinds = self._request.mechanism._indices
         for names, of in zip(kinds, (self.joint, self.link, self.slide), strict=True):
             if index in names:
                 return of(index)
@@ -296,7 +306,7 @@ class Motion:
     def _held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
         """Return the core's indices of the joints, links and slides held."""
         held = (self._results.joints, self._results.links, self._results.slides)
-        require = self.mechanism._core.require
+        require = self._request.mechanism._core.require
         joints, links, slides = (
             {name: require(kind, name) for name in of}
             for kind, of in zip(("joint", "link", "slide"), held, strict=True)
@@ -405,7 +415,7 @@ class Motion:
         np.float64(-10.0)
         """
         self._require_one_driver("mechanical_advantage")
-        is_slide = checked_name(name, "mechanical_advantage") in self.mechanism.slides
+        is_slide = checked_name(name, "mechanical_advantage") in self._request.mechanism.slides
         output = self.slide(name) if is_slide else self.link(name)
         with np.errstate(divide="ignore"):
             ratio: Float = 1.0 / output.d1
@@ -486,7 +496,7 @@ class Motion:
 
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
-            residual, condition = self.mechanism._core.diagnostics(
+            residual, condition = self._request.mechanism._core.diagnostics(
                 *self._request.flat(), self._request.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
@@ -515,7 +525,7 @@ class Motion:
         2.0
         """
         entry = checked_index(index, self.shape, "index")
-        designs = 0 if self._request.per_design else len(self.mechanism.shape)
+        designs = 0 if self._request.per_design else len(self._request.mechanism.shape)
         q = self.q[entry[designs:]] if self._request.positions else self.q
         return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
 
@@ -541,9 +551,10 @@ class Motion:
         """
         entry = checked_index(index, self.shape, "index")
         q = self.coordinate(entry)
-        values = np.moveaxis(self.mechanism._values, 0, -1)[entry[: len(self.mechanism.shape)]]
+        mechanism = self._request.mechanism
+        values = np.moveaxis(mechanism._values, 0, -1)[entry[: len(mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
-        return self.mechanism._core.explain(values.tolist(), one, self._request.signs)
+        return mechanism._core.explain(values.tolist(), one, self._request.signs)
 
     def to_dataframe(
         self,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur import _core
+from assur.description.words import Status
 from assur.errors import InputError, StructureError
 from assur.kinematics.assembly import Place
 
@@ -72,6 +73,22 @@ def drawn_at(mechanism: Mechanism, description: Description, pose: Pose) -> Mech
     plain = mechanism._make(description._replace(assembly=signs), np.array(mechanism._values))
     core = plain._core.drawn_in(plain._values.tolist(), q, numbers)
     return plain._drawn_at(Place(plain, tuple(q), numbers), core)
+
+
+def with_signs(mechanism: Mechanism, place: Place, signs: list[int]) -> Mechanism:
+    """Return a mechanism that is drawn at a place, with other signs of its dyads there."""
+    own = place.mechanism
+    q, values = list(place.q), own._values.tolist()
+    numbers: AssemblyNumbers = {**place.numbers, "signs": signs, "is_double": False}
+    core = own._core.drawn_in(values, q, numbers)
+    found = Place(own, place.q, numbers)
+    motion = own._drawn_at(found, core).solve(q[0] if len(q) == 1 else q, order=0, on_error="nan")
+    if motion.status < Status.UNREACHABLE:
+        # The joints of the place move with the signs.
+        joints = [motion.joint(name).value.tolist() for name in own._joint_names]
+        numbers["joints"] = [(x, y) for x, y in joints]
+        numbers["angles"] = [float(motion.link(name).value) for name in own.links]
+    return mechanism._drawn_at(found, core)
 
 
 def redrive(

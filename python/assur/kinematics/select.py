@@ -39,7 +39,8 @@ def designs_of(mechanism: Mechanism, index: Any) -> Mechanism:
 def part_of(motion: Motion, index: Any) -> Motion:
     """See `Motion.__getitem__`."""
     entries = _entries(index, motion.shape)
-    request, mechanism = motion._request, motion.mechanism
+    request = motion._request
+    mechanism = request.mechanism
     designs = entries[: len(mechanism.shape)]
     positions = entries[len(designs) :]
     if designs:

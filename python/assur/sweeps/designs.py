@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -14,17 +14,23 @@ from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.named_dimensions import dimensions_by_name
 from assur.sweeps.grid import Grid
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
 class Designs:
     """Designs of a mechanism with dimensions that broadcast: no dimension is repeated."""
 
-    def __init__(self, mechanism: Any, dimensions: Any) -> None:
+    def __init__(
+        self, mechanism: Any, dimensions: Any, assembly: Mapping[str, int] | None = None
+    ) -> None:
         if not isinstance(mechanism, Mechanism):
             message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
             raise InputError(message)
-        self.mechanism = mechanism
+        # From here on it is drawn in the assembly: whatever is handed back is, too.
+        self.mechanism = mechanism = mechanism._in_assembly(assembly)
         given = dimensions_by_name(dimensions, mechanism._core.dimension_names)
         names = [checked_name(name, "dimensions") for name in given]
         indices = [mechanism._core.dimension(name) for name in names]

@@ -63,14 +63,12 @@ class Measures(Mapping[str, Float]):
         kept: npt.NDArray[np.intp],
         designs: Designs,
         conditions: tuple[Condition, ...] = (),
-        assembly: Mapping[str, int] | None = None,
     ) -> None:
         self._values = values
         self.status = status
         self.kept = kept
         self._designs = designs
         self._conditions = conditions
-        self._assembly = assembly
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -146,7 +144,7 @@ class Measures(Mapping[str, Float]):
     def designs(
         self, indices: int | tuple[Any, ...] | Sequence[int] | npt.NDArray[Any]
     ) -> Mechanism:
-        """Return some designs: one mechanism, or a batch (n,).
+        """Return some designs, in the assembly measured: one mechanism, or a batch (n,).
 
         Parameters
         ----------
@@ -156,8 +154,8 @@ class Measures(Mapping[str, Float]):
 
         Returns
         -------
-        Mechanism or Machine
-            One design, or a batch of several.
+        Mechanism
+            One design, or a batch of several; `Machine.of` gives their machine.
 
         Raises
         ------

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
-from assur.kinematics.solve import checked_assembly, solve
+from assur.kinematics.solve import solve
 from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
@@ -54,7 +54,6 @@ class Measuring:
         q: npt.ArrayLike,
         metrics: Any,
         where: Any,
-        assembly: Mapping[str, int] | None,
         threads: int | None,
     ) -> None:
         if not isinstance(metrics, Mapping):
@@ -64,9 +63,7 @@ class Measuring:
             checked_name(name, "metrics"): _metric(name, m) for name, m in metrics.items()
         }
         self.conditions = conditions = _conditions(where)
-        self.assembly = assembly
         self.threads = threads
-        self.signs = checked_assembly(mechanism, assembly)
         self.q = _coordinates(mechanism, q)
         everything = [*self.metrics.values(), *(c.metric for c in conditions)]
         leaves = list(dict.fromkeys(leaf for metric in everything for leaf in metric.leaves()))
@@ -75,7 +72,7 @@ class Measuring:
         self.machine = machine
         for leaf in self.functions:
             if isinstance(leaf, OfMachine):
-                _check(leaf, machine, assembly)
+                _check(leaf, machine)
         # The core drops designs by all conditions without functions, the others are asked after it.
         self.late = [
             c for c in conditions if any(not isinstance(m, Leaf) for m in c.metric.leaves())
@@ -107,15 +104,15 @@ class Measuring:
         for array in (*values.values(), status, indices):
             array.flags.writeable = False
         arrays = {name: array.reshape(shape) for name, array in values.items()}
-        asked = (tuple(self.conditions), self.assembly)
-        return Measures(arrays, status.reshape(shape), indices, designs, *asked)
+        conditions = tuple(self.conditions)
+        return Measures(arrays, status.reshape(shape), indices, designs, conditions)
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
         found, status, kept = some._core.measure(
             some._values.reshape(-1),
             self.q.reshape(-1),
-            self.signs,
+            some._signs,
             self.encoded,
             self.early,
             self.threads,
@@ -161,18 +158,15 @@ class Measuring:
                 yield function, self._of_motion(function, batch)
 
     def _of_motion(self, function: Function, batch: Mechanism) -> Float:
-        wanted = function.outputs, self.assembly
-        motion = solve(batch, self.q, function.order, *wanted, "nan", self.threads, None)
+        wanted = function.order, function.outputs, None
+        motion = solve(batch, self.q, *wanted, "nan", self.threads, None)
         return real_array(function.function(motion), f"the values of {function!r}")
 
 
-def _check(metric: OfMachine, machine: Machine | None, assembly: Mapping[str, int] | None) -> None:
+def _check(metric: OfMachine, machine: Machine | None) -> None:
     """Raise InputError if there is no machine, or the metric has no meaning for it."""
     if machine is None:
         message = f"{metric!r} is of a machine: pass it, sweep(machine, ...)"
-        raise InputError(message)
-    if assembly is not None:
-        message = f"assembly is given: {metric!r} is of machines, which move as drawn"
         raise InputError(message)
     metric.check(machine)
 

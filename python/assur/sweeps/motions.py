@@ -17,7 +17,7 @@ from assur.sweeps.engine import results
 from assur.sweeps.measuring import blocks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Iterator
 
     from assur.kinematics.mechanism import Mechanism
     from assur.sweeps.designs import Designs
@@ -37,13 +37,12 @@ class Solving:
 
     order: int
     outputs: Iterable[str] | None
-    assembly: Mapping[str, int] | None
     threads: int | None
 
     def solve(self, task: Task, out: Motion | None = None) -> Motion:
         """Solve a batch."""
         some, q = task
-        wanted = self.order, self.outputs, self.assembly
+        wanted = self.order, self.outputs, None
         return solver.solve(some, q, *wanted, "nan", self.threads, out)
 
     def arrays(self, task: Task) -> Arrays:
@@ -53,7 +52,7 @@ class Solving:
     def moves(self, task: Task) -> npt.NDArray[np.bool_]:
         """Whether each design of a batch moves over all of its positions."""
         some, q = task
-        status = solver.solve(some, q, 0, (), self.assembly, "nan", self.threads, None).status
+        status = solver.solve(some, q, 0, (), None, "nan", self.threads, None).status
         moves = (status < Status.UNREACHABLE).reshape(some.shape[0], -1)
         every: npt.NDArray[np.bool_] = np.logical_and.reduce(moves, axis=-1)
         return every

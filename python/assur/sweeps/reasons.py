@@ -71,7 +71,7 @@ def _unreachable(found: Measures, which: Flags) -> list[tuple[str, Flags]]:
     if mechanism._driver_count > 1 or mechanism._core.cls > 2:
         # Limits of a higher class take too long.
         return [("out of reach", which)]
-    limits = found._designs.some(indices).limits(found._assembly)
+    limits = found._designs.some(indices).limits()
     nowhere = np.isnan(limits.intervals).all(axis=(-2, -1))
     never, stops = np.zeros_like(which), np.zeros_like(which)
     never[indices[nowhere]] = True

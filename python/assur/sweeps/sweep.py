@@ -162,7 +162,7 @@ def sweep(
     True
     """
     machine = mechanism if isinstance(mechanism, Machine) else None
-    designs = Designs(machine.mechanism if machine else mechanism, dimensions)
+    designs = Designs(machine.mechanism if machine else mechanism, dimensions, assembly)
     one_of(on_error, ("nan", "raise", "drop"), "on_error")
     engine, threads = checked_engine(engine), checked_threads(threads)
     # Each worker of an engine is a core by itself.
@@ -175,7 +175,7 @@ def sweep(
             message = "where= is for metrics=; on_error='drop' keeps the designs that move"
             raise InputError(message)
         every = checked_order(2 if order is None else order)
-        solving = Solving(every, outputs, assembly, threads)
+        solving = Solving(every, outputs, threads)
         doubt_degrees(designs.mechanism, real_array(q, "q", copy=False))
         with reporter(progress, designs.count) as report:
             return _motions(designs, q, solving, on_error, out, report, engine)
@@ -186,7 +186,7 @@ def sweep(
             "NaN and a status, and .kept has the indices of the others"
         )
         raise InputError(message)
-    measuring = Measuring(designs.mechanism, machine, q, metrics, where, assembly, threads)
+    measuring = Measuring(designs.mechanism, machine, q, metrics, where, threads)
     doubt_degrees(designs.mechanism, measuring.q, measuring)
     with reporter(progress, designs.count) as report:
         return measuring.run(designs, report, engine)
@@ -223,8 +223,7 @@ def _motions(
         report(designs.count)
     if on_error == "raise" and (motion.status >= Status.SINGULAR).any():
         # It raises what it finds first, and counts the others.
-        wanted = solving.order, (), solving.assembly
-        solver.solve(every, q, *wanted, "raise", solving.threads, None)
+        solver.solve(every, q, solving.order, (), None, "raise", solving.threads, None)
     return motion
 
 
