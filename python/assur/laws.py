@@ -396,9 +396,10 @@ class Tabulated(Law):
         Times, s, ascending, shape (N,).
     value : array_like
         Coordinates there, rad or m, shape (N,).
-    spline : {"clamped", "natural", "not-a-knot", "periodic", "linear"}
-        How the curve ends: with "clamped" at rest, with the others the speed jumps there. "linear"
-        joins the points by straight lines.
+    spline : {"clamped", "natural", "not-a-knot", "periodic", "pchip", "linear"}
+        How the curve ends: with "clamped" at rest, with the others the speed jumps there. "pchip"
+        does not overshoot, but its acceleration jumps at every point; "linear" joins the points by
+        straight lines.
 
     Examples
     --------

@@ -155,7 +155,7 @@ class MachineModel:
             or flywheel must add some.
         motor : ConstantTorque, LinearMotor, InductionMotor or Table, optional
             Motor of the driver.
-        spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+        spline : {"not-a-knot", "pchip", "natural", "clamped", "periodic", "linear"}
             Interpolation between the rows.
         periodic : bool
             Whether the table is one period; otherwise motions end where the table ends.

@@ -44,8 +44,11 @@ class Table:
         through the rows on each side, and integration restarts there. Stored as a read-only copy.
     value : array_like
         Values there, of the same length.
-    spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
-        Interpolation between the rows.
+    spline : {"pchip", "linear", "not-a-knot", "natural", "clamped", "periodic"}
+        Interpolation between the rows. By default a smooth curve that is nowhere beyond the rows on
+        its two sides, and monotone where they are; ``"linear"`` joins them by straight lines; the
+        others are cubic splines, also smooth in their second derivative, which swing beyond rows
+        with corners.
     periodic : bool, optional
         Whether the rows are one period, the last equal to the first: the default over q. Then the
         first coordinate or the last may be given twice, for a jump there. Otherwise, by default
@@ -78,6 +81,17 @@ class Table:
     >>> cut = assur.Table([0.3, 0.5], [0.0, -900.0], "linear", over="bore")
     >>> cut.over, cut.periodic
     ('bore', False)
+
+    A press's force, which the curve does not exceed:
+
+    >>> force = assur.Table([0.0, 4.0, 5.0, 5.5, 6.0, 6.28], [0.0, 0.0, 5e5, 1e6, 0.0, 0.0])
+    >>> float(force.at([1.0, 5.4, 5.5, 5.6]).max())
+    1000000.0
+
+    References
+    ----------
+    F. N. Fritsch and R. E. Carlson, *Monotone Piecewise Cubic Interpolation*, SIAM J. Numer. Anal.
+    17 (1980) 238; as SciPy's ``PchipInterpolator``, which periodic tables close smoothly.
     """
 
     q: Float
@@ -92,7 +106,7 @@ class Table:
         self,
         q: npt.ArrayLike,
         value: npt.ArrayLike,
-        spline: Spline = "not-a-knot",
+        spline: Spline = "pchip",
         periodic: bool | None = None,
         ratio: float = 1.0,
         rotor_inertia: float = 0.0,
@@ -208,7 +222,7 @@ def _check_jumps(q: Float, spline: str, periodic: bool) -> None:
     if spline == "periodic":
         message = (
             f'Table: it jumps at q = {at!s}: spline="periodic" is one curve without jumps; choose '
-            '"not-a-knot", "natural", "clamped" or "linear"'
+            '"pchip", "linear", "not-a-knot", "natural" or "clamped"'
         )
         raise InputError(message, kind="periodic_jump", q=at, value=at)
 
@@ -224,7 +238,9 @@ def checked_ratio(value: Any, what: str) -> float:
 
 def _warn_of_overshoot(table: Table) -> None:
     """Warn if the curve leaves the range of its rows by far: their values are not meant then."""
-    if table.spline == "linear" or (table.periodic and table.value[0] != table.value[-1]):
+    if table.spline in ("pchip", "linear") or (
+        table.periodic and table.value[0] != table.value[-1]
+    ):
         return
     parts = np.linspace(0.0, 1.0, CHECKED_BETWEEN_ROWS, endpoint=False)[1:]
     values = table.at((table.q[:-1, None] + np.diff(table.q)[:, None] * parts).ravel())
@@ -238,6 +254,6 @@ def _warn_of_overshoot(table: Table) -> None:
         worst = high if high - most == beyond else low
         message = (
             f"the {table.spline} spline reaches {worst:.6g} between rows of {least:g} … {most:g}: "
-            'spline="linear" joins them by straight lines'
+            'spline="pchip" stays between them'
         )
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())

@@ -124,7 +124,7 @@ def from_table(
     mean : {"extremes", "period"}
         Definition of the mean speed, by which δ is divided: half the sum of the greatest and the
         least speed, or the period divided by its time.
-    spline : {"not-a-knot", "natural", "clamped", "periodic", "linear"}
+    spline : {"not-a-knot", "pchip", "natural", "clamped", "periodic", "linear"}
         Interpolation between the rows (Mathcad's ``cspline`` is not-a-knot).
     on_error : {"raise", "nan"}
         For a table without a flywheel: raise an error, or return NaN (see `Flywheel.explain`).

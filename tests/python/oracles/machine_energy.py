@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PchipInterpolator
 
 import assur
 from mechanism_data import GROUND
@@ -239,7 +239,7 @@ class Balance:
 
 
 def spline(table: assur.Table, periodic: bool) -> Callable[[Any], Any]:
-    """SciPy's, or straight pieces; a periodic table goes on in either direction."""
+    """SciPy's curves, or straight pieces; a periodic table goes on in either direction."""
     knots, values = np.asarray(table.q, np.float64), np.asarray(table.value, np.float64)
     period = knots[-1] - knots[0]
 
@@ -249,5 +249,12 @@ def spline(table: assur.Table, periodic: bool) -> Callable[[Any], Any]:
     if table.spline == "linear":
         return lambda x: np.interp(within(x), knots, values)
     kind: Any = table.spline
-    curve = CubicSpline(knots, values, bc_type=kind)
+    if kind == "pchip":
+        # The slopes at the ends of a period are those of three periods one after another.
+        turns = (-1, 0, 1) if periodic else (0,)
+        starts = [knots[: len(knots) - periodic] + k * period for k in turns]
+        rows = np.tile(values[: len(values) - periodic], len(turns))
+        curve = PchipInterpolator(np.concatenate(starts), rows)
+    else:
+        curve = CubicSpline(knots, values, bc_type=kind)
     return lambda x: curve(within(x))

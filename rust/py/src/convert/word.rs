@@ -37,6 +37,7 @@ impl<'a, 'py, T: Words> FromPyObject<'a, 'py> for Word<T> {
 impl Words for EndCondition {
     const WHAT: &'static str = "spline";
     const KNOWN: &'static [(&'static str, Self)] = &[
+        ("pchip", Self::Pchip),
         ("not-a-knot", Self::NotAKnot),
         ("natural", Self::Natural),
         ("clamped", Self::Clamped),

@@ -55,7 +55,7 @@ export function valueField(model, fields, key, { label, value, unit, set }) {
     fields.choiceRow(`${key} spline`, {
       label: say("between"), value: value.spline === "linear" ? "linear" : "smooth",
       options: [["linear", say("betweenLinear")], ["smooth", say("betweenSmooth")]],
-      set: (own) => set({ ...value, spline: own === "linear" ? "linear" : "not-a-knot" }),
+      set: (own) => set({ ...value, spline: own === "linear" ? "linear" : "pchip" }),
     }),
   ];
 }

@@ -1,7 +1,9 @@
 //! Reduced inertia and work over one period of the driver, as piecewise polynomials.
 
+use std::ops::Range;
+
 use crate::dynamics::tables::error::TableError;
-use crate::dynamics::tables::spline::{EndCondition, Pieces, spline};
+use crate::dynamics::tables::spline::{EndCondition, Pieces, fit_sections};
 use crate::math::polynomial::{roots, value};
 
 /// Largest difference between the ends of a table, relative to its greatest value: tables are
@@ -73,13 +75,15 @@ impl Cycle {
             .collect();
         cuts.sort_unstable();
         cuts.dedup();
-        let fit = |values: &[f64]| -> Result<Pieces, TableError> {
-            let mut all = Pieces::with_capacity(knots.len());
-            for cut in cuts.windows(2).filter(|cut| knots[cut[0]] < knots[cut[1]]) {
-                all.append(&mut spline(&knots[cut[0]..=cut[1]], &values[cut[0]..=cut[1]], ends)?);
-            }
-            Ok(all)
-        };
+        let last = knots.len() - 1;
+        let sections: Vec<_> = cuts
+            .windows(2)
+            .filter(|cut| knots[cut[0]] < knots[cut[1]])
+            .map(|cut| Range { start: cut[0], end: cut[1] + 1 })
+            .collect();
+        let has_corner = corners.iter().any(|&row| row == 0 || row == last);
+        let closed = !has_corner && knots[0] < knots[1] && knots[last - 1] < knots[last];
+        let fit = |values: &[f64]| fit_sections(knots, values, ends, &sections, closed);
         let (moment, inertia) = (fit(moment)?, fit(inertia)?);
         let mut knots = knots.to_vec();
         knots.dedup();

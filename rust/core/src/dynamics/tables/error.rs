@@ -104,10 +104,10 @@ impl Hint for TableError {
     fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::PeriodicJump { .. } => {
-                "choose \"not-a-knot\", \"natural\", \"clamped\" or \"linear\""
+                "choose \"pchip\", \"linear\", \"not-a-knot\", \"natural\" or \"clamped\""
             }
             Self::JumpAtEnd { .. } => "leave one of the two rows out",
-            Self::Negative { in_row: false, .. } => "spline=\"linear\" stays between the rows",
+            Self::Negative { in_row: false, .. } => "spline=\"pchip\" stays between the rows",
             Self::NoInertia { .. } => "give the machine an inertia or a greater flywheel",
             Self::Stalls { .. } => "start faster, or add a flywheel",
             Self::NoMean { .. } => "choose another speed, or a greater flywheel",

@@ -1,8 +1,11 @@
-//! Cubic splines through tables, with several end conditions.
+//! Piecewise cubics through tables: splines with several end conditions, and monotone ones.
+
+use std::ops::Range;
 
 use super::error::TableError;
+use super::monotone::{self, Leg};
 
-/// End conditions of a spline.
+/// Curves through a table: a spline by its end conditions, or another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum EndCondition {
     /// The first two pieces are one cubic, and so are the last two (Mathcad's `cspline`).
@@ -14,6 +17,8 @@ pub enum EndCondition {
     Clamped,
     /// Equal derivatives at both ends.
     Periodic,
+    /// Monotone cubics instead of a spline: no value is beyond those of the rows beside it.
+    Pchip,
     /// Linear interpolation instead of a spline.
     Linear,
 }
@@ -28,17 +33,58 @@ pub type Pieces = Vec<[f64; 4]>;
 ///
 /// Fewer than two knots (periodic: three), or a different number of values.
 pub fn spline(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Pieces, TableError> {
+    spline_beside(knots, values, ends, [None; 2])
+}
+
+/// The curves through the sections of a table, each by itself. Monotone cubics of a `closed` table
+/// go on from its last section into its first.
+///
+/// # Errors
+///
+/// Those of [`spline`].
+pub(crate) fn fit_sections(
+    knots: &[f64],
+    values: &[f64],
+    ends: EndCondition,
+    sections: &[Range<usize>],
+    closed: bool,
+) -> Result<Pieces, TableError> {
+    let mut all = Pieces::with_capacity(knots.len());
+    let leg = |row: usize| leg(knots, values, row);
+    for (k, section) in sections.iter().enumerate() {
+        let before = (closed && k == 0).then(|| leg(knots.len() - 2));
+        let behind = (closed && k + 1 == sections.len()).then(|| leg(0));
+        let (own, at) = (&knots[section.clone()], &values[section.clone()]);
+        all.append(&mut spline_beside(own, at, ends, [before, behind])?);
+    }
+    Ok(all)
+}
+
+fn leg(knots: &[f64], values: &[f64], row: usize) -> Leg {
+    let width = knots[row + 1] - knots[row];
+    [width, (values[row + 1] - values[row]) / width]
+}
+
+fn spline_beside(
+    knots: &[f64],
+    values: &[f64],
+    ends: EndCondition,
+    beyond: [Option<Leg>; 2],
+) -> Result<Pieces, TableError> {
     let n = knots.len();
     let least = if ends == EndCondition::Periodic { 3 } else { 2 };
     if n < least || values.len() != n {
         return Err(TableError::TooShort { count: n.min(values.len()), least });
     }
-    let width: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
-    let rise: Vec<f64> = values.windows(2).zip(&width).map(|(v, h)| (v[1] - v[0]) / h).collect();
+    let legs: Vec<Leg> = (0..n - 1).map(|row| leg(knots, values, row)).collect();
+    let (width, rise): (Vec<f64>, Vec<f64>) = legs.iter().map(|&[h, r]| (h, r)).unzip();
     if ends == EndCondition::Linear {
         return Ok(values.iter().zip(&rise).map(|(&v, &r)| [v, r, 0.0, 0.0]).collect());
     }
-    let slopes = slopes(&width, &rise, ends);
+    let slopes = match ends {
+        EndCondition::Pchip => monotone::slopes(&legs, beyond),
+        _ => slopes(&width, &rise, ends),
+    };
     let piece = |i: usize| {
         let (h, r) = (width[i], rise[i]);
         let (a, b) = (slopes[i], slopes[i + 1]);
@@ -75,7 +121,7 @@ fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
         EndCondition::Natural => ([[2.0, 1.0]; 2], [3.0 * rise[0], 3.0 * rise[last]]),
         EndCondition::Clamped => ([[1.0, 0.0]; 2], [0.0; 2]),
         EndCondition::Periodic => return periodic(width, rise),
-        EndCondition::Linear => return rise.to_vec(),
+        EndCondition::Linear | EndCondition::Pchip => return rise.to_vec(),
     };
     let mut rows: Vec<([f64; 3], f64)> = vec![([0.0, head[0], head[1]], first)];
     rows.extend((1..n - 1).map(inner));

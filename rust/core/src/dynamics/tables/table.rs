@@ -1,7 +1,7 @@
 //! A function of a coordinate or a speed, given by points.
 
 use super::error::TableError;
-use super::spline::{EndCondition, Pieces, spline};
+use super::spline::{EndCondition, Pieces, fit_sections};
 use crate::dynamics::flywheel::cycle::{check_columns, wrap_to_period};
 
 /// A table with a curve through its rows.
@@ -39,7 +39,8 @@ impl Table {
         periodic: bool,
     ) -> Result<Self, TableError> {
         check_columns(knots, &[("value", values)], periodic, false)?;
-        let pieces = spline(knots, values, ends)?;
+        let pieces =
+            fit_sections(knots, values, ends, std::slice::from_ref(&(0..knots.len())), periodic)?;
         Ok(Self { knots: knots.to_vec(), pieces, periodic, jumps: Vec::new() })
     }
 
@@ -72,15 +73,17 @@ impl Table {
             return Err(TableError::PeriodicJump { at: jumps[0] });
         }
         starts.push(knots.len());
-        let (mut own, mut pieces, mut from) = (vec![knots[0]], Pieces::new(), 0);
+        let (mut own, mut sections, mut from) = (vec![knots[0]], Vec::new(), 0);
         for start in starts {
             // One row alone at an end of the period: only its value counts, which the other end has.
             if start - from > 1 {
-                pieces.append(&mut spline(&knots[from..start], &values[from..start], ends)?);
+                sections.push(from..start);
                 own.extend_from_slice(&knots[from + 1..start]);
             }
             from = start;
         }
+        let closed = periodic && at_end.is_none();
+        let pieces = fit_sections(knots, values, ends, &sections, closed)?;
         Ok(Self { knots: own, pieces, periodic, jumps })
     }
 
