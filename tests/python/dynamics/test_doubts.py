@@ -39,18 +39,20 @@ def test_degrees(name: str) -> None:
 
 def test_a_spline_that_leaves_its_rows() -> None:
     rows = np.radians([0, 330, 350, 360]), [0, -9000, -9000, 0]
-    with pytest.warns(assur.AssurWarning, match='between rows of -9000 … 0: spline="linear"'):
-        table = assur.Table(*rows)
+    with pytest.warns(assur.AssurWarning, match='between rows of -9000 … 0: spline="pchip"'):
+        table = assur.Table(*rows, "not-a-knot")
     assert table.at(np.linspace(0.0, TURN, 1000)).max() > 9000.0
     assur.Table(*rows, "linear")
+    assur.Table(*rows)
     # Enough rows of a smooth curve do not leave their range by far.
     q = np.linspace(0.0, TURN, 13)
-    assur.Table(q, np.append(np.sin(q)[:-1], 0.0))
+    assur.Table(q, np.append(np.sin(q)[:-1], 0.0), "not-a-knot")
 
 
 @pytest.mark.parametrize("q", [[0.0, 5e-324, 1e-323], [0.0, 1.0, 2.0]])
 def test_a_spline_beyond_all_numbers_is_not_doubted(q: list[float]) -> None:
     """No warning of NumPy: what reads the curve says that it is not finite."""
+    assur.Table(q, [0.0, 1e308, 0.0], "not-a-knot")
     assur.Table(q, [0.0, 1e308, 0.0])
 
 

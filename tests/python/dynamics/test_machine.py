@@ -127,7 +127,7 @@ def test_moment_is_power(name: str) -> None:
     bodies = {name: Body(2.0 + i, 0.1, (0.2, -0.1 * i)) for i, name in enumerate(links)}
     loads: list[Any] = [
         Gravity((0.5, -9.81)),
-        Force(joint, (30.0, Table([0.0, 2.0, 7.0], [1.0, 5.0, -3.0], periodic=False))),
+        Force(joint, (30.0, Table([0.0, 2.0, 7.0], [1.0, 5.0, -3.0], "not-a-knot", False))),
         Force((links[0], (0.4, 0.2)), (7.0, -11.0), axes=links[-1]),
         # With several drivers q and speed are tuples.
         Torque(link, lambda t, q, v: t + 3.0 * np.ravel(q)[0] + np.ravel(v)[0], on=on),
