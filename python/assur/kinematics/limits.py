@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
@@ -43,18 +44,22 @@ class DeadPoint:
         Coordinate of the driver, rad or m.
     group : str or None
         The dyad or group that is flat there; None where two guides become parallel.
+    inner : str or None
+        The joint or slide between the two links of that dyad, as in `Mechanism.assembly`; None of
+        a group above class II.
 
     Examples
     --------
     >>> import assur
     >>> for point in assur.FourBar(3.0, 2.5, 2.0, 4.0).limits().dead_points:
-    ...     print(f"{point.q:.5f} rad, {point.group}")
-    -1.37156 rad, II(coupler, rocker)
-    1.37156 rad, II(coupler, rocker)
+    ...     print(f"{point.q:.5f} rad, {point.group} at {point.inner}")
+    -1.37156 rad, II(coupler, rocker) at C
+    1.37156 rad, II(coupler, rocker) at C
     """
 
     q: float
     group: str | None
+    inner: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -92,7 +97,8 @@ class Limits:
     full_rotation: Any
     period: Any
     _folds: npt.NDArray[np.int32]
-    _names: tuple[str, ...]
+    # What may fold: its name, and the inner pair of a dyad.
+    _names: tuple[tuple[str, str | None], ...]
 
     @property
     def dead_points(self) -> Any:
@@ -102,7 +108,7 @@ class Limits:
             return [self[index].dead_points for index in range(shape[0])]
         ends = zip(self.intervals.ravel().tolist(), self._folds.ravel().tolist(), strict=True)
         finite = sorted({(q, fold) for q, fold in ends if np.isfinite(q)})
-        return [DeadPoint(q, self._names[fold] if fold >= 0 else None) for q, fold in finite]
+        return [DeadPoint(q, *(self._names[fold] if fold >= 0 else (None,))) for q, fold in finite]
 
     def __getitem__(self, index: int | tuple[int, ...]) -> Limits:
         """Return the limits of one design of a batch, or of some of it."""
@@ -155,7 +161,9 @@ def limits(mechanism: Mechanism, assembly: Mapping[str, int] | None, threads: in
     found = mechanism._core.limits(values, signs, checked_threads(threads))
     shape = (*mechanism.shape, found["count"], 2)
     period = found["period"].reshape(mechanism.shape)
-    names = tuple(found["names"])
+    # Dyads in the order of their signs, then groups.
+    inner = [name for name, _ in mechanism._core.assembly]
+    names = tuple(zip_longest(found["names"], inner))
     batch = Limits(
         _frozen(found["intervals"].reshape(shape)),
         ~np.isnan(period),

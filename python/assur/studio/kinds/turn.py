@@ -13,6 +13,7 @@ from assur.pictures.page.payload import payload, played_of
 from assur.pictures.page.turn import Turn, frames_in_time, passing_turn, turn_of
 from assur.pictures.scene.course import FREE_STROKE, TURN
 from assur.studio import document
+from assur.studio.kinds.dead_ends import dead_ends
 from assur.studio.kinds.least import least_transmission
 from assur.studio.kinds.structure import dimensions_of
 from assur.studio.request import Fields
@@ -75,6 +76,7 @@ def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = 
     shown["turn"] |= {
         "orders": orders,
         "limits": None if own.limits is None else reach_of(own.limits),
+        "dead": dead_ends(own),
     }
     header = {"payload": shown, "dimensions": dimensions_of(own.mechanism)}
     values = kept[0][:orders]

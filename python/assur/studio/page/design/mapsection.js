@@ -4,6 +4,7 @@ import { html } from "../../../pictures/page/elements.js";
 import { tickText } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
 import { helpButton } from "../help/help.js";
+import { ownCoordinateText } from "../panel/coordinate.js";
 import { section } from "../window/shell.js";
 import { colourRange } from "./cells.js";
 import { colourBar, MapPicture } from "./chartmap.js";
@@ -195,7 +196,7 @@ export class MapSection {
     const words = this.words.at(x, y);
     this.picture.place(x, y, words);
     this.told.textContent = isOn && refusal ? `${words}. ${refusal}` : words;
-    const ends = this.grid.measured?.map((q) => this.page.playback.place(q));
+    const ends = this.grid.measured?.map((q) => ownCoordinateText(this.model, q));
     this.note.textContent = ends ? say("mapMeasured", { low: ends[0], high: ends[1] }) : say("mapLive");
   }
 

@@ -4,10 +4,10 @@ import { Chart } from "../../../pictures/page/chart.js";
 import { html } from "../../../pictures/page/elements.js";
 import { digits, forceUnit } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
+import { drivesSlide } from "../document/drivers.js";
 import { driveAt } from "./answers.js";
 import { foldedSection } from "./folded.js";
 import { forceQuantities } from "./force_quantities.js";
-import { drivesSlide } from "./load_kinds.js";
 import { peakOf, withoutLimit } from "./peaks.js";
 
 /** Smaller parts of what is large are not told: they flicker, or are rounding. */

@@ -39,12 +39,6 @@ export function movingParts(document) {
   return { links, joints };
 }
 
-/** Whether the (first) driver is a slide: it has m and N where others have rad and N·m. */
-export function drivesSlide(document) {
-  const first = Array.isArray(document.driver) ? document.driver[0] : document.driver;
-  return typeof first === "string" && Object.hasOwn(tableOf(document.slides), first);
-}
-
 /** Return the link that drives, or null of a slide. */
 export function drivenLink(document) {
   const first = Array.isArray(document.driver) ? document.driver[0] : document.driver;

@@ -2,12 +2,12 @@
 
 import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
+import { drivesSlide } from "../document/drivers.js";
 import { listOf, tableOf } from "../document/names.js";
 import { hasMachine } from "./answers.js";
 import { driveFacts, withForceUnit } from "./drive.js";
 import { Fields, later } from "./fields.js";
 import { foldedSection } from "./folded.js";
-import { drivesSlide } from "./load_kinds.js";
 import { loadList } from "./loads.js";
 import { massTable, weightSwitch } from "./masses.js";
 import { motorForm, motorWords } from "./motor.js";

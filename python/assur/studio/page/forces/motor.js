@@ -2,11 +2,11 @@
 
 import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
+import { drivesSlide } from "../document/drivers.js";
 import { setMotor } from "../document/machine.js";
 import { isTable, listOf } from "../document/names.js";
 import { notNegative, positive } from "./fields.js";
 import { asInFile } from "./load_form.js";
-import { drivesSlide } from "./load_kinds.js";
 import { valueField } from "./value_field.js";
 
 /** Numbers of each kind: key, unit, what is wrong with a number. */

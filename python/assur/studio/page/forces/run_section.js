@@ -4,11 +4,11 @@ import { html } from "../../../pictures/page/elements.js";
 import { digits } from "../../../pictures/page/numbers.js";
 import { button } from "../../../pictures/page/panel.js";
 import { say } from "../../../pictures/page/words.js";
+import { drivesSlide } from "../document/drivers.js";
 import { hasMachine } from "./answers.js";
 import { Fields, later, positive } from "./fields.js";
 import { foldedSection } from "./folded.js";
 import { firstRun, LAWS, runRequest } from "./laws.js";
-import { drivesSlide } from "./load_kinds.js";
 import { documentUnit } from "./masses.js";
 import { motorOf } from "./motor.js";
 

@@ -2,6 +2,7 @@
 
 import { html } from "../../../pictures/page/elements.js";
 import { say } from "../../../pictures/page/words.js";
+import { drivesSlide } from "../document/drivers.js";
 import { section } from "../window/shell.js";
 import { LiveQuestion } from "./live.js";
 import { reachText } from "./reach.js";
@@ -76,7 +77,7 @@ export class AssemblySection {
   #card(one, i) {
     const { model } = this;
     const { data } = model;
-    const isAngle = data.turn.unit === "angle";
+    const isAngle = !drivesSlide(model.document, model.axis);
     const reach = reachText(one.reach, [this.#shown.q].flat()[0], isAngle, panelLength(data));
     const groups = new Map(data.links.map((link, k) => [link, data.groups[k]]));
     const driven = new Set(data.driven.map((k) => data.links[k]));

@@ -3,7 +3,9 @@
 import { html } from "../../../pictures/page/elements.js";
 import { degrees } from "../../../pictures/page/numbers.js";
 import { say } from "../../../pictures/page/words.js";
+import { coordinateText } from "./coordinate.js";
 import { deadEnds } from "./dead_ends.js";
+import { panelLength } from "./steps.js";
 
 /** What is usually asked for, rad. */
 export const USUAL_TRANSMISSION = (40 * Math.PI) / 180;
@@ -37,9 +39,9 @@ export class TransmissionWarning {
     const { model } = this.studio;
     // Of several drivers what one of them does alone says little.
     const isTold = model.moves && !model.isSketch && !model.problem && !model.run && model.driverCount === 1;
-    const ends = isTold ? deadEnds(model.data, model.turn, model.checked.structure?.groups ?? []) : [];
+    const ends = isTold ? deadEnds(model.data.turn.dead, model.checked.structure?.groups ?? []) : [];
     const worst = isTold && !ends.length ? poorest(model.transmission) : null;
-    const shown = JSON.stringify([ends, worst, model.data.turn.unit]);
+    const shown = JSON.stringify([ends, worst, model.data.turn.unit, panelLength(model.data).name]);
     this.element.hidden = !ends.length && !worst;
     this.links = ends.flatMap((end) => end.links);
     /** Whether it says where the driver stops, and why. */
@@ -59,24 +61,25 @@ export class TransmissionWarning {
   }
 
   #gamma({ at, q, least }) {
-    const { model, playback } = this.studio;
-    const { unit } = model.data.turn;
+    const { model } = this.studio;
     // The end of a turn is its beginning.
     const place = model.turn.closes ? model.turn.bring(q) : q;
     const [own, usual] = [least, USUAL_TRANSMISSION].map((angle) => degrees(angle));
-    const values = { at, symbol: unit === "angle" ? "φ" : "s", q: PLACE, least: own, usual };
+    const values = { at, symbol: model.data.turn.unit === "angle" ? "φ" : "s", q: PLACE, least: own, usual };
     const text = say(model.transmission.length === 1 ? "gammaFalls" : "gammaFallsAt", values);
-    return this.#sentence(text, [place], (one) => playback.place(one));
+    return this.#sentence(text, [place]);
   }
 
   #end({ at, key, values }) {
     const { data } = this.studio.model;
     const q = at.length > 1 ? say("andLast", { names: PLACE, last: PLACE }) : PLACE;
-    return this.#sentence(say(key, { ...values, driver: data.driver, q }), at, (one) => this.studio.playback.place(one));
+    return this.#sentence(say(key, { ...values, driver: data.driver, q }), at);
   }
 
   /** Make a sentence whose places are buttons that go there. */
-  #sentence(text, places, write) {
+  #sentence(text, places) {
+    const { data } = this.studio.model;
+    const write = (q) => coordinateText(data, q, data.turn.unit === "length");
     return text.split(PLACE).flatMap((part, i) => {
       if (i === 0) return [part];
       const q = places[i - 1];
