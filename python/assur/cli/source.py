@@ -94,12 +94,13 @@ def _refuse_import(given: argparse.Namespace) -> None:
 def _imported(given: argparse.Namespace, source: Any) -> Contents:
     from assur import importers
     from assur.files import Contents
+    from assur.files.contents import known_speed
 
     scale = 1.0 if given.scale is None else given.scale.one(LENGTH, "--scale")
     found: Imported = importers.read(source, given.format, scale=scale, drivers=given.drivers)
     for sentence in found.omitted:
         note(f"note: {sentence}")
-    return Contents(found.mechanism)
+    return Contents(found.mechanism, input_speed=known_speed(found.input_speed))
 
 
 def standard_input() -> bytes:
@@ -143,4 +144,4 @@ def _with_mechanism(contents: Contents, mechanism: Mechanism) -> Contents:
     from assur.files import Contents
 
     machine = None if contents.machine is None else contents.machine.of(mechanism)
-    return Contents(mechanism, machine, contents.wanted)
+    return Contents(mechanism, machine, contents.wanted, contents.input_speed)

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from assur._arrays import short
+from assur._arrays import real_number, short
 from assur._validate import one_of
 from assur.dynamics.machine import Machine
 from assur.errors import InputError
 from assur.files.node import Node
 from assur.files.read_machine import SECTIONS, read_machine
-from assur.files.read_mechanism import read_mechanism
+from assur.files.read_mechanism import read_input_speed, read_mechanism
 from assur.files.source import Source
 from assur.files.wanted import WANTED, read_wanted
 from assur.kinematics.mechanism import Mechanism
@@ -22,6 +22,7 @@ from assur.kinematics.solve import in_radians
 if TYPE_CHECKING:
     from os import PathLike
 
+    from assur.files.read_mechanism import InputSpeed
     from assur.files.tree import Tree
     from assur.files.wanted import Result
 
@@ -29,7 +30,8 @@ __all__ = ["Contents", "load", "read"]
 
 FORMAT = 1
 KEYS = (
-    *("format", "driver", "joints", "links", "slides", "assembly", "dimensions", "drawn"),
+    *("format", "driver", "input_speed", "joints", "links", "slides"),
+    *("assembly", "dimensions", "drawn"),
     *SECTIONS,
     *WANTED,
 )
@@ -48,6 +50,9 @@ class Contents:
     wanted : mapping of str to mapping
         Results that the file asks for, by the name of the method (``"solve"``, ``"reactions"``,
         ``"run"``, ``"steady_state"``, ``"flywheel"``): its arguments.
+    input_speed : float or tuple of float or None
+        The driver's speed, counter-clockwise in rad/s, or m/s of a slide; of several drivers one
+        each. No result depends on it: the studio plays at it.
 
     Examples
     --------
@@ -61,6 +66,7 @@ class Contents:
     mechanism: Mechanism
     machine: Machine | None = None
     wanted: Mapping[str, Mapping[str, Any]] = field(default_factory=lambda: MappingProxyType({}))
+    input_speed: InputSpeed = None
     _nodes: Mapping[str, Node] = field(
         default_factory=lambda: MappingProxyType({}), repr=False, compare=False
     )
@@ -81,6 +87,8 @@ class Contents:
         if self.machine is not None and self.machine.mechanism != self.mechanism:
             message = "mechanism is not that of the machine"
             raise InputError(message)
+        if self.input_speed is not None:
+            object.__setattr__(self, "input_speed", _checked_speed(self.input_speed, mechanism))
         for name in self.wanted:
             one_of(name, tuple(WANTED), "wanted")
             if name != "solve" and self.machine is None:
@@ -181,8 +189,27 @@ def contents_of(source: Tree) -> Contents:
         mechanism,
         machine,
         MappingProxyType({name: one.arguments for name, one in found.items()}),
+        read_input_speed(root, mechanism),
         MappingProxyType({name: one.node for name, one in found.items()}),
     )
+
+
+def known_speed(input_speed: Any) -> InputSpeed:
+    """Return the speed that an importer found, or None if it is not that of all drivers."""
+    several = isinstance(input_speed, tuple)
+    return None if several and None in input_speed else input_speed
+
+
+def _checked_speed(given: Any, mechanism: Mechanism) -> InputSpeed:
+    count = mechanism._driver_count
+    if count == 1:
+        return real_number(given, "input_speed")
+    if not isinstance(given, list | tuple) or len(given) != count:
+        message = (
+            f"input_speed is {short(given)}: a number for each of the {count} drivers is needed"
+        )
+        raise InputError(message)
+    return tuple(real_number(one, "input_speed") for one in given)
 
 
 def load(path: str | PathLike[str]) -> Any:

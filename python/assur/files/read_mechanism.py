@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur.description.words import Cylinder, Drive, Slide
 from assur.files.limits import MOST_ITEMS
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from assur.files.node import Node
     from assur.files.positions import KeyPath
 
+InputSpeed: TypeAlias = "float | tuple[float, ...] | None"
 SLIDE = ("link", "on", "angle", "origin", "along")
 CYLINDER = ("base", "end", "barrel", "rod")
 
@@ -94,6 +95,21 @@ def _one_driver(node: Node) -> DriverLike:
     if not isinstance(node.value, str):
         raise node.wrong('the name of a link or slide, or { link = "…", relative_to = "…" },')
     return node.text()
+
+
+def read_input_speed(root: Node, mechanism: Mechanism) -> InputSpeed:
+    """Return the speed of the driver that a file gives, or of all drivers; None without one."""
+    node = root.table().get("input_speed")
+    if node is None:
+        return None
+    count = mechanism._driver_count
+    if count == 1:
+        return node.number()
+    speeds = tuple(one.number() for one in node.entries(f"a list of {count} numbers"))
+    if len(speeds) != count:
+        message = f"has {len(speeds)} entries: a number for each of the {count} drivers is needed"
+        raise node.error(message)
+    return speeds
 
 
 def _is_list(node: Node) -> bool:

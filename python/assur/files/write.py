@@ -69,8 +69,10 @@ def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -
 def text_of(what: Any) -> str:
     """Return the text of a file."""
     wanted: Any = {}
+    speed = None
     if isinstance(what, Contents):
-        what, wanted = what.machine or what.mechanism, what.wanted
+        speed, wanted = what.input_speed, what.wanted
+        what = what.machine or what.mechanism
     sections = []
     if not isinstance(what, Mechanism):
         if not hasattr(what, "bodies"):
@@ -87,5 +89,7 @@ def text_of(what: Any) -> str:
             message = f"the mechanism has {count} {name}: a file may have {MOST_ITEMS}"
             raise InputError(message)
     head = f"format = {FORMAT}\n{pair_text('driver', driver_value(what))}"
+    if speed is not None:
+        head += f"\n{pair_text('input_speed', speed)}"
     body = [*mechanism_sections(what), *sections, *wanted_sections(wanted)]
     return "\n".join([head, *body, ""])

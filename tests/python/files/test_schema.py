@@ -85,6 +85,8 @@ def changed(data: dict[str, Any], path: list[Any], value: Any) -> dict[str, Any]
         ("press", ["format"], None),
         ("press", ["driver"], None),
         ("press", ["driver"], 1),
+        ("press", ["input_speed"], "30 rpm"),
+        ("press", ["input_speed"], [1.0]),
         ("press", ["joints", "A"], [0.0]),
         ("press", ["joints", "A"], [0.0, "x"]),
         ("press", ["links", "ground"], None),
