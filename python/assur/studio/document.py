@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 MOST_KNOWN = 8
 _KNOWN: OrderedDict[str, Mechanism] = OrderedDict()
 
-KEYS = ("driver", "joints", "links", "slides", "assembly", "dimensions", "drawn", *SECTIONS)
+# What a document has beside its geometry.
+BESIDE = ("input_speed", *SECTIONS)
+KEYS = ("driver", "joints", "links", "slides", "assembly", "dimensions", "drawn", *BESIDE)
 COUNTED = {"joints": MOST_JOINTS, **dict.fromkeys(("links", "slides", "loads"), MOST_LINKS)}
 
 
@@ -63,7 +65,7 @@ def remember(data: dict[str, Any], mechanism: Mechanism) -> None:
 
 
 def _geometry(data: Any) -> dict[str, Any]:
-    return {key: value for key, value in checked(data).value.items() if key not in SECTIONS}
+    return {key: value for key, value in checked(data).value.items() if key not in BESIDE}
 
 
 def _remember(text: str, mechanism: Mechanism) -> None:
@@ -95,8 +97,8 @@ def checked(data: Any) -> Node:
     return node
 
 
-def document_of(what: Mechanism | Machine) -> dict[str, Any]:
-    """Return the document of a mechanism or a machine."""
+def document_of(what: Mechanism | Machine | Contents) -> dict[str, Any]:
+    """Return the document of a mechanism, a machine, or of what a file holds."""
     data = loads(text_of(what))
     document: dict[str, Any] = {key: data[key] for key in KEYS if key in data}
     if "dimensions" in document:
@@ -106,8 +108,7 @@ def document_of(what: Mechanism | Machine) -> dict[str, Any]:
 
 def toml_of(data: Any) -> str:
     """Return a document as the text of a file."""
-    contents = read(data)
-    return text_of(contents.machine or contents.mechanism)
+    return text_of(read(data))
 
 
 def flat(table: dict[str, Any], prefix: str = "") -> list[tuple[str, Any]]:

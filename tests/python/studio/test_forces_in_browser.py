@@ -41,7 +41,7 @@ def show(one: Window, own: dict[str, Any]) -> None:
     one.open(own)
     one.page.evaluate(
         """(speed) => {
-             window.assurStudio.playback.setSpeed(speed);
+             window.assurStudio.pace(speed);
              window.assurStudio.model.forces.refresh();
            }""",
         SPEED,

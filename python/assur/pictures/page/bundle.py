@@ -12,7 +12,7 @@ from importlib.resources import files
 
 # Who is imported comes first.
 MODULES = (
-    *("elements", "numbers", "words", "turn", "quantities", "view", "draw", "labels"),
+    *("elements", "numbers", "speeds", "words", "turn", "quantities", "view", "draw", "labels"),
     *("paths", "vectors", "dial", "chart", "player", "drag", "stage", "panel"),
     *("keys", "canvas", "playback", "driving", "main"),
 )

@@ -7,6 +7,7 @@ import { degrees, digits, lengthUnit, tickText } from "./numbers.js";
 import { button } from "./panel.js";
 import { Player } from "./player.js";
 import { allQuantities } from "./quantities.js";
+import { readSpeed } from "./speeds.js";
 import { say } from "./words.js";
 
 const PLAY = "M8 5v14l11-7z";
@@ -16,13 +17,17 @@ const DEGREE = Math.PI / 180;
 /** Nothing is faster, rad/s or m/s: beyond, accelerations are no numbers any more. */
 const FASTEST = 1e9;
 const SPEED_UNITS = { angle: "rad/s", length: "m/s", time: "" };
+/** The field of the speed is narrow: so many letters, else so many digits. */
+const SPEED_LETTERS = 6;
+const SPEED_DIGITS = 4;
 
 export class Playback {
   /**
    * @param {Object} data the page's data
    * @param {import("./turn.js").Turn} turn
-   * @param {{show: (pose: import("./turn.js").Pose) => void, told: () => void}} on `show` for every
-   *   frame, `told` where it was put by hand, or began or stopped to play
+   * @param {{show: (pose: import("./turn.js").Pose) => void, told: () => void, paced?: (speed: number) => void, readSpeed?: typeof readSpeed}} on
+   *   `show` for every frame, `told` where it was put by hand, or began or stopped to play, `paced`
+   *   once another speed was typed, which `readSpeed` reads
    */
   constructor(data, turn, on) {
     this.on = on;
@@ -33,8 +38,14 @@ export class Playback {
     this.home = button(say("home"), HOME);
     this.home.addEventListener("click", () => this.seek(this.data.turn.at));
     this.slower = html("p", { class: "hint slower" });
-    this.speed = html("input", { class: "number", inputmode: "decimal", "aria-label": say("speed"), value: String(data.speed) });
-    this.speed.addEventListener("input", () => this.#readSpeed());
+    this.speed = html("input", { class: "number", "aria-label": say("speed"), autocomplete: "off", spellcheck: "false" });
+    this.speed.addEventListener("input", () => this.#trySpeed());
+    this.speed.addEventListener("change", () => this.#takeSpeed());
+    this.speed.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") this.setSpeed(this.#goodSpeed);
+      else if (event.key === "Enter") this.#takeSpeed();
+    });
+    this.speedError = html("p", { class: "field-error", role: "alert", hidden: "" });
     this.symbol = html("i");
     this.speedUnit = html("span");
     this.speedField = html("label", { class: "speed", title: say("speed") }, this.symbol, this.speed, this.speedUnit);
@@ -45,10 +56,11 @@ export class Playback {
     this.more = [];
     this.chartRow = html("div", { class: "charts" });
     this.#chart(data, turn);
-    const drive = html("div", { class: "drive" }, this.dial.element, html("div", { class: "play-row" }, this.play, this.home), this.speedField, this.slower);
+    const drive = html("div", { class: "drive" }, this.dial.element, html("div", { class: "play-row" }, this.play, this.home), this.speedField, this.speedError, this.slower);
     this.element = html("div", { class: "dock" }, drive, this.chartRow);
     this.player.q = turn.bring(data.turn.at);
     turn.sample(this.player.q, this.pose);
+    this.#writeSpeed(data.speed);
     this.#pace(data.speed);
   }
 
@@ -182,19 +194,62 @@ export class Playback {
     if (this.player.isPlaying) this.toggle();
   }
 
-  /** A bad value keeps the last good speed. */
-  #readSpeed() {
-    const text = this.speed.value.trim();
-    const value = Number(text.replace(",", ".").replace("−", "-"));
-    const isGood = text !== "" && Math.abs(value) <= FASTEST;
-    this.speed.setAttribute("aria-invalid", String(!isGood));
-    if (!isGood) return;
-    this.#pace(value);
+  /** Read the field: a speed, or why it is none, as a sentence. */
+  #typedSpeed() {
+    const unit = SPEED_UNITS[this.unit];
+    const text = this.speed.value;
+    const { value, error, values } = (this.on.readSpeed ?? readSpeed)(text, unit);
+    if (!error && Math.abs(value) <= FASTEST) return { value };
+    const why = say(error ?? "tooLargeNumber", values ?? { text: text.trim() });
+    return { wrong: `${why} ${say("speedStays", { kept: `${this.#writtenSpeed} ${unit}` })}` };
+  }
+
+  /** While it is typed a speed is shown; a bad one keeps the last that was taken. */
+  #trySpeed() {
+    const { value, wrong } = this.#typedSpeed();
+    this.#refuseSpeed("");
+    this.speed.setAttribute("aria-invalid", String(Boolean(wrong)));
+    this.#pace(wrong ? this.#goodSpeed : value);
     this.show();
   }
 
+  /** Take what was typed; what is bad stays to be mended, with the reason under it. */
+  #takeSpeed() {
+    if (this.speed.value === this.#writtenSpeed) return;
+    const { value, wrong } = this.#typedSpeed();
+    if (wrong) return this.#refuseSpeed(wrong);
+    const before = this.#goodSpeed;
+    this.setSpeed(value);
+    if (value !== before) this.on.paced?.(value);
+  }
+
+  /** Whether a speed is being typed, which is not yet taken. */
+  get isTypingSpeed() {
+    return this.speed === this.speed.getRootNode().activeElement && this.speed.value !== this.#writtenSpeed;
+  }
+
+  #writtenSpeed = "";
+  /** The last that was taken: of a text that is being typed nothing is known yet. */
+  #goodSpeed = 0;
+
+  #writeSpeed(value) {
+    const whole = String(value);
+    const count = Math.max(SPEED_DIGITS, String(Math.trunc(Math.abs(value))).length);
+    const text = whole.length > SPEED_LETTERS ? String(Number(value.toPrecision(count))) : whole;
+    this.#writtenSpeed = text.replaceAll("-", "−");
+    this.speed.value = this.#writtenSpeed;
+    this.#goodSpeed = value;
+    this.#refuseSpeed("");
+  }
+
+  #refuseSpeed(text) {
+    this.speedError.textContent = text;
+    this.speedError.hidden = !text;
+    this.speed.setAttribute("aria-invalid", String(Boolean(text)));
+  }
+
   setSpeed(value) {
-    this.speed.value = String(value);
+    this.#writeSpeed(value);
     this.#pace(value);
     this.show();
   }

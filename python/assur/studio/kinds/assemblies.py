@@ -12,7 +12,6 @@ import numpy as np
 
 from assur.description.words import Status
 from assur.errors import AssurError
-from assur.files.read_machine import SECTIONS
 from assur.kinematics.assembly import SAME, Assembly
 from assur.kinematics.place import size_of
 from assur.studio import document
@@ -80,8 +79,8 @@ def _drawn_in(data: dict[str, Any], mechanism: Mechanism, one: Assembly) -> dict
     """Return the document drawn in an assembly; of signs alone the drawing stays."""
     if one.q is None:
         return {**data, "assembly": dict(one)}
-    machine = {key: data[key] for key in SECTIONS if key in data}
-    return {**document.document_of(mechanism.with_assembly(one)), **machine}
+    beside = {key: data[key] for key in document.BESIDE if key in data}
+    return {**document.document_of(mechanism.with_assembly(one)), **beside}
 
 
 def _is_current(mechanism: Mechanism, joints: dict[str, Any], q: Any) -> bool:

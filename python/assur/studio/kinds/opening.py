@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 from assur import examples, importers
 from assur._core import version
-from assur.dynamics.machine import Machine
 from assur.errors import InputError
-from assur.files.contents import contents_of
+from assur.files.contents import Contents, contents_of, known_speed
 from assur.files.limits import MOST_BYTES
 from assur.files.source import Source
 from assur.importers.source import LARGEST_FILE
 from assur.importers.source import Source as Text
+from assur.kinematics.mechanism import Mechanism
 from assur.studio import document, limits
 from assur.studio.kinds.structure import described
 from assur.studio.request import Fields
 from assur.studio.session import Answer, stamp_of
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
+    from assur.dynamics.machine import Machine
     from assur.studio.session import Session
 
 LONGEST_TITLE = 200
@@ -84,8 +84,8 @@ def _file(fields: Fields, session: Session) -> Answer:
     return Answer({**answer.header, **own})
 
 
-def read_text(name: str, raw: bytes) -> tuple[Mechanism | Machine, tuple[str, ...], Any]:
-    """Return the mechanism or machine of a text, what was left out of it, and its speed."""
+def read_text(name: str, raw: bytes) -> tuple[Contents, tuple[str, ...], Any]:
+    """Return what a text holds, what was left out of it, and its speed."""
     try:
         text = raw.decode("utf-8")
     except UnicodeDecodeError:
@@ -96,18 +96,19 @@ def read_text(name: str, raw: bytes) -> tuple[Mechanism | Machine, tuple[str, ..
         if contents.mechanism.shape:
             message = f"{name or 'the text'} has {contents.mechanism.shape} designs: the studio "
             raise InputError(f"{message}shows one; choose it by assur solve --design, or delete")
-        return contents.machine or contents.mechanism, (), None
+        return contents, (), contents.input_speed
     source = Text(text.removeprefix("\ufeff"), name)
     if len(text) > LARGEST_FILE:
         raise source.error("", f"more than {LARGEST_FILE} letters: not the file of a linkage")
     found = importers.read(source)
-    return found.mechanism, found.omitted, found.input_speed
+    contents = Contents(found.mechanism, input_speed=known_speed(found.input_speed))
+    return contents, found.omitted, found.input_speed
 
 
 def _opened(
-    what: Mechanism | Machine, omitted: tuple[str, ...], speed: Any, *, title: str
+    what: Mechanism | Machine | Contents, omitted: tuple[str, ...], speed: Any, *, title: str
 ) -> Answer:
-    mechanism = what.mechanism if isinstance(what, Machine) else what
+    mechanism = what if isinstance(what, Mechanism) else what.mechanism
     assert mechanism is not None
     own = document.document_of(what)
     document.checked(own)

@@ -64,6 +64,9 @@ def _edited(own: Table, remedy: Remedy) -> Table:
     made = {end for name, entry in entries.items() for end in _cylinder_links(name, entry)}
     edited: Table = {key: value for key, value in own.items() if key not in ("drawn", "assembly")}
     edited["driver"] = _driver(parts["driver"])
+    # Another driver has a speed of its own, and perhaps another unit.
+    if edited["driver"] != own.get("driver"):
+        edited.pop("input_speed", None)
     edited["joints"] = {name: list(at) for name, at in joints.items()}
     edited["links"] = {name: list(on) for name, on in links.items() if name not in made}
     edited["slides"] = entries

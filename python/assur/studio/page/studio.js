@@ -11,6 +11,8 @@ import { learn, say, speak, spoken } from "../../pictures/page/words.js";
 import { Bar } from "./window/bar.js";
 import { Beginning } from "./build/beginning.js";
 import { Builder } from "./build/builder.js";
+import { withInputSpeed } from "./document/drivers.js";
+import { parseQuantity } from "./document/units.js";
 import { Mend } from "./build/mend.js";
 import { Designing } from "./design/designing.js";
 import { FindSection } from "./design/findsection.js";
@@ -86,6 +88,8 @@ export class Studio {
         else tellPosition(this.canvas, this.playback);
         model.emit("told");
       },
+      paced: (speed) => this.pace(speed),
+      readSpeed: parseQuantity,
     });
     this.bar = new Bar(root, model, this);
     this.status = new Status(model);
@@ -179,14 +183,23 @@ export class Studio {
       canvas.stage.fit();
       playback.player.turns = 0;
       playback.player.sense = 1;
-      playback.setSpeed(model.data.speed);
+      playback.setSpeed(this.#ownSpeed);
     }
     // What has grown out of the window comes back into it, unless a hand holds it or has placed the view.
     else if (canvas.stage.isFitted && !model.isDragging && !canvas.stage.isWithin()) canvas.stage.fit();
+    // A run has a pace of its own, and a speed that is being typed is not yet that of the document.
+    const isPaced = !model.run && !model.isDragging && !playback.isTypingSpeed;
+    if (isPaced && playback.player.speed !== this.#ownSpeed) playback.setSpeed(this.#ownSpeed);
     if (model.isSketch) playback.pause();
     this.#enable();
     playback.show();
     if (!model.isDragging) playback.tell();
+  }
+
+  /** The speed of the document; without one a turn takes a few seconds. */
+  get #ownSpeed() {
+    const { model } = this;
+    return model.inputSpeed ?? model.data.speed;
   }
 
   /** What does not move cannot be played. */
@@ -238,6 +251,13 @@ export class Studio {
   notify = (text, options) => this.shell.notify(text, options);
 
   dismiss = (kind) => this.shell.dismiss(kind);
+
+  /** Give the driver a speed: a step that can be undone. */
+  pace(speed) {
+    const { model } = this;
+    const others = model.inputSpeed ?? model.data.speed;
+    return model.edit(withInputSpeed(model.document, model.axis, speed, others));
+  }
 
   speed = () => this.playback.player.speed;
 

@@ -53,7 +53,8 @@ export function removeLink(document, link) {
  */
 export function setDriver(document, driver) {
   const own = Array.isArray(driver) && driver.length < 2 ? driver[0] : driver;
-  const made = restructured(withSection(document, "driver", own));
+  // Another driver has a speed of its own, and perhaps another unit.
+  const made = withSection(restructured(withSection(document, "driver", own)), "input_speed", null);
   const { motor } = document;
   if (!Array.isArray(motor) || Array.isArray(own)) return made;
   return withSection(made, "motor", motor.find((one) => isTable(one) && one.type !== "None"));

@@ -54,7 +54,7 @@ export function withNames(document, map) {
     const isEmptied = made[key] !== null && typeof made[key] === "object" && !Object.keys(made[key]).length;
     if (made[key] === null || (isEmptied && key !== "joints" && key !== "links")) delete made[key];
   }
-  return withMotors(made, document, names);
+  return withSpeeds(withMotors(made, document, names), document, names);
 }
 
 /** A slide goes with its links, a cylinder with its ends too; a cylinder's links go and turn with it. */
@@ -143,6 +143,16 @@ function withMotors(made, before, names) {
   const { motor: _, ...rest } = made;
   if (left.length > 1) return { ...rest, motor: left };
   return left.length && left[0].type !== "None" ? { ...rest, motor: left[0] } : rest;
+}
+
+/** And so does its speed. */
+function withSpeeds(made, { input_speed: speeds, driver }, names) {
+  if (speeds === undefined || !driver) return made;
+  const { input_speed: _, ...rest } = made;
+  const given = [speeds].flat();
+  const left = given.filter((_, i) => driverNames([driver].flat()[i] ?? null, names) !== null);
+  if (left.length === given.length) return made;
+  return left.length ? { ...rest, input_speed: left.length > 1 ? left : left[0] } : rest;
 }
 
 /** `coupler.length`, `coupler.P.x`, `ground.A.x`, `bore.angle`, `bore.origin.x`; also as nested tables. */

@@ -12,6 +12,7 @@ const isDriver = (value) => isText(value) || isTable(value);
 /** What each part of a document must be, if it is there. */
 const DOCUMENT_PARTS = {
   driver: (value) => isDriver(value) || isList(isDriver)(value),
+  input_speed: (value) => Number.isFinite(value) || isList(Number.isFinite)(value),
   joints: isTableOf(isPlace),
   links: isTableOf(isList(isText)),
   slides: isTableOf(isTable),

@@ -1,12 +1,18 @@
 // Quantities as people type them, and as fields show them. Inside all is SI and rad.
 
 import { digits, lengthUnit } from "../../../pictures/page/numbers.js";
+import { PER_MINUTE, SPEEDS } from "../../../pictures/page/speeds.js";
 
 /**
  * Units by the SI unit of the quantity: how many SI units one is, as [factor, divisor], both whole
  * where that is possible, so that 83 mm is the same number as 0.083 m.
  */
 const UNITS = {
+  "rad/s": {
+    ...SPEEDS["rad/s"],
+    ...{ "deg/s": [Math.PI, 180], "min⁻¹": PER_MINUTE, "rev/min": PER_MINUTE, "U/min": PER_MINUTE, "об/мин": PER_MINUTE, "об/хв": PER_MINUTE },
+  },
+  "m/s": { ...SPEEDS["m/s"], "mm/min": [1, 6e4], "km/h": [5, 18] },
   "": { "": [1, 1], "%": [1, 100] },
   m: {
     ...{ m: [1, 1], mm: [1, 1e3], cm: [1, 100], dm: [1, 10], "µm": [1, 1e6], um: [1, 1e6], km: [1e3, 1] },
@@ -22,12 +28,7 @@ const UNITS = {
   Pa: { Pa: [1, 1], kPa: [1e3, 1], MPa: [1e6, 1], bar: [1e5, 1] },
   W: { W: [1, 1], kW: [1e3, 1] },
   J: { J: [1, 1], kJ: [1e3, 1] },
-  "rad/s": {
-    "rad/s": [1, 1],
-    ...{ rpm: [Math.PI, 30], "1/min": [Math.PI, 30], "°/s": [Math.PI, 180], "deg/s": [Math.PI, 180] },
-  },
   "rad/s²": { "rad/s²": [1, 1], "°/s²": [Math.PI, 180], "deg/s²": [Math.PI, 180] },
-  "m/s": { "m/s": [1, 1], "mm/s": [1, 1e3], "cm/s": [1, 100], "m/min": [1, 60] },
   "m/s²": { "m/s²": [1, 1], "mm/s²": [1, 1e3] },
   "N/m": { "N/m": [1, 1], "N/mm": [1e3, 1], "kN/m": [1e3, 1] },
   "N·s/m": { "N·s/m": [1, 1], "kN·s/m": [1e3, 1] },
@@ -36,7 +37,7 @@ const UNITS = {
 };
 
 /** The key of what to say if a text is none of them; of other quantities that it is no number. */
-const REFUSALS = { m: "notALength", rad: "notAnAngle" };
+const REFUSALS = { m: "notALength", rad: "notAnAngle", "rad/s": "notASpeed", "m/s": "notASpeed" };
 
 const TYPED_NUMBER = /^(\d+(?:[.,]\d*)?|[.,]\d+)(e[+-]?\d+)?/i;
 /** Whoever types more did not mean a quantity. */
@@ -45,7 +46,7 @@ const TYPED_PI = /^(π|pi(?![a-z]))/i;
 
 /** Write a unit as it is known here: `kg m^2` and `kgm2` are kg·m², but ms is not m·s. */
 function plainUnit(text) {
-  const letters = text.replaceAll("\u03bc", "µ").replaceAll("º", "°");
+  const letters = text.replaceAll("\u03bc", "µ").replaceAll("º", "°").replace(/(⁻|\^?-)[1¹]$/, "⁻¹");
   return letters.replace(/\^?2(?!\d)/g, "²").replace(/[*⋅·.\s]/g, "");
 }
 
@@ -104,7 +105,7 @@ function readProduct(text) {
  * @param {string} unit the SI unit of the quantity, "" of a number: the keys of UNITS
  * @param {string} [shown] the unit that the field shows
  * @returns {{value: number} | {error: string, values: Object<string, string>}} SI; or what to say,
- *   by its key: `notALength`, `notAnAngle`, `notANumber`, `emptyField`, `notAUnitHere`,
+ *   by its key: `notALength`, `notAnAngle`, `notASpeed`, `notANumber`, `emptyField`, `notAUnitHere`,
  *   `dividedByZero`, `tooLargeNumber`
  */
 export function parseQuantity(text, unit, shown = unit) {
@@ -127,10 +128,14 @@ export function parseQuantity(text, unit, shown = unit) {
   return { value: sign.startsWith("-") ? -number : number };
 }
 
+/** Other names of units: they are taken, but not offered. */
+const OTHER_NAMES = [
+  ...["um", "deg", "turns", "deg/s", "deg/s²", "Hz", "/min", "min⁻¹", "rev/min", "U/min", "об/мин", "об/хв"],
+];
+
 /** Return the units of a quantity, for a sentence. */
 export function unitList(unit) {
-  const twice = ["um", "deg", "turns", "deg/s", "deg/s²"];
-  return Object.keys(UNITS[unit] ?? {}).filter((name) => name && !twice.includes(name)).join(", ");
+  return Object.keys(UNITS[unit] ?? {}).filter((name) => name && !OTHER_NAMES.includes(name)).join(", ");
 }
 
 /**

@@ -41,7 +41,7 @@ export class FlywheelSection {
     this.opener = button(say("flywheelDiagrams"), "M4 20V4M4 20h16M7 15c3-9 5-9 7-3s3 3 5-4", say("flywheelDiagrams"));
     this.opener.addEventListener("click", () => this.#openDiagrams(!this.isOpen));
     this.pace = html("button", { type: "button", class: "button" }, say("playAtMean"));
-    this.pace.addEventListener("click", () => playback.setSpeed(Number(this.found.header.mean_speed.toPrecision(4))));
+    this.pace.addEventListener("click", () => studio.pace(Number(this.found.header.mean_speed.toPrecision(4))));
     const row = html("div", { class: "button-row" }, this.opener, this.pace);
     this.result = html(
       "div", {}, html("p", { class: "note" }, say("inertiaNeeded")), this.number, this.disc, this.remark, row, this.facts,

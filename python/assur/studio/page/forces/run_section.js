@@ -143,16 +143,13 @@ export class RunSection {
     }
   }
 
-  /** Time goes with its own speed; the turn again with the one before. */
+  /** Time goes with its own speed; the turn again has that of the document. */
   #paceAsRun() {
     const { model, answers, playback } = this;
-    if (model.run) {
-      if (model.data.turn.unit === "time") answers.speedBefore ??= playback.player.speed;
-      playback.setSpeed(1);
-    } else {
-      playback.setSpeed(answers.speedBefore ?? 1);
+    if (model.run) playback.setSpeed(1);
+    else {
       if (answers.chartBefore) playback.charts[0]?.choose(answers.chartBefore);
-      answers.speedBefore = answers.chartBefore = undefined;
+      answers.chartBefore = undefined;
       playback.pause();
     }
   }

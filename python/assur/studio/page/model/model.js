@@ -5,6 +5,7 @@ import { History } from "./history.js";
 import { passing } from "./passing.js";
 import { Previews, ROWS_DRAGGED } from "./previews.js";
 import { ShownRun } from "./shown_run.js";
+import { inputSpeed } from "../document/drivers.js";
 import { sketchScene } from "../document/sketch.js";
 
 /** Rows of a turn at rest. */
@@ -107,6 +108,11 @@ export class Model {
   /** The coordinate of the driver that moves. */
   get q() {
     return this.held[this.axis];
+  }
+
+  /** The speed that the document gives the driver that moves, rad/s or m/s; null without one. */
+  get inputSpeed() {
+    return inputSpeed(this.document, this.axis);
   }
 
   set q(value) {
