@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -63,6 +64,12 @@ class Given:
     def title(self) -> str:
         """What the page calls it."""
         return self.path.name if self.path is not None else str(self.example)
+
+    @property
+    def id(self) -> str:
+        """What tells it from other files and examples, for what a browser keeps of it."""
+        own = f"example:{self.example}" if self.path is None else os.path.realpath(self.path)
+        return stamp_of(os.fsencode(own))
 
     @property
     def is_saved(self) -> bool:

@@ -122,5 +122,6 @@ def test_pictures(kind: str, start: bytes) -> None:
 def test_examples_are_listed() -> None:
     reply = ask("start", Given(example="hart"))
     assert [one["name"] for one in reply["examples"]] == list(assur.examples.ALL)
-    assert reply["file"] == {"title": "hart", "saves": False, "others": 0}
+    given = Given(example="hart")
+    assert reply["file"] == {"title": "hart", "saves": False, "others": 0, "id": given.id}
     assert json.dumps(reply.header)

@@ -39,7 +39,12 @@ def start(data: dict[str, Any], session: Session) -> Answer:
             ],
             "file": None
             if given is None
-            else {"title": given.title, "saves": given.is_saved, "others": session.others},
+            else {
+                "title": given.title,
+                "saves": given.is_saved,
+                "others": session.others,
+                "id": given.id,
+            },
             "limits": {
                 "up": limits.MOST_UP,
                 "links": limits.MOST_LINKS,

@@ -1,6 +1,6 @@
 // Begins the page: connects, and opens the file given, what this browser kept, or an example.
 
-import { kept } from "./window/files.js";
+import { forget, kept } from "./window/files.js";
 import { connect } from "./model/link.js";
 import { openStudio, showFailure } from "./studio.js";
 import { say, speak } from "../../pictures/page/words.js";
@@ -53,6 +53,7 @@ async function openFirst(studio) {
     } catch (error) {
       if (error.kind === "disconnected") throw error;
       studio.notify(say("notAMechanism", { name: start.file.title, reason: error.message }));
+      if (await restoreUnsaved(studio)) return model.history.clear();
     }
   }
   const own = kept(null);
@@ -63,20 +64,33 @@ async function openFirst(studio) {
 
 /** Open the file of the command; what this window had not saved of it comes back, as a step. */
 async function openGiven(studio) {
-  const { model } = studio;
+  const { model, start } = studio;
+  const { id } = start.file;
   const { others } = await model.open({ file: true });
+  model.file.id = id;
   model.history.clear();
   model.savedDocument = model.document;
-  const own = model.file.saves ? kept(model.file.stamp) : null;
-  if (own && JSON.stringify(own.document) !== JSON.stringify(model.document)) {
-    await restore(studio, own);
-    studio.notify(say("restored"));
+  const { stamp } = model.file;
+  const text = JSON.stringify(model.document);
+  if (JSON.stringify(kept(id)?.document) !== text && (await restoreUnsaved(studio))) {
+    studio.notify(say(model.file.stamp === stamp ? "restored" : "restoredBeside"));
   }
   const copy = () => {
+    forget(id);
     model.file = null;
     model.emit("file");
   };
   if (others) studio.notify(say("others"), { action: { text: say("copy"), act: copy } });
+}
+
+/** Bring back what this window had not saved of the file, as a change of what it was: if it is another by now, saving asks. */
+async function restoreUnsaved(studio) {
+  const { model, start } = studio;
+  const own = kept(start.file.id);
+  if (!own?.isUnsaved) return false;
+  model.file = { stamp: own.stamp, saves: start.file.saves, id: start.file.id };
+  await restore(studio, own);
+  return true;
 }
 
 async function restore(studio, { document: own, title, held, target }) {

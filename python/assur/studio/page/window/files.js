@@ -56,14 +56,18 @@ export async function openFile(model, file, limit, tell) {
   }
 }
 
-/** Keep the document whenever it changes: for this window, and for the next one that opens. */
+/** Return where a document is kept: that of a file or example of the command by itself. */
+const keyOf = (id) => (id ? `${KEPT} ${id}` : KEPT);
+
+/** Keep the document whenever it changes: for this window, and without a file for the next one that opens. */
 export function keep(model) {
   let timer = 0;
   const write = () => {
-    const { document, title, held, file, target } = model;
-    const own = JSON.stringify({ document, title, held, target, stamp: file?.stamp ?? null });
+    const { document, title, held, file, target, savedDocument } = model;
+    const isUnsaved = Boolean(file) && savedDocument !== document;
+    const own = JSON.stringify({ document, title, held, target, stamp: file?.stamp ?? null, isUnsaved });
     try {
-      sessionStorage.setItem(KEPT, own);
+      sessionStorage.setItem(keyOf(file?.id), own);
       if (!file) localStorage.setItem(KEPT, own);
     } catch {
       // The browser keeps nothing, or has no more room: the page goes on.
@@ -78,21 +82,34 @@ export function keep(model) {
   window.onpagehide = write;
 }
 
+/** Keep nothing of a file any more: its document goes on by itself. */
+export function forget(id) {
+  try {
+    sessionStorage.removeItem(keyOf(id));
+  } catch {
+    // There is no store.
+  }
+}
+
 /**
- * Return what this browser kept, or null: of a file what this window had not saved.
- * @param {string | null} stamp of the file that is open
+ * Return what this browser kept, or null: of a file what this window has.
+ * @param {string | null} id of the file, null without one
+ * @returns {{document: Object, title: string, held: number[] | undefined, target: Object | null, stamp: string | null,
+ *   isUnsaved: boolean} | null} stamp: of the file as it was opened or saved last
  */
-export function kept(stamp) {
-  for (const store of stamp ? ["sessionStorage"] : ["sessionStorage", "localStorage"]) {
+export function kept(id) {
+  for (const store of id ? ["sessionStorage"] : ["sessionStorage", "localStorage"]) {
     try {
-      const own = JSON.parse(window[store].getItem(KEPT));
-      if (!own || own.stamp !== stamp || !hasShapeOfDocument(own.document)) continue;
-      const { document, title, held, target } = own;
+      const own = JSON.parse(window[store].getItem(keyOf(id)));
+      if (!own || !hasShapeOfDocument(own.document) || (!id && own.stamp)) continue;
+      const { document, title, held, target, stamp, isUnsaved } = own;
       return {
         document,
         title: typeof title === "string" ? title : "",
         held: [held ?? []].flat().every(Number.isFinite) ? held : undefined,
         target: isTargetPath(target) ? target : null,
+        stamp: typeof stamp === "string" ? stamp : null,
+        isUnsaved: isUnsaved === true,
       };
     } catch {
       // Not ours, or there is no store.
