@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::known::{ByAngle, Known, Rounding};
 use super::tracked::{Tracked, ValueAt};
-use super::window::Window;
+use super::window::{Weight, Window};
 use crate::math::root::all_roots::{Roots, Sample, all_roots};
 use crate::query::evaluator::Evaluator;
 use crate::structure::closure::point_of_joint;
@@ -68,10 +68,13 @@ impl Curve<'_> {
         of: impl Fn(ByAngle) -> [f64; 2],
     ) -> Roots {
         let unit = self.unit(window, entry);
-        let rounding = Rounding::new(known, window, (entry, poles), unit);
+        let rounding = Rounding::new(known, (entry, poles), unit);
         all_roots(&known.nodes, |angle| {
-            let own = known.at(angle).unwrap_or_else(|| self.by_angle(window, angle))?;
-            let weight = window.weight(angle, poles);
+            let own = match known.node(angle) {
+                Some(node) => known.values[node],
+                None => self.by_angle(window, angle),
+            }?;
+            let weight = Weight::new(angle, poles);
             let [value, slope] = weight.of(of(own));
             Some(Sample { x: angle, value, slope, noise: rounding.at(angle, weight.factor) })
         })

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::curve::Curve;
 use super::known::{ByAngle, Known};
 use super::tracked::ValueAt;
-use super::window::{NEAR_END, Window};
+use super::window::{NEAR_END, Weight, Window};
 
 /// Halvings toward a pole, and how many times greater than at the nodes the value is there.
 const HALVINGS: usize = 40;
@@ -100,7 +100,7 @@ impl Curve<'_> {
         let extrapolated = |pole: usize| {
             let poles = [0, 1].map(|end| if end == side { pole } else { 0 });
             let nodes = beside.iter().map(|&(part, angle, [value, slope, _])| {
-                let [value, slope] = window.weight(angle, poles).of([value, slope]);
+                let [value, slope] = Weight::new(angle, poles).of([value, slope]);
                 (part, value, way * slope)
             });
             (hermite_at_zero(&nodes.collect::<Vec<_>>()), poles)
@@ -111,7 +111,7 @@ impl Curve<'_> {
             let (coefficient, poles) = extrapolated(pole);
             let own = |angle: f64| if side == 0 { angle <= FRAC_PI_2 } else { angle >= FRAC_PI_2 };
             let size = known
-                .weighted(window, 0, poles)
+                .sizes(0, poles)
                 .filter(|&(angle, _)| own(angle))
                 .fold(0.0_f64, |size, (_, [_, weighted])| size.max(weighted));
             if coefficient.abs() > LEAST_POLE * size {

@@ -1,7 +1,7 @@
 //! What is known at the nodes of a window: values that are not computed twice, and how far rounding
 //! reaches between them.
 
-use super::window::Window;
+use super::window::Weight;
 use crate::math::angle::whole_part;
 
 /// Rounding of a value, relative to the greatest around it.
@@ -19,23 +19,21 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// The value at a node; `None` elsewhere.
-    pub(super) fn at(&self, angle: f64) -> Option<Option<ByAngle>> {
-        let index = self.nodes.binary_search_by(|node| node.total_cmp(&angle)).ok()?;
-        Some(self.values[index])
+    /// The node at an angle.
+    pub(super) fn node(&self, angle: f64) -> Option<usize> {
+        self.nodes.binary_search_by(|node| node.total_cmp(&angle)).ok()
     }
 
-    /// Weighted sizes at the nodes of a window, of entry `entry` of the values.
-    pub(super) fn weighted<'a>(
-        &'a self,
-        window: &'a Window,
+    /// Sizes at the nodes, plain and weighted, of entry `entry` of the values.
+    pub(super) fn sizes(
+        &self,
         entry: usize,
         poles: [usize; 2],
-    ) -> impl Iterator<Item = (f64, [f64; 2])> + 'a {
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
         self.nodes.iter().zip(&self.values).map(move |(&angle, value)| {
             // A node without a value counts as zero.
             let plain = value.map_or(0.0, |value| value[entry].abs());
-            let factor = window.weight(angle, poles).factor;
+            let factor = Weight::new(angle, poles).factor;
             (angle, [plain, if plain > 0.0 { plain * factor } else { 0.0 }])
         })
     }
@@ -57,14 +55,8 @@ pub(super) struct Rounding {
 
 impl Rounding {
     /// Of entry `entry` of the values with the weight of `poles`; `unit`: the natural size.
-    pub(super) fn new(
-        known: &Known,
-        window: &Window,
-        (entry, poles): (usize, [usize; 2]),
-        unit: f64,
-    ) -> Self {
-        let sizes: Vec<[f64; 2]> =
-            known.weighted(window, entry, poles).map(|(_, size)| size).collect();
+    pub(super) fn new(known: &Known, (entry, poles): (usize, [usize; 2]), unit: f64) -> Self {
+        let sizes: Vec<[f64; 2]> = known.sizes(entry, poles).map(|(_, size)| size).collect();
         let around = (0..sizes.len())
             .map(|cell| {
                 let near = &sizes[cell.saturating_sub(1)..(cell + 3).min(sizes.len())];

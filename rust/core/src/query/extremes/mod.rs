@@ -34,8 +34,7 @@ impl Mechanism {
     ) -> Result<Option<[ValueAt; 2]>, SolveError> {
         let mut found: Option<[ValueAt; 2]> = None;
         self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
-            let [low, high] = window.ends();
-            if within.is_some_and(|q| !window.is_period && !(low <= q && q <= high)) {
+            if within.is_some_and(|q| !window.holds(q)) {
                 return;
             }
             for one in curve.candidates(window) {

@@ -60,6 +60,12 @@ impl Window {
         [self.middle - self.half, self.middle + self.half]
     }
 
+    /// Whether a coordinate of the driver is in it; one that goes round has every coordinate.
+    pub(super) fn holds(&self, q: f64) -> bool {
+        let [low, high] = self.ends();
+        self.is_period || (low..=high).contains(&q)
+    }
+
     fn has_folds(&self) -> bool {
         self.folds[0] || self.folds[1]
     }
@@ -105,19 +111,6 @@ impl Window {
             }
         })
     }
-
-    /// The weight that takes away poles of these orders.
-    pub(super) fn weight(&self, angle: f64, poles: [usize; 2]) -> Weight {
-        let (sin, cos) = sin_cos(0.5 * angle);
-        let mut weight = Weight { factor: 1.0, log_slope: 0.0 };
-        for (pole, [distance, rate]) in poles.into_iter().zip([[sin, cos], [cos, -sin]]) {
-            for _ in 0..pole {
-                weight.factor *= 2.0 * distance;
-                weight.log_slope += 0.5 * rate / distance;
-            }
-        }
-        weight
-    }
 }
 
 /// A factor that is zero at the ends of a window, and the derivative of its logarithm by the angle.
@@ -128,6 +121,19 @@ pub(super) struct Weight {
 }
 
 impl Weight {
+    /// The weight that takes away poles of these orders.
+    pub(super) fn new(angle: f64, poles: [usize; 2]) -> Self {
+        let (sin, cos) = sin_cos(0.5 * angle);
+        let mut weight = Self { factor: 1.0, log_slope: 0.0 };
+        for (pole, [distance, rate]) in poles.into_iter().zip([[sin, cos], [cos, -sin]]) {
+            for _ in 0..pole {
+                weight.factor *= 2.0 * distance;
+                weight.log_slope += 0.5 * rate / distance;
+            }
+        }
+        weight
+    }
+
     /// A value and its slope, weighted.
     pub(super) fn of(&self, [value, slope]: [f64; 2]) -> [f64; 2] {
         [self.factor * value, self.factor * (slope + value * self.log_slope)]
@@ -158,7 +164,7 @@ mod tests {
                 let poles = window.poles(order);
                 // 1/weight has just these poles: weighted it is constant.
                 for angle in [1.0e-3, 0.2, 1.5, 3.0, PI - 1.0e-3] {
-                    let weight = window.weight(angle, poles);
+                    let weight = Weight::new(angle, poles);
                     let pole = 1.0 / weight.factor;
                     let [value, slope] = weight.of([pole, -pole * weight.log_slope]);
                     assert!((value - 1.0).abs() < 1.0e-14 && slope.abs() < 1.0e-12);
@@ -166,9 +172,9 @@ mod tests {
             }
             // The derivative of the logarithm, by differences.
             let poles = window.poles(2);
-            let ln = |angle: f64| libm::log(window.weight(angle, poles).factor);
+            let ln = |angle: f64| libm::log(Weight::new(angle, poles).factor);
             let slope = (ln(0.7001) - ln(0.6999)) / 2.0e-4;
-            assert!((slope - window.weight(0.7, poles).log_slope).abs() < 1.0e-5);
+            assert!((slope - Weight::new(0.7, poles).log_slope).abs() < 1.0e-5);
         }
         assert_eq!(window([true, false]).poles(2), [3, 6]);
         assert_eq!(window([false; 2]).poles(2), [3, 3]);
