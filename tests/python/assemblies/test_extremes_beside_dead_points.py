@@ -158,11 +158,10 @@ def test_a_pin_of_the_crank_has_finite_extremes() -> None:
     """What does not depend on the dyad that folds is smooth there: it may have extremes there."""
     m = assur.FourBar(3.0, 2.5, 2.0, 4.0)
     low, high = m.limits().intervals[0]
-    wanted = {0: np.cos, 1: lambda q: -np.sin(q), 2: lambda q: -np.cos(q), 3: np.sin}
     q = np.append(np.linspace(low, high, 4001), 0.0)
-    for order, of in wanted.items():
+    for order, of_pin in enumerate((np.cos(q), -np.sin(q), -np.cos(q), np.sin(q))):
         found = m.extremes("B.x", order=order)
-        values = 3.0 * of(q)
+        values = 3.0 * of_pin
         assert found.least.value == pytest.approx(values.min(), abs=1e-9)
         assert found.greatest.value == pytest.approx(values.max(), abs=1e-9)
 

@@ -98,7 +98,7 @@ def test_random_four_bars_by_cosines() -> None:
             near, far = math.acos(inner), math.acos(outer)
             wanted = [(-far, -near), (near, far)]
         # Within half a turn of the coordinate that it is drawn at.
-        q0 = assur.FourBar(a, b, c, d).q0
+        q0 = float(assur.FourBar(a, b, c, d).q0)
         turns = [math.tau * round((q0 - sum(own) / 2.0) / math.tau) for own in wanted
                  if math.isfinite(own[0])]  # fmt: skip
         if turns:

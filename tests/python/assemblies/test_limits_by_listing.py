@@ -88,7 +88,7 @@ def test_dead_points_by_the_law_of_cosines(crank: str, order: tuple[str, ...]) -
     middle = math.atan2((d - a).imag, (d - a).real) + (math.pi if crank == "BA" else 0.0)
     half = math.acos((radius**2 + ground**2 - legs**2) / (2.0 * radius * ground))
     (found,) = m.limits().intervals
-    turns = math.tau * round((m.q0 - middle) / math.tau)
+    turns = math.tau * round((float(m.q0) - middle) / math.tau)
     np.testing.assert_allclose(
         found, [middle + turns - half, middle + turns + half], rtol=0.0, atol=DEAD_POINT
     )
@@ -149,8 +149,14 @@ def test_batches_and_what_stands_on_limits() -> None:
         for pair in (least, greatest):
             assert pair[1].value == pytest.approx(pair[0].value, rel=1e-9)
             assert pair[1].q == pytest.approx(pair[0].q + half, abs=1e-6)
-    places = [(q, a) for q in (one.q0 - 0.1, one.q0 + 0.2) for a in one.assemblies(q)[:1]]
-    moved = [(q, a) for q in (other.q0 - 0.1, other.q0 + 0.2) for a in other.assemblies(q)[:1]]
+    places = [
+        (q, a) for q in (float(one.q0) - 0.1, float(one.q0) + 0.2) for a in one.assemblies(q)[:1]
+    ]
+    moved = [
+        (q, a)
+        for q in (float(other.q0) - 0.1, float(other.q0) + 0.2)
+        for a in other.assemblies(q)[:1]
+    ]
     assert one.configuration_curve().defects(places) == other.configuration_curve().defects(moved)
 
 
