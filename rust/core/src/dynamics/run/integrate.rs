@@ -172,6 +172,9 @@ fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>)
 const COPIES: usize = 3;
 /// Least number of steps of a run with friction and functions among the loads.
 const STEPS_AT_REST: f64 = 1000.0;
+/// Spacings of the coordinate within which a motion that slows down is at rest: its last steps are parts of
+/// what is left, some hundredths with the tightest tolerance.
+const REST_WITHIN: f64 = 1.0e3;
 /// Largest step (rad, or of the size) with events on angles of the mechanism.
 const ANGLE_EVENT_STEP: f64 = 0.1;
 /// The same with several drivers and no such events.
@@ -237,6 +240,18 @@ fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>)
     }
 }
 
+/// Whether a run along the coordinate comes to rest within the rounding of it: no step is left, refused or
+/// not.
+fn is_about_to_rest<S: ReducedModel, O: Callbacks>(
+    system: &mut RunSystem<'_, S, O>,
+    q: f64,
+    y: &[f64],
+) -> bool {
+    let mut rates = [0.0; 3];
+    let slows = system.rates(q, y, &mut rates).is_ok() && rates[0] * system.sign < 0.0;
+    slows && y[0] <= REST_WITHIN * f64::EPSILON * (q * rates[0]).abs()
+}
+
 fn assemble_run<S: ReducedModel, O: Callbacks>(
     mut system: RunSystem<'_, S, O>,
     options: &RunOptions<'_>,
@@ -287,6 +302,11 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
             edge_reason(&mut system.equation)
         }
         (End::DomainBoundary { .. }, _) if along == Variable::Coordinate => StopReason::Rest,
+        (End::Stalled { t }, _)
+            if along == Variable::Coordinate && is_about_to_rest(&mut system, t, &y_end) =>
+        {
+            StopReason::Rest
+        }
         (End::DomainBoundary { .. }, _) => edge_reason(&mut system.equation),
         (End::StepLimit { stiff, .. }, _) => StopReason::StepLimit(stiff),
         (End::Stalled { .. }, _) => StopReason::Stalled,

@@ -20,8 +20,11 @@ pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
         // speed may be small.
         let typical = 1e3 * typical_speeds(system, options, sizes)?[0];
         let of_speed = options.absolute.map_or(relative * typical * 1e-3, |[_, of_speed]| of_speed);
-        let absolute =
-            vec![2.0 * of_speed * options.speed[0].abs(), relative / typical, f64::INFINITY];
+        let absolute = vec![
+            2.0 * of_speed * options.speed[0].abs(),
+            relative * sizes[0] / typical,
+            f64::INFINITY,
+        ];
         return Ok([vec![relative, relative, 0.0], absolute]);
     }
     let mut absolute = Vec::with_capacity(2 * n + 1);
@@ -58,9 +61,10 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
         Err(Fault::OutOfDomain) => accelerations.fill(0.0),
         Ok(()) => {}
     }
+    // In sizes per second: the speeds of an angle and of a slide are compared.
     let typical = |driver: usize| {
-        let initial = options.speed[driver].abs();
-        initial.max((accelerations[driver].abs() * sizes[driver]).sqrt())
+        let initial = options.speed[driver].abs() / sizes[driver];
+        initial.max((accelerations[driver].abs() / sizes[driver]).sqrt())
     };
     let greatest = (0..n).map(typical).fold(0.0, f64::max);
     // A machine at rest in balance: one radian (or size) over the run.
@@ -68,9 +72,11 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
     let scale = |driver: usize| {
         if greatest > 0.0 {
             typical(driver).max(1e-3 * greatest)
+        } else if duration > 0.0 {
+            1.0 / duration
         } else {
-            sizes[driver] / if duration > 0.0 { duration } else { 1.0 }
+            1.0
         }
     };
-    Ok((0..n).map(|driver| 1e-3 * scale(driver)).collect())
+    Ok((0..n).map(|driver| 1e-3 * scale(driver) * sizes[driver]).collect())
 }
