@@ -98,6 +98,12 @@ def cases() -> dict[str, Case]:
         [Gravity(), Damper("P", ("ground", (2.0, 0.0)), 3.0)],
         friction={"B": JointFriction(0.1, 0.03), "ram": SlideFriction(0.1, 0.2, 2.0)},
     )
+    mixed = assur.Mechanism(
+        joints={"A": (0, 0), "B": (1, 0.4), "C": (2.2, 1.5), "E": (3, 0)},
+        links={"ground": "A", "c1": "AB", "b1": "BC", "b2": "CE", "s": "E"},
+        slides={"way": assur.Slide("s", on="ground", angle=0.1, origin="A")},
+        driver=["c1", "way"],
+    )
     triad = triad_press()
     heavy = {name: Body(1.0, 0.2) for name, own in triad.links.items() if name != "ground" and own}
     pins = {name: JointFriction(0.1, 0.03) for name in list(triad.joints)[1:4]}
@@ -139,6 +145,18 @@ def cases() -> dict[str, Case]:
             Machine(dead, bars, [Torque("crank", -20.0)], friction=light), 0.5, 1.0, {"t_end": 5.0}
         ),
         "dead point of a slide": Case(ram, ram.mechanism.q0, 0.5, {"t_end": 20.0}),  # type: ignore[union-attr]
+        "over a driven slide": Case(
+            Machine(cylinder(), {"arm": Body(3.0, 0.5, (0.8, 0.1))}, [Gravity()]),
+            ram.mechanism.q0,  # type: ignore[union-attr]
+            5.0,
+            {"q_end": ram.mechanism.q0 + 0.2},  # type: ignore[union-attr]
+        ),
+        "slide and angle": Case(
+            Machine(mixed, {n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2")}),
+            mixed.q0,
+            [0.6, 0.01],
+            {"t_end": 0.5},
+        ),
         "two drivers": Case(five, five.mechanism.q0, [0.6, -0.6], {"t_end": 0.9}),  # type: ignore[union-attr]
         "at rest in balance": Case(
             crank_press(Torque("crank", lambda t, _q, _v: 5.0 * t**3)), 0.0, 0.0, {"t_end": 1.0}
