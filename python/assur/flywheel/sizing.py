@@ -110,13 +110,15 @@ def from_table(
     Parameters
     ----------
     phi : array_like
-        Coordinates of the driver over one period, rad, ascending, both ends included: (K,).
+        Coordinates of the driver over one period, rad, ascending, both ends included: (K,). One
+        given twice is a jump of the moment, from its first value (before) to its second.
     moment : array_like
         Reduced moment of the loads there, N·m, the last row equal to the first: (K,), or S + (K,)
-        for a batch of tables.
+        for a batch of tables. A table with jumps may have one at its ends too: they may differ.
     inertia : array_like
         Reduced inertia of the machine without the flywheel, kg·m²: of the same shape, or one number
-        for all rows. It may be 0, the default: all inertia is then the flywheel's.
+        for all rows. It does not jump. It may be 0, the default: all inertia is then the
+        flywheel's.
     fluctuation : array_like
         Required coefficient of speed fluctuation δ, of shape S or a number.
     mean_speed : array_like
@@ -171,6 +173,13 @@ def from_table(
     >>> f = flywheel.from_table(phi, moment, fluctuation=0.01, mean_speed=6 * np.pi)
     >>> round(f.inertia, 3)
     3118.106
+
+    A punch that takes 700 N·m within the first radian:
+
+    >>> phi, moment = [0.0, 1.0, 1.0, 2 * np.pi], [-700.0, -700.0, 0.0, 0.0]
+    >>> f = flywheel.from_table(phi, moment, fluctuation=0.1, mean_speed=20.0, spline="linear")
+    >>> round(f.inertia, 6)
+    14.714788
     """
     if fluctuation is None or mean_speed is None:
         missing = "fluctuation" if fluctuation is None else "mean_speed"

@@ -316,6 +316,7 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
         E::Tripled { at: q } | E::JumpAtEnd { at: q } | E::PeriodicJump { at: q } => {
             (Class::Input, at(q, q))
         }
+        E::InertiaJumps { at: q, behind, .. } => (Class::Input, at(q, behind)),
         E::AlreadyMet { wanted, .. } => (Class::Input, value(wanted)),
         E::Infinite { speed, .. } => (Class::Input, value(speed)),
         E::Stalls { speed0, at: q, .. } => (Class::Motion, at(q, speed0)),

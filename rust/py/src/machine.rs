@@ -19,7 +19,7 @@ use crate::convert::event::event;
 use crate::convert::friction::PairFriction;
 use crate::convert::load::loads;
 use crate::convert::motor::motors;
-use crate::convert::value::{Values, table};
+use crate::convert::value::Values;
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::mechanism::Mechanism;
@@ -137,8 +137,10 @@ impl Machine {
         motor: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         catch_panic(|| {
-            let column = |values: &Flat<'_>| table(&phi, values, spline.0, periodic);
-            let tables = vec![column(&inertia)?, column(&moment)?];
+            let [phi, moment, inertia] = [phi, moment, inertia].map(|a| a.as_array().to_vec());
+            let tables = TabulatedMachine::reduced(&phi, [&inertia, &moment], spline.0, periodic)
+                .map_err(|error| error_map::table(&error, "", None))?
+                .to_vec();
             let mut values = Values { tables, ..Values::default() };
             let motors = motors(&[motor], &mut values)?;
             let Values { tables, functions, .. } = values;

@@ -210,6 +210,11 @@ TABLE: dict[str, Case] = {
         lambda: Table([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 1.0, 0.0], "periodic"),
         {"q": 1.0, "value": 1.0},
     ),
+    "inertia_jumps": Case(
+        InputError,
+        lambda: sized(phi=[0, 1, 1, TURN], moment=[1, 1, 2, 1], inertia=[1, 1, 2, 1]),
+        {"q": 1.0, "value": 2.0},
+    ),
     "not_periodic": Case(InputError, lambda: sized(moment=torn(8, 3.0))),
     "negative": Case(
         InputError,

@@ -128,13 +128,3 @@ pub(crate) fn table_values<'py>(
         Ok(PyArray1::from_iter(py, points.as_array().iter().map(|&at| table.at(at))))
     })
 }
-
-pub(crate) fn table(
-    knots: &PyReadonlyArray1<'_, f64>,
-    values: &PyReadonlyArray1<'_, f64>,
-    ends: EndCondition,
-    periodic: bool,
-) -> PyResult<Table> {
-    let [knots, values] = [knots, values].map(|column| column.as_array().to_vec());
-    Table::new(&knots, &values, ends, periodic).map_err(|error| error_map::table(&error, "", None))
-}

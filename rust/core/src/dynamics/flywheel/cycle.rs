@@ -38,19 +38,29 @@ pub struct Cycle {
 
 impl Cycle {
     /// Fits a table over one period: coordinates, reduced moment without the motor (N·m), reduced
-    /// inertia (kg·m²).
+    /// inertia (kg·m²). Two rows at one coordinate are a jump of the moment; a table with one may
+    /// also jump at its seam, between its last row and its first.
     ///
     /// # Errors
     ///
-    /// The table is short, not increasing, not periodic, or its inertia is negative.
+    /// The table is short, not increasing, not periodic, or its inertia is negative or jumps.
     pub fn new(
         knots: &[f64],
         moment: &[f64],
         inertia: &[f64],
         ends: EndCondition,
     ) -> Result<Self, TableError> {
-        check(knots, [("moment", moment), ("inertia", inertia)], false)?;
-        Self::with_corners(knots, moment, inertia, ends, &[])
+        let rows = with_seam(knots, moment, inertia);
+        let (knots, moment, inertia) = (&rows[0][..], &rows[1][..], &rows[2][..]);
+        check(knots, [("moment", moment), ("inertia", inertia)])?;
+        let (own, smooth) = without_jumps(knots, inertia)?;
+        let jump = (1..knots.len()).find(|&row| knots[row] == knots[row - 1]);
+        if let (Some(row), EndCondition::Periodic) = (jump, ends) {
+            return Err(TableError::PeriodicJump { at: knots[row] });
+        }
+        let whole = 0..own.len();
+        let inertia = fit_sections(&own, &smooth, ends, std::slice::from_ref(&whole), true)?;
+        Self::of_pieces(own, fit(knots, moment, ends, &[])?, inertia)
     }
 
     /// The same with corners at some rows: a separate curve is fitted from each corner to the next.
@@ -66,27 +76,14 @@ impl Cycle {
         ends: EndCondition,
         corners: &[usize],
     ) -> Result<Self, TableError> {
-        check(knots, [("moment", moment), ("inertia", inertia)], true)?;
-        let mut cuts: Vec<usize> = [0]
-            .into_iter()
-            .chain(corners.iter().copied().filter(|&row| row > 0 && row + 1 < knots.len()))
-            .chain((1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).flat_map(|i| [i - 1, i]))
-            .chain([knots.len() - 1])
-            .collect();
-        cuts.sort_unstable();
-        cuts.dedup();
-        let last = knots.len() - 1;
-        let sections: Vec<_> = cuts
-            .windows(2)
-            .filter(|cut| knots[cut[0]] < knots[cut[1]])
-            .map(|cut| Range { start: cut[0], end: cut[1] + 1 })
-            .collect();
-        let has_corner = corners.iter().any(|&row| row == 0 || row == last);
-        let closed = !has_corner && knots[0] < knots[1] && knots[last - 1] < knots[last];
-        let fit = |values: &[f64]| fit_sections(knots, values, ends, &sections, closed);
-        let (moment, inertia) = (fit(moment)?, fit(inertia)?);
-        let mut knots = knots.to_vec();
-        knots.dedup();
+        check(knots, [("moment", moment), ("inertia", inertia)])?;
+        let fit = |values: &[f64]| fit(knots, values, ends, corners);
+        let mut own = knots.to_vec();
+        own.dedup();
+        Self::of_pieces(own, fit(moment)?, fit(inertia)?)
+    }
+
+    fn of_pieces(knots: Vec<f64>, moment: Pieces, inertia: Pieces) -> Result<Self, TableError> {
         let mut cycle = Self { knots, moment, inertia, work: Vec::new(), motor: 0.0 };
         cycle.integrate_work();
         // The motor balances the mean moment.
@@ -219,12 +216,69 @@ pub(crate) fn wrap_to_period(x: f64, start: f64, period: f64) -> [f64; 2] {
     [start + rest, ((since - rest) / period).round()]
 }
 
-fn check(
+/// Fits a period from each corner or jump to the next.
+fn fit(
     knots: &[f64],
-    columns: [(&'static str, &[f64]); 2],
-    jumps: bool,
-) -> Result<(), TableError> {
-    check_columns(knots, &columns, true, jumps)?;
+    values: &[f64],
+    ends: EndCondition,
+    corners: &[usize],
+) -> Result<Pieces, TableError> {
+    let last = knots.len() - 1;
+    let mut cuts: Vec<usize> = [0]
+        .into_iter()
+        .chain(corners.iter().copied().filter(|&row| row > 0 && row < last))
+        .chain((1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).flat_map(|i| [i - 1, i]))
+        .chain([last])
+        .collect();
+    cuts.sort_unstable();
+    cuts.dedup();
+    let sections: Vec<_> = cuts
+        .windows(2)
+        .filter(|cut| knots[cut[0]] < knots[cut[1]])
+        .map(|cut| Range { start: cut[0], end: cut[1] + 1 })
+        .collect();
+    let has_corner = corners.iter().any(|&row| row == 0 || row == last);
+    let closed = !has_corner && knots[0] < knots[1] && knots[last - 1] < knots[last];
+    fit_sections(knots, values, ends, &sections, closed)
+}
+
+/// The coordinates, moments and inertias of a period. Where the moment jumps, and its ends differ, it
+/// jumps at the seam too: the first row is then there twice, with the last moment before.
+pub(crate) fn with_seam(knots: &[f64], moment: &[f64], inertia: &[f64]) -> [Vec<f64>; 3] {
+    let mut rows = [knots, moment, inertia].map(<[f64]>::to_vec);
+    let jumps: Vec<usize> = (1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).collect();
+    let at_seam = jumps.first() == Some(&1) || jumps.last() == Some(&(knots.len() - 1));
+    let (Some(first), Some(last)) = (moment.first(), moment.last()) else { return rows };
+    if !jumps.is_empty() && !at_seam && !inertia.is_empty() && first != last {
+        rows[0].insert(0, knots[0]);
+        rows[1].insert(0, *last);
+        rows[2].insert(0, inertia[0]);
+    }
+    rows
+}
+
+/// The rows of an inertia: of two at one coordinate one, for they must be equal.
+///
+/// # Errors
+///
+/// An inertia that jumps.
+pub(crate) fn without_jumps(
+    knots: &[f64],
+    inertia: &[f64],
+) -> Result<(Vec<f64>, Vec<f64>), TableError> {
+    let is_second = |row: usize| row > 0 && knots[row] == knots[row - 1];
+    let jump = (0..knots.len().min(inertia.len()))
+        .find(|&row| is_second(row) && inertia[row] != inertia[row - 1]);
+    if let Some(row) = jump {
+        let (before, behind) = (inertia[row - 1], inertia[row]);
+        return Err(TableError::InertiaJumps { at: knots[row], before, behind });
+    }
+    let rows = knots.iter().copied().zip(inertia.iter().copied()).enumerate();
+    Ok(rows.filter(|&(row, _)| !is_second(row)).map(|(_, pair)| pair).unzip())
+}
+
+fn check(knots: &[f64], columns: [(&'static str, &[f64]); 2]) -> Result<(), TableError> {
+    check_columns(knots, &columns, true, true)?;
     let inertia = columns[1].1;
     if let Some(row) = inertia.iter().position(|&x| x < 0.0) {
         return Err(TableError::Negative { value: inertia[row], at: knots[row], in_row: true });

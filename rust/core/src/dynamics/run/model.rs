@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use crate::dynamics::angle_between::Angle;
+use crate::dynamics::flywheel::cycle::{with_seam, without_jumps};
 use crate::dynamics::followers::{Followers, Held};
 use crate::dynamics::friction::motion::{Drive, FrictionMotion, RubbingState};
 use crate::dynamics::kinematics::SolvedPose;
@@ -10,6 +11,8 @@ use crate::dynamics::machine::{Machine, ReducedTable};
 use crate::dynamics::measure::Over;
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
+use crate::dynamics::tables::error::TableError;
+use crate::dynamics::tables::spline::EndCondition;
 use crate::dynamics::tables::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
@@ -349,6 +352,27 @@ pub struct TabulatedMachine {
 }
 
 impl TabulatedMachine {
+    /// The tables of rows of inertia and moment, with jumps of the moment as those of a `Cycle`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Table::with_jumps`], and an inertia that jumps.
+    pub fn reduced(
+        phi: &[f64],
+        [inertia, moment]: [&[f64]; 2],
+        ends: EndCondition,
+        periodic: bool,
+    ) -> Result<[Table; 2], TableError> {
+        let mut rows = [phi, moment, inertia].map(<[f64]>::to_vec);
+        if periodic {
+            rows = with_seam(phi, moment, inertia);
+        }
+        let [phi, moment, inertia] = &rows;
+        let (own, smooth) = without_jumps(phi, inertia)?;
+        let inertia = Table::new(&own, &smooth, ends, periodic)?;
+        Ok([inertia, Table::with_jumps(phi, moment, ends, periodic)?])
+    }
+
     /// The machine at coordinates; NaN beyond tables that are not periodic.
     #[must_use]
     pub fn reduce(&self, q: &[f64]) -> ReducedTable {

@@ -48,6 +48,12 @@ pub enum TableError {
         "the table is not periodic: {quantity} is {} in its first row and {} in its last, one period on; they must agree", number(*first), number(*last)
     )]
     NotPeriodic { quantity: &'static str, first: f64, last: f64 },
+    /// An inertia with two values at one coordinate.
+    #[error(
+        "the inertia jumps from {} to {} kg·m² at phi = {} rad: only the moment may",
+        short(*before), short(*behind), short(*at)
+    )]
+    InertiaJumps { at: f64, before: f64, behind: f64 },
     /// A negative inertia.
     #[error(
         "the inertia is {} kg·m² at phi = {} rad{}: it must not be negative",
@@ -106,8 +112,9 @@ impl Hint for TableError {
             Self::PeriodicJump { .. } => {
                 "choose \"pchip\", \"linear\", \"not-a-knot\", \"natural\" or \"clamped\""
             }
+            Self::InertiaJumps { .. } => "give both rows there one inertia",
             Self::JumpAtEnd { .. } => "leave one of the two rows out",
-            Self::Negative { in_row: false, .. } => "spline=\"pchip\" stays between the rows",
+            Self::Negative { in_row: false, .. } => "spline=\"pchip\" or spline=\"linear\" stays between the rows",
             Self::NoInertia { .. } => "give the machine an inertia or a greater flywheel",
             Self::Stalls { .. } => "start faster, or add a flywheel",
             Self::NoMean { .. } => "choose another speed, or a greater flywheel",
