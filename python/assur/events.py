@@ -138,7 +138,7 @@ class TransmissionAngle:
     direction: Direction = "falling"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Crossing:
     """A function of (t, q, speed) crosses zero.
 

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import Float, real_array, require_finite, short
+from assur._by_value import ByValue
 from assur._core import spline_pieces
 from assur._splines import SPLINES, Spline
 from assur._trig import sin_cos
@@ -385,7 +386,7 @@ class ModifiedSine(Rise):
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Tabulated(Law):
+class Tabulated(ByValue, Law):
     """A coordinate given at times: a cubic spline through the points.
 
     Before the first point and after the last one it is at rest.
@@ -412,7 +413,7 @@ class Tabulated(Law):
     t: Float
     value: Float
     spline: Spline
-    _pieces: Float = field(repr=False)
+    _pieces: Float = field(repr=False, compare=False)
 
     def __init__(self, t: npt.ArrayLike, value: npt.ArrayLike, spline: Spline = "clamped") -> None:
         one_of(spline, SPLINES, "Tabulated spline")

@@ -9,6 +9,7 @@ import numpy as np
 
 from assur import _core
 from assur._arrays import counted, real_array
+from assur._by_value import key_of
 from assur._summary import summary
 from assur._validate import one_of
 from assur.dynamics import parts, reduce
@@ -147,7 +148,8 @@ class MachineModel:
         Parameters
         ----------
         phi : array_like
-            Coordinates of the driver, rad, ascending, both ends of the period included: (K,).
+            Coordinates of the driver, rad, ascending, both ends of the period included: (K,). One
+            given twice is a jump of the moment.
         moment : array_like
             Reduced moment of the loads there, N·m: (K,).
         inertia : array_like
@@ -267,6 +269,21 @@ class MachineModel:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._rebuild_with
+
+    def _key(self) -> tuple[Any, ...]:
+        """All that it was made of."""
+        if self.mechanism is None:
+            return tuple(map(key_of, self._rebuild_with[1]))
+        pairs = (frozenset(of.items()) for of in (self.bodies, self.friction))
+        return self.mechanism, self.loads, self.motor, *pairs
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, MachineModel) or type(other) is not type(self):
+            return NotImplemented
+        return self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
 
     def __repr__(self) -> str:
         if self.mechanism is None:

@@ -16,7 +16,7 @@ from assur.errors import InputError
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class ConstantTorque:
     """A motor whose torque does not depend on its speed.
 

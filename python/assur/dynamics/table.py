@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import Float, flag, not_negative, real_array, real_number
+from assur._by_value import ByValue
 from assur._callers import level_of_caller
 from assur._validate import checked_name, one_of, require_rows
 from assur.errors import AssurWarning, InputError
@@ -31,7 +32,7 @@ def replace_fields(instance: Any, **values: Any) -> None:
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Table:
+class Table(ByValue):
     """Values over the (first) driver's coordinate, or over that of another link or slide.
 
     As a motor: torque over the motor's own speed.

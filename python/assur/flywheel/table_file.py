@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur._by_value import key_of
 from assur._validate import require_rows
 from assur.errors import InputError
 
@@ -41,6 +42,17 @@ class ReducedTable(NamedTuple):
     phi: Float
     moment: Float
     inertia: Float
+
+    # As a tuple it would compare arrays.
+    def __eq__(self, other: object) -> bool:
+        same = isinstance(other, ReducedTable)
+        return same and tuple(map(key_of, self)) == tuple(map(key_of, other))  # type: ignore[arg-type]
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(tuple(map(key_of, self)))
 
 
 def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from assur._arrays import finite_array
+from assur._by_value import ByValue
 from assur._validate import checked_name, one_of, real_number
 from assur.dynamics.along import motion_of
 from assur.dynamics.kinetostatics import reaction_squares, reactions
 from assur.dynamics.reactions import Key, key_of_joint
-from assur.errors import InputError
+from assur.errors import AssurError, InputError
 from assur.sweeps.terms import OfMachine
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def _root(measure: Measure, squares: Float) -> Float:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Driven(OfMachine):
+class Driven(ByValue, OfMachine):
     """What follows from the reactions over a motion of the drivers."""
 
     measure: Measure
@@ -68,6 +69,19 @@ class Driven(OfMachine):
     def values(self, machine: Machine, q: Float, threads: int | None) -> Float:
         """Its values for the designs of a machine."""
         return together([self], machine, q, threads)[0]
+
+    def why(self, machine: Machine, q: Float) -> str:
+        """Why a design has no value: the error of its first position without one."""
+        try:
+            found = reactions(
+                machine, motion_of(q, self.speed, self.acceleration, 0.0), None, "raise"
+            )
+        except AssurError as error:
+            return str(error)
+        if np.any(found.locked):
+            at = np.ravel(q)[int(np.argmax(found.locked))]
+            return f"friction locks the machine at q = {at:.9g}"
+        return "redundant links leave it undetermined"
 
 
 def together(
@@ -156,7 +170,7 @@ class Effort(Driven):
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Inertia(OfMachine):
+class Inertia(ByValue, OfMachine):
     """The reduced inertia."""
 
     def check(self, machine: Machine) -> None:
@@ -164,6 +178,10 @@ class Inertia(OfMachine):
         if machine._drivers > 1:
             message = f"{self!r}: with {machine._drivers} drivers the inertia is a matrix"
             raise InputError(message)
+
+    def why(self, _machine: Machine, _q: Float) -> str:
+        """Why a design has no value."""
+        return "the inertia is not finite"
 
     def values(self, machine: Machine, q: Float, _threads: int | None) -> Float:
         """Its greatest values for the designs of a machine."""
@@ -174,12 +192,20 @@ class Inertia(OfMachine):
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class FlywheelInertia(OfMachine):
+class FlywheelInertia(ByValue, OfMachine):
     """The inertia of a flywheel."""
 
     fluctuation: float
     mean_speed: float | None
     mean: Mean
+
+    def why(self, machine: Machine, _q: Float) -> str:
+        """Why a design has no such flywheel."""
+        try:
+            machine.flywheel(self.fluctuation, self.mean_speed, self.mean)
+        except AssurError as error:
+            return str(error)
+        return "there is no such flywheel"
 
     def values(self, machine: Machine, _q: Float, _threads: int | None) -> Float:
         """Its values for the designs of a machine."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from assur._by_value import ByValue
 from assur._validate import real_number
 from assur.errors import InputError
 
@@ -242,12 +244,17 @@ class Leaf(Metric):
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Function(Metric):
-    """A function of motions, in Python: equal to itself alone, for it may have no hash."""
+class Function(ByValue, Metric):
+    """A function of motions, in Python."""
 
     function: Callable[[Motion], npt.ArrayLike]
     outputs: tuple[str, ...] | None
     order: int
+
+    def _key(self) -> tuple[Any, ...]:
+        # A callable object may have no hash.
+        same = self.function if isinstance(self.function, Hashable) else id(self.function)
+        return same, self.outputs, self.order
 
     def leaves(self) -> Iterator[Single]:
         """Itself."""
@@ -269,6 +276,10 @@ class OfMachine(Metric):
 
     def values(self, machine: Machine, q: Float, threads: int | None) -> Float:
         """Its values for the designs (n,) of a machine, which all move over q."""
+        raise NotImplementedError
+
+    def why(self, machine: Machine, q: Float) -> str:
+        """Why it has no value for one design."""
         raise NotImplementedError
 
     def leaves(self) -> Iterator[Single]:
