@@ -6,5 +6,5 @@ from typing import Literal, TypeAlias
 
 __all__ = ["SPLINES", "Spline"]
 
-Spline: TypeAlias = Literal["pchip", "not-a-knot", "natural", "clamped", "periodic", "linear"]
-SPLINES = ("pchip", "not-a-knot", "natural", "clamped", "periodic", "linear")
+Spline: TypeAlias = Literal["not-a-knot", "natural", "clamped", "periodic", "pchip", "linear"]
+SPLINES = ("not-a-knot", "natural", "clamped", "periodic", "pchip", "linear")

@@ -10,7 +10,7 @@ __all__ = ["Cylinder", "Drive", "Slide", "Status"]
 
 
 class Status(IntEnum):
-    """Result of solving one position; the codes of `Motion.status`.
+    """Result of solving one position; the codes of `Motion.status` and other statuses.
 
     Examples
     --------
@@ -40,6 +40,12 @@ class Status(IntEnum):
     """A dimension is not finite, not positive, or outside 1e-153 to 1e153 m (NaN)."""
     BAD_INPUT = 7
     """The coordinate is not finite, or several drivers are too far from the drawing (NaN)."""
+    NO_VALUE = 8
+    """The position is solved, but what is asked for has no finite value there (NaN).
+
+    Of reactions: a load has none, as where its table ends. Of a design in a sweep: one of the
+    metrics; `Measures.explain` says which and why.
+    """
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,10 @@ def force_system(
     mechanism = motion.mechanism
     chosen = _checked_links(mechanism, links)
     if found.status[index] > Status.NEAR_SINGULAR:
-        message = f"no reactions there: {motion.explain()}"
+        why = motion.explain()
+        if found.status[index] == Status.NO_VALUE:
+            why = "a load or an inertia force is not finite"
+        message = f"no reactions there: {why}"
         raise InputError(message)
     forces = [
         force

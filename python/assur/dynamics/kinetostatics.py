@@ -13,11 +13,12 @@ from assur._validate import checked_threads, one_of
 from assur.description.words import Status
 from assur.dynamics.along import times
 from assur.dynamics.friction import SlideFriction
+from assur.dynamics.no_value import Moment, without_value
 from assur.dynamics.places import links_at
 from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions
-from assur.dynamics.reduce import checked_senses, with_designs
+from assur.dynamics.reduce import checked_senses, single, with_designs
 from assur.dynamics.values import function_values
-from assur.errors import InputError, MotionError
+from assur.errors import InputError
 from assur.kinematics.solve import warn_if_degrees
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def reactions(
         message = "a machine of a table has no joints: reactions need a mechanism"
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
-    drivers = machine._drivers
+    drivers, is_complete = machine._drivers, keys is None
     if keys is None:
         keys = [*_keys(mechanism), *_keys_of_friction(machine)]
     moving = broadcast_motion(machine, motion)
@@ -112,17 +113,20 @@ def reactions(
         machine, moving, motion.t, threads, keys, senses, (sense, solution)
     )
     rests = np.zeros(status.size, np.bool_) if senses is None else senses.rests.ravel()
-    full = shape if drivers == 1 else (*shape, drivers)
-    everywhere = np.broadcast_to(x, full)
     if on_error == "raise" and failure is not None:
         raise failure
-    if on_error == "raise":
+    if is_complete:
         drives = [arrays[keys.index(Key("driver", driver))] for driver in range(drivers)]
         each = drives[0][:, None] if drivers == 1 else np.stack(drives, axis=-1)
         is_locked = rests
         if SOLUTIONS in keys:
             is_locked = rests | (arrays[keys.index(SOLUTIONS)] <= 0.0)
-        _require_finite("reactions are", each, status, everywhere, is_locked)
+        beyond = without_forces(each, status, is_locked)
+        if on_error == "raise":
+            _require_finite(machine, moving, motion.t, "the reactions are", each, beyond, sense)
+        elif beyond.size:
+            status = status.copy()
+            status[beyond] = Status.NO_VALUE
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
         two = key.kind in ("joint", "shaking force")
@@ -256,27 +260,35 @@ def _solved(
 
 
 def _require_finite(
+    machine: MachineModel,
+    moving: tuple[Float, Float, Float, tuple[int, ...]],
+    t: npt.ArrayLike,
     what: str,
     drives: Float,
-    status: npt.NDArray[np.uint8],
-    q: Float,
-    is_locked: npt.NDArray[np.bool_] | bool = False,
+    beyond: npt.NDArray[np.intp],
+    sense: float | Sequence[float] | None,
 ) -> None:
-    """Raise MotionError where a load or an inertia force is not finite, though the position is.
+    """Raise the error of a load or an inertia force that is not finite, though the position is.
 
-    `drives`: torques or forces of the drivers, (positions, drivers).
+    `drives`: torques or forces of the drivers, (positions, drivers); `beyond`: those in question.
     """
-    finite = np.isfinite(drives).all(axis=-1)
-    beyond = np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR) & ~np.asarray(is_locked))
     if beyond.size:
-        at = q.reshape(drives.shape)[beyond[0]].tolist()
-        shown = ", ".join(f"{number:.15g}" for number in at)
-        message = (
-            f"the {what} not finite at q = {shown}: a load, a speed or a mass is too great "
-            "there, a table ends, or a damper or spring has length zero (on_error='nan' keeps the "
-            "others)"
-        )
-        raise MotionError(message, kind="not_finite", q=at[0] if len(at) == 1 else tuple(at))
+        (x, v, _, shape), row, drivers = moving, int(beyond[0]), drives.shape[1]
+        full = shape if drivers == 1 else (*shape, drivers)
+        q, speed = (np.broadcast_to(one, full).reshape(drives.shape)[row] for one in (x, v))
+        one, design = single(machine, row, len(drives))
+        moment = Moment(q, speed, float(times(t, shape).ravel()[row]), sense)
+        failed = without_value(one, moment, what)
+        failed.design = design
+        raise failed
+
+
+def without_forces(
+    drives: Float, status: npt.NDArray[np.uint8], is_locked: npt.NDArray[np.bool_]
+) -> npt.NDArray[np.intp]:
+    """Return the positions that are solved, but whose forces are not finite."""
+    finite = np.isfinite(drives).all(axis=-1)
+    return np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR) & ~is_locked)
 
 
 def broadcast_motion(
@@ -349,7 +361,9 @@ def effort(
                     out[..., i] += rate * speeds[..., j] * speeds[..., k]
     if on_error == "raise":
         solved = np.full(out.size // n, Status.OK, dtype=np.uint8)
-        _require_finite("effort is", out.reshape(-1, n), solved, np.broadcast_to(x, full))
+        drives, moving = out.reshape(-1, n), (x, v, a, shape)
+        beyond = without_forces(drives, solved, rests.ravel())
+        _require_finite(machine, moving, motion.t, "the effort is", drives, beyond, sense)
     out[np.isinf(out)] = np.nan
     out[rests] = np.nan
     return out[..., 0][()] if n == 1 else out

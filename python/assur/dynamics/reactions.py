@@ -95,7 +95,8 @@ class Reactions(Tabular):
     shaking_force, shaking_moment : ndarray
         Inertia forces of all bodies, N, and their moment about the drawing's origin, N·m.
     status : ndarray of uint8
-        `assur.Status` of every position.
+        `assur.Status` of every position; with ``on_error="nan"`` ``NO_VALUE`` where a load or an
+        inertia force is not finite.
     undetermined : tuple of str
         Reactions that redundant links leave undetermined.
     at_rest : ndarray of bool

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,15 +11,15 @@ import numpy.typing as npt
 from assur._arrays import Float, finite_array, real_array, short
 from assur._validate import one_of
 from assur.description.words import Status
+from assur.dynamics.no_value import EXTEND, Moment, without_value
 from assur.dynamics.values import function_values
-from assur.errors import InputError, MotionError
+from assur.errors import InputError
 from assur.kinematics.solve import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur.dynamics.model import MachineModel
-    from assur.errors import AssurError
 
 
 def reduce(
@@ -70,15 +70,13 @@ def reduce(
         missing = np.flatnonzero(~np.isfinite(moment).reshape(-1, n).any(axis=1) & (status < 2))
         if missing.size:
             row = int(missing[0])
-            given = given.reshape(status.size, -1)[row]
-            design = row // (status.size // math.prod(designs)) if designs else 0
-            own = (
-                [] if values.size == 0 else values.reshape(values.shape[0], -1)[:, design].tolist()
-            )
-            failed = _without_moment(machine, own, flat.reshape(-1, n)[row].tolist(), given)
-            if designs:
-                index = np.unravel_index(design, designs)
-                failed.design = tuple(int(i) for i in index)
+            if machine.mechanism is None:
+                raise _beyond_table(float(flat[row]), machine._core.tables[0][0])
+            one, design = single(machine, row, status.size)
+            own = flat.reshape(-1, n)[row], speeds.reshape(-1, n)[row]
+            time = float(np.broadcast_to(np.asarray(t), shape).ravel()[row])
+            failed = without_value(one, Moment(*own, time, sense), "the moment is")
+            failed.design = design
             raise failed
     return (
         inertia.reshape(*shape, n, n),
@@ -113,33 +111,15 @@ def checked_senses(
     return []
 
 
-def _without_moment(
-    machine: MachineModel, dimensions: list[float], q: list[float], values: Float
-) -> AssurError:
-    """Return the error of a load without a value: that of a run that begins there."""
-    at = q[0] if len(q) == 1 else tuple(q)
-    shown = f"{q[0]:.15g}" if len(q) == 1 else f"({', '.join(f'{x:.15g}' for x in q)})"
-    for knots, periodic in machine._core.tables:
-        if not (periodic or knots[0] <= q[0] <= knots[-1]):
-            return _beyond_table(q[0], knots)
-    if not np.isfinite(values).all():
-        number = float(values[~np.isfinite(values)][0])
-        message = f"q = {shown}: a function among the loads gave {number}, it must be finite"
-        return InputError(message, q=at, value=number)
-    uncovered = machine._core.uncovered(dimensions, q)
-    if uncovered is not None:
-        first, last, value = uncovered
-        hint = "extend the table"
-        message = (
-            f"a table over a slide or link covers {first:.9g} to {last:.9g}: {value:.9g}, at "
-            f"q = {shown}, is not in it; {hint}"
-        )
-        return InputError(message, kind="table_ends", hint=hint, q=at, value=value)
-    message = (
-        f"the moment is not finite at q = {shown}: a load, a speed or a mass is too great there, "
-        "a damper or spring has length zero, or a gas no volume"
-    )
-    return MotionError(message, kind="not_finite", q=at)
+def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineModel, Any]:
+    """Return the machine of one design, and the design's index in a batch, of a flat position."""
+    if not machine.shape or machine.mechanism is None:
+        return machine, None
+    design = row // max(1, positions // math.prod(machine.shape))
+    index = tuple(int(i) for i in np.unravel_index(design, machine.shape))
+    values = machine.mechanism._values[(slice(None), *index)]
+    own = machine.mechanism._with_values(values.copy())
+    return type(machine)(own, machine.bodies, machine.loads, machine.motor), index
 
 
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
@@ -149,7 +129,7 @@ def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[n
 
 
 def _beyond_table(q: float, knots: list[float]) -> InputError:
-    hint = "extend the table"
+    hint = EXTEND
     message = (
         f"a table over q covers {knots[0]:.9g} to {knots[-1]:.9g}: {q:.9g} is not in it; {hint}"
     )

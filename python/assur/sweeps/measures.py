@@ -18,7 +18,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.sweeps.designs import Designs
-    from assur.sweeps.terms import Condition
+    from assur.sweeps.measuring import Measuring
 
 __all__ = ["Measures"]
 
@@ -28,20 +28,23 @@ Float: TypeAlias = npt.NDArray[np.float64]
 class Measures(Mapping[str, Float]):
     """The metrics of designs by name, arrays of shape S; made by `assur.sweep`.
 
-    Every design is one of three: it does not move over all of q (its `status` says why not), it
-    misses a condition of ``where=`` (it is in `missed`), or it is in `kept`. Only those kept have
-    metrics, the others have NaN (`metric.full_rotation` has 0 for those that do not move).
+    Every design is one of four: it does not move over all of q (its `status` says why not), it
+    misses a condition of ``where=`` (it is in `missed`), one of the metrics has no value (its
+    `status` is ``NO_VALUE``; the other metrics are there), or it is in `kept`. The others have NaN
+    (`metric.full_rotation` has 0 for those that do not move). `explain` says why a design is not
+    kept.
 
     Attributes
     ----------
     status : numpy.ndarray
         A `Status` of each design, S: that of a position that cannot be solved, if one was
-        found, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN. A
-        design that misses a condition is not solved further: it has ``OK``, or what its solved
-        positions have.
+        found, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN; otherwise
+        a metric that is NaN makes it ``NO_VALUE``: a load's table ends, friction locks the machine,
+        a path is not closed. A design that misses a condition is not solved further: it has ``OK``,
+        or what its solved positions have.
     kept : numpy.ndarray
-        Indices (of designs in C order) of those that move over all of q and meet all
-        conditions, ascending.
+        Indices (of designs in C order) of those that move over all of q, meet all conditions
+        and have all metrics, ascending.
 
     Examples
     --------
@@ -62,13 +65,13 @@ class Measures(Mapping[str, Float]):
         status: npt.NDArray[np.uint8],
         kept: npt.NDArray[np.intp],
         designs: Designs,
-        conditions: tuple[Condition, ...] = (),
+        measuring: Measuring,
     ) -> None:
         self._values = values
         self.status = status
         self.kept = kept
         self._designs = designs
-        self._conditions = conditions
+        self._measuring = measuring
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -137,9 +140,45 @@ class Measures(Mapping[str, Float]):
 
     def _counts(self) -> str:
         kept, missed = len(self.kept), len(self.missed)
-        fail = self.status.size - kept - missed
+        without = int(np.count_nonzero(self.status == Status.NO_VALUE))
+        fail = self.status.size - kept - missed - without
         of = f"of {self.status.size} designs {fail} do not move"
-        return f"{of}, {missed} miss a condition, {kept} are kept"
+        undefined = f"{without} lack a metric, " if without else ""
+        return f"{of}, {missed} miss a condition, {undefined}{kept} are kept"
+
+    def explain(self, index: int | tuple[int, ...]) -> str | None:
+        """Return why a design is not kept, or None if it is.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Index of the design in C order, or into S.
+
+        Returns
+        -------
+        str or None
+            A sentence: the position that cannot be solved, the condition missed, or the metric
+            without a value and why, a load by its name and place.
+
+        Examples
+        --------
+        A force over a stroke that a longer crank exceeds:
+
+        >>> import assur, numpy as np
+        >>> work = assur.Table([0.3, 0.5], [0.0, -900.0], over="bore")
+        >>> loads = [assur.Force("B", (work, 0.0))]
+        >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), loads=loads)
+        >>> asked, cranks = {"T": assur.metric.peak_effort()}, {"crank.length": [0.1, 0.12]}
+        >>> found = assur.sweep(press, cranks, [0.0, 1.0, 2.0], metrics=asked)
+        >>> found.kept, assur.Status(found.status[1]).name
+        (array([0]), 'NO_VALUE')
+        >>> print(found.explain(1))  # doctest: +NORMALIZE_WHITESPACE
+        T: loads[0], the Force at 'B': a table over 'bore' covers 0.3 to 0.5: 0.52, at q = 0,
+        is not in it; extend the table
+        """
+        from assur.sweeps.reasons import explained
+
+        return explained(self, self._flat(index))
 
     def designs(
         self, indices: int | tuple[Any, ...] | Sequence[int] | npt.NDArray[Any]

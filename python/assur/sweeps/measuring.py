@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_name, real_array
+from assur.description.words import Status
 from assur.errors import InputError
 from assur.kinematics.solve import solve
 from assur.sweeps.encode import encoded
@@ -104,8 +105,7 @@ class Measuring:
         for array in (*values.values(), status, indices):
             array.flags.writeable = False
         arrays = {name: array.reshape(shape) for name, array in values.items()}
-        conditions = tuple(self.conditions)
-        return Measures(arrays, status.reshape(shape), indices, designs, conditions)
+        return Measures(arrays, status.reshape(shape), indices, designs, self)
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
@@ -122,11 +122,33 @@ class Measuring:
             indices = np.flatnonzero(kept)
             of.update(self._called(some, indices))
         values = {name: metric.value(of.__getitem__) for name, metric in self.metrics.items()}
+        # A position that is singular has no analogues: its status says so.
+        is_defined = status < Status.SINGULAR
+        without = np.zeros_like(kept)
         for condition in self.late:
-            misses = kept & ~condition.holds(condition.metric.value(of.__getitem__))
+            measured = condition.metric.value(of.__getitem__)
+            misses = kept & ~condition.holds(measured)
+            without |= misses & np.isnan(measured) & is_defined
             kept &= ~misses
             values = {name: np.where(misses, np.nan, value) for name, value in values.items()}
-        return values, status, kept
+        for value in values.values():
+            without |= kept & np.isnan(value) & is_defined
+        return values, np.where(without, np.uint8(Status.NO_VALUE), status), kept & ~without
+
+    def without_value(self, design: Mechanism) -> str:
+        """Return which metric of a design has no value, and why."""
+        some = design._with_values(design._values[:, None])
+        asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
+        for name, metric in asked.items():
+            for part in (*metric.leaves(), metric):
+                own = Measuring(some, self.machine, self.q, {name: part}, None, self.threads)
+                if not np.isnan(own.measure(some)[0][name][0]):
+                    continue
+                if isinstance(part, OfMachine):
+                    assert self.machine is not None
+                    return f"{name}: {part.why(self.machine.of(design), self.q)}"
+                return f"{name}: {part!r} is not defined for this motion"
+        return "a metric has no value"
 
     def _called(self, some: Mechanism, indices: npt.NDArray[np.intp]) -> dict[Single, Float]:
         """Call the functions with the motions, or machines, of some designs."""

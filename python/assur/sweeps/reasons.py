@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.description.words import Status
+from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
     from assur._arrays import Float
     from assur.sweeps.measures import Measures
     from assur.sweeps.terms import Condition
@@ -21,6 +26,7 @@ WORDS = {
     Status.NOT_CONVERGED: "not converged",
     Status.BAD_DIMENSION: "bad dimension",
     Status.BAD_INPUT: "bad coordinate",
+    Status.NO_VALUE: "no value",
 }
 
 
@@ -33,7 +39,7 @@ def reasons(found: Measures, values: Float) -> list[tuple[str, Flags]]:
     left = np.isnan(values.reshape(-1))
     missed = np.zeros_like(left)
     missed[found.missed] = True
-    answer = [(_conditions(found._conditions), left & missed)]
+    answer = [(_conditions(found._measuring.conditions), left & missed)]
     left = left & ~missed
     unreachable = left & (status == Status.UNREACHABLE)
     answer += _unreachable(found, unreachable)
@@ -45,7 +51,7 @@ def reasons(found: Measures, values: Float) -> list[tuple[str, Flags]]:
     return [(text, which) for text, which in answer if which.any()]
 
 
-def _conditions(conditions: tuple[Condition, ...]) -> str:
+def _conditions(conditions: Sequence[Condition]) -> str:
     """Return what a design misses: of several conditions, one of them at least."""
     relations = {"<": "≥", "<=": ">", ">": "≤", ">=": "<"}
     wrong = [f"{c.metric!r} {relations[c.relation]} {c.limit:.6g}" for c in conditions]
@@ -54,7 +60,34 @@ def _conditions(conditions: tuple[Condition, ...]) -> str:
 
 def _words(found: Measures, code: Status) -> str:
     text = WORDS[code]
+    if code == Status.NO_VALUE and (found.status == code).any():
+        # "loads[0], the Force at 'B': its table …": what has none.
+        first = int(np.flatnonzero(found.status.reshape(-1) == code)[0])
+        parts = (explained(found, np.asarray(first)) or "").split(": ")
+        return f"{parts[1] if len(parts) > 2 else parts[0]} has no value".replace("'", "")
     return f"{_driver(found)} stops" if code == Status.LOST else text
+
+
+def explained(found: Measures, index: npt.NDArray[np.intp]) -> str | None:
+    """See `Measures.explain`."""
+    if index.ndim:
+        message = "explain() is of one design: an integer, or a tuple of integers, is needed"
+        raise InputError(message)
+    flat, measuring = int(index), found._measuring
+    if flat in found.kept:
+        return None
+    if flat in found.missed:
+        return f"it misses a condition: {_conditions(measuring.conditions)}"
+    status = int(found.status.reshape(-1)[flat])
+    design = found.designs(flat)
+    if status == Status.NO_VALUE:
+        return measuring.without_value(design)
+    motion = design.solve(measuring.q, order=0, outputs=[], on_error="nan")
+    failed = np.flatnonzero(motion.status >= Status.UNREACHABLE)
+    if not failed.size:
+        return Status(status).name
+    wanted = np.flatnonzero(motion.status == status)
+    return motion.explain(int(wanted[0] if wanted.size else failed[0]))
 
 
 def _driver(found: Measures) -> str:

@@ -15,6 +15,7 @@ from assur.cli.source_arguments import add_source
 from assur.cli.terminal import note
 from assur.cli.units import argument, numbers
 from assur.description.words import Status
+from assur.errors import AssurError
 
 if TYPE_CHECKING:
     import argparse
@@ -72,10 +73,24 @@ def run(given: argparse.Namespace) -> int:
         place = {"q": in_radians(mechanism, None, place["deg"])}
     found = machine.reactions(**place, **{**asked, "on_error": "nan"})
     output.write(found._columns(given.degrees))
+    without = found.status == Status.NO_VALUE
     unknown = np.isnan(found.driver).reshape(*found.status.shape, -1).any(axis=-1)
-    failed = report(found.status, Status.SINGULAR)
+    failed = report(np.where(without, 0, found.status), Status.SINGULAR)
     if failed or not unknown.any():
         return failed
-    why = "a load has no value there, or friction locks the machine"
-    note(f"{int(unknown.sum())} of {unknown.size} positions have no reactions: {why}")
+    why = ": friction locks the machine"
+    if without.any():
+        why = f"; the first: {_why(machine, found, asked)}"
+    note(f"{int(unknown.sum())} of {unknown.size} positions have no reactions{why}")
     return INCOMPLETE
+
+
+def _why(machine: Any, found: Any, asked: dict[str, Any]) -> str:
+    """Return why the first position without a value has none."""
+    at = tuple(np.argwhere(found.status == Status.NO_VALUE)[0])
+    rates = {name: getattr(found, name)[at] for name in ("speed", "acceleration")}
+    try:
+        machine.reactions(found.q[at], **{**asked, **rates, "on_error": "raise"})
+    except AssurError as error:
+        return str(error)
+    return "a load has no value there"
