@@ -190,7 +190,7 @@ def test_an_infinite_load_leaves_nan_in_its_place() -> None:
         machine.effort([0.5, 1.5, 0.7], 3.0, on_error="nan"),
     ):
         assert np.isnan(array).tolist() == [False, True, False]
-    assert found.status.tolist() == [0, 0, 0]
+    assert found.status.tolist() == [0, assur.Status.NO_VALUE, 0]
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
@@ -198,7 +198,8 @@ def test_a_load_that_is_not_finite_is_named(value: float) -> None:
     """Once it gave NaN with the status OK, errors or not."""
     load = assur.Force("B", (lambda *given: value if given[1] else 0.0, 0.0), on="piston")
     machine = assur.Machine(assur.SliderCrank(0.1, 0.35), loads=[load])
-    with pytest.raises(assur.MotionError) as caught:
-        machine.reactions([1.0, 2.0])
-    assert (caught.value.kind, caught.value.q) == ("not_finite", 1.0)
+    for ask in (machine.reactions, machine.effort, machine.reduced_moment):
+        with pytest.raises(assur.InputError, match=r"^loads\[0\], the Force at 'B': ") as caught:
+            ask([1.0, 2.0])
+        assert (caught.value.kind, caught.value.q) == ("not_finite", 1.0)
     assert not np.isfinite(machine.reactions(1.0, on_error="nan").driver)
