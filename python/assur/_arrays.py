@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -29,6 +30,10 @@ NOT_NUMBERS = (
     np.ndarray,
     np.void,
 )
+
+
+# The repr of a scalar of NumPy: np.str_('C').
+OF_NUMPY = re.compile(r"\bnp\.\w+\(([^()]*)\)")
 
 
 def real_array(value: Any, what: str, copy: bool = True) -> Float:
@@ -131,9 +136,13 @@ def counted(count: int, noun: str) -> str:
 
 
 def short(value: Any) -> str:
-    """Return the repr of a value, shortened for a message."""
+    """Return the repr of a value in one line, shortened for a message."""
     try:
-        text = repr(value)
+        if isinstance(value, str):
+            text = repr(str(value))
+        else:
+            # An array's repr has several lines; numbers and names of NumPy are shown as plain ones.
+            text = OF_NUMPY.sub(r"\1", " ".join(repr(value).split()))
     except ValueError:
         # Python does not print integers of more than 4300 digits.
         return f"a {type(value).__name__} of very many digits"

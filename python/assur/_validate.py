@@ -35,7 +35,7 @@ MAX_COUNT = 2**63 - 1
 def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
     """Return a word that is one of those known."""
     if isinstance(value, str) and value in known:
-        return value
+        return str(value)
     message = f"{what} is {short(value)}: one of {', '.join(map(repr, known))} is needed"
     raise InputError(message)
 
@@ -48,7 +48,7 @@ def require_rows(count: int, least: int, what: str) -> None:
 
 
 def checked_name(name: Any, what: str) -> str:
-    """Return a name: a string that is Unicode text."""
+    """Return a name: a string that is Unicode text; one of NumPy (of an array) becomes plain."""
     if not isinstance(name, str):
         message = f"{what}: the name {short(name)} is not a string"
         raise InputError(message)
@@ -56,7 +56,7 @@ def checked_name(name: Any, what: str) -> str:
     if not name.isascii() and any("\ud800" <= letter <= "\udfff" for letter in name):
         message = f"{what}: the name {name!a} is not Unicode text"
         raise InputError(message)
-    return name
+    return name if type(name) is str else str(name)
 
 
 def checked_names(names: Any, what: str) -> list[str]:
@@ -76,10 +76,8 @@ def checked_signs(assembly: Any, strict: bool = True) -> tuple[tuple[str, int], 
     if not isinstance(assembly, Mapping):
         message = f"assembly is {short(assembly)}: a mapping of inner joints or slides to +1 or -1"
         raise InputError(message)
-    return tuple(
-        (checked_name(name, "assembly"), _sign(name, sign, strict))
-        for name, sign in assembly.items()
-    )
+    named = ((checked_name(name, "assembly"), sign) for name, sign in assembly.items())
+    return tuple((name, _sign(name, sign, strict)) for name, sign in named)
 
 
 def _sign(name: str, sign: Any, strict: bool) -> int:
@@ -124,7 +122,7 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
     except TypeError:
         entries = ()
     if len(entries) != len(shape) or len(entries) != len(given):
-        message = f"{what} {index!r}: one index into the shape {shape} is needed"
+        message = f"{what} {short(index)}: one index into the shape {shape} is needed"
         raise InputError(message)
     for i, size in zip(entries, shape, strict=True):
         if not -size <= i < size:

@@ -227,7 +227,9 @@ def _coordinates(mechanism: Mechanism, link: str, point: Any) -> tuple[float, fl
         return two_numbers(point, f"places[{link!r}]")
     joints = mechanism.links[link]
     if point not in joints:
-        message = f"places[{link!r}]: joint {point!r} is not one of its joints {', '.join(joints)}"
+        message = (
+            f"places[{link!r}]: joint {short(point)} is not one of its joints {', '.join(joints)}"
+        )
         raise InputError(message, joint=point, link=link)
     place = joint_place(mechanism, link, point)
     return place.real, place.imag

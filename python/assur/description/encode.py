@@ -55,9 +55,7 @@ def items(mapping: Any, what: str) -> list[tuple[str, Any]]:
     if not isinstance(mapping, Mapping):
         message = f"{what} must be a mapping of names, not {type(mapping).__name__}"
         raise InputError(message)
-    for name in mapping:
-        checked_name(name, what)
-    return list(mapping.items())
+    return [(checked_name(name, what), value) for name, value in mapping.items()]
 
 
 def joint(name: str, at: Sequence[float]) -> tuple[str, float, float]:
@@ -78,14 +76,17 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
     if not isinstance(slide, Slide):
         message = f"slide {name!r} is {short(slide)}: an assur.Slide is needed"
         raise InputError(message, slide=name)
-    for what, word in (("link", slide.link), ("on", slide.on), ("origin", slide.origin)):
-        if what != "origin" or word is not None:
-            _checked(word, f"slide {name!r}, {what}", slide=name)
+    words = {"link": slide.link, "on": slide.on}
+    words |= {} if slide.origin is None else {"origin": slide.origin}
+    own = {
+        what: _checked(word, f"slide {name!r}, {what}", slide=name) for what, word in words.items()
+    }
+    link, on, origin = own["link"], own["on"], own.get("origin")
     if slide.along is not None:
         if slide.angle == slide.angle:
             message = f"slide {name!r} has both angle and along: give one"
             raise InputError(message, slide=name)
-        return Slide(slide.link, slide.on, _direction(name, slide.along, joints), slide.origin)
+        return Slide(link, on, _direction(name, slide.along, joints), origin)
     try:
         angle = real_array(slide.angle, "angle")
     except InputError:
@@ -99,7 +100,7 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
     if abs(float(angle)) > LIKE_DEGREES:
         message = f"slide {name!r} has an angle of {float(angle):g} rad: is it in degrees?"
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
-    return Slide(slide.link, slide.on, float(angle), slide.origin)
+    return Slide(link, on, float(angle), origin)
 
 
 def _direction(name: str, ends: Any, joints: Sequence[tuple[str, float, float]]) -> float:
@@ -114,7 +115,7 @@ def _direction(name: str, ends: Any, joints: Sequence[tuple[str, float, float]])
         raise InputError(message, slide=name)
     (x, y), (u, v) = at[ends[0]], at[ends[1]]
     if (x, y) == (u, v):
-        message = f"slide {name!r}: {ends[0]!r} and {ends[1]!r} are in one place"
+        message = f"slide {name!r}: {short(ends[0])} and {short(ends[1])} are in one place"
         raise InputError(message, slide=name)
     return float(arctan2(v - y, u - x))
 
@@ -124,53 +125,58 @@ def cylinder(
 ) -> tuple[Slide, list[tuple[str, tuple[str, ...]]]]:
     """Return the slide of a cylinder, and its two links."""
     at = {joint: (x, y) for joint, x, y in joints}
-    for what, word in (("base", cylinder.base), ("end", cylinder.end)):
-        _checked(word, f"cylinder {name!r}, {what}", slide=name)
-        if word not in at:
-            message = f"cylinder {name!r}: its {what} {word!r} is not a joint"
+    words = {
+        "base": cylinder.base,
+        "end": cylinder.end,
+        "barrel": f"{name}_barrel" if cylinder.barrel is None else cylinder.barrel,
+        "rod": f"{name}_rod" if cylinder.rod is None else cylinder.rod,
+    }
+    own = {
+        what: _checked(word, f"cylinder {name!r}, {what}", slide=name)
+        for what, word in words.items()
+    }
+    base, end, barrel, rod = own.values()
+    for what in ("base", "end"):
+        if own[what] not in at:
+            message = f"cylinder {name!r}: its {what} {own[what]!r} is not a joint"
             raise InputError(message, slide=name)
-    barrel = f"{name}_barrel" if cylinder.barrel is None else cylinder.barrel
-    rod = f"{name}_rod" if cylinder.rod is None else cylinder.rod
-    for what, word in (("barrel", barrel), ("rod", rod)):
-        _checked(word, f"cylinder {name!r}, {what}", slide=name)
-    (x, y), (u, v) = at[cylinder.base], at[cylinder.end]
+    (x, y), (u, v) = at[base], at[end]
     if (x, y) == (u, v):
-        message = f"cylinder {name!r}: {cylinder.base!r} and {cylinder.end!r} are in one place"
+        message = f"cylinder {name!r}: {base!r} and {end!r} are in one place"
         raise InputError(message, slide=name)
-    own = Slide(rod, barrel, float(arctan2(v - y, u - x)), cylinder.base)
-    return own, [(barrel, (cylinder.base,)), (rod, (cylinder.end,))]
+    slide = Slide(rod, barrel, float(arctan2(v - y, u - x)), base)
+    return slide, [(barrel, (base,)), (rod, (end,))]
 
 
-def _checked(word: Any, what: str, **field: str) -> None:
-    """Check a name; the error carries the joint, link or slide it belongs to."""
+def _checked(word: Any, what: str, **field: str) -> str:
+    """Return a name; the error carries the joint, link or slide it belongs to."""
     try:
-        checked_name(word, what)
+        return checked_name(word, what)
     except InputError as error:
         raise InputError(str(error), **field) from error  # type: ignore[arg-type]
 
 
 def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
     """Return the drivers as a tuple."""
-    drivers: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
-    for d in drivers:
+    given: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
+    found: list[DriverLike] = []
+    for d in given:
         words: tuple[Any, ...] = (d.link, d.relative_to) if isinstance(d, Drive) else (d,)
         if not all(isinstance(word, str) for word in words):
             message = (
                 f"driver {short(d)}: the name of a link or slide, or an assur.Drive, is needed"
             )
             raise InputError(message)
-        for word in words:
-            checked_name(word, "driver")
-    return drivers
+        names = [checked_name(word, "driver") for word in words]
+        found.append(Drive(*names) if isinstance(d, Drive) else names[0])
+    return tuple(found)
 
 
 def members(name: str, joints: Any) -> tuple[str, ...]:
     """Return the joints of a link as a tuple of names."""
     try:
-        members = tuple(joints)
+        members: tuple[Any, ...] = tuple(joints)
     except TypeError as error:
         message = f"link {name!r} is {short(joints)}: a list of names of joints is needed"
         raise InputError(message, link=name) from error
-    for member in members:
-        _checked(member, f"link {name!r}, joints", link=name)
-    return members
+    return tuple(_checked(member, f"link {name!r}, joints", link=name) for member in members)

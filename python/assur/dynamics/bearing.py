@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur import _trig
-from assur._arrays import in_range, real_number
+from assur._arrays import in_range, real_number, short
 from assur._extreme import Extreme
+from assur._validate import checked_name
 from assur.dynamics.options import positive_number
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
@@ -208,6 +209,7 @@ def bearing(
     found: Reactions, name: str, on: str, frame: str | None, against: str | None
 ) -> Bearing:
     """Return a pin's force as polar data; see `Reactions.bearing`."""
+    name, on = checked_name(name, "joint"), checked_name(on, "on")
     force = found.joint(name, on)
     links = [link for link, joints in found._mechanism.links.items() if name in joints]
     if len(links) == 1:
@@ -217,7 +219,7 @@ def bearing(
     for what, link in (("frame", frame), ("against", against)):
         known = links if what == "frame" else others
         if link is not None and link not in (*known, *(["ground"] if what == "frame" else [])):
-            message = f"{what} is {link!r}: at joint {name!r} it is one of {', '.join(known)}"
+            message = f"{what} is {short(link)}: at joint {name!r} it is one of {', '.join(known)}"
             raise InputError(message, joint=name)
     other = against or (others[0] if len(others) == 1 else None)
     own_frame = on if frame is None else frame

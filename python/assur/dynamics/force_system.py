@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur._arrays import short
 from assur._validate import checked_index, checked_name
 from assur.description.words import Status
 from assur.dynamics.acting import Acting, Positions, acting_on
@@ -118,7 +119,7 @@ def _checked_links(mechanism: Mechanism, links: str | Sequence[str] | None) -> t
     for link in wanted:
         mechanism._core.require("link", checked_name(link, "links"))
     if not wanted or "ground" in wanted:
-        message = f"links is {links!r}: moving links are needed, some of {', '.join(moving)}"
+        message = f"links is {short(links)}: moving links are needed, some of {', '.join(moving)}"
         raise InputError(message)
     return tuple(link for link in moving if link in wanted)
 

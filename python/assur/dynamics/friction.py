@@ -126,11 +126,11 @@ def checked_friction(mechanism: Mechanism, friction: Any) -> dict[str, PairFrict
             "to assur.SlideFriction is needed"
         )
         raise InputError(message)
-    return {name: _of_pair(mechanism, name, one) for name, one in friction.items()}
+    named = ((checked_name(name, "friction"), one) for name, one in friction.items())
+    return {name: _of_pair(mechanism, name, one) for name, one in named}
 
 
-def _of_pair(mechanism: Mechanism, name: Any, friction: Any) -> PairFriction:
-    checked_name(name, "friction")
+def _of_pair(mechanism: Mechanism, name: str, friction: Any) -> PairFriction:
     if isinstance(friction, SlideFriction):
         mechanism._core.require("slide", name)
         return friction

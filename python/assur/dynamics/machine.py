@@ -583,7 +583,7 @@ class Machine(MachineModel):
         mean_speed : float, optional
             Required mean speed, rad/s. A constant motor then balances the mean moment of the
             loads, which are evaluated at the mean speed. Without it the machine's own motor sets
-            the speed, and loads are evaluated at the true speed.
+            the speed, and loads are evaluated at the true speed: for one design, not a batch.
         mean : {"extremes", "period"}
             Definition of the mean speed (`assur.flywheel.from_table`).
         on_error : {"raise", "nan"}

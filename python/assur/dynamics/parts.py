@@ -45,7 +45,7 @@ def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
     if not isinstance(link, str):
         message = f"bodies has {short(link)}: names of links are needed"
         raise InputError(message)
-    checked_name(link, "bodies")
+    link = checked_name(link, "bodies")
     if not isinstance(body, Body):
         message = f"bodies[{link!r}] is {short(body)}: an assur.Body is needed"
         raise InputError(message)

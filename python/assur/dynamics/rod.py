@@ -92,7 +92,8 @@ def straight_rod(
     machine: Machine, mechanism: Mechanism, link: Any, along: Any, density: Any
 ) -> Rod:
     """Return a link of a machine of one design as a rod, checked; see `Machine.internal_loads`."""
-    mechanism._core.require("link", checked_name(link, "link"))
+    link = checked_name(link, "link")
+    mechanism._core.require("link", link)
     joints = mechanism.links[link]
     if link == "ground" or len(joints) < 2:
         message = f"link {link!r} is not a rod: loads inside it need a moving link of two joints"

@@ -70,6 +70,12 @@ def flywheel(
         if machine.motor is None:
             message = "mean_speed is needed: no motor sets the speed"
             raise InputError(message)
+        if machine.shape:
+            message = (
+                "flywheel(fluctuation) with the machine's own motor is for one design, this is a "
+                f"batch {machine.shape}: take one with design(i), or give mean_speed"
+            )
+            raise InputError(message)
         wanted = real_number(fluctuation, "fluctuation")
         if not 0.0 < wanted < 2.0:
             message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import short
 from assur._validate import checked_threads
 from assur.errors import AssurWarning, InputError
 from assur.kinematics.assembly import Assemblies, Assembly, Place, joints_that_differ
@@ -23,7 +24,7 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
     """See `Mechanism.assemblies`."""
     array, positions, per_design = checked_coordinates(mechanism, q)
     if not np.isfinite(array).all():
-        message = f"q = {q!r}: a finite coordinate is needed"
+        message = f"q = {short(q)}: a finite coordinate is needed"
         raise InputError(message, value=float(array[~np.isfinite(array)][0]))
     drivers = mechanism._driver_count
     found = mechanism._core.assemblies(

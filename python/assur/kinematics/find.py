@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import counted
+from assur._arrays import counted, short
 from assur._callers import level_of_caller
 from assur._validate import checked_name, real_array
 from assur.description import encode
@@ -37,7 +37,7 @@ BESIDE = 1e-9
 
 def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembly]]:
     """See `Mechanism.find`."""
-    checked_name(name, "find")
+    name = checked_name(name, "find")
     drivers = mechanism._driver_count
     if mechanism.shape:
         message = f"find() is for one design, this is a batch {mechanism.shape}: use design(i)"
@@ -48,7 +48,7 @@ def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembl
     wanted = np.atleast_1d(real_array(value, "value"))
     if wanted.shape != (drivers,) or not np.isfinite(wanted).all():
         need = "a finite number" if drivers == 1 else "finite numbers (x, y) of a joint"
-        message = f"value is {value!r}: with {counted(drivers, 'driver')} {need} is needed"
+        message = f"value is {short(value)}: with {counted(drivers, 'driver')} {need} is needed"
         raise InputError(message)
     if drivers == 1 and name in mechanism.links and abs(float(wanted[0])) > 4.0 * np.pi:
         turns = abs(float(wanted[0])) / (2.0 * np.pi)
@@ -111,11 +111,11 @@ def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mech
     except StructureError as error:
         if "." not in name and name not in mechanism._joint_names:
             raise
-        message = (
-            f"{name!r} cannot be set: the joint does not move, or along a curve only, or not "
-            f"without other drivers ({error.kind})"
-        )
-        raise InputError(message) from error
+        joint = name if name in mechanism._joint_names else name.rpartition(".")[0]
+        why = "the joint moves along a curve only, or not without other drivers"
+        if joint in mechanism.links.get("ground", ()):
+            why = f"joint {joint!r} is on the ground and does not move"
+        raise InputError(f"{name!r} cannot be set: {why}") from error
     own = dict(zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True))
     drawn = zip(core.dimension_names, core.drawing, strict=True)
     values = np.array([own.get(name, value) for name, value in drawn])

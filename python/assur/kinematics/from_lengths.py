@@ -62,7 +62,7 @@ def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str,
             raise InputError(message)
         value = real_number(length, f"length {names[0]}-{names[1]}")
         if not (value > 0.0 and math.isfinite(value)):
-            message = f"length {names[0]}-{names[1]} is {value!r}: a positive length is needed"
+            message = f"length {names[0]}-{names[1]} is {short(value)}: a positive length is needed"
             raise InputError(message, value=value)
         twice = found.get(frozenset(names))
         if twice is not None and twice[1] != value:

@@ -139,7 +139,8 @@ class Motion:
     def _find(
         self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str
     ) -> tuple[Float, ...]:
-        if checked_name(name, kind) not in held:
+        name = checked_name(name, kind)
+        if name not in held:
             self._request.mechanism._core.require(kind, name)
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
@@ -288,7 +289,7 @@ class Motion:
             if index in names:
                 return of(index)
         known = ", ".join(repr(name) for kind in kinds for name in kind)
-        message = f"[{index!r}]: nothing is called so; there are {known}"
+        message = f"[{short(index)}]: nothing is called so; there are {known}"
         raise InputError(message)
 
     def __len__(self) -> int:
@@ -314,7 +315,7 @@ class Motion:
         return joints, links, slides
 
     def _reference_point(self, link: str) -> Analogues:
-        checked_name(link, "link")
+        link = checked_name(link, "link")
         # Rarely needed, so solved on request.
         if link not in self._reference_points:
             self._reference_points[link] = self._request.reference_point(link)

@@ -116,7 +116,8 @@ class Sensitivity:
         return Analogues(name, self._of("slide", self._results.slides, name), self._drivers, False)
 
     def _of(self, kind: str, held: Arrays, name: str) -> tuple[npt.NDArray[np.float64], ...]:
-        if checked_name(name, kind) not in held:
+        name = checked_name(name, kind)
+        if name not in held:
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
         return held[name]

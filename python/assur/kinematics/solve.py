@@ -49,7 +49,7 @@ def solve(
     is_typed: bool = False,
 ) -> Motion:
     """See `Mechanism.solve`; `is_typed`: whether a user wrote the coordinates, in rad."""
-    if on_error == "drop":
+    if isinstance(on_error, str) and on_error == "drop":
         message = 'on_error is "drop": that is for assur.sweep; one of "raise", "nan" is needed'
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
@@ -202,7 +202,7 @@ def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
     if names is None:
         return joints, links, slides
     if isinstance(names, str):
-        message = f"outputs={names!r}: a list of names is needed, [{names!r}]"
+        message = f"outputs={short(names)}: a list of names is needed, [{short(names)}]"
         raise InputError(message)
     try:
         wanted: list[Any] = list(names)
@@ -224,6 +224,6 @@ def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
                 is_known = True
         if not is_known:
             known = ", ".join(repr(n) for n in (*joints, *links, *slides))
-            message = f"outputs: nothing is called {name!r}; there are {known}"
+            message = f"outputs: nothing is called {short(name)}; there are {known}"
             raise InputError(message)
     return chosen

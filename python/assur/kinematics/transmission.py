@@ -45,17 +45,16 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
 
 def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bool]:
     """Return the two lines, and whether the complement of their angle is wanted."""
-    checked_name(name, "transmission_angle")
+    name = checked_name(name, "transmission_angle")
     if between is not None:
-        joints = (name, *between) if isinstance(between, tuple | list) else ()
-        for joint in joints:
-            checked_name(joint, "between")
+        given = (name, *between) if isinstance(between, tuple | list) else ()
+        joints = [checked_name(joint, "between") for joint in given]
         if len(set(joints)) != 3 or len(joints) != 3:
             message = f"between={short(between)}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
         for joint in joints:
             mechanism._core.require("joint", joint)
-        return [JointLine(name, other) for other in between], False
+        return [JointLine(name, other) for other in joints[1:]], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)
     if slide is not None:
         return _at_slide(mechanism, slide), True

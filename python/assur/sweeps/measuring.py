@@ -60,9 +60,8 @@ class Measuring:
         if not isinstance(metrics, Mapping):
             message = f"metrics is {short(metrics)}: a mapping of names to metrics is needed"
             raise InputError(message)
-        self.metrics = {
-            checked_name(name, "metrics"): _metric(name, m) for name, m in metrics.items()
-        }
+        named = [(checked_name(name, "metrics"), one) for name, one in metrics.items()]
+        self.metrics = {name: _metric(name, one) for name, one in named}
         self.conditions = conditions = _conditions(where)
         self.threads = threads
         self.q = _coordinates(mechanism, q)

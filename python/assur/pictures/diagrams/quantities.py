@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def quantities(motion: Motion, name: Any) -> list[Quantity]:
     """Return what names are of; they must be of one kind."""
     names = [name] if isinstance(name, str) else name
     if not isinstance(names, list | tuple) or not names:
-        message = f"diagram: {name!r} is not a name or a list of names"
+        message = f"diagram: {short(name)} is not a name or a list of names"
         raise InputError(message)
     found = [_quantity(motion, one) for one in names]
     units = {"rad" if one.kind == "link" else "m" for one in found}
@@ -84,7 +85,7 @@ def _quantity(motion: Motion, name: Any) -> Quantity:
         if dot and axis in AXES and joint in motion.mechanism._joint_names:
             return Quantity("joint", joint, AXES.index(axis))
     # It says what there is.
-    motion[name if isinstance(name, str) else repr(name)]
+    motion[name if isinstance(name, str) else short(name)]
     raise AssertionError(name)  # pragma: no cover
 
 
