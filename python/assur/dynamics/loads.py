@@ -5,7 +5,7 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -48,19 +48,42 @@ class Body:
     at : str or (x, y), optional
         Centre of mass: a joint, or coordinates in the link's frame (origin at its first joint, x
         toward its second), m. The link's first joint by default.
+    drawn : (x, y), optional
+        In place of `at`: the centre of mass in the drawing's coordinates, m, as a CAD program gives
+        it. The drawing is that of the machine's mechanism, at its `q0`: the machine's own body has
+        the place in the link's frame, as `at`, for a link keeps it where its dimensions change.
 
     Examples
     --------
     >>> import assur
     >>> assur.Body(mass=2.0, inertia=0.05, at=(0.2, 0.0))
     Body(mass=2.0, inertia=0.05, at=(0.2, 0.0))
+
+    A rod that is drawn upright, from (1, 1) to (1, 3):
+
+    >>> m = assur.Mechanism(
+    ...     joints={"A": (1, 1), "B": (1, 3)}, links={"ground": "A", "rod": "AB"}, driver="rod"
+    ... )
+    >>> machine = assur.Machine(m, {"rod": assur.Body(2.0, drawn=(0.75, 2.0))})
+    >>> machine.bodies["rod"]
+    Body(mass=2.0, inertia=0.0, at=(1.0, 0.25))
     """
 
     mass: float = 0.0
     inertia: float = 0.0
     at: str | tuple[float, float] | None = None
+    drawn: tuple[float, float] | None = field(default=None, kw_only=True)
+
+    def __repr__(self) -> str:
+        drawn = "" if self.drawn is None else f", drawn={self.drawn!r}"
+        return f"Body(mass={self.mass!r}, inertia={self.inertia!r}, at={self.at!r}{drawn})"
 
     def __post_init__(self) -> None:
+        if self.drawn is not None:
+            if self.at is not None:
+                message = "Body: both at and drawn are given: the centre of mass is one of them"
+                raise InputError(message)
+            replace_fields(self, drawn=two_numbers(self.drawn, "Body drawn"))
         at: Any = self.at
         if at is not None:
             is_name = isinstance(at, str)

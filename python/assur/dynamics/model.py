@@ -82,7 +82,9 @@ class MachineModel:
     ) -> None:
         parts.check_types(mechanism, bodies)
         self.mechanism = mechanism
-        self.bodies = MappingProxyType(dict(bodies))
+        self.bodies = MappingProxyType(
+            dict(parts.body(mechanism, link, one) for link, one in bodies.items())
+        )
         self.loads = tuple(as_list(loads, "loads"))
         self._drivers = int(np.size(mechanism.q0))
         # With one driver, the motor itself.
@@ -94,13 +96,13 @@ class MachineModel:
         )
         self._rebuild_with: tuple[Any, ...] = (
             type(self),
-            (mechanism, dict(bodies), self.loads, self.motor, dict(self.friction)),
+            (mechanism, dict(self.bodies), self.loads, self.motor, dict(self.friction)),
         )
         motors = parts.motors(self.motor, self._drivers)
         self._core = _core.Machine(
             mechanism._core,
             loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
-            bodies=[parts.body(mechanism, link, body) for link, body in self.bodies.items()],
+            bodies=list(self.bodies.items()),
             motors=motors,
             friction=list(self.friction.items()),
         )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur import _trig
 from assur._arrays import Float, real_array, short
 from assur._validate import checked_name, require_rows
 from assur.dynamics.loads import Body, Force, Load
@@ -54,7 +55,33 @@ def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
     if isinstance(at, str) and link in mechanism.links and at not in joints:
         message = f"bodies[{link!r}]: joint {at!r} is not one of its joints {', '.join(joints)}"
         raise InputError(message, joint=at, link=link)
-    return link, body
+    return link, body if body.drawn is None else _in_its_frame(mechanism, link, body)
+
+
+def _in_its_frame(mechanism: Mechanism, link: str, body: Body) -> Body:
+    """Return a body whose centre of mass is given in the drawing, with its place in the link."""
+    mechanism._core.require("link", link)
+    if mechanism.shape:
+        message = (
+            f"bodies[{link!r}]: drawn is in the drawing of one design, this is a batch "
+            f"{mechanism.shape}: make the machine of one, then machine.of(batch); or give at"
+        )
+        raise InputError(message, link=link)
+    assert body.drawn is not None
+    x, y = body.drawn
+    if link != "ground":
+        motion = mechanism.solve(mechanism._q0_array(), order=0, on_error="nan")
+        origin = motion._reference_point(link).value
+        sine, cosine = _trig.sin_cos(motion.link(link).value)
+        x, y = x - float(origin[0]), y - float(origin[1])
+        x, y = float(cosine * x + sine * y), float(cosine * y - sine * x)
+    if not np.isfinite([x, y]).all():
+        message = (
+            f"bodies[{link!r}]: drawn needs the mechanism's drawing, but this design cannot be "
+            "assembled at its q0: give at"
+        )
+        raise InputError(message, link=link)
+    return Body(body.mass, body.inertia, (x, y))
 
 
 def load(mechanism: Mechanism, load: Load) -> Load:

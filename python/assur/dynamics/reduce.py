@@ -117,8 +117,7 @@ def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineMode
         return machine, None
     design = row // max(1, positions // math.prod(machine.shape))
     index = tuple(int(i) for i in np.unravel_index(design, machine.shape))
-    values = machine.mechanism._values[(slice(None), *index)]
-    own = machine.mechanism._with_values(values.copy())
+    own = machine.mechanism.design(index)
     return type(machine)(own, machine.bodies, machine.loads, machine.motor), index
 
 

@@ -95,7 +95,7 @@ ROWS: Words = {
 GAS: Words = dict.fromkeys(("pressure", "volume", "at", "exponent"), number)
 WAY: Words = {"while_": text, "over": text}
 SHAFT: Words = {"ratio": number, "rotor_inertia": number}
-BODY: Words = {"mass": number, "inertia": number, "at": place}
+BODY: Words = {"mass": number, "inertia": number, "at": place, "drawn": Node.pair}
 LOADS: dict[type, Words] = {
     Gravity: {"acceleration": Node.pair},
     Force: {"at": point, "force": pair_of_values, "axes": text, "on": text, **WAY},

@@ -45,8 +45,9 @@ class ReducedTable(NamedTuple):
 
     # As a tuple it would compare arrays.
     def __eq__(self, other: object) -> bool:
-        same = isinstance(other, ReducedTable)
-        return same and tuple(map(key_of, self)) == tuple(map(key_of, other))  # type: ignore[arg-type]
+        if not isinstance(other, ReducedTable):
+            return False
+        return tuple(map(key_of, self)) == tuple(map(key_of, other))
 
     def __ne__(self, other: object) -> bool:
         return not self == other

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import short
+from assur._callers import level_of_caller
 from assur._validate import real_number
-from assur.errors import InputError, PositionError
+from assur.errors import AssurWarning, InputError, PositionError
 from assur.kinematics.place import size_of
 
 if TYPE_CHECKING:
@@ -18,6 +20,10 @@ if TYPE_CHECKING:
 
 # How far (relative to the length) a distance that others decide may be from the one that is given.
 AGREES = 1e-6
+
+# Sines of the angle at which a sketch shows a joint beside a line: below the one it does not, for
+# typed numbers are rounded; below the other, a degree, a hand may have meant the other side.
+ON_LINE, HARDLY = 1e-9, 0.0175
 
 # The joints of a link in its own frame: complex numbers.
 Shape = dict[str, complex]
@@ -140,8 +146,31 @@ def _place(
         raise InputError(message, link=link)
     drawn = (at[other] - at[one]).conjugate() * towards
     side = math.copysign(1.0, drawn.imag)
+    if height2 > AGREES * r * r:
+        _require_side(link, (name, one, other), drawn)
     unit = chord / d
     return placed[one] + unit * complex(along, side * math.sqrt(max(height2, 0.0)))
+
+
+def _require_side(link: str, names: tuple[str, str, str], drawn: complex) -> None:
+    """Refuse a sketch that does not show a joint's side of two others; warn if it hardly does."""
+    name, one, other = names
+    sine = abs(drawn.imag) / abs(drawn) if drawn else 0.0
+    if sine >= HARDLY:
+        return
+    line = f"the line {one}-{other}"
+    if sine <= ON_LINE:
+        message = (
+            f"link {link!r}: joint {name!r} is drawn on {line}, and the lengths put it beside it: "
+            "draw it on its side"
+        )
+        raise InputError(message, joint=name, link=link)
+    side = "left" if drawn.imag > 0.0 else "right"
+    message = (
+        f"link {link!r}: joint {name!r} is drawn {math.degrees(sine):.2g}° beside {line}, and is "
+        f"taken on the {side} of {one} → {other}: draw it clearly on its side"
+    )
+    warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
 
 
 def _named(

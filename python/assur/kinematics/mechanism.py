@@ -166,7 +166,7 @@ class Mechanism:
         lengths : mapping of (str, str) to float
             Distances of two joints of one link, m: ``("B", "C")``, or ``"BC"`` of names of one
             letter. What is not given remains as sketched; of a link with more joints, three
-            distances make a triangle on the sketch's side.
+            distances make a triangle on the sketch's side, which the sketch must show clearly.
 
         Returns
         -------
@@ -176,9 +176,15 @@ class Mechanism:
         Raises
         ------
         InputError
-            A pair without a link, lengths that are no triangle, or that contradict each other.
+            A pair without a link, lengths that are no triangle, or that contradict each other; a
+            joint sketched on the line of two others, beside which the lengths put it.
         PositionError
             If the mechanism does not close at the sketch's q.
+
+        Warns
+        -----
+        AssurWarning
+            A joint sketched so near to that line that its side is doubtful.
 
         Examples
         --------

@@ -49,7 +49,8 @@ def solve(
     is_typed: bool = False,
 ) -> Motion:
     """See `Mechanism.solve`; `is_typed`: whether a user wrote the coordinates, in rad."""
-    if isinstance(on_error, str) and on_error == "drop":
+    given: object = on_error
+    if isinstance(given, str) and given == "drop":
         message = 'on_error is "drop": that is for assur.sweep; one of "raise", "nan" is needed'
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")

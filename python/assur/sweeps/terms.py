@@ -253,7 +253,8 @@ class Function(ByValue, Metric):
 
     def _key(self) -> tuple[Any, ...]:
         # A callable object may have no hash.
-        same = self.function if isinstance(self.function, Hashable) else id(self.function)
+        own: Any = self.function
+        same = own if isinstance(own, Hashable) else id(own)
         return same, self.outputs, self.order
 
     def leaves(self) -> Iterator[Single]:

@@ -106,8 +106,8 @@ def test_the_inertia_is_one_curve() -> None:
     ],
 )
 def test_refused(rows: Any, spline: Spline, message: str) -> None:
-    wanted = {"fluctuation": 0.1, "mean_speed": 10.0}
+    wanted: Any = {"fluctuation": 0.1, "mean_speed": 10.0}
     with pytest.raises(assur.InputError, match=message.replace(".", r"\.")):
         flywheel.from_table(*rows, **wanted, spline=spline)
     with pytest.raises(assur.InputError, match=message.replace(".", r"\.")):
-        Machine.from_table(*rows, spline=spline)
+        Machine.from_table(rows[0], rows[1], rows[2], spline=spline)

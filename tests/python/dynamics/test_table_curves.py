@@ -148,7 +148,7 @@ def test_every_curve_is_there_by_name(spline: assur.flywheel.Spline) -> None:
 def test_a_flywheel_of_a_table_keeps_its_cubic_spline() -> None:
     q = np.linspace(0.0, TURN, 9)
     moment = [-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23]
-    wanted = {"fluctuation": 0.125, "mean_speed": 15.0}
+    wanted: Any = {"fluctuation": 0.125, "mean_speed": 15.0}
     plain = assur.flywheel.from_table(q, moment, **wanted)
     named = assur.flywheel.from_table(q, moment, **wanted, spline="not-a-knot")
     other = assur.flywheel.from_table(q, moment, **wanted, spline="pchip")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 from itertools import combinations
 from typing import Any
@@ -93,3 +94,36 @@ def test_the_length_of_a_cylinder_is_a_coordinate(pair: tuple[str, str]) -> None
         {"lift": assur.Cylinder("base", "eye")},
     )
     refused(assur.InputError, f"{pair[0]}-{pair[1]} coordinate slide 'lift'", ask)
+
+
+def coupler(height: float, lengths: dict[str, float]) -> assur.Mechanism:
+    """A four-bar whose coupler point is sketched so far above the line B-C."""
+    return assur.Mechanism.from_lengths(
+        joints={"A": (0, 0), "B": (0, 1), "C": (3, 1), "D": (3, 0), "P": (1.5, 1 + height)},
+        links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
+        driver="crank",
+        lengths=lengths,
+    )
+
+
+TRIANGLE = {"BC": 3.0, "BP": 1.6, "CP": 1.6}
+
+
+@pytest.mark.parametrize("height", [0.0, -0.0, 1e-12])
+def test_a_joint_on_a_line_has_no_side(height: float) -> None:
+    message = "'P' is drawn on the line B-C, and the lengths put it beside it: draw it on its side"
+    with pytest.raises(assur.InputError, match=message):
+        coupler(height, TRIANGLE)
+    # Where it stays on the line it needs none.
+    straight = coupler(height, {"BC": 3.0, "BP": 1.2, "CP": 1.8})
+    assert straight.dimensions["coupler.P.y"] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("height", "side"), [(0.01, "left"), (-0.01, "right")])
+def test_a_doubtful_side_is_named(height: float, side: str) -> None:
+    with pytest.warns(assur.AssurWarning, match=f"taken on the {side} of B → C: draw it") as seen:
+        own = coupler(height, TRIANGLE)
+    assert seen[0].filename == __file__
+    assert own.dimensions["coupler.P.y"] == pytest.approx(math.copysign(0.31**0.5, height))
+    clear = coupler(20.0 * height, TRIANGLE)
+    assert clear.dimensions["coupler.P.y"] == pytest.approx(math.copysign(0.31**0.5, height))

@@ -254,7 +254,7 @@ def spline(table: assur.Table, periodic: bool) -> Callable[[Any], Any]:
         turns = (-1, 0, 1) if periodic else (0,)
         starts = [knots[: len(knots) - periodic] + k * period for k in turns]
         rows = np.tile(values[: len(values) - periodic], len(turns))
-        curve = PchipInterpolator(np.concatenate(starts), rows)
+        curve: Any = PchipInterpolator(np.concatenate(starts), rows)
     else:
         curve = CubicSpline(knots, values, bc_type=kind)
     return lambda x: curve(within(x))

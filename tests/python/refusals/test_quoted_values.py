@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 A, B, C, D, X, GROUND, CRANK, ROD, ROCKER = np.array(
     ["A", "B", "C", "D", "X", "ground", "crank", "rod", "rocker"]
 )
-TABLE = np.arange(300.0).reshape(30, 10)
+TABLE: Any = np.arange(300.0).reshape(30, 10)
+WRONG: Any = 3
 Q = np.linspace(0.0, 6.0, 9)
 
 
@@ -90,7 +91,7 @@ NAMES: dict[str, Callable[[], Any]] = {
     "a couple": lambda: machine(assur.Torque(ROD, 1.0)).internal_loads(ROD, Q),
     "metric": lambda: swept(X),
     "metric of a joint": lambda: swept(C),
-    "metrics": lambda: assur.sweep(four_bar(), {}, Q, metrics={X: 3}),
+    "metrics": lambda: assur.sweep(four_bar(), {}, Q, metrics={X: WRONG}),
     "peak": lambda: assur.sweep(machine(), {}, Q, metrics={"a": metric.peak_reaction(X)}),
     "table over": lambda: machine(assur.Torque(ROD, assur.Table([0, 1], [0, 1], over=X))),
     "spline": lambda: assur.Table([0, 1], [0, 1], X),
@@ -149,11 +150,11 @@ ARRAYS: dict[str, Callable[[], Any]] = {
     "words": lambda: four_bar().solve(Q, on_error=TABLE),
     "order": lambda: four_bar().solve(Q, order=TABLE),
     "outputs": lambda: four_bar().solve(Q, outputs=[TABLE]),
-    "limit": lambda: metric.mean("C.x") < TABLE,  # type: ignore[operator]
-    "over": lambda: metric.mean("C.x", over=TABLE),  # type: ignore[arg-type]
-    "law": lambda: assur.laws.Uniform(TABLE, 1.0, 1.0),  # type: ignore[arg-type]
+    "limit": lambda: metric.mean("C.x") < TABLE,
+    "over": lambda: metric.mean("C.x", over=TABLE),
+    "law": lambda: assur.laws.Uniform(TABLE, 1.0, 1.0),
     "event": lambda: machine().run(1.0, events=[TABLE]),
-    "places": lambda: assur.balance.fit(machine(), {"crank": TABLE}, Q),
+    "places": lambda: assur.balance.fit(machine(), Q, {"crank": TABLE}),
 }
 
 

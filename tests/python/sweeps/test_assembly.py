@@ -41,11 +41,11 @@ def same(one: assur.Motion, other: assur.Motion) -> bool:
 
 
 @pytest.mark.parametrize("index", [0, (1,), [1, 0], np.array([True, False])])
-def test_designs_have_the_assembly_measured(index: object) -> None:
+def test_designs_have_the_assembly_measured(index: Any) -> None:
     found = assur.sweep(four_bar(), SPACE, Q, assembly=CROSSED, metrics={"y": metric.mean("C.y")})
-    designs = found.designs(index)  # type: ignore[arg-type]
+    designs = found.designs(index)
     assert dict(designs.assembly) == CROSSED
-    wanted = found["y"][index]  # type: ignore[index]
+    wanted = found["y"][index]
     assert height(designs.solve(Q)) == pytest.approx(wanted, rel=1e-5)
     assert (wanted < -2.0).all()
 
@@ -84,7 +84,7 @@ def test_metrics_of_a_found_assembly_above_class_two() -> None:
     asked = {name: metric.mean(f"{name}.x") for name in own.joints}
     found_at = []
     for assembly in own.assemblies(own.q0):
-        found = assur.sweep(own, {}, [own.q0], assembly=assembly, metrics=asked)
+        found = assur.sweep(own, {}, [float(own.q0)], assembly=assembly, metrics=asked)
         x = [float(found[name]) for name in own.joints]
         assert x == pytest.approx([at[0] for at in assembly.joints.values()], abs=1e-12)
         assert same(found.designs(0).solve(Q), own.solve(Q, assembly=assembly))

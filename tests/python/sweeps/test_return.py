@@ -73,6 +73,6 @@ def test_higher_classes() -> None:
     assert np.count_nonzero(~returns) == 3
     assert np.count_nonzero(returns) > 3
     assert np.isnan(found["ratio"][moves]).tolist() == (~returns).tolist()
-    for design, closed in zip(moves, returns, strict=True):
+    for design, closed in zip(moves.tolist(), returns, strict=True):
         expected = off_line(batch, design, "D", closed, 37 if closed else 36)
         assert found["off"][design] == pytest.approx(expected, rel=1e-7, abs=1e-12)
