@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -70,11 +71,9 @@ def _in_its_frame(mechanism: Mechanism, link: str, body: Body) -> Body:
     assert body.drawn is not None
     x, y = body.drawn
     if link != "ground":
-        motion = mechanism.solve(mechanism._q0_array(), order=0, on_error="nan")
-        origin = motion._reference_point(link).value
-        sine, cosine = _trig.sin_cos(motion.link(link).value)
-        x, y = x - float(origin[0]), y - float(origin[1])
-        x, y = float(cosine * x + sine * y), float(cosine * y - sine * x)
+        origin, axis = _frame(mechanism, link)
+        local = (complex(x, y) - origin) * axis.conjugate()
+        x, y = local.real, local.imag
     if not np.isfinite([x, y]).all():
         message = (
             f"bodies[{link!r}]: drawn needs the mechanism's drawing, but this design cannot be "
@@ -82,6 +81,18 @@ def _in_its_frame(mechanism: Mechanism, link: str, body: Body) -> Body:
         )
         raise InputError(message, link=link)
     return Body(body.mass, body.inertia, (x, y))
+
+
+def _frame(mechanism: Mechanism, link: str) -> tuple[complex, complex]:
+    """Return the origin and the direction of x of a moving link's frame, at `q0`."""
+    at = [complex(*mechanism.joints[joint]) for joint in mechanism.links[link][:2]]
+    if len(at) == 2:
+        span = at[1] - at[0]
+        length = math.sqrt(span.real * span.real + span.imag * span.imag)
+        return at[0], span / length
+    motion = mechanism.solve(mechanism._q0_array(), order=0, on_error="nan")
+    sine, cosine = _trig.sin_cos(motion.link(link).value)
+    return complex(*motion._reference_point(link).value), complex(cosine, sine)
 
 
 def load(mechanism: Mechanism, load: Load) -> Load:

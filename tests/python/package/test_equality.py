@@ -307,17 +307,18 @@ def test_zero_has_no_sign(zero: float) -> None:
 
 
 def test_classes_with_the_same_fields_differ() -> None:
-    assert laws.Uniform(0.0, 1.0, 2.0) != laws.Harmonic(0.0, 1.0, 2.0)
+    one: object = laws.Uniform(0.0, 1.0, 2.0)
+    assert one != laws.Harmonic(0.0, 1.0, 2.0)
     assert metric.peak_effort() != metric.rms_effort()
     assert metric.peak_reaction("A") != metric.rms_reaction("A")
 
 
 def test_machines_of_tables() -> None:
-    rows: tuple[Any, ...] = ([0.0, np.pi, 2.0 * np.pi], [1.0, 2.0, 1.0], 2.0)
-    one, two = (assur.Machine.from_table(*map(np.array, rows)) for _ in range(2))
+    phi, moment = [0.0, np.pi, 2.0 * np.pi], [1.0, 2.0, 1.0]
+    one, two = (assur.Machine.from_table(np.array(phi), moment, 2.0) for _ in range(2))
     assert one == two
     assert hash(one) == hash(two)
-    assert one != assur.Machine.from_table(*rows, spline="linear")
+    assert one != assur.Machine.from_table(phi, moment, 2.0, spline="linear")
     assert pickle.loads(pickle.dumps(one)) == one
 
 
@@ -335,4 +336,5 @@ def test_batches_and_designs() -> None:
     batch = assur.Machine(assur.SliderCrank(0.1, [0.4, 0.5]), {"rod": assur.Body(1.0)})
     assert batch.design(0) == batch.design(0)
     assert batch.design(0) != batch.design(1)
+    assert batch.mechanism is not None
     assert batch.of(batch.mechanism) == batch
