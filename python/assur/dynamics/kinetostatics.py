@@ -134,7 +134,8 @@ def reactions(
         found[key] = array.reshape((*shape, 2) if two else shape)
     if SOLUTIONS in found:
         _require_solved(found)
-    given_motion = everywhere, np.broadcast_to(v, full), np.broadcast_to(a, full)
+    full = shape if drivers == 1 else (*shape, drivers)
+    given_motion = np.broadcast_to(x, full), np.broadcast_to(v, full), np.broadcast_to(a, full)
 
     # Not a closure, which could not be pickled.
     again = partial(_again, machine, motion, threads, sense)
