@@ -194,6 +194,6 @@ def dataset(motion: Motion) -> Any:
         coordinates["design"] = ("design", motion.kept)
     names, values = motion.mechanism._core.dimension_names, motion.mechanism._values
     for name, value in zip(names, values, strict=True):
-        if designs and (value != value.flat[0]).any():
+        if designs and (value != value.flat[:1]).any():
             coordinates[name] = (rows[:designs], value)
     return xr.Dataset(named, coordinates, {"mechanism": motion.mechanism._core.formula})

@@ -282,3 +282,11 @@ def test_what_is_no_path_is_refused(path: Any) -> None:
     motion = assur.SliderCrank(1.0, 3.0).solve([0.0, 1.0])
     for write in (motion.to_excel, motion.to_parquet):
         refused(assur.InputError, "is not a path of a file", partial(write, path))
+
+
+def test_a_motion_of_no_designs_has_empty_columns() -> None:
+    pytest.importorskip("xarray")
+    no_turn = assur.FourBar(3.0, 2.5, 2.0, 4.0)
+    data = assur.sweep(no_turn, {}, [3.0], on_error="drop").to_xarray()
+    assert data.sizes["design"] == 0
+    assert data["C"].dims == ("design", "position", "component")
