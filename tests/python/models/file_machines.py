@@ -67,7 +67,7 @@ def one_part_machines() -> dict[str, assur.Machine]:
 def whole_machines() -> dict[str, assur.Machine]:
     """Machines with much together, and with nothing."""
     friction: dict[str, Any] = {
-        "C": assur.JointFriction(0.1, THIRD),
+        "D": assur.JointFriction(0.1, THIRD),
         "B": assur.JointFriction(0.1, 0.0, viscous=-0.0, static_coefficient=0.2 * THIRD + 0.1),
     }
     bodies = {
