@@ -19,6 +19,7 @@ from assur.dynamics.loads import (
     TorsionDamper,
     TorsionSpring,
 )
+from assur.dynamics.takers import taker
 from assur.dynamics.values import values_at
 from assur.errors import InputError
 
@@ -31,6 +32,10 @@ if TYPE_CHECKING:
     from assur.dynamics.reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
+
+
+# A coordinate slower than this part of the drivers rests, in the core too.
+AT_REST = 1e-12
 
 
 class Positions(NamedTuple):
@@ -158,15 +163,14 @@ def load_on(at: Positions, load: Load, link: str, couples: bool = True) -> Itera
     elif isinstance(load, Pressure):
         yield from _pressure(at, load, link)
     elif isinstance(load, Force):
-        if (load.on or _taker(at, load.at)) == link:
+        if (load.on or taker(_mechanism(at), load.at)) == link:
             place, _ = _place(at, link, load.at)
             force = _force(at, load)
             yield Acting(what, place, force, _nothing(at), _joint(load.at))
     else:
         ends = load.first, load.second
         for end, other in (ends, ends[::-1]):
-            taker = _taker(at, end)
-            if taker == link:
+            if taker(_mechanism(at), end) == link:
                 place, force = _pull(at, load, end, other)
                 yield Acting(what, place, force, _nothing(at), _joint(end))
 
@@ -204,14 +208,6 @@ def _joint(point: PointLike) -> str | None:
     return point if isinstance(point, str) else None
 
 
-def _taker(at: Positions, point: PointLike) -> str:
-    """Return the link that takes a load: at a joint the first one of the description."""
-    if not isinstance(point, str):
-        return point[0]
-    links = _mechanism(at).links.items()
-    return next(link for link, joints in links if point in joints)
-
-
 def _measure(at: Positions, name: str) -> Float:
     """Return the value of a slide, or the angle of a link."""
     motion = at.motion
@@ -223,15 +219,26 @@ def _acts(at: Positions, load: Force | Pressure | Torque, default: str | None) -
     """Return where a load acts: everywhere, or where its coordinate moves in its direction."""
     if load.while_ is None:
         return np.True_
-    name = load.over or default
+    name, slides = load.over or default, _mechanism(at).slides
     speeds = at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
     if name is None:
         rate = at.speed[:, 0]
-    elif name in _mechanism(at).slides:
+    elif name in slides:
         rate = at.motion.slide(name).velocity(speeds)
     else:
         rate = at.motion.link(name).velocity(speeds)
-    return rate > 0.0 if load.while_ == "forward" else rate < 0.0
+    # A rate that is rounding beside the drivers' speeds is no direction.
+    size = _size(_mechanism(at))
+    units = [size if driver in slides else 1.0 for driver in _mechanism(at)._description.drivers]
+    still = AT_REST * (abs(at.speed) / units).sum(axis=-1) * (size if name in slides else 1.0)
+    return rate > still if load.while_ == "forward" else rate < -still
+
+
+def _size(mechanism: Mechanism) -> float:
+    """Return the larger side of the drawing, m."""
+    places = np.array([(x, y) for _, x, y in mechanism._description.joints])
+    size = float(np.ptp(places, axis=0).max())
+    return size if size > 0.0 else 1.0
 
 
 def _pressure(at: Positions, load: Pressure, link: str) -> Iterator[Acting]:

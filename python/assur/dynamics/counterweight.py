@@ -156,7 +156,7 @@ def with_counterweights(machine: Machine, weights: Any) -> Machine:
             raise InputError(message, link=link)
         place = _place(mechanism, weight)
         bodies[link] = _with_point_mass(mechanism, link, bodies.get(link), weight.mass, place)
-    return type(machine)(mechanism, bodies, machine.loads, machine.motor, machine.friction)
+    return machine._made(mechanism, bodies, machine.loads, machine.motor, machine.friction)
 
 
 def _place(mechanism: Mechanism, weight: Counterweight) -> complex:

@@ -134,8 +134,10 @@ class Force:
         The link whose frame gives the directions of fx and fy, and turns with it; the drawing's
         axes by default.
     on : str, optional
-        At a joint of several links the one that takes the force; by default the first of them in
-        the description. It matters for joint forces only.
+        At a joint of several links the one that takes the force. By default the piston or block, if
+        just one of the links is one: it slides, has this joint only, and the ground does not have
+        it; otherwise the first of them in the description. The forces in the joint depend on it,
+        and with friction all that follows from them: efforts, efficiency, self-locking, runs.
     while_ : {"forward", "backward"}, optional
         It acts only while a coordinate grows, or falls: a cutting force, the friction of a tool.
         While the coordinate rests, also where it turns back, it does not act.
@@ -223,7 +225,8 @@ class Spring:
     Parameters
     ----------
     first, second : str or (link, (x, y))
-        Its ends: joints, or points in links' frames, m.
+        Its ends: joints, or points in links' frames, m. Of several links at a joint the same one
+        takes the pull as of a `Force` without ``on``; a point of a link says which.
     stiffness : float
         N/m.
     length : float

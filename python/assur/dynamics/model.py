@@ -18,6 +18,7 @@ from assur.dynamics.functions import check_functions
 from assur.dynamics.loads import checked_load
 from assur.dynamics.options import as_list
 from assur.dynamics.over import check_over
+from assur.dynamics.takers import warn_of_open_takers
 from assur.errors import InputError
 from assur.flywheel import SPLINES
 from assur.flywheel.sizing import warn_if_degrees
@@ -80,6 +81,18 @@ class MachineModel:
         motor: Motor | Sequence[Motor | None] | None = None,
         friction: Mapping[str, PairFriction] = MappingProxyType({}),
     ) -> None:
+        self._make(mechanism, bodies, loads, motor, friction)
+        # Not of machines that are made from this one.
+        warn_of_open_takers(mechanism, self.loads, self.friction)
+
+    def _make(
+        self,
+        mechanism: Mechanism,
+        bodies: Mapping[str, Body],
+        loads: Sequence[Load],
+        motor: Motor | Sequence[Motor | None] | None,
+        friction: Mapping[str, PairFriction],
+    ) -> None:
         parts.check_types(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = MappingProxyType(
@@ -95,7 +108,7 @@ class MachineModel:
             checked_friction(mechanism, friction)
         )
         self._rebuild_with: tuple[Any, ...] = (
-            type(self),
+            type(self)._made,
             (mechanism, dict(self.bodies), self.loads, self.motor, dict(self.friction)),
         )
         motors = parts.motors(self.motor, self._drivers)
@@ -111,6 +124,13 @@ class MachineModel:
         if mechanism.driver not in mechanism.slides:
             for rows, periodic in self._core.tables:
                 warn_if_degrees(rows[-1] - rows[0], periodic)
+
+    @classmethod
+    def _made(cls, *parts_of_one: Any) -> Self:
+        """Return a machine of the parts of another one: of those the user has been warned."""
+        self = cls.__new__(cls)
+        self._make(*parts_of_one)
+        return self
 
     def of(self, mechanism: Mechanism) -> Self:
         """Return a machine with the same parts of other designs of its mechanism.
@@ -133,7 +153,7 @@ class MachineModel:
         >>> machine.of(press.with_dimensions({"rod.length": [0.3, 0.5]})).shape
         (2,)
         """
-        return type(self)(mechanism, self.bodies, self.loads, self.motor, self.friction)
+        return self._made(mechanism, self.bodies, self.loads, self.motor, self.friction)
 
     @classmethod
     def from_table(

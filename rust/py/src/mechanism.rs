@@ -295,6 +295,18 @@ impl Mechanism {
         catch_panic(|| index().map_err(error_map::solve))
     }
 
+    /// The link that takes a load at a joint, and whether another could as well: several links have the
+    /// joint, and none of them is the only block. Raises `InputError` if the name is unknown.
+    fn taker(&self, joint: &str) -> PyResult<(String, bool)> {
+        catch_panic(|| {
+            let (linkage, joint) = (self.inner.linkage(), self.inner.joint(joint));
+            let joint = joint.map_err(error_map::solve)?;
+            let several = linkage.links_at(joint).nth(1).is_some();
+            let is_open = several && linkage.block_at(joint).is_none();
+            Ok((linkage.links[linkage.taker(joint)].name.clone(), is_open))
+        })
+    }
+
     /// Raises `DimensionError` for the first invalid value.
     fn check_dimensions(&self, values: Vec<f64>) -> PyResult<()> {
         let fault = || self.inner.dimensions().first_fault(&values);

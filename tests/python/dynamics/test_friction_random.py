@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from friction_law import STILL, FrictionLaw
-from rubbing_machines import rubbing_case
+from rubbing_machines import rubbing_case, with_friction
 
 # `make campaign` has 1000 machines.
 COUNT, CHUNK = (1000, 50) if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else (120, 20)
@@ -111,7 +111,7 @@ def test_no_friction_is_the_limit() -> None:
                 else assur.JointFriction(part * one.coefficient, one.radius)
                 for name, one in machine.friction.items()
             }
-            own = assur.Machine(case.mechanism, machine.bodies, machine.loads, friction=small)
+            own = with_friction(case.machine, small)
             off = abs(np.atleast_1d(own.reactions(*where).driver) - bare).max()
             assert off <= 0.02 * last
             last = max(off, 1e-13 * abs(bare).max() * 50)

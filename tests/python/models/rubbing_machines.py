@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import assur
@@ -37,5 +38,12 @@ def rubbing_case(seed: int) -> tuple[Case, assur.Machine]:
         else:
             length = size * rng.uniform(0.2, 1.0)
             friction[name] = assur.SlideFriction(part * rng.uniform(0.3, 1.0), length)
-    plain = case.machine
-    return case, assur.Machine(mechanism, plain.bodies, plain.loads, friction=friction)
+    return case, with_friction(case.machine, friction)
+
+
+def with_friction(plain: assur.Machine, friction: dict[str, Any]) -> assur.Machine:
+    """The machine with friction; loads at its joints are on the links that the library chooses."""
+    assert plain.mechanism is not None
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", ".*the friction depends on which", assur.AssurWarning)
+        return assur.Machine(plain.mechanism, plain.bodies, plain.loads, friction=friction)

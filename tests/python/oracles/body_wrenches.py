@@ -25,14 +25,21 @@ class Wrench:
     couple: Any = 0.0
 
 
+def taker(mechanism: assur.Mechanism, joint: str) -> str:
+    """Of several links at a pin the only block takes the load, or else the first."""
+    links = [name for name, own in mechanism.links.items() if joint in own]
+    sliding = [name for slide in mechanism.slides.values() for name in (slide.link, slide.on)]
+    blocks = [name for name in links if name in sliding and mechanism.links[name] == (joint,)]
+    return blocks[0] if len(blocks) == 1 and GROUND not in links else links[0]
+
+
 class Point:
     """A point of a link, with its velocity and acceleration."""
 
     def __init__(self, of: Reactions, at: Any, link: str | None = None) -> None:
-        places, links = of.places, of.places.mechanism.links
+        places = of.places
         if isinstance(at, str):
-            # of several links at a pin the first of the description takes the load
-            self.link = link or next(n for n, own in links.items() if at in own)
+            self.link = link or taker(places.mechanism, at)
             self.place = places.joints[at]
         else:
             self.link, (x, y) = at

@@ -243,4 +243,30 @@ impl Linkage {
     pub fn links_at(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
         (0..self.links.len()).filter(move |&l| self.links[l].joints.contains(&joint))
     }
+
+    /// Whether a link is a piston or a block: it slides, and has one joint.
+    #[must_use]
+    pub fn is_block(&self, link: usize) -> bool {
+        let slides = self.slides.iter().any(|slide| [slide.link, slide.on].contains(&link));
+        slides && link != self.ground && self.links[link].joints.len() == 1
+    }
+
+    /// The only block that has this joint, if there is one. A fixed joint has none: what is fastened
+    /// there is fastened to the ground.
+    #[must_use]
+    pub fn block_at(&self, joint: usize) -> Option<usize> {
+        if self.links_at(joint).any(|link| link == self.ground) {
+            return None;
+        }
+        let mut blocks = self.links_at(joint).filter(|&link| self.is_block(link));
+        blocks.next().filter(|_| blocks.next().is_none())
+    }
+
+    /// The link that takes a load at a joint, unless the load names another: the only block that has the
+    /// joint, or else the first link.
+    #[must_use]
+    pub fn taker(&self, joint: usize) -> usize {
+        let first = || self.links_at(joint).next();
+        self.block_at(joint).or_else(first).unwrap_or(self.ground)
+    }
 }

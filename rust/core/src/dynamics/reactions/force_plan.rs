@@ -74,7 +74,7 @@ pub(crate) struct ForcePlan {
     /// Whether accelerations, and velocities, are needed.
     pub has_inertia: bool,
     pub has_speeds: bool,
-    /// For every joint the link that takes a load on it: the first that has it.
+    /// For every joint the link that takes a load on it.
     pub taker: Vec<usize>,
     /// The driven link of every driver that is an angle.
     pub driven_links: Vec<Option<usize>>,
@@ -103,9 +103,7 @@ impl ForcePlan {
                 slide: edge.edge.slide(),
             })
             .collect();
-        let taker = (0..linkage.joints.len())
-            .map(|joint| linkage.links_at(joint).next().unwrap_or(linkage.ground))
-            .collect();
+        let taker = (0..linkage.joints.len()).map(|joint| linkage.taker(joint)).collect();
         let direction = (0..linkage.links.len())
             .map(|link| match linkage.axis(link) {
                 Axis::Ground => Direction::Ground,
