@@ -77,7 +77,7 @@ def test_designs() -> None:
 
 
 def test_loads_at_a_pin() -> None:
-    """It acts on the link named, or on the first of the description: only the pin's force tells."""
+    """It acts on the link named, or on the piston: without friction only the pin's force tells."""
     push = np.array([-800.0, 35.0])
     found = {
         on: machine(None, Force("B", tuple(push), on=on)).reactions(Q, 9.0, 0.0)
@@ -85,7 +85,7 @@ def test_loads_at_a_pin() -> None:
     }
     on_piston = {on: one.joint("B", on="piston") for on, one in found.items()}
     np.testing.assert_allclose(on_piston["rod"] - on_piston["piston"], [push] * 4, rtol=1e-12)
-    np.testing.assert_array_equal(on_piston[None], on_piston["rod"])
+    np.testing.assert_array_equal(on_piston[None], on_piston["piston"])
     for one in found.values():
         total = one.joint("B", on="piston") + one.joint("B", on="rod")
         assert np.abs(total).max() <= 1e-12 * 800.0
