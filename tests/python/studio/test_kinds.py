@@ -395,9 +395,9 @@ def test_applied_forces_act_where_their_loads_are() -> None:
     document_ = {**PRESS, "loads": [*PRESS["loads"], spring, cut]}
     reply = ask("reactions", document=document_, speed=10.0, rows=91)
     assert reply["applied"] == [
-        {"load": 0, "on": "rod", "joint": "B"},
-        {"load": 2, "on": "rod", "joint": "B"},
-        {"load": 3, "on": "rod", "joint": "B"},
+        {"load": 0, "on": "ram", "joint": "B"},
+        {"load": 2, "on": "ram", "joint": "B"},
+        {"load": 3, "on": "ram", "joint": "B"},
     ]
     applied = reply.arrays["applied"]
     motion = document.read_mechanism(PRESS).solve(reply.arrays["q"], 1)
