@@ -405,7 +405,7 @@ def test_applied_forces_act_where_their_loads_are() -> None:
     assert applied[:, 0] == pytest.approx(np.column_stack([place, np.full(91, -900), np.zeros(91)]))
     pull = 500.0 * (np.hypot(*place.T) - 0.3)
     assert applied[:, 1, 2] == pytest.approx(-pull * place[:, 0] / np.hypot(*place.T))
-    forward = motion.slide("guide").d1 > 0.0
+    forward = motion.slide("guide").d1 > 1e-12  # at the dead points it rests
     assert applied[:, 2, 2] == pytest.approx(np.where(forward, -70.0, 0.0))
 
 
