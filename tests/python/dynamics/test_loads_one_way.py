@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 
 import assur
 from assur import Body, Force, FourBar, LinearMotor, Machine, Table, Torque
+from assur.dynamics.force_system import force_system
 from shapers import STROKE, TURN, place, slider
 
 CUT = 700.0
@@ -283,3 +284,14 @@ def test_wrong_directions_are_refused(options: Any, message: str) -> None:
 def test_an_unknown_coordinate_is_refused() -> None:
     with pytest.raises(assur.AssurError, match=r'"bore"'):
         Machine(slider(), loads=[Torque("crank", 1.0, while_="forward", over="bor")])
+
+
+@pytest.mark.parametrize("way", ["forward", "backward"])
+def test_at_a_dead_point_a_load_is_not_drawn_either(way: Any) -> None:
+    """There the computed rate of the slide is rounding, of either sign."""
+    load = Force("B", (5.0, 0.0), while_=way, over="bore")
+    q = np.array([0.0, math.pi, -math.pi, 2.0 * math.pi])
+    found = Machine(assur.SliderCrank(0.1, 0.35), loads=[load]).reactions(q, speed=1.0)
+    np.testing.assert_array_equal(found.driver, 0.0)
+    for row in range(q.size):
+        assert all(force.kind != "load" for force in force_system(found, None, row).forces)
