@@ -22,6 +22,9 @@ pub(crate) type Found<'py> =
 /// Positions up to which a call need not check for signals.
 const FEW_POSITIONS: usize = 20_000;
 
+/// Paths to solutions of friction up to which it need not either: they take some 50 ms.
+const FEW_PATHS: usize = 256;
+
 /// What a reaction is of.
 #[derive(Clone, Copy)]
 enum Kind {
@@ -153,7 +156,8 @@ pub(crate) fn reactions<'py>(
     };
     let arrays = Mutex::new(Some(arrays));
     let log = FailureLog::default();
-    let is_short = !inputs.squares && rows < FEW_POSITIONS;
+    let paths = rows.saturating_mul(machine.friction_paths(mechanism));
+    let is_short = !inputs.squares && rows < FEW_POSITIONS && paths <= FEW_PATHS;
     let solved = detach::run(py, is_short, |cancel| {
         let control =
             Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };

@@ -5,7 +5,7 @@ use super::problem::FrictionProblem;
 
 /// Depth-first search.
 struct Search<'a> {
-    problem: &'a FrictionProblem,
+    problem: &'a FrictionProblem<'a>,
     /// Order of the visit, 0 before it.
     visited: Vec<usize>,
     lowest: Vec<usize>,
@@ -15,7 +15,7 @@ struct Search<'a> {
     blocks: Vec<Vec<usize>>,
 }
 
-impl FrictionProblem {
+impl FrictionProblem<'_> {
     /// The pairs in blocks, each of which depends on itself and those before it alone.
     pub(super) fn blocks(&self) -> Vec<Vec<usize>> {
         let n = self.pairs.len();
@@ -54,7 +54,7 @@ impl FrictionProblem {
             own.slopes = block.iter().map(|&on| self.pairs[pair].slopes[on]).collect();
             own
         });
-        Self { pairs: pairs.collect() }
+        Self { pairs: pairs.collect(), cancel: self.cancel }
     }
 }
 

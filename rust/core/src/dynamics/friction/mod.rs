@@ -7,3 +7,4 @@ mod newton;
 pub(crate) mod problem;
 mod quadrics;
 pub(crate) mod solutions;
+mod work;

@@ -14,7 +14,7 @@ const SHORTEST: f64 = 1.0e-9;
 /// The greatest correction of a predicted step, in parts of it.
 const MOST_CORRECTION: f64 = 0.5;
 
-impl FrictionProblem {
+impl FrictionProblem<'_> {
     /// The solution near a start; `scale` multiplies all coefficients. `None` if the iteration does not
     /// converge.
     pub(super) fn newton(&self, start: &[f64], scale: f64) -> Option<Vec<f64>> {

@@ -5,6 +5,8 @@
 //! R = R₀ + A τ, and the law of friction says τ = −s c(R), with s the sense of the sliding and c ≥ 0
 //! homogeneous in R.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use nalgebra::{DMatrix, DVector};
 
 /// The law of friction of a pair.
@@ -98,12 +100,14 @@ impl RubbingPair {
 }
 
 /// All pairs with friction that slide at a position.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct FrictionProblem {
+#[derive(Debug, Clone, Default)]
+pub(crate) struct FrictionProblem<'c> {
     pub pairs: Vec<RubbingPair>,
+    /// When true, nobody wants the solutions any more: some take half a second.
+    pub cancel: Option<&'c AtomicBool>,
 }
 
-impl FrictionProblem {
+impl FrictionProblem<'_> {
     /// The same with all moments divided by a unit of length, so that frictions, and what is small beside
     /// them, compare as forces.
     pub(super) fn in_forces(mut self, unit: f64) -> Self {
@@ -122,6 +126,11 @@ impl FrictionProblem {
             }
         }
         self
+    }
+
+    /// Whether the caller has cancelled the work.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
     /// The reaction of a pair.

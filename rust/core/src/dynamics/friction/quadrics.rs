@@ -39,10 +39,11 @@ pub(super) struct Quadrics {
 
 impl Quadrics {
     /// All isolated finite solutions, real or not, each as often as its multiplicity; some may be at
-    /// infinity but for rounding. At most [`MAX_UNKNOWNS`] unknowns.
-    pub(super) fn solutions(&self) -> Vec<Vec<Number>> {
-        let n = self.forms.len();
-        (0..1_usize << n).filter_map(|signs| self.end_of_path(signs)).collect()
+    /// infinity but for rounding. At most [`MAX_UNKNOWNS`] unknowns. Those found so far where the work
+    /// does not go on.
+    pub(super) fn solutions(&self, goes_on: impl Fn() -> bool) -> Vec<Vec<Number>> {
+        let paths = (0..1_usize << self.forms.len()).take_while(|_| goes_on());
+        paths.filter_map(|signs| self.end_of_path(signs)).collect()
     }
 
     /// Follows the path that begins at uₖ = ±1.

@@ -6,7 +6,7 @@ use super::problem::{FrictionProblem, Law};
 use super::quadrics::{MAX_UNKNOWNS, Quadrics};
 
 /// Most paths that are followed for one block of pairs, as a power of 2: half a second.
-const MAX_PATHS: usize = 12;
+pub(super) const MAX_PATHS: usize = 12;
 /// The part of a solution that may be imaginary: a double one is known to the root of rounding only.
 const IMAGINARY: f64 = 1.0e-4;
 /// How far a solution may be from the end of its path, and how near two that are the same.
@@ -17,7 +17,7 @@ const SAME: f64 = 1.0e-9;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct TooManyPaths;
 
-impl FrictionProblem {
+impl FrictionProblem<'_> {
     /// All solutions: the first is that to which the law leads from no friction, the others by what they
     /// lose. None: locked.
     pub(crate) fn solve(&self) -> Result<Vec<Vec<f64>>, TooManyPaths> {
@@ -44,7 +44,8 @@ impl FrictionProblem {
     /// By what all coefficients can be multiplied before the solution that began without friction ends,
     /// at most `most`.
     pub(crate) fn safety(&self, most: f64) -> f64 {
-        self.follow(most).0
+        // Where nothing slides, friction takes no part however strong it is.
+        if self.pairs.is_empty() { most } else { self.follow(most).0 }
     }
 
     /// The power that the friction takes.
@@ -101,6 +102,9 @@ impl FrictionProblem {
         }
         let mut found: Vec<Vec<f64>> = Vec::new();
         for mut choice in 0..choices {
+            if self.is_cancelled() {
+                break;
+            }
             let chosen: Vec<_> = faces
                 .iter()
                 .map(|faces| {
@@ -185,7 +189,7 @@ impl FrictionProblem {
         };
         let forms = journals.iter().map(|&journal| [form(journal, 0), form(journal, 1)]).collect();
         let mut starts = Vec::new();
-        for sizes in (Quadrics { forms }).solutions() {
+        for sizes in (Quadrics { forms }).solutions(|| !self.is_cancelled()) {
             let is_real = sizes.iter().all(|u| u.im.abs() <= IMAGINARY * (1.0 + u.norm()));
             if !is_real {
                 continue;
@@ -248,7 +252,7 @@ mod tests {
         random: &mut Random,
         [journals, guides]: [usize; 2],
         feedback: f64,
-    ) -> FrictionProblem {
+    ) -> FrictionProblem<'static> {
         let n = journals + guides;
         let pairs = (0..n).map(|pair| RubbingPair {
             law: if pair < journals {
@@ -261,7 +265,14 @@ mod tests {
             base: [100.0 * random.next(), 100.0 * random.next()],
             slopes: (0..n).map(|_| [feedback * random.next(), feedback * random.next()]).collect(),
         });
-        FrictionProblem { pairs: pairs.collect() }
+        FrictionProblem { pairs: pairs.collect(), cancel: None }
+    }
+
+    #[test]
+    fn where_nothing_slides_friction_never_locks() {
+        let nothing = FrictionProblem::default();
+        assert_eq!(nothing.safety(1e6), 1e6);
+        assert_eq!(nothing.solve(), Ok(vec![Vec::new()]));
     }
 
     #[test]

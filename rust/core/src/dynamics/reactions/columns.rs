@@ -14,7 +14,7 @@ use crate::plan::mechanism::Mechanism;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sources {
     /// Of every point: its columns from order 0 on.
-    points: Vec<Option<usize>>,
+    pub(super) points: Vec<Option<usize>>,
     pub(super) angles: Vec<Option<usize>>,
     pub(super) slides: Vec<Option<usize>>,
 }
@@ -97,6 +97,27 @@ impl Rows {
             rate += self.read::<R>(derivatives, speeds.len(), driver) * speed;
         }
         rate
+    }
+
+    /// The sum of the sizes of what each driver adds to such a rate.
+    #[inline(always)]
+    pub(super) fn rate_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
+        let mut sum = R::ZERO;
+        for (driver, &speed) in speeds.iter().enumerate() {
+            sum += self.read::<R>(derivatives, speeds.len(), driver).abs() * speed.abs();
+        }
+        sum
+    }
+
+    /// The same of the velocity of a point.
+    #[inline(always)]
+    pub(super) fn velocity_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
+        let mut sum = R::ZERO;
+        for (driver, &speed) in speeds.iter().enumerate() {
+            let rate = self.read_pairs::<R>(derivatives, speeds.len(), driver);
+            sum += rate.size() * speed.abs();
+        }
+        sum
     }
 
     /// The entry `offset` of `width` pairs of each position: all its first numbers come before the

@@ -9,6 +9,7 @@ use super::columns::{Rows, Solved, Sources};
 use super::force_plan::ForcePlan;
 use super::pair_forces::{JointForce, Reaction};
 use super::request::ReactionRequest;
+use super::rub::Asked;
 use super::rubbing::{Pair, Rubbing};
 use super::scene::Scene;
 use super::squares::Squares;
@@ -59,7 +60,7 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let Batch { plan, machine, sources, asked, rubbing, .. } = self.batch;
+        let Batch { plan, machine, sources, asked, rubbing, control, .. } = self.batch;
         let count = self.solved.positions;
         self.squares.clear();
         self.squares.resize(asked.reactions.len(), Squares::NONE);
@@ -69,6 +70,10 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             self.scene.apply(plan, machine, self.values, rows);
             if !rubbing.is_empty() {
                 self.rub(rows);
+                // A position that friction locks takes milliseconds, a block of them seconds.
+                if control.is_cancelled() {
+                    return;
+                }
             }
             self.scene.start(plan);
             self.scene.carry_loads(plan);
@@ -103,13 +108,17 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
     fn rub(&mut self, rows: Rows) {
-        let Batch { mechanism, plan, sources, asked, rubbing, .. } = self.batch;
+        let Batch { mechanism, plan, sources, asked, rubbing, control, .. } = self.batch;
         let size = mechanism.linkage().size();
         let ways = self.scene.ways(asked.sense);
         let pairs = (*plan, &rubbing[..]);
         self.scene.read_rubbing(pairs, sources, (&self.solved, rows), &ways, size);
-        let asks_safety = asked.reactions.contains(&Reaction::Safety);
-        self.scene.rub(pairs, (asked.solution, asks_safety), size);
+        let asked = Asked {
+            solution: asked.solution,
+            safety: asked.reactions.contains(&Reaction::Safety),
+            cancel: control.cancel,
+        };
+        self.scene.rub(pairs, asked, size);
     }
 
     /// The sum over the pairs with friction at a joint or in a slide.

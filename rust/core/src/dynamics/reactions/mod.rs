@@ -16,6 +16,7 @@ pub(crate) mod moments;
 pub(crate) mod pair_forces;
 pub(crate) mod redundant;
 pub(crate) mod request;
+mod rest;
 mod rub;
 pub(crate) mod rubbing;
 pub(crate) mod rubs;

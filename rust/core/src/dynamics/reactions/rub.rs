@@ -1,7 +1,10 @@
 //! Friction at some positions: how fast pairs rub, and what that does to all reactions.
 
+use std::sync::atomic::AtomicBool;
+
 use super::columns::{Rows, Solved, Sources};
 use super::force_plan::ForcePlan;
+use super::rest::{AT_REST, RATE_ROUNDING};
 use super::rubbing::{Pair, Rubbing};
 use super::scene::Scene;
 use crate::dynamics::friction::problem::{FrictionProblem, RubbingPair};
@@ -9,8 +12,6 @@ use crate::dynamics::friction::solutions::TooManyPaths;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 
-/// A relative speed below this part of the drivers' is rounding: then a pair does not rub.
-const AT_REST: f64 = 1.0e-12;
 /// Most that coefficients are multiplied by when the safety is asked for.
 const MOST_SAFETY: f64 = 1.0e6;
 
@@ -26,6 +27,28 @@ struct LaneFriction {
     solutions: f64,
     safety: f64,
     residual: f64,
+}
+
+impl LaneFriction {
+    fn unknown(pairs: usize) -> Self {
+        Self {
+            dry: vec![f64::NAN; pairs],
+            solutions: f64::NAN,
+            safety: f64::NAN,
+            residual: f64::NAN,
+        }
+    }
+}
+
+/// What is asked of the friction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked<'c> {
+    /// Which of its solutions is meant.
+    pub solution: usize,
+    /// Whether the safety against locking is wanted.
+    pub safety: bool,
+    /// When true, nothing is wanted any more.
+    pub cancel: Option<&'c AtomicBool>,
 }
 
 // Loops: closures would not be compiled with the level's instructions.
@@ -67,6 +90,14 @@ impl<R: Real> Scene<R> {
         }
         self.rubs.speeds.clear();
         self.rubs.still.clear();
+        self.rubs.point_speeds.clear();
+        for source in &sources.points {
+            let mut speed = R::ZERO;
+            if let &Some(column) = source {
+                speed = rows.velocity_size(solved.columns[column + 1], ways);
+            }
+            self.rubs.point_speeds.push(speed);
+        }
         for Rubbing { pair, .. } in rubbing {
             let [added, subtracted] = sources.rubbing(plan, pair);
             let mut rates = [R::ZERO; 2];
@@ -78,9 +109,14 @@ impl<R: Real> Scene<R> {
                     *rate = *rate - rows.rate(solved.columns[column + 1], drivers);
                 }
             }
+            let mut summed = R::ZERO;
+            for column in [added, subtracted].into_iter().flatten() {
+                summed += rows.rate_size(solved.columns[column + 1], ways);
+            }
             let unit = if matches!(pair, Pair::Guide { .. }) { size } else { 1.0 };
             self.rubs.speeds.push(rates);
-            self.rubs.still.push(turning * R::splat(AT_REST * unit));
+            let still = turning * R::splat(AT_REST * unit) + summed * R::splat(RATE_ROUNDING);
+            self.rubs.still.push(still);
         }
     }
 
@@ -89,7 +125,7 @@ impl<R: Real> Scene<R> {
     pub(super) fn rub(
         &mut self,
         (plan, rubbing): (&ForcePlan, &[Rubbing]),
-        (solution, asks_safety): (usize, bool),
+        asked: Asked<'_>,
         size: f64,
     ) {
         self.drag(plan, rubbing);
@@ -103,7 +139,7 @@ impl<R: Real> Scene<R> {
         for lane in 0..R::LANES {
             is_determined.push(!undetermined.lane(lane));
         }
-        let found = self.solve_friction(rubbing, &is_determined, (solution, asks_safety));
+        let found = self.solve_friction(rubbing, &is_determined, asked);
         self.rubs.solutions = R::from_lanes(|lane| found[lane].solutions);
         self.rubs.safety = R::from_lanes(|lane| found[lane].safety);
         self.rubs.residual = R::from_lanes(|lane| found[lane].residual);
@@ -119,10 +155,14 @@ impl<R: Real> Scene<R> {
         &self,
         rubbing: &[Rubbing],
         is_determined: &[bool],
-        (solution, asks_safety): (usize, bool),
+        asked: Asked<'_>,
     ) -> Vec<LaneFriction> {
         let lane_friction = |(lane, &is_determined): (usize, &bool)| {
-            let (problem, used) = self.problem(rubbing, lane);
+            let (mut problem, used) = self.problem(rubbing, lane);
+            problem.cancel = asked.cancel;
+            if problem.is_cancelled() {
+                return LaneFriction::unknown(rubbing.len());
+            }
             let is_known = is_determined && problem.pairs.iter().all(RubbingPair::is_finite);
             let solved = if is_known { problem.solve() } else { Ok(Vec::new()) };
             let solutions = match &solved {
@@ -132,20 +172,20 @@ impl<R: Real> Scene<R> {
                 Err(TooManyPaths) => UNSOLVED,
             };
             let all = solved.unwrap_or_default();
-            let asked = all.get(solution);
-            let mut dry = vec![if asked.is_some() { 0.0 } else { f64::NAN }; rubbing.len()];
+            let meant = all.get(asked.solution);
+            let mut dry = vec![if meant.is_some() { 0.0 } else { f64::NAN }; rubbing.len()];
             for (index, &pair) in used.iter().enumerate() {
-                dry[pair] = asked.map_or(f64::NAN, |friction| friction[index]);
+                dry[pair] = meant.map_or(f64::NAN, |friction| friction[index]);
             }
             LaneFriction {
                 dry,
                 solutions,
-                safety: if asks_safety && is_known {
+                safety: if asked.safety && is_known {
                     problem.safety(MOST_SAFETY)
                 } else {
                     f64::NAN
                 },
-                residual: asked.map_or(f64::NAN, |friction| problem.missed(friction)),
+                residual: meant.map_or(f64::NAN, |friction| problem.missed(friction)),
             }
         };
         is_determined.iter().enumerate().map(lane_friction).collect()
@@ -162,8 +202,8 @@ impl<R: Real> Scene<R> {
         }
     }
 
-    /// Finds what a unit of friction in each pair does to all of them; replaces the loads. `each` sees the
-    /// scene of one after another.
+    /// Finds what a unit of friction in each pair does to all of them, and how fast the pair may seem to
+    /// rub by rounding; replaces the loads. `each` sees the scene of one after another.
     #[inline(always)]
     pub(crate) fn respond(
         &mut self,
@@ -171,14 +211,19 @@ impl<R: Real> Scene<R> {
         rubbing: &[Rubbing],
         mut each: impl FnMut(&Self),
     ) {
+        self.find_edge_errors(plan);
         self.rubs.slopes.clear();
-        for own in rubbing {
+        for (index, own) in rubbing.iter().enumerate() {
             self.link_force.fill(Vector::ZERO);
             self.link_moment.fill(R::ZERO);
             self.rub_pair(plan, own, R::ONE);
             self.start(plan);
             let slopes = self.pair_reactions(plan, rubbing);
             self.rubs.slopes.push(slopes);
+            let still = self.rubs.still[index] + self.rate_rounding();
+            // Of a singular position nothing is known: the pair is not said to rest.
+            let is_known = still.lt(R::splat(f64::INFINITY));
+            self.rubs.still[index] = R::select(is_known, still, self.rubs.still[index]);
             each(self);
         }
     }
@@ -245,7 +290,7 @@ impl<R: Real> Scene<R> {
         &self,
         rubbing: &[Rubbing],
         lane: usize,
-    ) -> (FrictionProblem, Vec<usize>) {
+    ) -> (FrictionProblem<'static>, Vec<usize>) {
         let rubs = &self.rubs;
         let way = |pair: usize| rubs.speeds[pair][1].lane(lane);
         let rubs_here = |&pair: &usize| way(pair).abs() > rubs.still[pair].lane(lane);
@@ -263,6 +308,6 @@ impl<R: Real> Scene<R> {
                 slopes: used.iter().map(|&on| of(rubs.slopes[on][pair])).collect(),
             }
         });
-        (FrictionProblem { pairs: pairs.collect() }, used)
+        (FrictionProblem { pairs: pairs.collect(), cancel: None }, used)
     }
 }

@@ -13,6 +13,10 @@ pub(crate) struct Rubs<R: Real> {
     pub speeds: Vec<[R; 2]>,
     /// Below these a pair does not rub.
     pub still: Vec<R>,
+    /// How fast every point moves as it is or is about to be: at most, of all drivers.
+    pub point_speeds: Vec<R>,
+    /// By how much the velocities along every edge may miss their closed path.
+    pub edge_errors: Vec<R>,
     /// Reactions without friction, and per unit of friction in every pair.
     pub base: Vec<Vector<R>>,
     pub slopes: Vec<Vec<Vector<R>>>,

@@ -72,7 +72,12 @@ impl<R: Real> Scene<R> {
 
     /// The derivative of a closed path by an unknown.
     #[inline(always)]
-    fn column(&self, plan: &ForcePlan, path: &ClosedPath, unknown: Unknown) -> Vector<R> {
+    pub(super) fn column(
+        &self,
+        plan: &ForcePlan,
+        path: &ClosedPath,
+        unknown: Unknown,
+    ) -> Vector<R> {
         let mut sum = Vector::ZERO;
         for &(edge, sign) in &path.edges {
             let sign = R::splat(sign);
