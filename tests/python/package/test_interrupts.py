@@ -132,6 +132,9 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "condition": lambda n: _condition(_angles(n)),
     "reduced inertia": lambda n: partial(_machine().reduced_inertia, _angles(n)),
     "run": lambda n: partial(_machine().run, float(n), 0.0, 1.0, max_steps=10**9),
+    "reactions that friction locks": lambda n: partial(_rubbing().reactions, *_moving(n)),
+    "safety": lambda n: partial(getattr, _rubbing(0.1).reactions(*_moving(n)), "safety"),
+    "self-locking": lambda n: partial(_rubbing(0.3).self_locking, n=n),
 }
 
 
@@ -228,6 +231,22 @@ def _class_iv(count: int) -> assur.Mechanism:
     }  # fmt: skip
     lengths = np.random.default_rng(3).uniform(0.6, 1.6, count)
     return assur.ClassIV(joints=joints).with_dimensions({"l48.length": lengths})
+
+
+def _rubbing(coefficient: float = 0.9) -> assur.Machine:
+    """A slider-crank whose friction is so strong that all its solutions are searched for."""
+    friction: dict[str, Any] = {
+        "A": assur.JointFriction(coefficient, 0.2),
+        "B": assur.JointFriction(coefficient, 0.3),
+        "bore": assur.SlideFriction(coefficient, 0.05),
+    }
+    load = assur.Force("B", (-100.0, 0.0))
+    return assur.Machine(assur.SliderCrank(0.1, 0.35), {}, [load], friction=friction)
+
+
+def _moving(count: int) -> tuple[Any, ...]:
+    """Positions, their speed, acceleration."""
+    return _angles(count), 10.0, 0.0
 
 
 def _machine() -> assur.Machine:
