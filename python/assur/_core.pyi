@@ -73,6 +73,7 @@ class _Slide(TypedDict):
     on: str
     angle: float
     origin: str | None
+    length: bool
 
 class _Drawing(TypedDict):
     joints: list[tuple[str, list[float]]]
@@ -129,6 +130,7 @@ class _Ending(TypedDict):
     stiff: bool | None
     why: str | None
     near_change_point: _NearChangePoint | None
+    slide: str | None
 
 class _Extreme(TypedDict):
     at: float
@@ -183,6 +185,8 @@ class Mechanism:
     def q0(self) -> list[float]: ...
     @property
     def assembly(self) -> list[tuple[str, int]]: ...
+    @property
+    def lengths(self) -> list[str]: ...
     @property
     def adjustment(self) -> float: ...
     @property

@@ -199,7 +199,8 @@ test("a joint becomes one of a link", () => {
   assert.equal(joinToLink(FOUR_BAR, "B", "none"), FOUR_BAR);
   const after = joinToLink(FULL, "S", "lift_rod");
   assert.deepEqual([after.links.lift_rod, after.links.lift_barrel], [["F", "S"], ["E"]]);
-  assert.deepEqual(after.slides.lift, { link: "lift_rod", on: "lift_barrel", angle: Math.PI / 4, origin: "E" });
+  const lift = { link: "lift_rod", on: "lift_barrel", angle: Math.PI / 4, origin: "E", length: true };
+  assert.deepEqual(after.slides.lift, lift);
 });
 
 test("removing a joint leaves no link of one joint without a slide", () => {

@@ -82,11 +82,16 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
         what: _checked(word, f"slide {name!r}, {what}", slide=name) for what, word in words.items()
     }
     link, on, origin = own["link"], own["on"], own.get("origin")
+    length: Any = slide.length
+    if not isinstance(length, bool | np.bool_):
+        message = f"slide {name!r} has length {short(length)}: True or False is needed"
+        raise InputError(message, slide=name)
     if slide.along is not None:
         if slide.angle == slide.angle:
             message = f"slide {name!r} has both angle and along: give one"
             raise InputError(message, slide=name)
-        return Slide(link, on, _direction(name, slide.along, joints), origin)
+        way = _direction(name, slide.along, joints)
+        return Slide(link, on, way, origin, length=bool(length))
     try:
         angle = real_array(slide.angle, "angle")
     except InputError:
@@ -100,7 +105,7 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
     if abs(float(angle)) > LIKE_DEGREES:
         message = f"slide {name!r} has an angle of {float(angle):g} rad: is it in degrees?"
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
-    return Slide(link, on, float(angle), origin)
+    return Slide(link, on, float(angle), origin, length=bool(length))
 
 
 def _direction(name: str, ends: Any, joints: Sequence[tuple[str, float, float]]) -> float:
@@ -144,7 +149,7 @@ def cylinder(
     if (x, y) == (u, v):
         message = f"cylinder {name!r}: {base!r} and {end!r} are in one place"
         raise InputError(message, slide=name)
-    slide = Slide(rod, barrel, float(arctan2(v - y, u - x)), base)
+    slide = Slide(rod, barrel, float(arctan2(v - y, u - x)), base, length=True)
     return slide, [(barrel, (base,)), (rod, (end,))]
 
 

@@ -25,9 +25,15 @@ class Status(IntEnum):
     NEAR_SINGULAR = 1
     """Solved; fewer than six digits of the analogues may remain."""
     SINGULAR = 2
-    """The position is given; its analogues are NaN, except at a change point."""
+    """The position is given; its analogues are NaN, except at a change point.
+
+    Where the joints of a cylinder coincide, its own analogues alone are NaN.
+    """
     UNREACHABLE = 3
-    """This assembly does not exist at this coordinate (NaN)."""
+    """This assembly does not exist at this coordinate (NaN).
+
+    Or the length of a cylinder would be negative there.
+    """
     LOST = 4
     """The assembly cannot be followed from the drawing to this q (NaN).
 
@@ -67,12 +73,15 @@ class Slide:
         is 0 in the drawing.
     along : (str, str), optional
         In place of `angle`: the direction from one joint of the drawing to another.
+    length : bool
+        Whether the value is a length, which is never negative: that of a `Cylinder` is. Positions
+        in which it would be negative do not exist.
 
     Examples
     --------
     >>> import assur
     >>> assur.Slide("piston", on="ground", angle=0.0, origin="O")
-    Slide(link='piston', on='ground', angle=0.0, origin='O')
+    Slide(link='piston', on='ground', angle=0.0, origin='O', length=False)
 
     A block in a slot along a lever:
 
@@ -84,13 +93,16 @@ class Slide:
     angle: float = math.nan
     origin: str | None = None
     along: tuple[str, str] | None = field(default=None, repr=False)
+    length: bool = False
 
 
 @dataclass(frozen=True)
 class Cylinder:
     """A cylinder between two joints: a barrel on the one, a rod on the other, and their slide.
 
-    Given among the slides of a `Mechanism`; the slide's value is the distance of the joints, m.
+    Given among the slides of a `Mechanism`; the slide's value is the distance of the joints, m. It
+    is never negative: a driven cylinder begins at length 0, and one that is not driven points from
+    its base to its end in every assembly.
 
     Parameters
     ----------
@@ -114,6 +126,15 @@ class Cylinder:
     ... )
     >>> boom.q0 == 5**0.5, boom.links["lift_rod"]
     (True, ('eye',))
+    >>> boom.limits()
+    <assur.Limits [0.821854, 3.65028], does not close>
+
+    Notes
+    -----
+    Where both joints coincide the direction of the cylinder is not determined: the position is
+    `Status.SINGULAR`. A motion through that point goes on with a length that grows again; the
+    cylinder has then turned by half a turn at once, counter-clockwise as q grows (either way would
+    be as good).
     """
 
     base: str

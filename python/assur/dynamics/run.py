@@ -215,8 +215,8 @@ class Run(Tabular):
     events : list of EventRecord
         The events detected, in order.
     end : str
-        Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "locked",
-        "lost", "table ends", "stalled", "step limit" or "time limit".
+        Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "zero length"
+        (of a cylinder), "locked", "lost", "table ends", "stalled", "step limit" or "time limit".
     message : str
         The same as a sentence.
     at_rest_from : float or None
@@ -499,6 +499,8 @@ class Run(Tabular):
             "event": f"{event} at {place}",
             "dead point": f"a dead point at {place}: this assembly has no motion beyond it; "
             "another driver (with_driver) may lead past it",
+            "zero length": f"the length of {ending['slide']!r} goes to 0 at {place}: it turns "
+            "round there within less than can be integrated",
             "locked": f"friction locks the machine at {place}: no acceleration agrees with it",
             "lost": f"the branch cannot be tracked beyond {place}: {ending['why']}",
             "rest": f"the machine came to rest at {place}",

@@ -54,9 +54,10 @@ def platform_on_cylinders() -> assur.Mechanism:
             "platform": "DEF",
         },
         slides={
-            "leg1": assur.Slide("rod1", on="tube1", angle=float(directions[0]), origin="A"),
-            "leg2": assur.Slide("rod2", on="tube2", angle=float(directions[1]), origin="B"),
-            "leg3": assur.Slide("rod3", on="tube3", angle=float(directions[2]), origin="C"),
+            f"leg{number}": assur.Slide(
+                f"rod{number}", f"tube{number}", float(direction), base, length=True
+            )
+            for number, (base, direction) in enumerate(zip("ABC", directions, strict=True), 1)
         },
         driver=["leg1", "leg2", "leg3"],
     )

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from assur.files.positions import KeyPath
 
 InputSpeed: TypeAlias = "float | tuple[float, ...] | None"
-SLIDE = ("link", "on", "angle", "origin", "along")
+SLIDE = ("link", "on", "angle", "origin", "along", "length")
 CYLINDER = ("base", "end", "barrel", "rod")
 
 
@@ -75,6 +75,8 @@ def read_slide(node: Node) -> Slide | Cylinder:
         raise node.error("has both angle and along: give one")
     texts = ("link", "on", "origin")
     given: dict[str, Any] = {key: entries[key].text() for key in texts if key in entries}
+    if "length" in entries:
+        given["length"] = entries["length"].flag()
     if "angle" in entries:
         return Slide(angle=entries["angle"].number(), **given)
     ends = entries["along"].names()

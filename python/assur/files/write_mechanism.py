@@ -74,7 +74,7 @@ def with_cylinders(
             one = Cylinder(barrel[0], rod[0], *given)
             short_form = _same_cylinder(name, one, own, slide)
         if short_form is None:
-            slides.append((name, _present(slide, ("link", "on", "angle", "origin"))))
+            slides.append((name, _slide(slide)))
         else:
             slides.append((name, short_form))
             cylinders += [(slide.on, barrel), (slide.link, rod)]
@@ -82,8 +82,13 @@ def with_cylinders(
     rest = own.links[: len(own.links) - len(cylinders)]
     if (*rest, *cylinders) == own.links:
         return list(rest), slides
-    plain = [(n, _present(s, ("link", "on", "angle", "origin"))) for n, s in own.slides]
-    return list(own.links), plain
+    return list(own.links), [(name, _slide(slide)) for name, slide in own.slides]
+
+
+def _slide(slide: Any) -> dict[str, Any]:
+    """Return a slide as a table."""
+    length = {"length": True} if slide.length else {}
+    return _present(slide, ("link", "on", "angle", "origin")) | length
 
 
 def _same_cylinder(name: str, one: Cylinder, own: Description, slide: Any) -> dict[str, Any] | None:

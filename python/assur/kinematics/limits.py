@@ -25,7 +25,10 @@ __all__ = ["DeadPoint", "Limits"]
 
 
 class FoundLimits(TypedDict):
-    """What the core found: see `Limits`; `folds` are indices of `names`, −1 for none."""
+    """What the core found: see `Limits`.
+
+    `folds` are indices of `names`, −1 for none; beyond these where the length of a cylinder is 0.
+    """
 
     count: int
     intervals: Float
@@ -102,12 +105,16 @@ class Limits:
 
     @property
     def dead_points(self) -> Any:
-        """Where the assembly ends, by q: a list of `DeadPoint`, nested in the shape of a batch."""
+        """Where the assembly ends, by q: a list of `DeadPoint`, nested in the shape of a batch.
+
+        Where it ends because a cylinder has length 0 there is none: nothing folds.
+        """
         shape = self.intervals.shape[:-2]
         if shape:
             return [self[index].dead_points for index in range(shape[0])]
         ends = zip(self.intervals.ravel().tolist(), self._folds.ravel().tolist(), strict=True)
-        finite = sorted({(q, fold) for q, fold in ends if np.isfinite(q)})
+        known = len(self._names)
+        finite = sorted({(q, fold) for q, fold in ends if np.isfinite(q) and fold < known})
         return [DeadPoint(q, *(self._names[fold] if fold >= 0 else (None,))) for q, fold in finite]
 
     def __getitem__(self, index: int | tuple[int, ...]) -> Limits:

@@ -194,6 +194,9 @@ def checked_assembly(mechanism: Mechanism, assembly: Mapping[str, int] | None) -
         if name not in signs:
             message = f"assembly: no dyad has the inner pair {name!r}; there are {list(signs)}"
             raise InputError(message, joint=name)
+        if sign < 0 and name in mechanism._core.lengths:
+            message = f"assembly[{name!r}] is -1: the length of {name!r} is never negative"
+            raise InputError(message, slide=name)
         signs[name] = sign
     return list(signs.values())
 

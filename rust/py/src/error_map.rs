@@ -100,6 +100,9 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
         E::FlatDyad { inner, name, sine, .. } => {
             Fields { group: Some(name), value: Some(*sine), ..named(*inner, name) }
         }
+        E::NoLength { slide, value } => {
+            Fields { slide: Some(slide), value: Some(*value), ..none() }
+        }
         E::BadSign { name, value } => {
             Fields { joint: Some(name), value: Some(*value as f64), ..none() }
         }
@@ -163,6 +166,10 @@ fn of_failure(failure: &Failure) -> (Class, &'static str, Fields<'_>) {
         }
         Reason::ParallelGuides { slides } => {
             (Class::Position, Fields { slide: first(slides), ..q })
+        }
+        Reason::ZeroLength { slide } => (Class::Position, Fields { slide: Some(slide), ..q }),
+        Reason::NegativeLength { slide, length } => {
+            (Class::Position, Fields { slide: Some(slide), value: Some(*length), ..q })
         }
         Reason::NotClosed { group, gap } => {
             (Class::Position, Fields { q: q.q, value: Some(*gap), ..of_group(group) })

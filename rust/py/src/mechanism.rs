@@ -229,6 +229,12 @@ impl Mechanism {
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
+    /// Those among them whose sign is +1 always, because a length is never negative.
+    #[getter]
+    fn lengths(&self) -> Vec<String> {
+        self.inner.lengths().into_iter().map(Into::into).collect()
+    }
+
     /// Greatest change of a joint's coordinate by the adjustment for redundant links, m.
     #[getter]
     fn adjustment(&self) -> f64 {

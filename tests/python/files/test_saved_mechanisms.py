@@ -182,6 +182,26 @@ def test_cylinders_stay_cylinders(tmp_path: Path) -> None:
     again(plain, tmp_path / "m.toml")
 
 
+def test_a_slide_keeps_whether_it_is_a_length(tmp_path: Path) -> None:
+    def held(length: bool) -> assur.Mechanism:
+        return assur.Mechanism(
+            {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
+            {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
+            "lift",
+            {"lift": assur.Slide("ram", "tube", math.pi / 4, "foot", length=length)},
+        )
+
+    for mechanism, low in ((held(length=False), -2.0), (held(length=True), 0.0)):
+        copy = again(mechanism, tmp_path / "door.toml")
+        assert copy.slides["lift"].length == (low == 0.0)
+        assert copy.limits().intervals.tolist() == [[low, 2.0]]
+    assert held(length=False) != held(length=True)
+    written = (tmp_path / "door.toml").read_text()
+    assert 'base = "foot"' in written
+    held(length=False).save(tmp_path / "door.toml")
+    assert 'base = "foot"' not in (tmp_path / "door.toml").read_text()
+
+
 def test_names_of_any_letters(tmp_path: Path) -> None:
     names = {"A": "точка", "B": "Ω-1", "C": "7", "D": "e=#", "P": "-"}
     own = four_bar()

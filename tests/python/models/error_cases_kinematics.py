@@ -136,6 +136,17 @@ def nearly_in_line() -> assur.Machine:
     return assur.Machine(linkage, {"rocker": assur.Body(1.0, 0.5), "coupler": assur.Body(2.0, 0.3)})
 
 
+def door(driver: str = "lift", **slide: Any) -> assur.Mechanism:
+    """A door that a cylinder holds, or a slide between the same joints."""
+    links: dict[str, Any] = {"ground": ["hinge", "foot"], "door": ["hinge", "eye"]}
+    lift: Any = assur.Cylinder("foot", "eye")
+    if slide:
+        links |= {"tube": ["foot"], "ram": ["eye"]}
+        lift = assur.Slide("ram", "tube", origin="foot", **slide)
+    joints = {"hinge": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)}
+    return assur.Mechanism(joints, links, driver, {"lift": lift})
+
+
 def rocker_machine() -> assur.Machine:
     return assur.Machine(ROCKER, {"rocker": assur.Body(inertia=1.0)})
 
@@ -191,6 +202,11 @@ STRUCTURE: dict[str, Case] = {
         lambda: described("third rod 1e-3 too long"),
         {"link": "crank", "value": 2.183387e-4},
     ),
+    "no_length": Case(
+        StructureError,
+        lambda: door("door", angle=-0.75 * math.pi, length=True),
+        {"slide": "lift", "value": -math.sqrt(2.0)},
+    ),
     "bad_sign": Case(StructureError, lambda: described("sign"), {"joint": "C", "value": 2.0}),
 }
 
@@ -243,6 +259,16 @@ POSITION: dict[str, Case] = {
     ),
     "too_far_apart": Case(
         PositionError, lambda: PULLED.solve(1e300), {"joint": "A", "group": "A", "q": 1e300}
+    ),
+    "negative_length": Case(
+        PositionError, lambda: door().solve(-1.0), {"slide": "lift", "q": -1.0, "value": -1.0}
+    ),
+    "zero_length": Case(
+        PositionError,
+        lambda: assur.Machine(door("door"), {"door": assur.Body(inertia=1.0)}).run(
+            1.0, q0=-0.5 * math.pi
+        ),
+        {"slide": "lift", "q": -0.5 * math.pi},
     ),
     "undetermined": Case(
         PositionError,

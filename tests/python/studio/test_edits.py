@@ -181,7 +181,7 @@ def test_places_of_names_are_those_of_files() -> None:
     assert {key for key, reader in entries if reader is point} == {"at", "first", "second"}
     assert [key for key, reader in BODY.items() if reader is place] == ["at"]
     assert (SLIDE, CYLINDER) == (
-        ("link", "on", "angle", "origin", "along"),
+        ("link", "on", "angle", "origin", "along", "length"),
         ("base", "end", "barrel", "rod"),
     )
     motors = [entry for words in MOTORS.values() for entry in words.items()]

@@ -130,7 +130,9 @@ def _cylinder_links(name: str, entry: Table) -> tuple[str, ...]:
 
 def _entry(slide: Slide) -> Table:
     entry: Table = {"link": slide.link, "on": slide.on, "angle": slide.angle}
-    return entry if slide.origin is None else {**entry, "origin": slide.origin}
+    if slide.origin is not None:
+        entry["origin"] = slide.origin
+    return {**entry, "length": True} if slide.length else entry
 
 
 def _driver(driver: DriverLike | list[DriverLike]) -> Any:

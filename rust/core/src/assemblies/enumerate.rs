@@ -133,8 +133,9 @@ impl Mechanism {
             return Ok(back);
         }
         for choice in 1..1_u32 << back.len() {
-            let flipped =
-                |(i, &sign): (usize, &i8)| if choice >> i & 1 == 1 { -sign } else { sign };
+            let flipped = |(i, &sign): (usize, &i8)| {
+                if choice >> i & 1 == 1 && !self.plan().is_length(i) { -sign } else { sign }
+            };
             let signs: Vec<i8> = back.iter().enumerate().map(flipped).collect();
             if lead(&signs)? {
                 return Ok(signs);
@@ -203,7 +204,8 @@ fn choices(mechanism: &Mechanism) -> Vec<Choice<'_>> {
     for (step, of) in mechanism.plan().steps.iter().enumerate() {
         match of {
             Step::Dyad(dyad) => {
-                choices.extend(dyad.sign.map(|sign| Choice::Sign { sign, step }));
+                let sign = dyad.sign.filter(|_| !dyad.is_length);
+                choices.extend(sign.map(|sign| Choice::Sign { sign, step }));
             }
             Step::Group(group) => choices.push(Choice::Group { group, step }),
             _ => {}

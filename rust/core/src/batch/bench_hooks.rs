@@ -109,5 +109,6 @@ fn name(op: &Op) -> (Option<&'static str>, bool) {
         Op::Dyad { .. } => (Some("any other dyad"), false),
         Op::Group { .. } => (Some("group"), false),
         Op::Redundant { .. } => (Some("redundant link"), false),
+        Op::Length { .. } => (Some("check of a length"), true),
     }
 }

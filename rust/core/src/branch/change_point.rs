@@ -21,7 +21,7 @@ impl BranchTracer<'_, '_> {
         let tracer = self;
         for (index, (step, dyad)) in tracer.dyads().enumerate() {
             let Some(sign) = dyad.sign else { continue };
-            if !tracer.cx.constants.may_change[sign] {
+            if dyad.is_length || !tracer.cx.constants.may_change[sign] {
                 continue;
             }
             // A later dyad may close only with the sign that is yet to be found.

@@ -93,7 +93,7 @@ impl<'a> Design<'a> {
             tracing_tape: Cow::Borrowed(&mechanism.plan().tracing_tape),
             values: Vec::new(),
             initial_unknowns: Ok(Vec::new()),
-            signs: signs.iter().map(|&s| f64::from(s)).collect(),
+            signs: signs_of(mechanism.plan(), signs),
             q0: Vec::new(),
             branch: Branch::default(),
             serves_all: false,
@@ -230,6 +230,17 @@ impl<'a> Design<'a> {
     pub(crate) fn has_groups(&self) -> bool {
         self.mechanism.plan().groups().next().is_some()
     }
+}
+
+/// Signs as the solver needs them; those of lengths are +1, whatever is asked for.
+fn signs_of(plan: &Plan, signs: &[i8]) -> Vec<f64> {
+    let mut signs: Vec<f64> = signs.iter().map(|&sign| f64::from(sign)).collect();
+    for dyad in plan.dyads().filter(|dyad| dyad.is_length) {
+        if let Some(own) = dyad.sign.and_then(|sign| signs.get_mut(sign)) {
+            *own = 1.0;
+        }
+    }
+    signs
 }
 
 /// Whether the positions asked for need this dyad.

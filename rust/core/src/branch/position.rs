@@ -204,6 +204,16 @@ impl Design<'_> {
         (smooth.residual(&self.context(self.derivatives)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 
+    /// The step of a driven length that is negative at these (scaled) coordinates, and by how much.
+    fn negative_length(&self, q: &[f64]) -> Option<(usize, f64)> {
+        let plan = self.mechanism.plan();
+        let (driver, &value) = q
+            .iter()
+            .enumerate()
+            .find(|&(driver, &value)| value < 0.0 && plan.length_step(driver).is_some())?;
+        Some((plan.length_step(driver)?, -value))
+    }
+
     /// Solves one position with the signs of its branch there; true if the analogues exist.
     pub(crate) fn solve(
         &self,
@@ -215,6 +225,11 @@ impl Design<'_> {
             state.set_bad_input();
             return false;
         };
+        if let Some((step, gap)) = self.negative_length(q) {
+            state.fault = Some(Fault::NotClosed { step, gap });
+            state.status = Status::Unreachable;
+            return false;
+        }
         if !branch.covers(*at) {
             state.set_lost();
             return false;
@@ -250,5 +265,6 @@ impl Design<'_> {
             return true;
         }
         matches!(state.status, Status::Ok | Status::NearSingular)
+            || state.status == Status::Singular && state.is_at_zero_length(cx.plan)
     }
 }

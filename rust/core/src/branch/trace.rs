@@ -34,7 +34,8 @@ impl Design<'_> {
         for (dyad, on_crank) in plan.dyads().zip(&self.crank_dyads) {
             let fixed = several && dyad.sign.is_none_or(|sign| !self.constants.may_change[sign]);
             let keeps_sign = || on_crank.is_some_and(|dyad| dyad.keeps_sign(&self.constants));
-            self.settled.push(fixed || keeps_sign());
+            let is_length = dyad.is_length && (several || classes.is_empty());
+            self.settled.push(fixed || is_length || keeps_sign());
         }
         if !self.settled.iter().all(|&settled| settled) || several && !classes.is_empty() {
             return Traced::No;
@@ -95,6 +96,9 @@ impl Design<'_> {
         references: Option<&mut [Reference]>,
         range: [f64; 2],
     ) -> Traced {
+        if self.mechanism.plan().has_passive_lengths() {
+            return Traced::No;
+        }
         let Some(grid) = self.grid(range) else { return Traced::No };
         let mut goes_wide = false;
         if self.has_groups() {
@@ -186,7 +190,13 @@ impl Design<'_> {
     /// A range of a driven slide's values (m), scaled and widened to contain the drawing's.
     fn with_drawing(&self, range: [f64; 2]) -> [f64; 2] {
         let [low, high] = range.map(|q| q * self.units.coordinate[0]);
-        [low.min(self.q0[0]), high.max(self.q0[0])]
+        [low.max(self.least_coordinate()).min(self.q0[0]), high.max(self.q0[0])]
+    }
+
+    /// The least coordinate of the driver that may be reached: 0 of a length.
+    fn least_coordinate(&self) -> f64 {
+        let is_length = self.mechanism.plan().driven_length().is_some();
+        if is_length { 0.0 } else { f64::NEG_INFINITY }
     }
 
     /// The branch of the drawing, from which those of other designs start.
@@ -260,7 +270,8 @@ impl Design<'_> {
         } else {
             let scaled =
                 || q.iter().map(|q| q * self.units.coordinate[0]).filter(|q| q.is_finite());
-            let range = [scaled().fold(start, f64::min), scaled().fold(start, f64::max)];
+            let low = scaled().fold(start, f64::min).max(self.least_coordinate());
+            let range = [low, scaled().fold(start, f64::max)];
             Branch::over_range(&cx, &mut state, start, range, self.reach(), from)
         };
     }

@@ -360,8 +360,25 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             } else if prediction_failed {
                 self.ended = true;
             } else {
-                let knot = self.unwrap_across_gap(&from, knot);
+                let mut knot = self.unwrap_across_gap(&from, knot);
+                self.turn_lengths_round(&from, &mut knot);
                 self.knots.push(knot);
+            }
+        }
+    }
+
+    /// Where the joints of a slide whose value is a length have coincided between two knots, it has
+    /// turned by half a turn at once, to either side: let that be counter-clockwise as the parameter
+    /// grows.
+    fn turn_lengths_round(&self, from: &Knot, knot: &mut Knot) {
+        if !(from.reached && knot.reached) {
+            return;
+        }
+        for dyad in self.cx.plan.dyads().filter(|dyad| dyad.is_length) {
+            let class = dyad.unknowns[0].class();
+            let turn = self.direction * (knot.angles[class] - from.angles[class]);
+            if turn < -KNOT_MAX_TURN {
+                knot.angles[class] += self.direction * TAU;
             }
         }
     }

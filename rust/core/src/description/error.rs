@@ -267,6 +267,9 @@ pub enum StructureError {
         some_links(links), rounded(*gap, 2), rounded(*part, 1)
     )]
     AlmostFits { links: Vec<String>, gap: f64, part: f64 },
+    /// A slide whose value is a length is drawn, or its assembly chosen, without a positive one.
+    #[error("slide {slide:?} would be {} m long, but its value is a length", rounded(*value, 4))]
+    NoLength { slide: String, value: f64 },
     /// The caller cancelled the analysis.
     #[error("the work was interrupted: the structure is not known")]
     Interrupted,
@@ -314,6 +317,9 @@ impl Hint for StructureError {
             Self::FlatDyad { name, .. } => format!(
                 "draw it to one side, or name the assembly: assembly={{{name:?}: +1}} or -1"
             ),
+            Self::NoLength { .. } => {
+                "a length is positive: turn the guide round, or leave `length` out".into()
+            }
             Self::AlmostFits { .. } => {
                 "type the drawing with more digits, or leave one of them out".into()
             }

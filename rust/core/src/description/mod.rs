@@ -44,6 +44,8 @@ pub struct Slide {
     pub angle: f64,
     /// The joint of `on` from which the value is measured.
     pub origin: Option<usize>,
+    /// Whether the value is a length, which is never negative.
+    pub length: bool,
 }
 
 /// A driven coordinate.
@@ -74,6 +76,9 @@ pub struct SlideDescription {
     /// The joint of `on` from which the value is measured; `None`: from where the drawing
     /// shows the sliding point.
     pub origin: Option<String>,
+    /// Whether the value is a length, which is never negative: that of a cylinder is the distance of
+    /// its joints.
+    pub length: bool,
 }
 
 /// A driver as a user writes it.
@@ -163,6 +168,7 @@ impl Description {
             on: on.into(),
             angle,
             origin: origin.map(Into::into),
+            length: false,
         });
         self
     }

@@ -37,6 +37,7 @@ impl Linkage {
         linkage.check_joints_have_links()?;
         linkage.check_lengths()?;
         linkage.check_reference_points()?;
+        linkage.check_lengths_of_slides()?;
         linkage.drivers = resolve_drivers(description, &linkage)?;
         linkage.assembly = check_assembly(description)?;
         Ok(linkage)
@@ -71,6 +72,16 @@ impl Linkage {
                     x: a.at[0],
                     y: a.at[1],
                 });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_lengths_of_slides(&self) -> Result<(), StructureError> {
+        for (index, slide) in self.slides.iter().enumerate() {
+            let (value, _) = self.drawing_slide(index);
+            if slide.length && value <= 0.0 {
+                return Err(StructureError::NoLength { slide: slide.name.clone(), value });
             }
         }
         Ok(())
@@ -216,7 +227,14 @@ fn resolve_slides(
                 Some(joint)
             }
         };
-        slides.push(Slide { name: s.name.clone(), link, on, angle: s.angle, origin });
+        slides.push(Slide {
+            name: s.name.clone(),
+            link,
+            on,
+            angle: s.angle,
+            origin,
+            length: s.length,
+        });
     }
     Ok(slides)
 }

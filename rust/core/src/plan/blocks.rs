@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::group::Group;
 use super::plan::{EdgeSlide, Plan, PlanEdge, Step};
-use crate::description::Linkage;
 use crate::description::error::StructureError;
+use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
 use crate::structure::assur_group::roman;
 use crate::structure::matching::Pattern;
@@ -24,6 +24,11 @@ pub(crate) fn add_steps(
         links: linkage.links.iter().map(|l| l.name.clone()).collect(),
     })?;
     let mut known = plan.fixed.clone();
+    for (slide, own) in linkage.slides.iter().enumerate() {
+        if own.length && linkage.drivers.contains(&Driver::Slide(slide)) {
+            plan.steps.push(Step::Length { slide });
+        }
+    }
     for block in &blocks {
         let mut edges: Vec<usize> = block.equations.iter().map(|&e| kept[e]).collect();
         let mut unknowns: Vec<Unknown> =
@@ -42,9 +47,24 @@ pub(crate) fn add_steps(
                 plan.steps.push(Step::Group(group));
             }
         }
+        add_length_checks(plan, linkage);
         place_points(plan, &mut known, edges);
     }
     Ok(known)
+}
+
+/// Adds checks of the lengths that the last step finds, unless their sign is that of a square root.
+fn add_length_checks(plan: &mut Plan, linkage: &Linkage) {
+    let unknowns = match plan.steps.last() {
+        Some(Step::Dyad(dyad)) if !dyad.is_length => dyad.unknowns.to_vec(),
+        Some(Step::Group(group)) => group.all_unknowns().collect(),
+        _ => return,
+    };
+    let checks = unknowns.into_iter().filter_map(|unknown| match unknown {
+        Unknown::Slide(slide) if linkage.slides[slide].length => Some(Step::Length { slide }),
+        _ => None,
+    });
+    plan.steps.extend(checks);
 }
 
 fn plan_links(linkage: &Linkage, edges: &[PlanEdge], of: &[usize]) -> Vec<usize> {
@@ -234,7 +254,29 @@ fn dyad(
         }
         _ => None,
     };
-    Dyad { form, unknowns, orientations, path, others, leg, rrr_classes, index, start, end, sign }
+    let is_length = is_length(linkage, form, unknowns, &path);
+    Dyad {
+        form,
+        unknowns,
+        orientations,
+        path,
+        others,
+        leg,
+        rrr_classes,
+        index,
+        start,
+        end,
+        sign,
+        is_length,
+    }
+}
+
+/// Whether a dyad is nothing but a slide that turns about both its joints and whose value is a length.
+fn is_length(linkage: &Linkage, form: Form, unknowns: [Unknown; 2], path: &[LoopTerm]) -> bool {
+    let is_alone = matches!(path, [term] if term.slides.is_some());
+    form == Form::TurningGuide
+        && is_alone
+        && matches!(unknowns[1], Unknown::Slide(slide) if linkage.slides[slide].length)
 }
 
 /// The terms that a loop's edges add to its equation, and for each unknown whether it has a leg.

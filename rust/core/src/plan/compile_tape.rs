@@ -112,6 +112,10 @@ impl Tape {
                     ops.push(Op::Group { step });
                 }
                 Step::Redundant(_) => ops.push(Op::Redundant { step }),
+                &Step::Length { slide } => {
+                    uses.slides[slide] = true;
+                    ops.push(Op::Length { step, slide });
+                }
                 &Step::Place { edge, backward } => {
                     let mut place = PlaceOp::new(plan, edge, backward);
                     if !(all_points || uses.points[place.to]) {
@@ -148,8 +152,12 @@ impl Tape {
             .collect();
         let fixed = (0..plan.points).filter(|&at| plan.fixed[at] && uses.points_bare[at]).collect();
         let is_bounded = is_bounded(plan) && !ops.iter().any(|op| matches!(op, Op::Dyad { .. }));
-        let is_dyad =
-            |op: &Op| !matches!(op, Op::Place(_) | Op::Group { .. } | Op::Redundant { .. });
+        let is_dyad = |op: &Op| {
+            !matches!(
+                op,
+                Op::Place(_) | Op::Group { .. } | Op::Redundant { .. } | Op::Length { .. }
+            )
+        };
         let dyads = (0..ops.len()).filter(|&op| is_dyad(&ops[op])).collect();
         Self { ops, dyads, fixed, driven, is_bounded }
     }
@@ -197,6 +205,7 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
                 last(&mut dyads, &before);
                 of_point[place.to] = dyads;
             }
+            Op::Length { .. } => {}
             // Such tapes run without bounds.
             Op::Dyad { .. } | Op::Group { .. } | Op::Redundant { .. } => return,
         }
@@ -220,6 +229,7 @@ fn is_bounded(plan: &Plan) -> bool {
                     return false;
                 }
             }
+            Step::Length { .. } => {}
             Step::Group(_) | Step::Redundant(_) => return false,
         }
     }
@@ -258,6 +268,7 @@ impl Op {
             start: dyad.start,
             end: dyad.end,
             sign: dyad.sign,
+            is_length: dyad.is_length,
             unknowns: dyad.unknowns.map(|unknown| match unknown {
                 Unknown::Class(index) | Unknown::Slide(index) => index,
             }),

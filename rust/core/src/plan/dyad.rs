@@ -75,4 +75,7 @@ pub(crate) struct Dyad {
     pub end: usize,
     /// Index among the assembly signs, if it has two solutions.
     pub sign: Option<usize>,
+    /// Whether it is nothing but a slide that turns about both its joints and whose value is a
+    /// length: a cylinder. Its sign is +1 always.
+    pub is_length: bool,
 }

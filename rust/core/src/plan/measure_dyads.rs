@@ -36,7 +36,7 @@ impl DesignConstants {
                 | Op::TurningGuide(dyad)
                 | Op::StandingGuides(dyad) => dyad.step,
                 Op::Dyad { step } => *step,
-                Op::Group { .. } | Op::Redundant { .. } => continue,
+                Op::Group { .. } | Op::Redundant { .. } | Op::Length { .. } => continue,
             };
             let Step::Dyad(dyad) = &plan.steps[step] else { continue };
             let legs = &self.legs[dyad.index];

@@ -180,6 +180,14 @@ impl Mechanism {
         &self.plan.dyad_names
     }
 
+    /// The slides among them whose values are lengths: their sign is +1 always.
+    #[must_use]
+    pub fn lengths(&self) -> Vec<&str> {
+        let names = self.plan.dyad_names.iter().enumerate();
+        let lengths = names.filter(|&(sign, _)| self.plan.is_length(sign));
+        lengths.map(|(_, name)| name.as_str()).collect()
+    }
+
     /// Assembly of the drawing: +1 or −1 for every dyad that has two solutions.
     #[must_use]
     pub fn signs(&self) -> &[i8] {
@@ -286,6 +294,11 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
         let named = linkage.assembly.iter().rev().find(|(n, _)| n == name);
         let sine = drawn_sine(linkage, plan, dyad);
         signs[sign] = match named {
+            Some((_, -1)) if dyad.is_length => {
+                let slide = linkage.slides.iter().position(|slide| slide.name == *name);
+                let value = slide.map_or(f64::NAN, |slide| -linkage.drawing_slide(slide).0);
+                return Err(StructureError::NoLength { slide: name.clone(), value });
+            }
             Some((_, chosen)) => *chosen,
             None if sine.abs() >= FLAT_SINE => {
                 if sine > 0.0 {

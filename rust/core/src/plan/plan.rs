@@ -81,6 +81,8 @@ pub(crate) enum Step {
     Place { edge: usize, backward: bool },
     /// Place a redundant link and check that it fits.
     Redundant(RedundantLink),
+    /// Check that the value of this slide, a length, is not negative.
+    Length { slide: usize },
 }
 
 /// A redundant link (or slide): how it is placed, and which closures must then hold.
@@ -188,6 +190,34 @@ impl Plan {
             Step::Redundant(redundant) => Some(redundant),
             _ => None,
         })
+    }
+
+    /// The slide that is the only driver, if its value is a length.
+    pub(crate) fn driven_length(&self) -> Option<usize> {
+        self.length_step(0).filter(|_| self.drivers.len() == 1)?;
+        self.driven_slide(0)
+    }
+
+    /// The step that checks the length of driver number `driver`, if that is one.
+    pub(crate) fn length_step(&self, driver: usize) -> Option<usize> {
+        let slide = self.driven_slide(driver)?;
+        self.steps.iter().position(|step| *step == Step::Length { slide })
+    }
+
+    /// Whether a position may fail at the length of a slide that is not a driver.
+    pub(crate) fn has_passive_lengths(&self) -> bool {
+        let is_passive = |slide: usize| !self.drivers.contains(&Driver::Slide(slide));
+        self.steps.iter().any(|step| matches!(*step, Step::Length { slide } if is_passive(slide)))
+    }
+
+    /// What ends where the value of a slide, a length, is 0: an index after those of all that may fold.
+    pub(crate) fn end_of_length(&self, slide: usize) -> usize {
+        self.signs() + self.groups().count() + slide
+    }
+
+    /// Whether the sign of a dyad is +1 always.
+    pub(crate) fn is_length(&self, sign: usize) -> bool {
+        self.dyads().any(|dyad| dyad.sign == Some(sign) && dyad.is_length)
     }
 
     /// The groups above class II, in order.

@@ -46,6 +46,13 @@ pub(crate) fn add_redundant(
             }));
         }
     }
+    let checks: Vec<Step> = (0..linkage.slides.len())
+        .filter(|&slide| linkage.slides[slide].length)
+        .filter(|slide| checked.contains(slide) || redundant_parts.slides.contains(slide))
+        .map(|slide| Step::Length { slide })
+        .filter(|check| !plan.steps.contains(check))
+        .collect();
+    plan.steps.extend(checks);
 }
 
 fn slide_edge(closure: &Closure, slide: usize) -> Option<usize> {

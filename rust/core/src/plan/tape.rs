@@ -37,6 +37,8 @@ pub(crate) enum Op {
     Group { step: usize },
     /// A redundant link.
     Redundant { step: usize },
+    /// The check of a length.
+    Length { step: usize, slide: usize },
 }
 
 /// Indices of a dyad.
@@ -49,6 +51,8 @@ pub(crate) struct DyadOp {
     pub start: usize,
     pub end: usize,
     pub sign: Option<usize>,
+    /// See [`Dyad::is_length`](super::dyad::Dyad::is_length).
+    pub is_length: bool,
     /// Index of each unknown, a class or a slide.
     pub unknowns: [usize; 2],
     /// Whether the rotation of each unknown class is used.

@@ -128,7 +128,9 @@ fn examine(
     let failed = !solved || (status == Status::Singular && !analogues);
     let failure = failed.then(|| Failure::of(design, Rejection::Failed { status, fault }, q));
     let change_point = match (status, fault) {
-        (Status::Singular, Some(Fault::Singular { step })) if !failed => {
+        (Status::Singular, Some(Fault::Singular { step }))
+            if !failed && !state.is_at_zero_length(design.mechanism.plan()) =>
+        {
             Some(group_name(design.mechanism, step))
         }
         _ => None,

@@ -11,6 +11,7 @@ use crate::branch::units::Units;
 use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::root::ternary::ternary_search;
+use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::mechanism::Mechanism;
@@ -63,6 +64,8 @@ pub(crate) struct NearMiss {
 /// Greatest distance (rad, or of the size) of a near miss from a position beside it, times the
 /// condition there.
 const NEAR_MISS_REACH: f64 = 64.0;
+/// Shortest driven length (in sizes), times the condition there, that is not what makes the condition.
+const SHORT: f64 = 8.0;
 /// Steps of the search for it, each to two thirds.
 const NARROWINGS: u32 = 60;
 
@@ -182,6 +185,26 @@ impl<'m> Evaluator<'m> {
             |step: &Step| matches!(step, Step::Dyad(dyad) if dyad.sign.is_some());
         let steps = &self.design.mechanism.plan().steps;
         (Some(step).filter(|&step| has_two_solutions(&steps[step])), condition)
+    }
+
+    /// What makes a position of one driver so ill-conditioned, if that is a length of nearly 0: the step
+    /// of its dyad, or the check of a driven one. `step`: the dyad with the greatest condition.
+    pub(crate) fn zero_length(
+        &self,
+        q: &[f64],
+        step: Option<usize>,
+        condition: f64,
+    ) -> Option<usize> {
+        let &[q] = q else { return None };
+        let plan = self.design.mechanism.plan();
+        if q < SHORT / condition * self.unit(0)
+            && let Some(own) = plan.length_step(0)
+        {
+            return Some(own);
+        }
+        let is_length =
+            |&step: &usize| matches!(&plan.steps[step], Step::Dyad(dyad) if dyad.is_length);
+        step.filter(is_length).filter(|_| condition > NEAR_SINGULAR_CONDITION)
     }
 
     /// Solves at a coordinate; the next position is still traced from the one before.

@@ -80,6 +80,12 @@ pub enum Reason {
     /// The two guides of a dyad are parallel.
     #[error("the guides of {} are parallel and do not cross", all_quoted(slides))]
     ParallelGuides { slides: Vec<String> },
+    /// The value of a slide that is a length would be negative.
+    #[error("{slide:?} would be {} m long: a length is never negative", rounded(*length, 4))]
+    NegativeLength { slide: String, length: f64 },
+    /// A slide whose value is a length is too short for a motion to be integrated.
+    #[error("{slide:?} has nearly no length: it turns too sharply there to be integrated")]
+    ZeroLength { slide: String },
     /// A redundant link or slide does not fit.
     #[error("the redundant {kind} {name:?} does not fit: it misses by {} m", rounded(*gap, 4))]
     RedundantMisfit { kind: Named, name: String, gap: f64 },
@@ -193,6 +199,9 @@ impl Failure {
             Rejection::NearMiss { step } => {
                 Reason::NearChangePoint { group: group_name(mechanism, step) }
             }
+            Rejection::ZeroLength { step } => {
+                Reason::ZeroLength { slide: group_name(mechanism, step).name }
+            }
             Rejection::Failed { fault: Some(fault), .. } => of_fault(mechanism, fault, scale),
             Rejection::Failed { status: Status::BadInput, .. } => {
                 if q.iter().all(|x| x.is_finite()) {
@@ -214,6 +223,10 @@ fn of_fault(mechanism: &Mechanism, fault: Fault, scale: f64) -> Reason {
         (Fault::RedundantMisfit { gap, .. }, _) => {
             let (kind, name) = redundant_name(mechanism, step);
             Reason::RedundantMisfit { kind, name, gap: gap * scale }
+        }
+        (Fault::NotClosed { gap, .. }, &Step::Length { slide }) => {
+            let slide = mechanism.linkage().slides[slide].name.clone();
+            Reason::NegativeLength { slide, length: -gap * scale }
         }
         (Fault::NotClosed { gap: 0.0, .. }, _) => Reason::Undetermined { group: group() },
         (Fault::NotClosed { gap, .. }, Step::Dyad(dyad))
@@ -266,6 +279,7 @@ pub(crate) fn group_name(mechanism: &Mechanism, step: usize) -> GroupName {
         Step::Group(group) => (group.name.clone(), false),
         Step::Redundant(redundant) => (redundant.name.clone(), true),
         Step::Place { .. } => (String::new(), true),
+        &Step::Length { slide } => (mechanism.linkage().slides[slide].name.clone(), true),
     };
     let linkage = mechanism.linkage();
     let inner = if linkage.joints.iter().any(|joint| joint.name == name) {

@@ -32,7 +32,7 @@ impl Closures {
         match step {
             Step::Dyad(dyad) => Some(Self::of_dyad(dyad)),
             Step::Group(group) => Some(Self::of_group(group)),
-            Step::Place { .. } | Step::Redundant(_) => None,
+            Step::Place { .. } | Step::Redundant(_) | Step::Length { .. } => None,
         }
     }
 

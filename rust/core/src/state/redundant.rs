@@ -203,7 +203,7 @@ impl State {
                         all = Some(all.unwrap_or(true) && gap <= allowed);
                     }
                 }
-                Step::Dyad(_) | Step::Group(_) => {}
+                Step::Dyad(_) | Step::Group(_) | Step::Length { .. } => {}
             }
         }
         all

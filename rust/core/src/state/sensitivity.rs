@@ -56,6 +56,7 @@ impl Sensitivity {
                     }
                 }
                 Step::Redundant(_) => return false,
+                Step::Length { .. } => {}
                 Step::Dyad(_) | Step::Group(_) => {
                     let Some(closures) = self.steps[index].take() else { return false };
                     let solved = self.solve_closures(&inputs, &closures);

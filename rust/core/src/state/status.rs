@@ -13,9 +13,9 @@ pub enum Status {
     Ok = 0,
     /// Solved, but the analogues keep fewer than six digits.
     NearSingular = 1,
-    /// Solved, but the analogues are NaN, except at a change point.
+    /// Solved, but the analogues are NaN, except at a change point; where a length is 0, its own alone.
     Singular = 2,
-    /// The assembly does not exist at this coordinate.
+    /// The assembly does not exist at this coordinate, or a length would be negative.
     Unreachable = 3,
     /// The branch cannot be followed from the drawing to this coordinate: the signs of a driven
     /// angle do not return within 64 turns, or it is beyond a fold of a group above class II.
@@ -63,6 +63,9 @@ pub(crate) enum Rejection {
     DeadPoint { step: Option<usize> },
     /// Next to a near miss of a change point, where the motion turns too sharply to be integrated.
     NearMiss { step: usize },
+    /// Where a slide whose value is a length is so short that its direction is hardly determined.
+    /// `step`: its dyad, or the check of a driven one.
+    ZeroLength { step: usize },
 }
 
 impl Rejection {
@@ -72,7 +75,7 @@ impl Rejection {
         match self {
             Self::Failed { status, .. } => status,
             Self::DeadPoint { .. } => Status::Singular,
-            Self::NearMiss { .. } => Status::NearSingular,
+            Self::NearMiss { .. } | Self::ZeroLength { .. } => Status::NearSingular,
         }
     }
 }

@@ -4,7 +4,7 @@ use super::conditions::Conditions;
 use super::kernel::Level;
 use super::kernel::alone::Alone;
 use super::state::{Context, State};
-use super::status::Status;
+use super::status::{Fault, Status};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::math::vector::Vector;
@@ -52,6 +52,7 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                 }
+                &Op::Length { step, slide } => self.check_length(slide, step),
                 Op::TwoLegs(_)
                 | Op::StandingGuide(_)
                 | Op::MovingGuide(_)
@@ -106,8 +107,25 @@ impl<R: Real, const G: usize> State<R, G> {
                     L::standing_guides::<G>(self, cx, op);
                 }
                 Op::Place(op) if op.is_used => L::place::<LEN, G>(self, cx, op),
+                &Op::Length { slide, .. } => {
+                    for g in 0..self.groups.min(G) {
+                        let negative = self.pose.slides[slide * self.len][g].lt(R::ZERO);
+                        self.conditions.open[g] = self.conditions.open[g].or(negative);
+                    }
+                }
                 _ => {}
             }
+        }
+    }
+
+    /// A length that is negative does not exist: there the position does not close (step `index`).
+    #[inline(always)]
+    fn check_length(&mut self, slide: usize, index: usize) {
+        for g in 0..self.groups.min(G) {
+            let value = self.pose.slides[slide * self.len][g];
+            let negative = value.lt(R::ZERO);
+            self.conditions.open[g] = self.conditions.open[g].or(negative);
+            self.mark_open(g, negative, || Fault::NotClosed { step: index, gap: -value.lane(0) });
         }
     }
 

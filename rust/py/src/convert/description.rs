@@ -12,17 +12,18 @@ pub(crate) struct Slide {
     on: String,
     angle: f64,
     origin: Option<String>,
+    length: bool,
 }
 
 impl Slide {
     pub(crate) fn named(self, name: String) -> SlideDescription {
-        let Self { link, on, angle, origin } = self;
-        SlideDescription { name, link, on, angle, origin }
+        let Self { link, on, angle, origin, length } = self;
+        SlideDescription { name, link, on, angle, origin, length }
     }
 
     pub(crate) fn with_name(description: SlideDescription) -> (String, Self) {
-        let SlideDescription { name, link, on, angle, origin } = description;
-        (name, Self { link, on, angle, origin })
+        let SlideDescription { name, link, on, angle, origin, length } = description;
+        (name, Self { link, on, angle, origin, length })
     }
 }
 

@@ -21,6 +21,8 @@ pub(crate) struct StopReasonState {
     /// Why the branch is lost.
     why: Option<String>,
     near_change_point: Option<NearChangePoint>,
+    /// The cylinder whose length is 0.
+    slide: Option<String>,
 }
 
 /// A near miss of a change point: the dyad, by how much its lengths miss (m), and the coordinate.
@@ -46,6 +48,7 @@ impl From<StopReason> for StopReasonState {
                 let near_change_point = Some(NearChangePoint { dyad, miss, q });
                 Self { near_change_point, ..of("near_change_point") }
             }
+            StopReason::ZeroLength(slide) => Self { slide: Some(slide), ..of("zero length") },
             StopReason::TableEnds(table) => Self { table: Some(table), ..of("table ends") },
             StopReason::MotorTableEnds(motor) => {
                 Self { motor: Some(motor), ..of("motor table ends") }
@@ -77,6 +80,7 @@ impl StopReasonState {
                 let NearChangePoint { dyad, miss, q } = self.near_change_point.clone()?;
                 StopReason::NearChangePoint { dyad, miss, q }
             }
+            "zero length" => StopReason::ZeroLength(self.slide.clone()?),
             "table ends" => StopReason::TableEnds(self.table?),
             "motor table ends" => StopReason::MotorTableEnds(self.motor?),
             "stalled" => StopReason::Stalled,

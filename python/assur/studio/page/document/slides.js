@@ -72,6 +72,8 @@ export function setSlide(document, name, fields) {
   for (const [key, value] of Object.entries(fields)) own = withEntry(own, key, value);
   if (fields.angle !== undefined) delete own.along;
   else if (fields.along !== undefined) delete own.angle;
+  // Without an origin the value is 0 as drawn, which no length is.
+  if (own.origin === undefined) delete own.length;
   const made = withoutDimensions(document, (dimension) => dimension.startsWith(`${name}.`));
   return restructured({ ...made, slides: { ...document.slides, [name]: own } });
 }

@@ -53,7 +53,8 @@ export function withJoints(document, link, joints) {
   made = withoutDimensions(made, (name) => lost.some((joint) => name.startsWith(`${link}.${joint}.`)));
   const slides = Object.entries(tableOf(made.slides)).map(([name, own]) => {
     if (!isTable(own) || own.on !== link || !lost.includes(own.origin)) return [name, own];
-    const { origin: _, ...rest } = own;
+    // Without an origin the value is 0 as drawn, which no length is.
+    const { origin: _, length: __, ...rest } = own;
     return [name, rest];
   });
   if (slides.length) made = { ...made, slides: Object.fromEntries(slides) };
@@ -117,7 +118,7 @@ export function withoutCylinder(document, name) {
   const angle = isCylinder(own) ? guideAngle(document, own) : null;
   if (angle === null) return document;
   const { barrel, rod } = cylinderLinks(name, own);
-  const slide = { link: rod, on: barrel, angle, origin: own.base };
+  const slide = { link: rod, on: barrel, angle, origin: own.base, length: true };
   const links = { ...tableOf(document.links), [barrel]: [own.base], [rod]: [own.end] };
   return { ...document, links, slides: { ...document.slides, [name]: slide } };
 }

@@ -55,6 +55,7 @@ pub(super) fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
             .into_iter()
             .collect(),
         Step::Redundant(redundant) => of_redundant(redundant),
+        Step::Length { .. } => Vec::new(),
     };
     plan.steps.iter().rev().flat_map(transposed).collect()
 }

@@ -283,7 +283,10 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
 
     /// Whether the last rejected position is beside a near miss of a change point.
     pub(crate) fn is_near_miss(&self) -> bool {
-        matches!(self.rejected, Some((Rejection::NearMiss { .. }, _)))
+        matches!(
+            self.rejected,
+            Some((Rejection::NearMiss { .. } | Rejection::ZeroLength { .. }, _))
+        )
     }
 
     /// Reduces inertia, weights and springs at coordinates.

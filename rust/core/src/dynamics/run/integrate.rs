@@ -24,6 +24,7 @@ use crate::ode::solution::{End, Solution};
 use crate::ode::system::System;
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
+use crate::query::failure::{Failure, Reason};
 use crate::state::status::{Rejection, Status};
 
 impl Machine {
@@ -233,6 +234,10 @@ fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>)
         return StopReason::NearChangePoint { dyad, miss, q };
     }
     match failure {
+        Some(Failure {
+            reason: Reason::ZeroLength { slide } | Reason::NegativeLength { slide, .. },
+            ..
+        }) => StopReason::ZeroLength(slide),
         Some(failure) if matches!(failure.status, Status::Lost | Status::NotConverged) => {
             StopReason::Lost(failure.with_hint())
         }

@@ -172,6 +172,9 @@ impl<'m> MechanismModel<'m> {
             if self.has_dead_point_near(q, f64::INFINITY) {
                 return Err(Rejection::DeadPoint { step });
             }
+            if let Some(step) = self.evaluator.zero_length(q, step, condition) {
+                return Err(Rejection::ZeroLength { step });
+            }
             if let (1, Some(step), true) = (q.len(), step, condition > NEAR_SINGULAR_CONDITION) {
                 return Err(Rejection::NearMiss { step });
             }

@@ -32,6 +32,8 @@ pub enum StopReason {
         /// Coordinate where the dyad is nearest to collinear.
         q: f64,
     },
+    /// Where a slide whose value is a length has nearly none: its name.
+    ZeroLength(String),
     /// At the end of a table over the coordinate: its index.
     TableEnds(usize),
     /// At the end of a motor's table: index of the motor.

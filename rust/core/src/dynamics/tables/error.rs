@@ -114,7 +114,9 @@ impl Hint for TableError {
             }
             Self::InertiaJumps { .. } => "give both rows there one inertia",
             Self::JumpAtEnd { .. } => "leave one of the two rows out",
-            Self::Negative { in_row: false, .. } => "spline=\"pchip\" or spline=\"linear\" stays between the rows",
+            Self::Negative { in_row: false, .. } => {
+                "spline=\"pchip\" or spline=\"linear\" stays between the rows"
+            }
             Self::NoInertia { .. } => "give the machine an inertia or a greater flywheel",
             Self::Stalls { .. } => "start faster, or add a flywheel",
             Self::NoMean { .. } => "choose another speed, or a greater flywheel",

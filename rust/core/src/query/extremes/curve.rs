@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::known::{ByAngle, Known, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
+use super::zero_lengths::ASIDE;
 use crate::math::root::all_roots::{Roots, Sample, all_roots};
 use crate::query::evaluator::Evaluator;
 use crate::structure::closure::point_of_joint;
@@ -18,7 +19,7 @@ pub(super) struct Curve<'m> {
 
 impl Curve<'_> {
     /// The derivative with its first two derivatives by q.
-    fn by_coordinate(&mut self, q: f64) -> Option<ByAngle> {
+    pub(super) fn by_coordinate(&mut self, q: f64) -> Option<ByAngle> {
         self.evaluator.solve(&[q]).ok()?;
         let position = self.evaluator.position();
         let (state, units) = (position.state, position.units);
@@ -54,7 +55,10 @@ impl Curve<'_> {
     }
 
     fn known(&mut self, window: &Window) -> Known {
-        let nodes = window.nodes();
+        self.known_at(window, window.nodes())
+    }
+
+    fn known_at(&mut self, window: &Window, nodes: Vec<f64>) -> Known {
         let values = nodes.iter().map(|&angle| self.by_angle(window, angle)).collect();
         Known { nodes, values }
     }
@@ -110,6 +114,7 @@ impl Curve<'_> {
             let q = window.at(root.at);
             values.extend(self.value(q).map(|value| ValueAt { value, q }));
         }
+        values.extend(self.at_zero_lengths(window, &known.nodes));
         values.extend(self.at_ends(window, &known));
         let [first, last] = window.ends();
         if window.is_period
@@ -126,7 +131,12 @@ impl Curve<'_> {
 
     /// Stretches over which a linear function of the value is not negative.
     pub(super) fn stretches(&mut self, window: &Window, of: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-        let known = self.known(window);
+        let mut nodes = window.nodes();
+        for at in self.zero_lengths(window, &window.nodes()) {
+            nodes.extend([at - ASIDE, at + ASIDE]);
+        }
+        nodes.sort_by(f64::total_cmp);
+        let known = self.known_at(window, nodes);
         let slope = of(1.0) - of(0.0);
         let poles = window.poles(self.order);
         let roots = self.roots(window, &known, (0, poles), |own| [of(own[0]), slope * own[1]]);

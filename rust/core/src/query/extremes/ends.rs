@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::curve::Curve;
 use super::known::{ByAngle, Known};
-use super::tracked::ValueAt;
+use super::tracked::{Tracked, ValueAt};
 use super::window::{NEAR_END, Weight, Window};
 
 /// Halvings toward a pole, and how many times greater than at the nodes the value is there.
@@ -16,6 +16,9 @@ const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
 /// How near (in halves of the window) to an end without a fold a value is compared.
 const BESIDE_END: [f64; 2] = [1.0e-6, 1.0e-4];
+/// Nodes (as angles) from which a value is extrapolated to where a length is 0. Nearer, where the driven
+/// cylinder is short, derivatives lose digits; the polynomial is good to the sixth power of these.
+const CUT_NODES: [f64; 3] = [0.01, 0.02, 0.03];
 /// The coefficient of a pole at a dead point, relative to the greatest of the weighted values: below, it
 /// is the rounding of its extrapolation.
 const LEAST_POLE: f64 = 1.0e-7;
@@ -29,6 +32,8 @@ impl Curve<'_> {
                 self.at_dead_point(window, known, side)
             } else if window.infinite[side] {
                 self.at_infinity(window, side)
+            } else if let Some(slide) = window.cuts[side] {
+                self.at_cut_end(window, side, slide)
             } else if window.is_open(side) {
                 self.at_open_end(window, side)
             } else {
@@ -76,6 +81,23 @@ impl Curve<'_> {
         }
         let [beside, beyond] = BESIDE_END;
         Some(ValueAt { value: near + (near - far) * beside / (beyond - beside), q: end })
+    }
+
+    /// The value where a length is 0, extrapolated as at a dead point: of a driven one the position
+    /// itself does not exist.
+    fn at_cut_end(&mut self, window: &Window, side: usize, slide: usize) -> Option<ValueAt> {
+        let q = window.ends()[side];
+        if self.order == 0 && self.tracked == Tracked::Slide(slide) {
+            return Some(ValueAt { value: 0.0, q });
+        }
+        let way = [1.0, -1.0][side];
+        let mut table = Vec::new();
+        for node in CUT_NODES {
+            let angle = if side == 0 { node } else { PI - node };
+            let [value, slope, _] = self.by_angle(window, angle)?;
+            table.push((node, value, way * slope));
+        }
+        Some(ValueAt { value: hermite_at_zero(&table), q })
     }
 
     /// Where the value goes as a slide goes on without end.

@@ -2,7 +2,6 @@
 //! reaches between them.
 
 use super::window::Weight;
-use crate::math::angle::whole_part;
 
 /// Rounding of a value, relative to the greatest around it.
 const NOISE: f64 = 1.0e-11;
@@ -45,8 +44,7 @@ impl Known {
 /// the weight is small they are either large, and of one size with their weights, or not, and of one
 /// size without.
 pub(super) struct Rounding {
-    first: f64,
-    step: f64,
+    nodes: Vec<f64>,
     /// Greatest size around each cell, plain and weighted.
     around: Vec<[f64; 2]>,
     /// The size in most of the window.
@@ -66,15 +64,12 @@ impl Rounding {
         let mut plain: Vec<f64> = sizes.iter().map(|size| size[0]).collect();
         plain.sort_by(f64::total_cmp);
         let typical = plain[plain.len() / 2].max(STANDS / NOISE * unit);
-        let [first, second] = [known.nodes[0], known.nodes[1]];
-        Self { first, step: second - first, around, typical }
+        Self { nodes: known.nodes.clone(), around, typical }
     }
 
     /// At an angle, where the weight is `factor`.
     pub(super) fn at(&self, angle: f64, factor: f64) -> f64 {
-        let cell = ((angle - self.first) / self.step).max(0.0).floor();
-        let last = self.around.len() - 1;
-        let cell = whole_part(cell).min(last);
+        let cell = self.nodes.partition_point(|&node| node <= angle).saturating_sub(1);
         let [plain, weighted] = self.around[cell];
         NOISE * (factor * self.typical).max(weighted.min(factor * plain))
     }

@@ -6,6 +6,7 @@ mod ends;
 mod known;
 pub(crate) mod tracked;
 mod window;
+mod zero_lengths;
 
 use curve::Curve;
 use tracked::{Tracked, ValueAt};
@@ -33,11 +34,17 @@ impl Mechanism {
         within: Option<f64>,
     ) -> Result<Option<[ValueAt; 2]>, SolveError> {
         let mut found: Option<[ValueAt; 2]> = None;
+        let is_length = matches!(tracked, Tracked::Slide(slide) if self.linkage().slides[slide].length)
+            && order == 0;
         self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
             if within.is_some_and(|q| !window.holds(q)) {
                 return;
             }
-            for one in curve.candidates(window) {
+            for mut one in curve.candidates(window) {
+                if is_length {
+                    // Extrapolated to a dead point it may be negative by rounding.
+                    one.value = one.value.max(0.0);
+                }
                 found = Some(match found {
                     None => [one; 2],
                     Some([least, greatest]) => [

@@ -24,6 +24,8 @@ pub(super) struct Window {
     pub half: f64,
     /// Which ends are dead points.
     pub folds: [bool; 2],
+    /// The slides whose values are lengths, and 0 at the ends.
+    pub cuts: [Option<usize>; 2],
     /// Which ends are infinite: of a slide that nothing stops.
     pub infinite: [bool; 2],
     /// Whether it is one period of a motion that closes.
@@ -42,6 +44,7 @@ impl Window {
         let q0 = mechanism.q0()[0];
         let is_turn = mechanism.plan().driven_slide(0).is_none();
         let reach = if is_turn { PI * turns } else { evaluator.reach() };
+        let first_length = mechanism.plan().end_of_length(0);
         let [low, high] = interval.ends;
         let low = if low.is_finite() { low } else { q0 - reach };
         let high = if high.is_finite() { high } else { q0 + reach };
@@ -49,7 +52,8 @@ impl Window {
         Self {
             middle: 0.5 * (low + high),
             half: 0.5 * (high - low),
-            folds: interval.folds.map(|fold| fold.is_some()),
+            folds: interval.folds.map(|fold| fold.is_some_and(|fold| fold < first_length)),
+            cuts: interval.folds.map(|fold| fold?.checked_sub(first_length)),
             infinite: interval.ends.map(|end| end.is_infinite() && !is_turn),
             is_period: is_turn && interval.ends[0].is_infinite(),
             length: (high - low) / unit,
@@ -92,9 +96,12 @@ impl Window {
             [self.half / (0.5 * PI), 0.0]
         }
     }
-    /// Whether an end is neither a dead point nor beyond all limits: a joint may be at infinity there.
+
+    /// Whether an end is neither a dead point nor a length of 0 nor beyond all limits: a joint may be at
+    /// infinity there.
     pub(super) fn is_open(&self, side: usize) -> bool {
-        !self.folds[side] && !self.infinite[side] && !self.is_period
+        let has_end = self.folds[side] || self.cuts[side].is_some() || self.infinite[side];
+        !has_end && !self.is_period
     }
 
     /// Orders of the poles, in the angle, that a derivative of a coordinate may have at the ends.
@@ -150,6 +157,7 @@ mod tests {
             middle: 0.3,
             half: 1.1,
             folds,
+            cuts: [None; 2],
             infinite: [false; 2],
             is_period: false,
             length: 0.2,

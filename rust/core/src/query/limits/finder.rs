@@ -18,6 +18,8 @@ const OFF: f64 = 0.123_456_7;
 /// Where the group is told that folds at the end of a branch: before it by this part of the way from
 /// the drawing, where its condition is about three thousand.
 const BEFORE_FOLD: f64 = 1.0e-7;
+/// Beside this coordinate (in sizes) of a driven length the branch of a group ends at length 0.
+const AT_ZERO: f64 = 1.0e-6;
 /// How often, and by what factor, the range of a slide is widened where nothing ends it.
 const WIDENINGS: usize = 3;
 const WIDENING: f64 = 8.0;
@@ -38,7 +40,8 @@ pub struct Limits {
 pub struct Interval {
     /// Where it begins and ends; infinite if it does not.
     pub ends: [f64; 2],
-    /// What folds there, as an index of [`Mechanism::fold_names`]; none where nothing does.
+    /// What folds there, as an index of [`Mechanism::fold_names`], or beyond these a slide whose value
+    /// is a length and 0 there; none where nothing does.
     pub folds: [Option<usize>; 2],
 }
 
@@ -88,7 +91,9 @@ impl<'m> LimitsFinder<'m> {
         mechanism.check(mechanism.drawing(), mechanism.q0(), signs)?;
         let design = Design::new(mechanism, signs, &derivatives.0);
         let plan = mechanism.plan();
-        let is_closed = plan.groups().next().is_none() && plan.driven_slide(0).is_none();
+        let is_closed = plan.groups().next().is_none()
+            && plan.driven_slide(0).is_none()
+            && !plan.has_passive_lengths();
         let cranks =
             is_closed.then(|| plan.dyads().map(|dyad| CrankDyad::of(plan, dyad)).collect());
         Ok(Self { design, cranks: cranks.flatten() })
@@ -147,6 +152,7 @@ impl<'m> LimitsFinder<'m> {
         let covered = branch.covered.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         let half = 0.5 * branch.period.unwrap_or(TAU);
         let is_periodic = is_turn && covered == [f64::NEG_INFINITY, f64::INFINITY];
+        let length = mechanism.plan().driven_length();
         let mut within = Stretch { ends: covered, folds: [None; 2] };
         let cell = if is_turn { TAU / f64::from(CELLS_PER_TURN) } else { 1.0 / 16.0 };
         let design = &self.design;
@@ -157,6 +163,11 @@ impl<'m> LimitsFinder<'m> {
         } else {
             for (side, end) in within.ends.iter_mut().enumerate() {
                 let beyond = if is_turn { turns } else { reach };
+                if let (Some(slide), 0, true) = (length, side, end.is_finite() && *end < AT_ZERO) {
+                    // Not followed to the very end: the cylinder can point in any direction there.
+                    (*end, within.folds[0]) = (0.0, Some(mechanism.plan().end_of_length(slide)));
+                    continue;
+                }
                 let is_fold = end.is_finite() && (*end - q0).abs() < turns && design.has_groups();
                 if is_fold {
                     let group = search.folding_group(*end + BEFORE_FOLD * (q0 - *end));

@@ -36,6 +36,9 @@ impl<'d> Search<'d, '_> {
         let plan = self.design.mechanism.plan();
         let mut found = vec![within];
         for (step, of) in plan.steps.iter().enumerate() {
+            if let &Step::Length { slide } = of {
+                found = found.iter().flat_map(|one| self.lengths(*one, slide, step)).collect();
+            }
             let Step::Dyad(dyad) = of else { continue };
             // Two guides never fold, but where they are parallel their point is at infinity.
             if dyad.sign.is_some() || dyad.form == Form::TwoLines {
@@ -47,6 +50,35 @@ impl<'d> Search<'d, '_> {
 
     /// The parts over which a dyad closes.
     fn parts(&mut self, within: Stretch, dyad: &Dyad, step: usize) -> Vec<Stretch> {
+        let has_sign = dyad.form != Form::TwoLines;
+        let parts = self.cut(within, dyad.sign, |search, q| search.sample(q, dyad, step));
+        let closes = |search: &mut Self, part: &Stretch| {
+            search.sample(middle_of(part), dyad, step).is_some_and(|[x, _]| x >= 0.0)
+        };
+        parts.into_iter().filter(|part| !has_sign || closes(self, part)).collect()
+    }
+
+    /// The parts over which the value of a slide that is a length is not negative.
+    fn lengths(&mut self, within: Stretch, slide: usize, step: usize) -> Vec<Stretch> {
+        let plan = self.design.mechanism.plan();
+        let end = Some(plan.end_of_length(slide));
+        if plan.driven_slide(0) == Some(slide) {
+            return within.above(0.0, end).into_iter().collect();
+        }
+        let parts = self.cut(within, end, |search, q| search.length(q, slide, step));
+        let exists = |search: &mut Self, part: &Stretch| {
+            search.length(middle_of(part), slide, step).is_none_or(|[x, _]| x >= 0.0)
+        };
+        parts.into_iter().filter(|part| exists(self, part)).collect()
+    }
+
+    /// Cuts a stretch where a value changes its sign; `fold`: what folds there.
+    fn cut(
+        &mut self,
+        within: Stretch,
+        fold: Option<usize>,
+        mut sample: impl FnMut(&mut Self, f64) -> Option<[f64; 2]>,
+    ) -> Vec<Stretch> {
         let [from, to] = within.ends;
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         // Square roots at the ends, where earlier dyads are flat, are smooth in this angle.
@@ -56,26 +88,30 @@ impl<'d> Search<'d, '_> {
         let nodes: Vec<f64> =
             (0..=whole_part(count)).map(|node| NEAR_END + inner * node as f64 / count).collect();
         let roots = all_roots(&nodes, |angle| {
-            let [value, rate] = self.sample(at(angle), dyad, step)?;
+            let [value, rate] = sample(self, at(angle))?;
             let slope = rate * half * sin_cos(angle).0;
             let known = value.is_finite() && slope.is_finite();
             known.then_some(Sample { x: angle, value, slope, noise: NOISE })
         });
         let crossings = roots.isolated.iter().filter(|root| root.signs[0] != root.signs[1]);
         let mut ends: Vec<(f64, Option<usize>)> = vec![(from, within.folds[0])];
-        ends.extend(crossings.map(|root| (at(root.at), dyad.sign)));
+        ends.extend(crossings.map(|root| (at(root.at), fold)));
         ends.push((to, within.folds[1]));
-        let mut parts = Vec::new();
-        for pair in ends.windows(2) {
+        let part = |pair: &[(f64, Option<usize>)]| {
             let ((start, first), (end, last)) = (pair[0], pair[1]);
-            let part = Stretch { ends: [start, end], folds: [first, last] };
-            let closes = dyad.form == Form::TwoLines
-                || self.sample(0.5 * (start + end), dyad, step).is_some_and(|[x, _]| x >= 0.0);
-            if start < end && closes {
-                parts.push(part);
-            }
+            Stretch { ends: [start, end], folds: [first, last] }
+        };
+        ends.windows(2).map(part).filter(|part| part.ends[0] < part.ends[1]).collect()
+    }
+
+    /// The value of a slide, and its derivative.
+    fn length(&mut self, q: f64, slide: usize, step: usize) -> Option<[f64; 2]> {
+        self.solve(q);
+        if self.state.has_failed() && self.state.fault.is_none_or(|fault| fault.step() < step) {
+            return None;
         }
-        parts
+        let jet = &self.state.pose.slides[slide * self.state.len..];
+        Some([jet[0][0], jet[1][0]])
     }
 
     /// The square of a dyad's discriminant, and its derivative; of two guides the sine of the angle
@@ -126,4 +162,9 @@ impl<'d> Search<'d, '_> {
             [sample.square, sample.rate]
         })
     }
+}
+
+/// The middle of a stretch.
+fn middle_of(part: &Stretch) -> f64 {
+    0.5 * (part.ends[0] + part.ends[1])
 }

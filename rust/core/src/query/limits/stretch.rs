@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stretch {
     pub ends: [f64; 2],
-    /// What folds at each end: a sign's dyad, or after all signs a group; none if nothing does.
+    /// What folds at each end: a sign's dyad, or after all signs a group, or after these a slide whose
+    /// value is a length and 0 there; none if nothing does.
     pub folds: [Option<usize>; 2],
 }
 
@@ -17,6 +18,14 @@ impl Stretch {
 
     pub(crate) fn is_whole(&self) -> bool {
         self.ends == Self::WHOLE.ends
+    }
+
+    /// The part of it above a coordinate, with what ends there.
+    pub(crate) fn above(mut self, least: f64, end: Option<usize>) -> Option<Self> {
+        if self.ends[0] < least {
+            (self.ends[0], self.folds[0]) = (least, end);
+        }
+        (self.ends[0] < self.ends[1]).then_some(self)
     }
 
     /// What it has in common with another.

@@ -108,6 +108,7 @@ fn add_block(
         on: host.into(),
         angle,
         origin: None,
+        length: false,
     });
 }
 
@@ -123,6 +124,7 @@ pub(in crate::remedies) fn guide_link(sketch: &Sketch<'_>, link: &str, joint: &s
             on: GROUND.into(),
             angle,
             origin: None,
+            length: false,
         });
         Remedy {
             kind: RemedyKind::LetSlide,

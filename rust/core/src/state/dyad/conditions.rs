@@ -3,7 +3,7 @@
 use super::intersections::Closing;
 use crate::math::lanes::{Mask, Real};
 use crate::plan::dyad::{Dyad, Unknown};
-use crate::plan::plan::{EdgeSlide, Step};
+use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::plan::tape::DyadOp;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
@@ -68,9 +68,19 @@ impl<R: Real, const G: usize> State<R, G> {
         self.conditions.greatest[g] = condition.max(self.conditions.greatest[g]);
         self.conditions.needs_scalar[g] = self.conditions.needs_scalar[g].or(closing.flat);
         if R::LANES == 1 && closing.flat.any() {
-            self.fault.get_or_insert(Fault::Singular { step: index });
+            // Where a length is 0 all but its own analogues are known: any other dyad counts more.
+            if self.fault.is_none() || self.is_at_zero_length(cx.plan) && !dyad.is_length {
+                self.fault = Some(Fault::Singular { step: index });
+            }
             self.status = Status::Singular;
         }
+    }
+
+    /// Whether a position is singular only because a slide whose value is a length has none: its
+    /// direction and analogues are not determined, all others are.
+    pub(crate) fn is_at_zero_length(&self, plan: &Plan) -> bool {
+        let Some(Fault::Singular { step }) = self.fault else { return false };
+        matches!(&plan.steps[step], Step::Dyad(dyad) if dyad.is_length)
     }
 
     /// Solves a dyad without a kernel (step `index`).

@@ -57,6 +57,22 @@ impl<R: Real> Closing<R> {
         }
     }
 
+    /// How a slide closes whose value is a length, between joints at this squared distance. Where they
+    /// coincide the length is 0, and only its direction is not determined: flat. `scale2`: the square of
+    /// their coordinates.
+    #[inline(always)]
+    pub(crate) fn of_length(mut self, distance2: R, across: R, scale2: R) -> Self {
+        let least2 = R::splat(FLAT2) * scale2;
+        let loose = R::ZERO.lt(distance2.max(across.abs())).not();
+        self.open = self.open.and(loose.not());
+        let near = distance2.lt(least2).or(loose);
+        self.flat = self.flat.or(near).and(self.open.not());
+        self.sine2 = R::select(loose, R::ONE, self.sine2);
+        self.per_arm2[0] = R::select(near, R::ONE / least2, self.per_arm2[0]);
+        self.gap = R::select(loose, R::ZERO, self.gap);
+        self
+    }
+
     /// How two slides with these values close, along lines with this determinant.
     #[inline(always)]
     pub(crate) fn of_lines(s: R, t: R, determinant: R) -> Self {

@@ -49,7 +49,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 let solved = Guided::turning_guide::<true>(a, second, k, sign);
                 self.set_rotation(g, cx, dyad, 0, solved.turned);
                 self.set_slide(g, v, solved.slide);
-                solved.closing
+                if !dyad.is_length {
+                    return solved.closing;
+                }
+                let scale2 = &self.conditions.coordinate_scale2;
+                let scale2 = scale2[dyad.start][g].max(scale2[dyad.end][g]);
+                solved.closing.of_length(k.norm2(), second.cross(a), scale2)
             }
             Form::TwoLines => {
                 let determinant = first.cross(second);

@@ -60,7 +60,13 @@ impl<R: Real, const G: usize> State<R, G> {
             let chord = end[0][g] - start[0][g];
             let solved = Guided::turning_guide::<CAREFUL>(a, guide, chord, signs[g]);
             if CAREFUL {
-                self.work.closings[g] = solved.closing;
+                self.work.closings[g] = if op.is_length {
+                    let scale2 = &self.conditions.coordinate_scale2;
+                    let scale2 = scale2[op.start][g].max(scale2[op.end][g]);
+                    solved.closing.of_length(chord.norm2(), guide.cross(a), scale2)
+                } else {
+                    solved.closing
+                };
             } else {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
                 // The arm is relative to the distance.
