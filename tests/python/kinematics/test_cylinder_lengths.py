@@ -281,6 +281,24 @@ def test_extremes_begin_where_the_length_does() -> None:
     np.testing.assert_allclose([speed.least.value, speed.greatest.value], [-1.0, 1.0], atol=1e-9)
 
 
+def test_beside_an_offset_the_value_is_the_part_along_the_guide() -> None:
+    aside = door("door").with_dimensions({"lift.offset": 0.3})
+    q = np.linspace(-1.2, 4.4, 57)
+    motion = aside.solve(q)
+    eye = motion.joint("eye").value - [0.0, -1.0]
+    along = np.sqrt((eye**2).sum(axis=1) - 0.09)
+    np.testing.assert_allclose(motion.slide("lift").value, along, atol=1e-12)
+    assert aside.solve(-np.pi / 2, on_error="nan").status == assur.Status.UNREACHABLE
+    assert 0.0 <= aside.extremes("lift").least.value < 1e-12
+
+
+def test_what_a_length_may_not_be_is_found_nowhere() -> None:
+    opened = door("door")
+    assert [round(q, 9) for q, _ in opened.find("lift", 0.05)] == [-1.620801537, -1.520791117]
+    assert opened.find("lift", -0.5) == []
+    assert len(door().configuration_curve().circuits) == 1
+
+
 def test_a_run_ends_where_the_length_does() -> None:
     driven = door()
     machine = assur.Machine(driven, {"door": assur.Body(mass=2.0, at=(0.5, 0.0), inertia=0.2)})
