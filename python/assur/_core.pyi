@@ -239,6 +239,16 @@ class Mechanism:
         self, dimensions: _Float, q: _Float, per_design: bool, threads: int | None
     ) -> list[FoundAssemblies]: ...
     @staticmethod
+    def fit(
+        joints: list[tuple[str, float, float]],
+        links: list[tuple[str, list[str]]],
+        slides: list[tuple[str, Slide]],
+        drivers: list[str | Drive],
+        assembly: list[tuple[str, int]],
+        *,
+        tolerance: tuple[float, float | None],
+    ) -> tuple[list[tuple[float, float]], list[float], float]: ...
+    @staticmethod
     def for_pose(
         joints: list[tuple[str, float, float]],
         links: list[tuple[str, list[str]]],

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from assur.description.words import Cylinder, Drive, Slide
 from assur.errors import AssurWarning, InputError, StructureError
 
 DriverLike: TypeAlias = str | Drive
+T = TypeVar("T")
 
 # Guides beyond two turns are in degrees, as far as anyone meant them.
 LIKE_DEGREES = 4.0 * np.pi
@@ -36,15 +38,57 @@ class Description(NamedTuple):
 
 def core_of(description: Description) -> Core:
     """Compile a description. What refuses it can find remedies of it."""
-    parts: dict[str, Any] = {
+    return _with_remedies(Core, _parts(description))
+
+
+def fitted(description: Description, tolerance: Any) -> tuple[Description, float]:
+    """Adjust a drawing for its redundant links; return it and how far joints were moved, m."""
+    length, angle = _known_to(tolerance)
+    parts = _parts(description)
+    fit = partial(Core.fit, tolerance=(length, angle))
+    places, angles, moved = _with_remedies(fit, parts)
+    joints = tuple(
+        (name, x, y) for (name, *_), (x, y) in zip(description.joints, places, strict=True)
+    )
+    slides = tuple(
+        (name, replace(slide, angle=own))
+        for (name, slide), own in zip(description.slides, angles, strict=True)
+    )
+    return description._replace(joints=joints, slides=slides), moved
+
+
+def _known_to(tolerance: Any) -> tuple[float, float | None]:
+    """Return the length, and perhaps the angle, to which a drawing is known."""
+    try:
+        given = real_array(tolerance, "tolerance")
+    except InputError:
+        given = np.empty(0)
+    if given.shape not in ((), (2,)) or not bool(((given > 0.0) & np.isfinite(given)).all()):
+        message = (
+            f"tolerance is {short(tolerance)}: a positive length (m) is needed, or a length and "
+            "an angle (rad)"
+        )
+        raise InputError(message)
+    if given.ndim:
+        return float(given[0]), float(given[1])
+    return float(given), None
+
+
+def _parts(description: Description) -> dict[str, Any]:
+    """Return a description as the core takes it."""
+    return {
         "joints": list(description.joints),
         "links": [(name, list(on)) for name, on in description.links],
         "slides": list(description.slides),
         "drivers": list(description.drivers),
         "assembly": list(description.assembly),
     }
+
+
+def _with_remedies(make: Callable[..., T], parts: dict[str, Any]) -> T:
+    """Make something of the parts; the error of a structure can find remedies of them."""
     try:
-        return Core(**parts)
+        return make(**parts)
     except StructureError as error:
         error._find_remedies = partial(find, parts)
         raise

@@ -69,7 +69,7 @@ class Structure:
         What that formula counts: n, and p = turning + sliding. A joint of k links counts as k − 1
         turning pairs.
     adjustment : float
-        Greatest distance by which joints of the drawing were moved to make the
+        By how much a coordinate of a joint in the drawing was moved, at most, to make the
         redundant links fit, m; 0 if they fit as drawn.
 
     Examples
@@ -114,6 +114,8 @@ class Structure:
             lines.append(f"at the drawing, which is singular, {self.mobility_at_drawing}")
         if self.redundant:
             lines.append(f"redundant: {', '.join(self.redundant)}")
+        if self.adjustment:
+            lines.append(f"for them joints are moved by up to {self.adjustment:.2g} m")
         rows = [("group", "class", "order", "kind", "links", "pairs")]
         for group in self.groups:
             links = ", ".join(group.links)

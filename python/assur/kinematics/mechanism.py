@@ -68,6 +68,11 @@ class Mechanism:
     assembly : mapping of str to int, optional
         +1 or −1 by inner joint or slide, for dyads drawn with their links
         collinear: the drawing does not show their assembly.
+    tolerance : float or (float, float), optional
+        Length to which the drawing is known, m, and angle of guides, rad: so far coordinates of
+        joints are moved, and guides turned, where redundant links need it;
+        ``structure.adjustment`` says how far. The angle is by default the length at the size of
+        the linkage; without a tolerance only rounding is adjusted, 2e-9 of the size.
 
     Raises
     ------
@@ -99,6 +104,7 @@ class Mechanism:
         "_description",
         "_joints",
         "_known_signs",
+        "_moved",
         "_names",
         "_place",
         "_signs",
@@ -109,6 +115,8 @@ class Mechanism:
     # Designs that earlier calls found to have constant signs.
     _known_signs: KnownSigns
     _description: Description
+    # By how much joints were moved within the tolerance that was given, m.
+    _moved: float
     # Dimensions, shape (number of dimensions, *S).
     _values: Float
     _structure: Structure | None
@@ -127,6 +135,7 @@ class Mechanism:
         driver: DriverLike | Sequence[DriverLike],
         slides: Mapping[str, Slide | Cylinder] | None = None,
         assembly: Mapping[str, int] | None = None,
+        tolerance: float | tuple[float, float] | None = None,
     ) -> None:
         points = tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints"))
         members = [(name, encode.members(name, on)) for name, on in encode.items(links, "links")]
@@ -145,7 +154,11 @@ class Mechanism:
             drivers=encode.drivers(driver),
             assembly=checked_signs(assembly, strict=False),
         )
+        moved = 0.0
+        if tolerance is not None:
+            description, moved = encode.fitted(description, tolerance)
         self._initialise(description, None)
+        self._set(_moved=moved)
 
     @classmethod
     def from_lengths(
@@ -211,6 +224,7 @@ class Mechanism:
             _description=description,
             _structure=None,
             _joints=None,
+            _moved=0.0,
             _names=None,
             _place=None,
             _signs=[sign for _, sign in core.assembly],
@@ -235,6 +249,11 @@ class Mechanism:
         mechanism._initialise(description, values, core)
         return mechanism
 
+    def _moved_as(self, other: Mechanism) -> Mechanism:
+        """Return self, a mechanism of the other's drawing."""
+        self._set(_moved=other._moved)
+        return self
+
     def _with_values(self, values: Float) -> Mechanism:
         """Return the mechanism with other values of its dimensions; the rest is shared."""
         other = object.__new__(Mechanism)
@@ -250,7 +269,7 @@ class Mechanism:
 
     def _share(self, other: Mechanism, values: Float) -> None:
         """Become the other mechanism with other values of its dimensions."""
-        for name in ("_core", "_description", "_structure", "_names", "_place", "_signs"):
+        for name in ("_core", "_description", "_moved", "_structure", "_names", "_place", "_signs"):
             object.__setattr__(self, name, getattr(other, name))
         self._set(_joints=None)
         self._set_values(values)
@@ -264,7 +283,7 @@ class Mechanism:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (self._description, np.array(self._values), self._place))
+        return (_rebuild, (self._description, np.array(self._values), self._place, self._moved))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mechanism):
@@ -398,7 +417,7 @@ class Mechanism:
                 moving_links=len(named) - ("ground" in named),
                 turning_pairs=sum(pins),
                 sliding_pairs=len(self._description.slides),
-                adjustment=self._core.adjustment,
+                adjustment=max(self._core.adjustment, self._moved),
             )
             object.__setattr__(self, "_structure", structure)
         assert self._structure is not None
@@ -451,7 +470,7 @@ class Mechanism:
             return with_signs(self, self._place, signs)
         named = zip((name for name, _ in self._core.assembly), signs, strict=True)
         description = self._description._replace(assembly=tuple(named))
-        return self._make(description, np.array(self._values))
+        return self._make(description, np.array(self._values))._moved_as(self)
 
     @property
     def dimensions(self) -> Dimensions:
@@ -558,7 +577,8 @@ class Mechanism:
         >>> four_bar.solve(1.0).link("rocker").value - turned.q0
         np.float64(0.0)
         """
-        return redrive(self, encode.drivers(driver), checked_signs(assembly, strict=False), q)
+        drivers, signs = encode.drivers(driver), checked_signs(assembly, strict=False)
+        return redrive(self, drivers, signs, q)._moved_as(self)
 
     def __len__(self) -> int:
         if not self.shape:
@@ -1295,8 +1315,11 @@ class Mechanism:
         return notebook_html(self)
 
 
-def _rebuild(description: Description, values: Float, place: Place | None = None) -> Mechanism:
+def _rebuild(
+    description: Description, values: Float, place: Place | None = None, moved: float = 0.0
+) -> Mechanism:
     mechanism = Mechanism._make(description, values)
+    mechanism._set(_moved=moved)
     if place is None:
         return mechanism
     own = place.mechanism

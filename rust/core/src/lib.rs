@@ -104,6 +104,8 @@ pub use state::status::Status;
 pub use structure::Structure;
 pub use structure::assur_group::Group;
 pub use structure::closure::LeftOut;
+pub use structure::drawing_change::Change;
+pub use structure::fitted::fit;
 
 /// Version of the crate.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

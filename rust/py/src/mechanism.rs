@@ -73,6 +73,9 @@ type Solution<'py> =
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
+/// Places of joints, directions of guides, the greatest change of a coordinate.
+type Fitted = (Vec<(f64, f64)>, Vec<f64>, f64);
+
 /// An Assur group with the names of its links, joints and slides.
 #[derive(IntoPyObject)]
 pub(crate) struct GroupFields {
@@ -132,6 +135,30 @@ impl Mechanism {
             assur::Mechanism::new_unless(&description, Some(cancel))
         })?;
         Ok(Self { inner: built.map_err(error_map::structure)? })
+    }
+
+    /// Places of joints and directions of guides of a drawing that is adjusted within a tolerance
+    /// (m, rad) so that its redundant links fit, and the greatest change of a coordinate, m.
+    #[staticmethod]
+    #[pyo3(signature = (joints, links, slides, drivers, assembly, *, tolerance))]
+    fn fit(
+        py: Python<'_>,
+        joints: Vec<(String, f64, f64)>,
+        links: Vec<(String, Vec<String>)>,
+        slides: Vec<(String, Slide)>,
+        drivers: Vec<Driver>,
+        assembly: Vec<(String, i64)>,
+        tolerance: (f64, Option<f64>),
+    ) -> PyResult<Fitted> {
+        let description = described(joints, links, slides, drivers, assembly);
+        let (length, angle) = tolerance;
+        let small = description.links.len() < FEW_LINKS;
+        let found =
+            detach::run(py, small, |cancel| assur::fit(&description, length, angle, Some(cancel)))?;
+        let (fitted, change) = found.map_err(error_map::structure)?;
+        let places = fitted.joints.into_iter().map(|(_, [x, y])| (x, y)).collect();
+        let angles = fitted.slides.into_iter().map(|slide| slide.angle).collect();
+        Ok((places, angles, change.length))
     }
 
     /// The same of a drawing that need not show the assembly.

@@ -263,10 +263,16 @@ pub enum StructureError {
     FlatDyad { dyad: String, inner: Named, name: String, sine: f64 },
     /// Links would be redundant if the drawing were more accurate.
     #[error(
-        "{} can only move together if their lengths agree, but they are {} m off ({} of the size; a drawing is adjusted up to 2e-9)",
-        some_links(links), rounded(*gap, 2), rounded(*part, 1)
+        "{} can only move together if their lengths agree, but they are {} m off ({} of the size; a drawing is adjusted up to {})",
+        some_links(links), rounded(*gap, 2), rounded(*part, 1), adjusted_up_to(*limit)
     )]
-    AlmostFits { links: Vec<String>, gap: f64, part: f64 },
+    AlmostFits {
+        links: Vec<String>,
+        gap: f64,
+        part: f64,
+        /// The tolerance that was given, m.
+        limit: Option<f64>,
+    },
     /// A slide whose value is a length is drawn, or its assembly chosen, without a positive one.
     #[error("slide {slide:?} would be {} m long, but its value is a length", rounded(*value, 4))]
     NoLength { slide: String, value: f64 },
@@ -320,9 +326,10 @@ impl Hint for StructureError {
             Self::NoLength { .. } => {
                 "a length is positive: turn the guide round, or leave `length` out".into()
             }
-            Self::AlmostFits { .. } => {
-                "type the drawing with more digits, or leave one of them out".into()
+            Self::AlmostFits { limit: None, .. } => {
+                "type the drawing with more digits, give the length to which it is known (tolerance), or leave one of them out".into()
             }
+            Self::AlmostFits { .. } => "give a greater tolerance, or leave one of them out".into(),
             _ => return None,
         })
     }
@@ -336,6 +343,10 @@ impl From<Interrupted> for StructureError {
     fn from(_: Interrupted) -> Self {
         Self::Interrupted
     }
+}
+
+fn adjusted_up_to(limit: Option<f64>) -> String {
+    limit.map_or("2e-9".into(), |limit| format!("its tolerance, {} m", number(limit)))
 }
 
 /// The shortest text that reads back as the same number, without rows of zeros.

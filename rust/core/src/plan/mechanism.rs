@@ -13,9 +13,9 @@ use crate::description::names::{mistaken_kind, suggest};
 use crate::description::{Description, Driver, Linkage};
 use crate::math::tolerance::FLAT_SINE;
 use crate::math::vector::Vector;
-use crate::structure::adjust::Adjusted;
+use crate::structure::Structure;
 use crate::structure::closure::Closure;
-use crate::structure::{Structure, adjust};
+use crate::structure::fitted::{Fitted, fitted};
 
 /// What becomes of dyads whose links are drawn in line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,21 +72,10 @@ impl Mechanism {
         flat: Flat,
         cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
-        let mut linkage = Linkage::new(description)?;
+        let linkage = Linkage::new(description)?;
         let closure = Closure::of(&linkage);
-        let mut adjusted = adjust(&linkage, &closure, cancel)?;
-        let mut adjustment = 0.0;
-        if let Adjusted::By(other, by) = adjusted {
-            (linkage, adjustment, adjusted) = (*other, by, Adjusted::AsDrawn);
-        }
-        let structure = Structure::of(&linkage, &closure, cancel);
-        let structure = match (structure, adjusted) {
-            (Err(StructureError::Interrupted), _) => return Err(StructureError::Interrupted),
-            (Err(_), Adjusted::TooFar { links, gap, part }) => {
-                return Err(StructureError::AlmostFits { links, gap, part });
-            }
-            (structure, _) => structure?,
-        };
+        let Fitted { linkage, structure, change } = fitted(linkage, &closure, None, cancel)?;
+        let adjustment = change.length;
         let plan = Plan::new(&linkage, &closure, &structure)?;
         let dimensions = Dimensions::of(&linkage);
         let drawing = dimensions.of_drawing(&linkage);

@@ -92,6 +92,7 @@ impl Mechanism {
                         links: vec![name],
                         gap: part * scale,
                         part,
+                        limit: None,
                     });
                 }
             }

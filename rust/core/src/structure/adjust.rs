@@ -8,230 +8,170 @@
 
 use std::sync::atomic::AtomicBool;
 
-use nalgebra::{DMatrix, DVector};
-
-use super::closure::{Closure, LeftOut, rotations};
-use super::least_norm::least_norm;
-use super::skeleton::Skeleton;
-use super::system::{SkeletonPose, System};
+use super::closure::Closure;
+use super::drawing_change::{Change, Tolerance, Weights};
+use super::equal_parts::with_equal_parts;
+use super::fit_conditions::{FitConditions, OTHER_BRANCH, Stage};
+use super::skeleton::paired_size;
 use crate::description::Linkage;
 use crate::description::error::StructureError;
-use crate::math::tolerance::{NEARLY_REDUNDANT, REDUNDANT_CLOSURE, UNIT_ROUNDOFF};
+use crate::math::tolerance::{NEARLY_REDUNDANT, UNIT_ROUNDOFF};
 
 /// Misfit, relative to the size, up to which a drawing is exact: the rounding of coordinates.
 const EXACT: f64 = 16.0 * UNIT_ROUNDOFF;
-/// Misfit, relative to the size, above which a pose is on another branch.
-const OTHER_BRANCH: f64 = 100.0 * NEARLY_REDUNDANT;
+/// Misfit that a drawing can have along its motion, in units of its tolerance: a self-stress sums
+/// the errors of a few coordinates.
+const MISFIT_PER_TOLERANCE: f64 = 8.0;
 /// Misfit allowed after an adjustment: with more, change points are missed.
 const ACCEPTED: f64 = 64.0 * UNIT_ROUNDOFF;
 /// Misfit below which further adjustment is useless.
 const CONVERGED: f64 = 2.0 * UNIT_ROUNDOFF;
-/// Length of a step along the motion (rad, or relative to the size), and number of steps in each
-/// sense.
-const STEP: f64 = 0.2;
-const STEPS: usize = 16;
-/// Number of nearly fitting poses from which on a drawing is taken as meant to fit, although it
-/// stops fitting along its motion.
-const MIN_POSES: usize = 4;
-/// Directions to try if the drawing has several motions.
-const DIRECTIONS: usize = 4;
-/// Least share of poses with a self-stress for links to be redundant everywhere.
-const MIN_STRESSED_SHARE: f64 = 0.75;
-/// Limit of iterations: each squares the error of the one before.
-const MAX_ITERATIONS: usize = 8;
+/// Least pivot of a regular pose, relative to the most regular one. Near a change point the errors
+/// of linear conditions grow with the inverse square of the pivot; other poses give the same
+/// conditions.
+const REGULAR_PIVOT_RATIO: f64 = 0.3;
+/// How often an adjustment within a tolerance is weighed anew.
+const MAX_WEIGHINGS: usize = 6;
+
+/// From within the rounding of a drawing each iteration squares the error of the one before.
+const OF_ROUNDING: Stage = Stage {
+    nearly: NEARLY_REDUNDANT,
+    least_pivot_ratio: 0.0,
+    iterations: 8,
+    progress: 0.5,
+    until: CONVERGED,
+    overshoot: 1.0,
+};
+
+/// The poses near change points, at the end of an adjustment within a tolerance. They show a misfit
+/// that the others did not, so it may grow at first.
+const NEAR_CHANGE_POINTS: Stage =
+    Stage { iterations: 20, progress: f64::INFINITY, until: EXACT, overshoot: 4.0, ..OF_ROUNDING };
+
+impl Stage {
+    /// From further away. Conditions of second order only halve the distance in each iteration: to
+    /// first order, the bed of a lift may be longer than the ground if its legs grow as well.
+    fn of_tolerance(tolerance: Tolerance, size: f64) -> Self {
+        let part = (tolerance.length / size).max(tolerance.angle);
+        Self {
+            nearly: (MISFIT_PER_TOLERANCE * part).clamp(NEARLY_REDUNDANT, OTHER_BRANCH),
+            least_pivot_ratio: REGULAR_PIVOT_RATIO,
+            iterations: 40,
+            progress: 0.7,
+            until: EXACT,
+            overshoot: 4.0,
+        }
+    }
+}
 
 /// Result of an adjustment.
 #[derive(Debug)]
 pub(crate) enum Adjusted {
     /// The drawing fits, or nothing is redundant.
     AsDrawn,
-    /// A drawing that fits, and the greatest change of a coordinate of its joints, m.
-    By(Box<Linkage>, f64),
+    /// A drawing that fits, and how it differs.
+    By(Box<Linkage>, Change),
     /// Lengths that should agree do not: the links concerned and their misfit, in m and relative
     /// to the size.
     TooFar { links: Vec<String>, gap: f64, part: f64 },
 }
 
-/// Adjusts a drawing so that its redundant links fit.
+/// Adjusts a drawing so that its redundant links fit, within a tolerance: by default its rounding.
 ///
 /// # Errors
 ///
-/// [`StructureError::Interrupted`], and those of [`rotations`].
+/// [`StructureError::Interrupted`], and those of `rotations`.
 pub(crate) fn adjust(
     linkage: &Linkage,
     closure: &Closure,
+    tolerance: Option<Tolerance>,
     cancel: Option<&AtomicBool>,
 ) -> Result<Adjusted, StructureError> {
-    let Some(initial) = FitConditions::of(linkage, closure, cancel)? else {
+    let size = paired_size(linkage);
+    let stages = match tolerance {
+        None => vec![OF_ROUNDING],
+        Some(tolerance) => vec![Stage::of_tolerance(tolerance, size), NEAR_CHANGE_POINTS],
+    };
+    let allowed = tolerance.unwrap_or(Tolerance::of_rounding(size));
+    let Some(initial) = FitConditions::of(linkage, closure, stages[0], cancel)? else {
         return Ok(Adjusted::AsDrawn);
     };
     if initial.misfit() <= EXACT {
         return Ok(Adjusted::AsDrawn);
     }
-    let (part, size) = (initial.misfit(), initial.size);
-    let too_far = Adjusted::TooFar { links: initial.links.clone(), gap: part * size, part };
-    let (mut best, mut conditions) = (linkage.clone(), initial);
-    for _ in 0..MAX_ITERATIONS {
-        let next = conditions.adjusted(&best);
-        if max_change(linkage, &next) > REDUNDANT_CLOSURE * size {
-            return Ok(too_far);
-        }
-        match FitConditions::of(&next, closure, cancel)? {
-            Some(after) if after.misfit() < 0.5 * conditions.misfit() => {
-                (best, conditions) = (next, after);
+    let part = initial.misfit();
+    let mut weights = Weights::of(linkage, allowed, size);
+    if tolerance.is_some() {
+        for _ in 0..MAX_WEIGHINGS {
+            let equal = with_equal_parts(linkage, &initial.links, allowed, &weights, size);
+            let Some(other) = equal else { break };
+            if !fits(&other, closure, cancel)? {
+                break;
             }
-            _ => break,
-        }
-        if conditions.misfit() <= CONVERGED {
-            break;
-        }
-    }
-    if conditions.misfit() > ACCEPTED {
-        return Ok(too_far);
-    }
-    let change = max_change(linkage, &best);
-    Ok(Adjusted::By(Box::new(best), change))
-}
-
-/// Greatest difference between coordinates of joints in two drawings.
-fn max_change(one: &Linkage, other: &Linkage) -> f64 {
-    let pairs = one.joints.iter().zip(&other.joints);
-    pairs.flat_map(|(a, b)| [0, 1].map(|k| (a.at[k] - b.at[k]).abs())).fold(0.0, f64::max)
-}
-
-/// Linear conditions on a change of the drawing for its redundant links to fit: a row for each
-/// pose and self-stress.
-struct FitConditions {
-    size: f64,
-    /// Names of the links and slides in a self-stress.
-    links: Vec<String>,
-    /// Derivatives by the coordinates of all joints (relative to the size), then by the angles of
-    /// guides.
-    rows: DMatrix<f64>,
-    /// Misfits relative to the size.
-    misfits: DVector<f64>,
-}
-
-impl FitConditions {
-    /// `None` if nothing is redundant, or if it does not nearly fit along the motion.
-    fn of(
-        linkage: &Linkage,
-        closure: &Closure,
-        cancel: Option<&AtomicBool>,
-    ) -> Result<Option<Self>, StructureError> {
-        let none_left_out = LeftOut::default();
-        let (free, classes) = rotations(linkage, &none_left_out, false)?;
-        let skeleton = Skeleton::new(linkage, closure, &free, classes, cancel);
-        let system = System::new(linkage, closure, &none_left_out, &free, false);
-        let rank = skeleton.tolerant_rank(&system, skeleton.drawing())?;
-        if rank.excess == 0 || rank.mobility == 0 {
-            return Ok(None);
-        }
-        let (stressed, _) = skeleton.stressed_parts(&system, &rank.stresses);
-        let others = (0..linkage.links.len())
-            .filter(|l| *l != linkage.ground && !stressed.contains(l))
-            .collect();
-        // Other links are left out: they could only limit the motion.
-        let left_out = LeftOut { links: others, slides: Vec::new() };
-        let (free, classes) = rotations(linkage, &left_out, false)?;
-        let part = Skeleton::new(linkage, closure, &free, classes, cancel);
-        let part_system = System::new(linkage, closure, &left_out, &free, false);
-        let found = match Self::along_motion(&part, &part_system)? {
-            Some(found) => Some(found),
-            // The stressed part by itself may have other motions, along which it does not fit.
-            None => Self::along_motion(&skeleton, &system)?,
-        };
-        let links = skeleton.stressed_names(&system, &rank.stresses);
-        Ok(found.map(|found| Self { links, ..found }))
-    }
-
-    /// The conditions along the motions of a system; `None` if it does not nearly fit there.
-    fn along_motion(
-        skeleton: &Skeleton<'_>,
-        system: &System,
-    ) -> Result<Option<Self>, StructureError> {
-        let (mut rows, mut misfits) = (Vec::new(), Vec::new());
-        let (mut poses, mut with_stress) = (0, 0);
-        for pose in poses_along_motion(skeleton, system)? {
-            let rank = skeleton.tolerant_rank(system, &pose)?;
-            poses += 1;
-            with_stress += usize::from(rank.excess > 0);
-            let residual = skeleton.residual(system, &pose);
-            for stress in rank.stresses.column_iter() {
-                misfits.push(stress.dot(&residual));
-                rows.push(skeleton.drawing_gradient(system, &pose, &stress.into_owned()));
+            let change = Change::between(linkage, &other);
+            if allowed.allows(change) {
+                return Ok(Adjusted::By(Box::new(other), change));
             }
+            weights.stiffen(linkage, &other, allowed);
         }
-        if poses == 0 || (with_stress as f64) < MIN_STRESSED_SHARE * f64::from(poses) {
-            return Ok(None);
-        }
-        Ok(Some(Self {
-            size: skeleton.size(),
-            links: Vec::new(),
-            rows: DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j]),
-            misfits: DVector::from_vec(misfits),
-        }))
+        weights = Weights::of(linkage, allowed, size);
     }
-
-    fn misfit(&self) -> f64 {
-        self.misfits.amax()
-    }
-
-    /// The drawing after the smallest change that meets the conditions.
-    fn adjusted(&self, linkage: &Linkage) -> Linkage {
-        let change = least_norm(self.rows.clone(), &self.misfits);
-        let mut next = linkage.clone();
-        for (j, joint) in next.joints.iter_mut().enumerate() {
-            for (k, at) in joint.at.iter_mut().enumerate() {
-                *at += self.size * change[2 * j + k];
-            }
+    for _ in 0..if tolerance.is_some() { MAX_WEIGHINGS } else { 1 } {
+        let adjusted = converged(linkage, closure, &stages, &initial, allowed, &weights, cancel)?;
+        let Some(other) = adjusted else { break };
+        let change = Change::between(linkage, &other);
+        if allowed.allows(change) {
+            return Ok(Adjusted::By(Box::new(other), change));
         }
-        for (s, slide) in next.slides.iter_mut().enumerate() {
-            slide.angle += change[2 * linkage.joints.len() + s];
-        }
-        next
+        weights.stiffen(linkage, &other, allowed);
     }
+    Ok(Adjusted::TooFar { links: initial.links, gap: part * size, part })
 }
 
-/// Poses along the motion, in both senses from the drawing, while the linkage nearly fits. Empty
-/// if it stops fitting after fewer than [`MIN_POSES`] poses.
-fn poses_along_motion(
-    skeleton: &Skeleton<'_>,
-    system: &System,
-) -> Result<Vec<SkeletonPose>, StructureError> {
-    let start = skeleton.tolerant_rank(system, skeleton.drawing())?;
-    let (mut found, mut stops_fitting) = (Vec::new(), false);
-    let directions = if start.mobility == 1 { 1 } else { DIRECTIONS };
-    for direction in 0..directions {
-        // Arbitrary weights, but the same in every run.
-        let weights = DVector::from_fn(start.motions.ncols(), |k, _| {
-            (1.0 + 2.3 * (k + 3 * direction) as f64) % 1.7 - 0.83
-        });
-        for sense in [1.0, -1.0] {
-            let mut pose = skeleton.drawing().clone();
-            let mut tangent = (&start.motions * &weights).scale(sense);
-            for _ in 0..STEPS {
-                let step = tangent.scale(STEP / tangent.amax().max(f64::MIN_POSITIVE));
-                let Some((next, misfit)) = skeleton.project_tolerant(system, &pose, &step)? else {
-                    break;
-                };
-                if misfit > OTHER_BRANCH {
-                    break;
+/// Whether a drawing fits along its motion, near its change points too.
+fn fits(
+    linkage: &Linkage,
+    closure: &Closure,
+    cancel: Option<&AtomicBool>,
+) -> Result<bool, StructureError> {
+    let found = FitConditions::of(linkage, closure, NEAR_CHANGE_POINTS, cancel)?;
+    Ok(found.is_some_and(|conditions| conditions.misfit() <= ACCEPTED))
+}
+
+/// The drawing that the stages lead to; `None` if it does not fit, or is far beyond what is allowed.
+fn converged(
+    linkage: &Linkage,
+    closure: &Closure,
+    stages: &[Stage],
+    initial: &FitConditions,
+    allowed: Tolerance,
+    weights: &Weights,
+    cancel: Option<&AtomicBool>,
+) -> Result<Option<Linkage>, StructureError> {
+    let mut best = linkage.clone();
+    let mut conditions = initial.clone();
+    for (index, &stage) in stages.iter().enumerate() {
+        if index > 0 {
+            let Some(found) = FitConditions::of(&best, closure, stage, cancel)? else {
+                return Ok(None);
+            };
+            conditions = found;
+        }
+        for _ in 0..stage.iterations {
+            if conditions.misfit() <= stage.until {
+                break;
+            }
+            let next = conditions.adjusted(&best, weights);
+            if !allowed.scaled(stage.overshoot).allows(Change::between(linkage, &next)) {
+                return Ok(None);
+            }
+            match FitConditions::of(&next, closure, stage, cancel)? {
+                Some(after) if after.misfit() < stage.progress * conditions.misfit() => {
+                    (best, conditions) = (next, after);
                 }
-                if misfit > NEARLY_REDUNDANT {
-                    stops_fitting = true;
-                    break;
-                }
-                let motions = skeleton.tolerant_rank(system, &next)?.motions;
-                // Continue in the direction closest to the previous one.
-                let Some(gram) = motions.tr_mul(&motions).cholesky() else { break };
-                tangent = &motions * gram.solve(&motions.tr_mul(&tangent));
-                found.push(next.clone());
-                pose = next;
+                _ => break,
             }
         }
     }
-    // Near a change point the square root of the misfit appears, after several poses that nearly
-    // fit. A drawing that is only singular by chance stops fitting at once.
-    Ok(if stops_fitting && found.len() < MIN_POSES { Vec::new() } else { found })
+    Ok((conditions.misfit() <= ACCEPTED).then_some(best))
 }

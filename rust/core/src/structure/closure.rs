@@ -75,6 +75,12 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
+    /// Whether nothing is left out.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.links.is_empty() && self.slides.is_empty()
+    }
+
     /// Whether a slide, or one of its links, is left out.
     #[must_use]
     pub fn has_slide(&self, linkage: &Linkage, slide: usize) -> bool {

@@ -174,6 +174,11 @@ impl Elimination {
         self.pivots.len()
     }
 
+    /// Least pivot; infinite if there is none.
+    pub(crate) fn least_pivot(&self) -> f64 {
+        self.pivots.iter().map(|pivot| pivot.value.abs()).fold(f64::INFINITY, f64::min)
+    }
+
     /// Basis of the null space: columns scaled to a largest entry of 1.
     pub(crate) fn null_space(&self) -> DMatrix<f64> {
         let free = complement(self.pivots.iter().map(|pivot| pivot.column), self.shape.1);

@@ -16,9 +16,7 @@ use super::rank::Rank;
 use super::skeleton::Skeleton;
 use super::system::{ClosureUnknown, SkeletonPose, System};
 use crate::description::error::Interrupted;
-use crate::math::tolerance::{
-    NEARLY_DEPENDENT, NEARLY_REDUNDANT, RANK, REGULAR_CLOSURE, TRUNCATED,
-};
+use crate::math::tolerance::{NEARLY_DEPENDENT, RANK, REGULAR_CLOSURE, TRUNCATED};
 
 impl Skeleton<'_> {
     /// Rank, motions and self-stresses of a system in a pose.
@@ -119,8 +117,8 @@ impl Skeleton<'_> {
         Ok(None)
     }
 
-    /// [`Self::project`], ignoring nearly dependent equations. Also returns the greatest residual,
-    /// which these equations leave.
+    /// [`Self::project`], ignoring nearly dependent equations, whose misfit is up to `nearly`. Also
+    /// returns the greatest residual, which these equations leave.
     ///
     /// # Errors
     ///
@@ -130,6 +128,7 @@ impl Skeleton<'_> {
         system: &System,
         from: &SkeletonPose,
         step: &DVector<f64>,
+        nearly: f64,
     ) -> Result<Option<(SkeletonPose, f64)>, Interrupted> {
         let mut pose = from.after_step(step, system);
         let mut total = step.clone();
@@ -146,7 +145,7 @@ impl Skeleton<'_> {
             // Which equations are ignored may change from step to step. The steps then remain as
             // long as the residuals of these equations.
             let converged =
-                length < REGULAR_CLOSURE || (length < NEARLY_REDUNDANT && length > 0.5 * previous);
+                length < REGULAR_CLOSURE || (length < nearly && length > 0.5 * previous);
             previous = length;
             if converged {
                 let misfit = self.residual(system, &pose).amax();

@@ -4,7 +4,11 @@ pub(crate) mod adjust;
 pub(crate) mod assur_group;
 pub(crate) mod closure;
 pub(crate) mod contour;
+pub(crate) mod drawing_change;
 pub(crate) mod elimination;
+pub(crate) mod equal_parts;
+pub(crate) mod fit_conditions;
+pub(crate) mod fitted;
 pub(crate) mod freedom;
 pub(crate) mod least_norm;
 pub(crate) mod matching;
@@ -13,7 +17,6 @@ pub(crate) mod redundancy;
 pub(crate) mod skeleton;
 pub(crate) mod system;
 
-pub(crate) use adjust::adjust;
 pub(crate) use assur_group::{Group, roman};
 pub(crate) use closure::{Closure, LeftOut};
 

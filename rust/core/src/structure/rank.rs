@@ -17,6 +17,8 @@ pub(crate) struct Rank {
     /// Basis of the self-stresses, the dependencies of equations: a column each (rows:
     /// equations).
     pub stresses: DMatrix<f64>,
+    /// Least pivot that does not count as zero.
+    pub least_pivot: f64,
 }
 
 /// Rank of a matrix with columns scaled to length 1; entries up to `threshold` count as zero.
@@ -39,7 +41,13 @@ pub(crate) fn rank(
         row *= factor;
     }
     let stresses = elimination.left_null_space();
-    Ok(Rank { mobility: unknowns - rank, excess: equations - rank, motions, stresses })
+    Ok(Rank {
+        mobility: unknowns - rank,
+        excess: equations - rank,
+        motions,
+        stresses,
+        least_pivot: elimination.least_pivot(),
+    })
 }
 
 /// Solves `matrix · x = rhs`, ignoring equations that depend on others; entries up to `threshold`

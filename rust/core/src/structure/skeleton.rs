@@ -177,7 +177,7 @@ fn joint_of_point(point: usize) -> Option<usize> {
 }
 
 /// Size of the linkage, from the joints that are pairs.
-fn paired_size(linkage: &Linkage) -> f64 {
+pub(super) fn paired_size(linkage: &Linkage) -> f64 {
     let mut trimmed = linkage.clone();
     let paired = |j: usize| linkage.links_at(j).nth(1).is_some();
     trimmed.joints = (0..linkage.joints.len())
