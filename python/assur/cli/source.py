@@ -96,7 +96,7 @@ def _imported(given: argparse.Namespace, source: Any) -> Contents:
     from assur.files import Contents
     from assur.files.contents import known_speed
 
-    scale = 1.0 if given.scale is None else given.scale.one(LENGTH, "--scale")
+    scale = None if given.scale is None else given.scale.one(LENGTH, "--scale")
     found: Imported = importers.read(source, given.format, scale=scale, drivers=given.drivers)
     for sentence in found.omitted:
         note(f"note: {sentence}")

@@ -45,7 +45,7 @@ def add_source(parser: argparse.ArgumentParser, others: bool = True) -> None:
         "--scale",
         metavar="LENGTH",
         type=argument(numbers),
-        help="the file's unit of length, such as 1mm; 1m by default",
+        help="the file's unit of length, such as 1mm; by default 1m, and 1/96 inch in Linkage",
     )
     other.add_argument(
         "--drivers",

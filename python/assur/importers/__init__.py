@@ -22,6 +22,7 @@ from assur.importers import (
     linkage2,
     pmks,
     pmks_plus,
+    pmks_plus_older,
     pmks_plus_records,
     pmks_text,
     pylinkage,
@@ -29,6 +30,7 @@ from assur.importers import (
     pyslvs_expression,
 )
 from assur.importers.build import Imported
+from assur.importers.json_text import has_numbers_as_ids
 from assur.importers.source import ENDINGS, open_source
 
 if TYPE_CHECKING:
@@ -55,7 +57,7 @@ def read(
     source: SourceLike,
     format: str | None = None,  # noqa: A002
     *,
-    scale: float = 1.0,
+    scale: float | None = None,
     drivers: Sequence[tuple[int, int]] | None = None,
     assembly: Mapping[str, int] | None = None,
 ) -> Imported:
@@ -67,8 +69,9 @@ def read(
         A file, a text or an address.
     format : str, optional
         One of ``FORMATS``; by default found from the text.
-    scale : float
-        The file's unit of length, m.
+    scale : float, optional
+        The file's unit of length, m. By default coordinates are read as they stand, and those of
+        Linkage in its unit, 1/96 inch.
     drivers : sequence of (int, int), optional
         The drivers of an expression of pyslvs: see ``pyslvs.read``.
     assembly : mapping of str to int, optional
@@ -101,18 +104,20 @@ def read(
         known = ", ".join(FORMATS)
         raise opened.error("", f"the text is of no known format: {known} are read")
     one_of(found, FORMATS, "format")
+    if found == "linkage2" and drivers is None:
+        return linkage2.read(opened, scale=scale, assembly=assembly)
+    unit = 1.0 if scale is None else scale
     if found == "pyslvs":
         pairs = () if drivers is None else drivers
-        return pyslvs.read(opened, pairs, scale=scale, assembly=assembly)
+        return pyslvs.read(opened, pairs, scale=unit, assembly=assembly)
     if drivers is not None:
         raise opened.error("", f"drivers are for pyslvs: a file of {found} names its own")
     readers = {
         "pmks": pmks.read,
         "pmks_plus": pmks_plus.read,
         "pylinkage": pylinkage.read,
-        "linkage2": linkage2.read,
     }
-    return readers[found](opened, scale=scale, assembly=assembly)
+    return readers[found](opened, scale=unit, assembly=assembly)
 
 
 def detect(path: Any, text: str) -> str | None:
@@ -141,11 +146,13 @@ def detect(path: Any, text: str) -> str | None:
         return ENDINGS[ending]
     start = text.lstrip("\ufeff \t\r\n")
     if start.startswith("{"):
-        return "pmks" if '"Joints"' in text else "pylinkage" if '"joints"' in text else None
+        if '"Joints"' in text:
+            return "pmks"
+        return "pylinkage" if '"joints"' in text and not has_numbers_as_ids(text) else None
     if re.search(r"<linkage2\b", start[:10_000]):
         return "linkage2"
     if pyslvs_expression.is_text(start):
         return "pyslvs"
-    if pmks_plus_records.is_text(start):
+    if pmks_plus_older.is_text(start) or pmks_plus_records.is_text(start):
         return "pmks_plus"
     return "pmks" if pmks_text.is_text(start) else None

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from assur._validate import real_number
 from assur.description.words import Cylinder, Drive, Slide
 from assur.errors import InputError
-from assur.importers.names import Names
+from assur.importers.names import Names, listed
+from assur.importers.resolution import tolerance_of
 from assur.importers.sketch import GROUND
 from assur.importers.tidy import tidy
 from assur.kinematics.mechanism import Mechanism
@@ -17,8 +18,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from typing import Any
 
+    from assur.importers.resolution import Tolerance
     from assur.importers.sketch import Input, Sketch
     from assur.importers.source import Source
+
+# Part of the file's resolution from which on a move of joints is said.
+LEAST_SAID = 1e-6
 
 
 @dataclass(frozen=True)
@@ -114,11 +119,25 @@ def _build(
         names.joints[joint]: (x * scale, y * scale) for joint, (x, y) in sketch.joints.items()
     }
     driver = drivers[0] if len(drivers) == 1 else drivers
-    mechanism = Mechanism(joints, links, driver, slides, assembly)
+    known_to = tolerance_of(sketch, scale)
+    mechanism = Mechanism(joints, links, driver, slides, assembly, known_to)
+    _say_adjustment(sketch, mechanism, known_to)
     speeds = tuple(_speed(driven, scale) for driven in sketch.inputs)
     is_known = any(speed is not None for speed in speeds)
     speed = speeds[0] if len(speeds) == 1 else speeds if is_known else None
     return Imported(mechanism, source_format, (*sketch.omitted, *names.changed), speed)
+
+
+def _say_adjustment(sketch: Sketch, mechanism: Mechanism, known_to: Tolerance) -> None:
+    """Say that joints are not where the file has them."""
+    structure = mechanism.structure
+    length = known_to[0] if isinstance(known_to, tuple) else known_to
+    # Less is the rounding of binary numbers.
+    if length is not None and structure.adjustment > LEAST_SAID * length:
+        sketch.omitted.append(
+            f"Joints are moved by up to {structure.adjustment:.2g} m, within the decimals of the "
+            f"file, so that {listed(list(structure.redundant))} fits."
+        )
 
 
 def _driver(driven: Input, names: _Mapping) -> str | Drive:

@@ -29,6 +29,19 @@ def parse_json(source: Source) -> dict[str, Any]:
     return data
 
 
+def has_numbers_as_ids(text: str) -> bool:
+    """Whether the joints of a JSON text are numbered: none of the formats does so."""
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        return False
+    joints = data.get("joints") if isinstance(data, dict) else None
+    if not isinstance(joints, list):
+        return False
+    ids = [joint.get("id") for joint in joints if isinstance(joint, dict)]
+    return bool(ids) and all(isinstance(one, int | float) for one in ids)
+
+
 def items_of(source: Source, data: dict[str, Any], key: str) -> list[dict[str, Any]]:
     """Return a list of objects."""
     found = data.get(key)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from assur._arrays import short
 from assur._trig import arctan2
+from assur._validate import real_number
 from assur.importers.build import finish
 from assur.importers.names import listed
 from assur.importers.sketch import GROUND, Input, Sketch
@@ -30,10 +31,12 @@ __all__ = ["read"]
 # The layer of mechanisms; others hold labels and lines.
 MECHANISM = 16
 RPM = math.tau / 60.0
+# Its unit of length, m: 96 of them are an inch, in which it can show lengths as in millimetres.
+UNIT = 0.0254 / 96.0
 
 
 def read(
-    source: SourceLike, *, scale: float = 1.0, assembly: Mapping[str, int] | None = None
+    source: SourceLike, *, scale: float | None = None, assembly: Mapping[str, int] | None = None
 ) -> Imported:
     """Read a linkage of Linkage.
 
@@ -41,8 +44,8 @@ def read(
     ----------
     source : str or path-like
         A file, or its text.
-    scale : float
-        The file's unit of length, m.
+    scale : float, optional
+        The file's unit of length, m: by default 1/96 inch, whatever unit the program shows.
     assembly : mapping of str to int, optional
         For dyads drawn with their links collinear: see `Mechanism`.
 
@@ -86,14 +89,16 @@ class _Reader:
 
     def __init__(self, source: Source, root: Element) -> None:
         self._source, self._root = source, root
+        self._scale = 1.0
         self._sketch = Sketch()
         self._connectors: dict[str, Element] = {}
         # Joints by the ids of connectors, links by those of links.
         self._joints: dict[str, str] = {}
         self._links: dict[str, str] = {}
 
-    def read(self, scale: float, assembly: Mapping[str, int] | None) -> Imported:
+    def read(self, scale: float | None, assembly: Mapping[str, int] | None) -> Imported:
         """Make the mechanism."""
+        self._scale = UNIT if scale is None else real_number(scale, "scale")
         connectors = [one for one in self._root.children if one.tag == "connector"]
         links = [one for one in self._root.children if one.tag in ("Link", "element")]
         self._source.require_few(len(connectors))
@@ -113,8 +118,9 @@ class _Reader:
             if one.is_true("input"):
                 self._add_input(identifier, one)
         self._refuse_gears()
-        self._say_unit(scale)
-        return finish(self._source, self._sketch, "linkage2", scale, assembly)
+        if scale is None:
+            self._say_scale_factor()
+        return finish(self._source, self._sketch, "linkage2", self._scale, assembly)
 
     def _add_connector(self, one: Element) -> None:
         identifier = self._id(one)
@@ -153,7 +159,8 @@ class _Reader:
         # Forth and back a cycle.
         speed = 2.0 * stroke * cycles / 60.0 or None
         self._sketch.inputs.append(Input(one.place, slide=name, speed=speed))
-        self._sketch.omitted.append(f"The throw {stroke:g} of actuator {name} is no limit here.")
+        throw = f"{stroke * self._scale:g} m"
+        self._sketch.omitted.append(f"The throw {throw} of actuator {name} is no limit here.")
         return ""
 
     def _fasten(self, one: Element) -> None:
@@ -196,6 +203,9 @@ class _Reader:
         if (x, y) == (u, v) or name in links[carrier]:
             problem = f"joint {name} cannot slide between {listed(ends)}"
             raise self._source.error(one.place, problem, joint=name)
+        self._sketch.omitted.append(
+            f"The ends {listed(ends)} of the slot of {name} are no limits here."
+        )
         riders = self._sketch.links_at(name)
         self._sketch.add_slot(name, carrier, riders, float(arctan2(v - y, u - x)), turns=True)
 
@@ -209,7 +219,8 @@ class _Reader:
             problem = f"input {name} is no anchor: Linkage turns links about anchors only"
             raise self._source.error(one.place, problem, joint=name)
         rpm = self._source.number(one.attributes.get("rpm", "15"), one.place, "rpm")
-        speed = -rpm * RPM
+        # Clockwise; 0 stays +0.
+        speed = 0.0 - rpm * RPM
         self._sketch.inputs.append(Input(one.place, joint=name, base=GROUND, speed=speed))
         if one.attributes.get("limitangle", "0").strip("0. "):
             self._sketch.omitted.append(f"Input {name} turns to and fro: its limit is left out.")
@@ -223,13 +234,13 @@ class _Reader:
                     problem = f"links {listed(pair)} are joined by {kind}: they cannot be described"
                     raise self._source.error(ratio.place, problem, link=pair[0])
 
-    def _say_unit(self, scale: float) -> None:
-        """The file does not tell what its coordinates are in, only what the program shows."""
-        units = [one.attributes.get("units", "") for one in self._root.named("program")]
-        if units[:1] not in ([], [""]) and scale == 1.0:
-            self._sketch.omitted.append(
-                f"Linkage shows {units[0][:20].lower()}; coordinates are read as they stand."
-            )
+    def _say_scale_factor(self) -> None:
+        """Say that lengths are those of the drawing, not of a model to another scale."""
+        for one in self._root.named("program"):
+            given = one.attributes.get("scalefactor", "1")
+            factor = self._source.number(given, one.place, "scalefactor")
+            if factor != 1.0:
+                self._sketch.omitted.append(f"The scale factor {factor:g} is left out.")
 
     def _name(self, one: Element, plain: str, taken: object) -> str:
         """Return the given name, or the letter and number, once."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from assur._arrays import short
 from assur._trig import arctan2
+from assur.importers import pmks_plus_older
 from assur.importers import pmks_plus_records as records
 from assur.importers.build import finish
 from assur.importers.names import listed
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
     from assur.importers.source import Source, SourceLike
 
 __all__ = ["read"]
+
+# Half a thousandth: lengths and angles have three decimals.
+RESOLUTION = 5e-4
 
 
 def read(
@@ -58,8 +62,11 @@ def read(
     'I(AB) → II(BC, CD)'
     """
     opened = open_source(source)
-    parts = records.parts(opened)
-    sketch = Sketch()
+    sketch = Sketch(resolution=RESOLUTION, angle_resolution=RESOLUTION)
+    if pmks_plus_older.is_text(opened.text):
+        pmks_plus_older.read_fields(opened, sketch, scale)
+        return finish(opened, sketch, "pmks_plus", scale, assembly)
+    parts = records.parts(opened, sketch)
     speeds = records.settings(opened, sketch, parts, scale)
     sections = records.sections(opened, parts[4:])
     joints = [records.joint_of(opened, f"joint {i}", text) for i, text in enumerate(sections[0], 1)]

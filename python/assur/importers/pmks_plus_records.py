@@ -2,7 +2,7 @@
 
 Parts are parted by dots: flags, decimals, whole numbers, units, then a record a joint, an empty
 part, a record a link, an empty part, a record a force, and the selection with a letter that checks
-the length.
+the length. Newer addresses go on behind an asterisk, which the letter does not count.
 
 joint
     a digit of flags (slides, input, frame, welded, path, cylinder), its id, name, x, y, angle in
@@ -74,9 +74,11 @@ def is_text(text: str) -> bool:
     return bool(re.match(r"[0-9A-Za-z_-]{1,4}\.[0-9A-Za-z_,-]+\.[0-9A-Za-z_,-]+\.\d", held))
 
 
-def parts(source: Source) -> list[str]:
+def parts(source: Source, sketch: Sketch) -> list[str]:
     """Return the parts of an address that is whole."""
-    held = payload(source.text)
+    held, _, rest = payload(source.text).partition("*")
+    if rest:
+        sketch.omitted.append("What the address holds behind its * is left out.")
     if any(letter.isspace() for letter in held) and "\n" in held:
         raise source.error("", "an address is one line: give one linkage")
     if not is_checked(held):

@@ -76,6 +76,10 @@ class Sketch:
     inputs : list of Input
     omitted : list of str
         Sentences about what does not carry over.
+    resolution : float or None
+        Error of a coordinate by its rounding, where the format has a fixed number of decimals.
+    angle_resolution : float or None
+        The same of the direction of a slot, rad.
     """
 
     joints: dict[str, Point] = field(default_factory=dict)
@@ -85,6 +89,8 @@ class Sketch:
     welds: list[tuple[str, list[str]]] = field(default_factory=list)
     inputs: list[Input] = field(default_factory=list)
     omitted: list[str] = field(default_factory=list)
+    resolution: float | None = None
+    angle_resolution: float | None = None
 
     def connect(self, joint: str, link: str) -> None:
         """Make a joint a member of a link, which may be new."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePath
@@ -24,6 +25,12 @@ MOST_PARTS = 500
 LARGEST_NUMBER = 1e100
 # A float64 is written in 24 letters at most; reading a longer one could take long.
 LONGEST_NUMBER = 60
+# What may be before an address on its line: a label, brackets, a quote.
+LONGEST_LABEL = 300
+LABEL = r"[^{}|\n?=]*"
+CLOSING = {"(": ")", "[": "]", "<": ">", '"': '"', "'": "'", "`": "`"}
+# What is no part of an address at its end, unless it was opened there.
+ENDS = {")": "(", "]": "[", ">": "<"}
 # What only a text has, not a path.
 TEXT_LETTERS = frozenset("\n\r{[<|?")
 
@@ -81,13 +88,42 @@ def open_source(source: Any) -> Source:
         text, name = source, ""
     else:
         text, name = _read(source)
-    opened = Source(text.removeprefix("\ufeff"), name)
+    opened = Source(_unwrapped(text.removeprefix("\ufeff")), name)
     if len(text) > LARGEST_FILE:
         problem = f"more than {LARGEST_FILE} letters: this is not the file of a linkage"
         raise opened.error("", problem)
     if not text.strip():
         raise opened.error("", "the file is empty" if name else "the text is empty")
     return opened
+
+
+def _unwrapped(text: str) -> str:
+    """Return an address without what a mail or a page in Markdown puts around it."""
+    start = re.search(r"https?://", text[:LONGEST_LABEL], re.IGNORECASE)
+    line = text.strip()
+    if start is None or "\n" in line or not re.fullmatch(LABEL, text[: start.start()]):
+        return text
+    before = text[: start.start()].rstrip()
+    address = text[start.start() :].strip()
+    closing = CLOSING.get(before[-1:], "")
+    if closing and closing in address:
+        return _up_to(address, before[-1], closing)
+    while address[-1:] in ENDS and address.count(address[-1]) > address.count(ENDS[address[-1]]):
+        address = address[:-1]
+    return address
+
+
+def _up_to(address: str, opening: str, closing: str) -> str:
+    """Return what is before the bracket that closes one before the address, or the quote."""
+    depth = 0
+    for index, letter in enumerate(address):
+        if letter == closing:
+            if depth == 0:
+                return address[:index]
+            depth -= 1
+        elif letter == opening:
+            depth += 1
+    return address
 
 
 def _is_path(source: str) -> bool:
