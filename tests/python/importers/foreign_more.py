@@ -259,7 +259,6 @@ LINKAGE = {
             "Link L4 is not connected with the frame",
             "Link L6 is held by a single joint",
             "Joints c6 and c7 are on no link",
-            "Linkage shows millimeters; coordinates are read as they stand.",
             "Joint 'left & low' is called left_&_low.",
             "Link 'rod (long)' is called rod__long_.",
         ),
@@ -328,7 +327,7 @@ LINKAGE = {
         {"lift": assur.Cylinder("c2", "c1", barrel="lift_barrel", rod="lift_rod")},
         span=0.5,
         speed=0.3,
-        omitted=("The throw 0.75 of actuator lift", "Links L0 and L1 are welded"),
+        omitted=("The throw 0.75 m of actuator lift", "Links L0 and L1 are welded"),
     ),
     "two inputs": Case(
         "linkage2",

@@ -35,7 +35,7 @@ def test_the_same_four_bar_of_four_programs() -> None:
         (LINKAGE["four-bar, names, a label, a frame"], "c2", None, 0.0),
     )
     for case, joint, tracer, local in cases:
-        mechanism = importers.read(case.text, drivers=case.drivers).mechanism
+        mechanism = importers.read(case.text, drivers=case.drivers, scale=1.0).mechanism
         motion = mechanism.solve(TURN, order=0)
         found = motion.joint(joint).value @ np.array([1, 1j])
         assert np.allclose(found, wanted, rtol=0, atol=2e-13)
@@ -67,7 +67,7 @@ def test_yoke_is_a_cosine() -> None:
 def test_cylinder_by_the_law_of_cosines() -> None:
     """The actuator of Linkage: its length is q."""
     case = LINKAGE["actuator, fastened links"]
-    mechanism = importers.read(case.text).mechanism
+    mechanism = importers.read(case.text, scale=1.0).mechanism
     q = np.linspace(1.5, 3.0, 40)
     pin = mechanism.solve(q, order=0).joint("c1").value @ np.array([1, 1j])
     base, arm = 1.0 - 1j, np.sqrt(5.0)

@@ -87,10 +87,10 @@ def test_files_and_texts_are_the_same(name: str, tmp_path: Path) -> None:
     ending = {"linkage2": ".linkage2", "pylinkage": ".json"}.get(case.format, ".txt")
     path = tmp_path / f"file{ending}"
     path.write_text("\ufeff" + case.text, encoding="utf-8")
-    found, again = importers.read(path, drivers=case.drivers), imported(case)
+    found, again = importers.read(path, drivers=case.drivers, scale=1.0), imported(case)
     assert found.mechanism == again.mechanism
     assert found.omitted == again.omitted
-    named = importers.read(str(path), case.format, drivers=case.drivers)
+    named = importers.read(str(path), case.format, drivers=case.drivers, scale=1.0)
     assert named.mechanism == again.mechanism
     assert importers.detect(path, case.text) == importers.detect(None, case.text) == case.format
 

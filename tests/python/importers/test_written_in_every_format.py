@@ -199,7 +199,7 @@ def test_the_same_motion_from_every_format(seed: int) -> None:
         text = write(linkage)
         assert importers.detect(None, text) == write.__name__
         drivers = [(0, 1)] if write is pyslvs else None
-        found = importers.read(text, drivers=drivers).mechanism
+        found = importers.read(text, drivers=drivers, scale=1.0).mechanism
         assert found.structure.formula.count("II(") == direct.structure.formula.count("II(")
         names = {joint: joint for joint in order}
         if write is pmks:
