@@ -13,9 +13,8 @@ import pickle
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +23,7 @@ import campaign_cases as cases
 import campaign_checks as checks
 import gap_steps
 from assur import Status
+from campaign_further import further
 from campaign_geometry import Geometry, Sample
 from campaign_machines import Checked
 from campaign_mixed import Mixed
@@ -42,10 +42,11 @@ if TYPE_CHECKING:
     import dyad_models
     from campaign_geometry import Array
 
-# Mechanisms given to a process at once, and one in how many is built to have change points, or is
-# overconstrained.
+# Mechanisms given to a process at once.
 PORTION = 200
-FEW = {"changing": 10, "overconstrained": 20}
+# What most of a campaign are, and one in how many is of another kind.
+MOST = {"class II": "random", "higher": "higher", "mixed": "mixed", "machines": "machine"}
+FEW = {"class II": {"changing": 10}, "higher": {}, "mixed": {"overconstrained": 20}, "machines": {}}
 SHOWN = 20  # failures printed as they come
 
 
@@ -160,25 +161,24 @@ PAGES: dict[str, Callable[[Report], str]] = {
 }
 
 
-def _drawn_by(make: Callable[[int], dyad_models.Case], seed: int) -> Check:
-    return Check(make(seed))
-
-
-# What is checked of a mechanism or machine, by kind and seed.
-CHECKS: dict[str, Callable[[int], Findings]] = {
-    **{kind: partial(_drawn_by, make) for kind, make in cases.MAKE.items()},
-    "mixed": lambda seed: Mixed(mixed_case(seed)),
-    "overconstrained": lambda seed: Overconstrained(redundant_case(seed)),
-    "machine": lambda seed: Checked(machine_case(seed)),
+# How a mechanism or machine of each kind is drawn, and what is checked of every one.
+CHECKS: dict[str, tuple[Callable[[int], Any], Callable[[Any], Findings]]] = {
+    **{kind: (make, Check) for kind, make in cases.MAKE.items()},
+    "mixed": (mixed_case, Mixed),
+    "overconstrained": (redundant_case, Overconstrained),
+    "machine": (machine_case, Checked),
 }
 
 
-def run(work: Iterable[tuple[str, int]]) -> Report:
-    """The checks of (kind, seed); what a mechanism raises is a failure, panics too."""
+def run(work: Iterable[tuple[str, int]], *, besides: bool = True) -> Report:
+    """The checks of (kind, seed); what a mechanism raises is a failure, panics too.
+
+    `besides`: what is asked of one in so many, too.
+    """
     report = Report()
     for kind, seed in work:
         try:
-            one = CHECKS[kind](seed).report
+            one = _checked(kind, seed, besides)
         except KeyboardInterrupt:
             raise
         except BaseException:  # noqa: BLE001 (a panic of the core is no Exception)
@@ -188,13 +188,20 @@ def run(work: Iterable[tuple[str, int]]) -> Report:
     return report
 
 
+def _checked(kind: str, seed: int, besides: bool) -> Report:
+    make, check = CHECKS[kind]
+    case = make(seed)
+    report = check(case).report
+    if besides:
+        for one in further(kind, seed, case):
+            report.add(one.report)
+    return report
+
+
 def work(count: int, which: str = "class II") -> list[tuple[str, int]]:
     """Run `count` mechanisms (or machines) of a campaign."""
-    if which in ("higher", "machines"):
-        return [(which.rstrip("s"), i) for i in range(count)]
-    some, most = {"class II": ("changing", "random"), "mixed": ("overconstrained", "mixed")}[which]
-    few = count // FEW[some]
-    return [(some, i) for i in range(few)] + [(most, i) for i in range(count - few)]
+    few = [(kind, i) for kind, one_in in FEW[which].items() for i in range(count // one_in)]
+    return few + [(MOST[which], i) for i in range(count - len(few))]
 
 
 def run_all(

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import campaign_cases as cases
 import campaign_checks as checks
+import campaign_page_further as of_further
+from campaign_page_further import number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,10 +24,6 @@ def page(report: Report, head: str, rows: Sequence[tuple[str, str]], text: str) 
     rows = [*rows, ("**failures**", f"**{len(report.failures)}**")]
     table = "\n".join(f"| {what} | {figure} |" for what, figure in rows)
     return (head + text).format(table=table, failed=failed(report.failures))
-
-
-def number(report: Report, name: str) -> str:
-    return f"{report.counts.get(name, 0):,}".replace(",", " ")
 
 
 def greatest(report: Report, name: str, digits: int = 2) -> str:
@@ -75,8 +73,11 @@ def one_kind(report: Report, higher: bool) -> str:
         ("positions compared to the bit between grids", number(report, "shared")),
         *motions(report),
         *([] if higher else steps),
+        *of_further.of_mechanisms(report),
+        *([] if higher else of_further.of_edges(report)),
     ]
-    return page(report, HIGHER if higher else CLASS_II, rows, TEXT)
+    text = TEXT_HIGHER if higher else TEXT_CLASS_II
+    return page(report, HIGHER if higher else CLASS_II, rows, text)
 
 
 def failed(failures: Sequence[str]) -> str:
@@ -136,8 +137,12 @@ TEXT = f"""What is checked of every mechanism:
   (Or a point has gone to infinity, where guides become parallel.)
 - **Analogues** are the central differences of positions, at four positions each.
 - **Nothing raises or panics.**
+"""
 
+TABLE = """
 | | |
 | --- | --- |
-{{table}}
-{{failed}}"""
+{table}
+{failed}"""
+TEXT_CLASS_II = TEXT + of_further.described("random") + of_further.EDGES + TABLE
+TEXT_HIGHER = TEXT + of_further.described("higher") + TABLE

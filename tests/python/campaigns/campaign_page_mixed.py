@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 import campaign_checks as checks
 import campaign_machines as of_machines
 import campaign_mixed as of_mixed
+import campaign_page_further as of_further
 import campaign_redundant as of_redundant
 import machine_models
 import redundant_models
-from campaign_page import greatest, motions, number, page, statuses
+from campaign_page import greatest, motions, page, statuses
+from campaign_page_further import number
 
 if TYPE_CHECKING:
     from campaign_report import Report
@@ -51,6 +53,7 @@ def mixed(report: Report) -> str:
             f"greatest effect of the rounding, in κ times it (allowed: {of_redundant.MOVED:g})",
             greatest(report, "moved"),
         ),
+        *of_further.of_mechanisms(report),
     ]
     return page(report, MIXED, rows, "")
 
@@ -82,6 +85,7 @@ def machines(report: Report) -> str:
             number(report, "within the greatest energy"),
         ),
         ("greatest imbalance, in what is allowed", greatest(report, "balance")),
+        *of_further.of_machines(report),
     ]
     return page(report, MACHINES, rows, "")
 
@@ -117,7 +121,7 @@ What is checked of every mechanism:
 - **Analogues** are the central differences of positions, at four positions each.
 - **Statuses** fit the values, and `explain` names a joint, link or slide for what has none.
 - **Nothing raises or panics.**
-
+{of_further.described("mixed")}
 One mechanism in twenty is overconstrained: parallel cranks on one rod, several rods between two
 wheels, or a crosshead with a second guide, with up to two groups hung on it. It is turned by a
 random angle and its numbers are rounded to {redundant_models.DIGITS[0]} to
@@ -157,7 +161,7 @@ SciPy's splines).
   greatest energy, or of the greatest ∂E/∂q (J/rad; for a slide, by the size of the drawing) so far
   if that is greater; the table says how many runs keep to the greatest energy alone.
 - **Nothing raises or panics**, and a run warns only by `AssurWarning`.
-
+{of_further.MACHINES}
 A run is compared up to its first position that is not `OK`, mostly beside the dead point that ends
 it; the table says how many runs have such an end. Drawings with a condition above
 {math.floor(machine_models.CONDITION):d} are drawn again; a run tries at most

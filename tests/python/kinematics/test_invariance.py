@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +22,7 @@ import mixed_models
 import named_drawings
 import named_models
 from assur import Status
+from frames import Frame
 from mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
@@ -46,30 +46,6 @@ def made(d: Description) -> assur.Mechanism:
 def solve(m: assur.Mechanism, change: NDArray[np.float64]) -> assur.Motion:
     q = np.atleast_1d(m.q0) + change
     return m.solve(q if q.size > 1 else q[0], order=3, on_error="nan")
-
-
-@dataclass(frozen=True)
-class Frame:
-    """x -> scale (mirror, then turn) x + shift."""
-
-    turn: float = 0.0
-    shift: tuple[float, float] = (0.0, 0.0)
-    mirror: bool = False
-    scale: float = 1.0
-
-    @property
-    def matrix(self) -> NDArray[np.float64]:
-        c, s = math.cos(self.turn), math.sin(self.turn)
-        hand = -1.0 if self.mirror else 1.0
-        return self.scale * np.array([[c, -s * hand], [s, c * hand]])
-
-    def of(self, d: Description) -> Description:
-        """The drawing in this frame."""
-        moved = {n: tuple(self.matrix @ np.array(p) + self.shift) for n, p in d.joints.items()}
-        joints = {n: (float(x), float(y)) for n, (x, y) in moved.items()}
-        hand = -1 if self.mirror else 1
-        slides = {n: replace(s, angle=hand * s.angle + self.turn) for n, s in d.slides.items()}
-        return Description(joints, d.links, slides, d.drivers)
 
 
 def check_same(

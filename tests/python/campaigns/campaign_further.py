@@ -1,0 +1,48 @@
+"""What is asked of one mechanism or machine in so many, besides the checks of every one.
+
+And what is drawn beside one in so many: cases that no other generator draws.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from campaign_cylinders import Cylinders
+from campaign_ends import Ends
+from campaign_flat import Flat
+from campaign_resting import Resting
+from campaign_sweeps import Covered, Swept
+from campaign_turned import Turned
+from campaign_units import InUnits
+from campaign_variants import Variants
+from cylinder_models import cylinder_case
+from flat_models import flat_case
+from resting_models import resting_case
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from campaign_report import Findings
+
+# These cost as much as all other checks of a mechanism, and up to three times as much of a machine:
+# one in so many adds a sixth to a campaign.
+ASKED: dict[str, dict[type[Any], int]] = {
+    "random": {Variants: 20, Ends: 5, Swept: 20},
+    "higher": {Variants: 10, Ends: 2, Swept: 10},
+    "mixed": {Variants: 40, Ends: 20, Swept: 40},
+    "machine": {InUnits: 4, Turned: 2, Covered: 2},
+}
+DRAWN: dict[str, dict[type[Any], tuple[Callable[[int], Any], int]]] = {
+    "random": {Flat: (flat_case, 10), Cylinders: (cylinder_case, 200)},
+    "machine": {Resting: (resting_case, 5)},
+}
+
+
+def further(kind: str, seed: int, case: Any) -> Iterator[Findings]:
+    """The findings of what is asked of this mechanism or machine, or drawn beside it."""
+    for number, (check, one_in) in enumerate(ASKED.get(kind, {}).items()):
+        if seed % one_in == number % one_in:
+            yield check(case)
+    for check, (make, one_in) in DRAWN.get(kind, {}).items():
+        if seed % one_in == 0:
+            yield check(make(seed // one_in))

@@ -1,0 +1,249 @@
+"""Machines in other units of time and length, with friction, tables that end, saved and loaded.
+
+In units of powers of two nothing may change but exponents: the same steps, the same bits. In other
+units the same run to rtol, in about as many steps.
+"""
+
+from __future__ import annotations
+
+import random
+import tempfile
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assur
+from campaign_report import Findings
+from everything_asked import asked
+from machine_units import Units, in_units, with_friction
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from machine_models import Case
+
+RTOL = 1e-8
+MAX_STEPS = 300
+# Beside a position locked by friction each evaluation may take 40 ms.
+MAX_SECONDS = 1.0
+RUBBING = 3  # one machine in so many has friction
+# In other units than powers of two: results to rtol times this (rounding is multiplied by a run
+# as its tolerance is), and steps.
+CLOSE = 1e3
+STEPS = 0.05
+POSITIONS = 6
+REACH = 0.3
+# Even powers of two: the mass matrix of two drivers has a square root.
+POWERS = (-10, 10)
+FACTORS = (1e-4, 1e4)
+# Reactions are solved with pivots, which depend on units: to this part of the largest, times κ².
+FORCE = 1e-12
+CONDITION = 1e4
+
+
+class InUnits(Findings):
+    """One machine, the same in other units, and the same from its file."""
+
+    def __init__(self, case: Case) -> None:
+        super().__init__()
+        self.rng = random.Random(f"units {case.seed}")
+        self.case, self.d, self.machine = case, case.description, case.machine
+        self.drivers = len(self.d.drivers)
+        counts = self.report.counts
+        if self.rng.randrange(RUBBING) == 0:
+            self.machine = with_friction(self.d, self.machine, self.rng)
+            counts["with friction"] += bool(self.machine.friction)
+        counts["in other units"] += 1
+        self.two = Units(*(4.0 ** self.rng.randint(*POWERS) for _ in range(3)))
+        self.other = Units(*(float(np.exp(self.rng.uniform(*np.log(FACTORS)))) for _ in range(3)))
+        self.q = self.positions()
+        self.guarded(self.reactions)
+        self.guarded(self.runs)
+        self.guarded(self.everything)
+        self.guarded(self.files)
+
+    def positions(self) -> Any:
+        start = np.atleast_1d(self.mechanism.q0)
+        q = start + np.array(
+            [[self.rng.uniform(-REACH, REACH) for _ in start] for _ in range(POSITIONS)]
+        )
+        return q if self.drivers > 1 else q[:, 0]
+
+    @property
+    def mechanism(self) -> assur.Mechanism:
+        assert self.machine.mechanism is not None
+        return self.machine.mechanism
+
+    def coordinate(self, u: Units) -> Any:
+        unit = u.coordinate(self.d)
+        return unit if self.drivers > 1 else unit[0]
+
+    # -- at positions -------------------------------------------------------------------------
+
+    def asked(self, machine: assur.Machine, u: Units) -> assur.Reactions:
+        per = self.coordinate(u)
+        speed, acceleration = np.asarray(self.case.speed0), np.full(self.drivers, 2.0)
+        acceleration = acceleration if self.drivers > 1 else acceleration[0]
+        return machine.reactions(
+            self.q * per,
+            np.broadcast_to(speed * (per / u.time), self.q.shape),
+            np.broadcast_to(acceleration * (per / u.time**2), self.q.shape),
+            on_error="nan",
+        )
+
+    def forces(self, found: Any, u: Units) -> Iterator[tuple[str, Any]]:
+        """All forces by name, in the first units."""
+        per = self.coordinate(u)
+        yield "driver", np.asarray(found.driver) / (u.torque / per)
+        for name in self.d.joints:
+            for link, own in self.d.links.items():
+                if name in own and sum(name in other for other in self.d.links.values()) > 1:
+                    yield f"joint {name} on {link}", found.joint(name, on=link) / u.force
+                    if name in self.machine.friction:
+                        moment = found.joint_moment(name, on=link)
+                        yield f"moment {name} on {link}", np.asarray(moment) / u.torque
+        for name in self.d.slides:
+            guide = found.slide(name)
+            yield f"normal {name}", np.asarray(guide.normal) / u.force
+            yield f"friction {name}", np.asarray(guide.friction) / u.force
+            yield f"moment of {name}", np.asarray(guide.moment) / u.torque
+
+    def reactions(self) -> None:
+        """The same forces but for rounding."""
+        try:
+            own = dict(self.forces(self.asked(self.machine, Units()), Units()))
+        except assur.InputError:  # friction on redundant links
+            self.report.counts["reactions refused"] += 1
+            return
+        other = in_units(self.d, self.machine, self.two)
+        motion = self.mechanism.solve(self.q, order=0, on_error="nan")
+        condition = np.asarray(motion.condition)
+        rows = {name: np.reshape(f, (POSITIONS, -1)) for name, f in own.items()}
+        size = np.max([np.abs(np.nan_to_num(f)).max(axis=1) for f in rows.values()], axis=0)
+        allowed = FORCE * condition**2 * size
+        for name, have in self.forces(self.asked(other, self.two), self.two):
+            self.report.counts["forces in other units"] += 1
+            self.report.counts["of these the same bits"] += np.array_equal(have, own[name], True)
+            apart = np.abs(np.reshape(have, (POSITIONS, -1)) - rows[name]).max(axis=1)
+            for i in np.flatnonzero((condition < CONDITION) & (apart > allowed))[:1]:
+                text = f"{name} at q = {self.q[i]!r}: off by {apart[i]:.3g} of {size[i]:.3g}"
+                self.fail("units reactions", f"{text}, {self.two}")
+
+    # -- runs ---------------------------------------------------------------------------------
+
+    def run_of(self, machine: assur.Machine, u: Units) -> assur.Run:
+        per = self.coordinate(u)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", assur.AssurWarning)
+            return machine.run(
+                self.case.t_end * u.time,
+                None,
+                np.asarray(self.case.speed0) * (per / u.time),
+                rtol=RTOL,
+                max_steps=MAX_STEPS,
+                max_seconds=MAX_SECONDS,
+            )
+
+    def runs(self) -> None:
+        """The same steps and bits in units of powers of two; about as many steps in others."""
+        try:
+            own = self.run_of(self.machine, Units())
+        except assur.AssurError as error:
+            self.report.counts[f"run refused: {str(error)[:30]}"] += 1
+            return
+        self.report.counts["runs in other units"] += 1
+        two = self.run_of(in_units(self.d, self.machine, self.two), self.two)
+        per = self.coordinate(self.two)
+        texts = []
+        if "time limit" in (own.end, two.end):
+            self.report.counts["runs that took too long"] += 1
+            return
+        if (own.end, len(own.t)) != (two.end, len(two.t)):
+            texts = [f"{two.end} in {len(two.t)} steps, was {own.end} in {len(own.t)}"]
+        elif not (
+            np.array_equal(own.t, two.t / self.two.time)
+            and np.array_equal(own.q, two.q / per)
+            and np.array_equal(own.speed, two.speed * (self.two.time / per))
+            and np.array_equal(own.acceleration, two.acceleration * (self.two.time**2 / per))
+        ):
+            k = int(
+                np.argmax(np.asarray(own.q / (two.q / per) != 1.0).reshape(len(own.t), -1).any(1))
+            )
+            texts = [f"other bits from step {k} of {len(own.t)} on"]
+        self.fail("units run", *(f"{text}, in {self.two}" for text in texts))
+        self.similar(own)
+
+    def similar(self, own: assur.Run) -> None:
+        other = self.run_of(in_units(self.d, self.machine, self.other), self.other)
+        per, u = self.coordinate(self.other), self.other
+        steps = len(own.t), len(other.t)
+        if own.end == other.end == "step limit" or other.end == "time limit":
+            return
+        if abs(steps[1] - steps[0]) > max(3.0, STEPS * steps[0]):
+            self.fail(
+                "units steps", f"{steps[1]} ({other.end}), was {steps[0]} ({own.end}), in {u}"
+            )
+            return
+        if own.end != "reached" or other.end != "reached":
+            return
+        apart = float(np.abs(own.q[-1] - other.q[-1] / per).max())
+        if not apart <= CLOSE * RTOL * max(1.0, float(np.abs(own.q).max())):
+            self.fail("units end", f"q off by {apart:.3g} at the end, in {u}")
+
+    # -- all that results have, and files -----------------------------------------------------
+
+    def everything(self) -> None:
+        """No property and no method fails; a run's own reactions are given."""
+        machine, q = self.machine, self.q
+        calls = {
+            "reactions": lambda: self.asked(machine, Units()),
+            "motion": lambda: self.mechanism.solve(q, order=3, on_error="nan"),
+            "run": lambda: self.run_of(machine, Units()),
+            "reactions of the run": lambda: machine.reactions(
+                self.run_of(machine, Units()), on_error="nan"
+            ),
+            "reactions from rest": lambda: machine.reactions(
+                machine.run(0.05, rtol=1e-6, max_steps=200, max_seconds=MAX_SECONDS), on_error="nan"
+            ),
+            "machine": lambda: machine,
+            "mechanism": lambda: self.mechanism,
+            "structure": lambda: self.mechanism.structure,
+        }
+        if self.drivers == 1:
+            calls["flywheel"] = lambda: machine.flywheel(0.05, 10.0)
+        for what, call in calls.items():
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", assur.AssurWarning)
+                    result = call()
+            except assur.AssurError as error:
+                self.report.counts[f"{what} refused"] += 1
+                if "fault of assur" in str(error) or "friction needs sense" in str(error):
+                    self.fail(f"asked {what}", str(error))
+                continue
+            self.report.counts["results asked for all"] += 1
+            self.fail(f"asked {what}", *asked(result))
+
+    def files(self) -> None:
+        """From its file a machine is the same, to the bit."""
+        machine = self.machine
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "machine.toml"
+            try:
+                machine.save(path)
+            except assur.InputError as error:
+                if "function" not in str(error):
+                    self.fail("file refused", str(error))
+                return
+            again = assur.load(path)
+        self.report.counts["loaded"] += 1
+        if again.mechanism != machine.mechanism:
+            self.fail("file mechanism", "is not equal")
+        if again != machine:
+            self.fail("file machine", f"is not equal: {machine!r}")
+        speed = np.ones_like(self.q)
+        one, two = (m.reduced_moment(self.q, speed, on_error="nan") for m in (machine, again))
+        if not np.array_equal(one, two, equal_nan=True):
+            self.fail("file moment", "other bits")
