@@ -108,8 +108,13 @@ NOT_NUMBERS: dict[str, Any] = {
 }
 
 
-@pytest.mark.parametrize("what", list(NOT_NUMBERS))
-@pytest.mark.parametrize("name", list(ASKS))
+# All that ask share one check: each is given a text and a mask, one of them everything.
+EVERYTHING = next(iter(ASKS))
+GIVEN = [(name, what) for name in ASKS for what in ("text", "masked")]
+GIVEN += [(EVERYTHING, what) for what in NOT_NUMBERS if what not in ("text", "masked")]
+
+
+@pytest.mark.parametrize(("name", "what"), GIVEN)
 def test_non_numbers_are_refused(name: str, what: str) -> None:
     value = NOT_NUMBERS[what]
     with pytest.raises(assur.InputError) as caught:
