@@ -131,7 +131,7 @@ class Ends(Findings):
             motion = self.m.solve(np.array([end.q]), order=order, on_error="nan")
             back = self.values(motion, kind, own, name, order)[0]
             if motion.status[0] == Status.OK and not abs(back - end.value) <= RETURNED * max(
-                known, default=1.0
+                *known, 1e-9
             ):
                 self.fail(
                     "extremes place", f"order {order} of {name}: {end}, solve has {back!r} there"
@@ -140,7 +140,8 @@ class Ends(Findings):
     def scanned(self, kind: str, own: str, name: str, order: int, angle: bool) -> Array:
         """Values at the scan's positions; of an angle over the one interval, in its own turn."""
         if angle and np.isfinite(self.intervals).all():
-            q = np.linspace(*self.intervals[0], SCANNED)
+            low, high = self.intervals[0].tolist()
+            q = np.linspace(low, high, SCANNED)
             motion = self.m.solve(q, order=order, on_error="nan", threads=1)
         else:
             q, motion = self.q, self.motion
@@ -149,7 +150,8 @@ class Ends(Findings):
         good = (np.asarray(motion.status) <= Status.SINGULAR) & (
             np.asarray(motion.condition) < FLAT
         )
-        return self.values(motion, kind, own, name, order)[inside & ~beside & good]
+        value = self.values(motion, kind, own, name, order)
+        return np.asarray(value[inside & ~beside & good])
 
     def values(self, motion: assur.Motion, kind: str, own: str, name: str, order: int) -> Array:
         found = getattr(getattr(motion, kind)(own), f"d{order}" if order else "value")

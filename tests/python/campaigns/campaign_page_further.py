@@ -104,7 +104,8 @@ Beside one in {_one_in("random", Flat)} a drawing has a dyad that is nearly flat
 nearly parallel (a sine of {flat_models.LEAST:g} to {flat_models.MOST:g}): it is taken, every joint
 is at its place, and an interval of its limits holds the drawing. Beside one in
 {_one_in("random", Cylinders)} a mechanism has cylinders, which drive or are driven: at
-{of_cylinders.POSITIONS} positions in every assembly their lengths are the distances of their
+{of_cylinders.POSITIONS} positions in up to
+{of_cylinders.ASSEMBLIES} assemblies their lengths are the distances of their
 joints.
 """
 

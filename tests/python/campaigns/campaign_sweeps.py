@@ -53,7 +53,7 @@ class Swept(Findings):
         }
         space: dict[str, Any] = {name: values}
         self.report.counts["sweeps"] += 1
-        measured = assur.sweep(m, space, q, metrics=asked, assembly=assembly, on_error="nan")
+        measured = assur.sweep(m, space, q, metrics=asked, assembly=assembly)
         self.missing(measured)
         again = assur.sweep(measured.designs(list(range(DESIGNS))), {}, q, metrics=asked)
         for one in asked:
@@ -113,7 +113,7 @@ class Covered(Swept):
         values = self.m.dimensions[name] * (1.0 + SPREAD * np.linspace(-1.0, 1.0, DESIGNS))
         space: dict[str, Any] = {name: values}
         asked = {"effort": metric.peak_effort(), "rms": metric.rms_effort()}
-        measured = assur.sweep(self.machine, space, self.q, metrics=asked, on_error="nan")
+        measured = assur.sweep(self.machine, space, self.q, metrics=asked)
         self.missing(measured)
         found = self.machine.reactions(self.q, speed=1.0, on_error="nan")
         # The torque on a link that does not turn changes forces alone, not the driver's.

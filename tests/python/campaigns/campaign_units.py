@@ -20,7 +20,9 @@ from everything_asked import asked
 from machine_units import Units, in_units, with_friction
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
+
+    from assur.dynamics.reactions import Reactions
 
     from machine_models import Case
 
@@ -82,7 +84,7 @@ class InUnits(Findings):
 
     # -- at positions -------------------------------------------------------------------------
 
-    def asked(self, machine: assur.Machine, u: Units) -> assur.Reactions:
+    def asked(self, machine: assur.Machine, u: Units) -> Reactions:
         per = self.coordinate(u)
         speed, acceleration = np.asarray(self.case.speed0), np.full(self.drivers, 2.0)
         acceleration = acceleration if self.drivers > 1 else acceleration[0]
@@ -197,7 +199,7 @@ class InUnits(Findings):
     def everything(self) -> None:
         """No property and no method fails; a run's own reactions are given."""
         machine, q = self.machine, self.q
-        calls = {
+        calls: dict[str, Callable[[], Any]] = {
             "reactions": lambda: self.asked(machine, Units()),
             "motion": lambda: self.mechanism.solve(q, order=3, on_error="nan"),
             "run": lambda: self.run_of(machine, Units()),

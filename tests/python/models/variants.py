@@ -42,12 +42,16 @@ class Variant:
 
     @staticmethod
     def same(d: Description) -> Variant:
-        own = (d.joints, d.links, d.slides)
-        names = {kind: {n: n for n in table} for kind, table in zip(KINDS, own, strict=True)}
+        names = {kind: {n: n for n in own} for kind, own in _names(d).items()}
         return Variant(d, names)
 
     def then(self, step: str, description: Description) -> Variant:
         return replace(self, description=description, steps=(*self.steps, step))
+
+
+def _names(d: Description) -> dict[str, list[str]]:
+    """All names, by kind."""
+    return dict(zip(KINDS, (list(d.joints), list(d.links), list(d.slides)), strict=True))
 
 
 def shuffled(v: Variant, rng: random.Random, within: bool = True) -> Variant:
@@ -84,12 +88,10 @@ def renamed(v: Variant, rng: random.Random) -> Variant:
     """Other names, in no alphabetical order; the ground keeps its own."""
     d = v.description
     new: dict[str, dict[str, str]] = {}
-    for kind, table in zip(KINDS, (d.joints, d.links, d.slides), strict=True):
-        names = [f"{kind[0]}{k}" for k in range(len(table))]
-        rng.shuffle(names)
-        new[kind] = {
-            n: GROUND if n == GROUND else name for n, name in zip(table, names, strict=True)
-        }
+    for kind, own in _names(d).items():
+        others = [f"{kind[0]}{k}" for k in range(len(own))]
+        rng.shuffle(others)
+        new[kind] = {n: GROUND if n == GROUND else o for n, o in zip(own, others, strict=True)}
     joint, link, slide = (new[kind] for kind in KINDS)
     after = Description(
         {joint[n]: place for n, place in d.joints.items()},

@@ -85,7 +85,7 @@ class Pairing:
         b = self.two.solve(self.q(q), order=order, on_error="nan", threads=1)
         there = [np.asarray(m.status) <= Status.SINGULAR for m in (a, b)]
         both = there[0] & there[1]
-        for one, two, motion in ((*there, a), (*there[::-1], b)):
+        for one, two, motion in ((there[0], there[1], a), (there[1], there[0], b)):
             lost = one & ~two & (np.asarray(motion.condition) < BORDERLINE)
             for i in np.flatnonzero(lost)[:1]:
                 yield f"status at q = {q[i]!r}: {Status(a.status[i])!r}, {Status(b.status[i])!r}"
