@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from assur.dynamics.reactions import Reactions
-
     from machine_models import Case
 
 RTOL = 1e-8

@@ -65,6 +65,16 @@ def test_a_sample(what: str) -> None:
     assert not failures, "\n".join(failures[:10])
 
 
+# Driven by the angle between two moving links: both turn, and either may be the one whose angle is
+# nearest to that before the gap.
+@pytest.mark.parametrize("seed", [178, 329])
+def test_turns_behind_a_gap_are_the_same_in_any_order(seed: int) -> None:
+    d = campaign_cases.random_case(seed).description
+    m = assur.Mechanism(**arguments(d))
+    p = Pairing(d, m, shuffled(Variant.same(d), random.Random(seed)))
+    assert not list(p.motions(float(m.q0) + np.linspace(-3.1, 3.1, 150)))
+
+
 # -- what is drawn ----------------------------------------------------------------------------
 
 

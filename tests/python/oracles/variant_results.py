@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-# Both may be off by the law, and so is the drawing of the second.
-TERMS = 3.0
+# Both may be off by the law, and so is the drawing of the second, and what both have at it.
+TERMS = 5.0
 # From this condition on rounding decides whether a position is before or behind a fold.
 BORDERLINE = 1e5
 
