@@ -77,10 +77,10 @@ class Ends(Findings):
         found = self.m.solve(near.ravel(), order=0, on_error="nan", threads=1)
         reached = (np.asarray(found.status) <= Status.SINGULAR).reshape(near.shape)
         # Beyond a pole a mechanism with a group above class II has positions in another interval.
-        pole = (np.asarray(found.condition).reshape(near.shape) > POLE).all(axis=0)
+        condition = np.asarray(found.condition).reshape(near.shape)
         wanted = np.array([self.inside(row, 0.0)[0] for row in near])
         for i in np.argwhere((reached != wanted).T)[:1, 0]:
-            if self.higher and (wanted[:, i].all() or pole[i]):
+            if self.higher and (wanted[:, i].all() or (condition[:, i] > POLE).all()):
                 continue
             self.fail(
                 "limits end",

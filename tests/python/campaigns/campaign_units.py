@@ -169,9 +169,7 @@ class InUnits(Findings):
             and np.array_equal(own.speed, two.speed * (self.two.time / per))
             and np.array_equal(own.acceleration, two.acceleration * (self.two.time**2 / per))
         ):
-            k = int(
-                np.argmax(np.asarray(own.q / (two.q / per) != 1.0).reshape(len(own.t), -1).any(1))
-            )
+            k = int(np.argmax(np.asarray(own.q != two.q / per).reshape(len(own.t), -1).any(1)))
             texts = [f"other bits from step {k} of {len(own.t)} on"]
         self.fail("units run", *(f"{text}, in {self.two}" for text in texts))
         self.similar(own)
