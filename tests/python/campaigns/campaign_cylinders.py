@@ -39,7 +39,11 @@ class Cylinders(Findings):
         )
         for assembly in (None, *list(self.m.assemblies(self.m.q0))[:ASSEMBLIES]):
             motion = self.m.solve(
-                q if start.size > 1 else q[:, 0], order=0, assembly=assembly, on_error="nan"
+                q if start.size > 1 else q[:, 0],
+                order=0,
+                assembly=assembly,
+                on_error="nan",
+                threads=1,
             )
             good = np.asarray(motion.status) <= Status.SINGULAR
             for name, (base, end) in self.case.cylinders.items():
