@@ -137,7 +137,7 @@ def rest(spring: Spring) -> tuple[Any, ...]:
 @pytest.mark.parametrize("kind", [Force, Spring, Damper])
 def test_springs_and_dampers_follow_the_same_rule(kind: Any) -> None:
     slider = assur.SliderCrank(0.1, 0.35)
-    ends = {
+    ends: Any = {
         Force: lambda at: Force(at, (-50.0, 3.0)),
         Spring: lambda at: Spring(("ground", (0.6, 0.1)), at, 300.0, 0.1),
         Damper: lambda at: Damper(at, ("ground", (0.6, 0.1)), 20.0),
@@ -158,7 +158,7 @@ RUBS = {name: JointFriction(0.1, 0.1) for name in "ABCD"}
 
 GUESS = 'acts at joint "C", which has friction: "coupler" takes it, and the friction depends on '
 WHICH = f"{GUESS}which link does; name the link, "
-GUESSES = {
+GUESSES: dict[str, Any] = {
     "a Force " + WHICH + 'on="coupler" or another one': Force("C", (1.0, 2.0)),
     "a Spring " + WHICH + "as a point (link, (x, y)) of it": Spring("C", "A", 10.0, 1.0),
     "a Damper " + WHICH + "as a point (link, (x, y)) of it": Damper("A", "C", 10.0),
