@@ -53,8 +53,8 @@ class SelfLocking(NamedTuple):
     The force alone starts nothing within:
 
     >>> np.degrees(press.self_locking().holding).round(2)
-    array([[  0.  ,   3.1 ],
-           [175.98, 180.  ]])
+    array([[  0.  ,   3.44],
+           [175.42, 180.  ]])
     """
 
     locked: Float

@@ -72,6 +72,11 @@ class Machine(MachineModel):
         An object that is not a body, load or motor, a negative mass, a name that the mechanism does
         not have, or a function that does not take (t, q, speed) or gives no finite number.
 
+    Warns
+    -----
+    AssurWarning
+        A load at a joint with friction names no link, and none is meant: see `Force`.
+
     Examples
     --------
     A crank press: at 90° the piston is as fast as the crank's pin.
