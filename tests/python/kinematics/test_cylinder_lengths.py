@@ -216,6 +216,30 @@ def test_platforms_of_class_iii() -> None:
         np.testing.assert_allclose(motion.slide(name).value[known], gap[known], atol=1e-12)
 
 
+def coupler_over_a_foot(foot: tuple[float, float], driver: str) -> assur.Mechanism:
+    at = {"B": (2.2, 0.1), "C": (1.0, 1.9), "D": (0.8, 0.7), "E": (1.5, 0.75), "F": (1.1, 1.25)}
+    links = {"ground": "ABC", "r2": "BE", "r3": "CF", "platform": "DEF"}
+    return assur.Mechanism({"A": foot, **at}, links, driver, {"leg": assur.Cylinder("A", "D")})
+
+
+def test_a_group_of_class_iii_is_followed_to_length_0() -> None:
+    four_bar = coupler_over_a_foot((0.0, 0.0), "r2")
+    x, y = four_bar.solve(float(four_bar.q0) - 0.15).joint("D").value
+    driven = coupler_over_a_foot((float(x), float(y)), "leg")
+    assert driven.structure.cls == 3
+    ((low, high),) = driven.limits().intervals.tolist()
+    assert (low, [point.q for point in driven.limits().dead_points]) == (0.0, [high])
+    q = np.array([-0.05, -1e-9, 0.004, 0.07, 0.14])
+    motion = driven.solve(q, on_error="nan")
+    assert motion.status.tolist() == [3, 3, 0, 0, 0]
+    is_distance(motion, "leg", "A", "D")
+    assert tuple(driven.extremes("leg").least) == (0.0, 0.0)
+    passive = coupler_over_a_foot((float(x), float(y)), "r2")
+    over = passive.solve(float(four_bar.q0) + np.linspace(-0.3, 0.08, 13))
+    assert is_distance(over, "leg", "A", "D") == 13
+    assert passive.extremes("leg").least.value == 0.0
+
+
 def test_a_passive_cylinder_on_a_group_of_class_iii() -> None:
     cranks = assur.examples.platform_on_cranks()
     links = dict(cranks.links)
