@@ -114,8 +114,8 @@ def test_lifts_rounded_to_three_decimals_move(seed: int) -> None:
     angle = rng.uniform(0.3, 1.2)
     leg = rng.uniform(0.8, 2.0) * np.array([np.cos(angle), np.sin(angle)])
     feet = {"A": np.zeros(2), "B": rng.uniform(1, 3, 2), "C": rng.uniform(-3, -1, 2)}
-    joints = {name: np.round(at, 3) for name, at in feet.items()}
-    joints |= {name.lower(): np.round(at + leg, 3) for name, at in feet.items()}
+    joints = {name: np.round(at, 3).tolist() for name, at in feet.items()}
+    joints |= {name.lower(): np.round(at + leg, 3).tolist() for name, at in feet.items()}
     links = {"ground": "ABC", "l1": "Aa", "l2": "Bb", "l3": "Cc", "bed": "abc"}
     m = assur.Mechanism(joints, links, "l1", tolerance=5.001e-4)
     for name, at in joints.items():
