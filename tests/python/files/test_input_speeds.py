@@ -38,7 +38,7 @@ def test_it_comes_back_with_the_same_bits(speed: float, tmp_path: Path) -> None:
 
 def test_of_several_drivers_one_each(tmp_path: Path) -> None:
     path = tmp_path / "m.toml"
-    assur.files.save(Contents(five_bar(), input_speed=[1, 0.1 + 0.2]), path)
+    assur.files.save(Contents(five_bar(), input_speed=(1, 0.1 + 0.2)), path)
     assert assur.files.read(path).input_speed == (1.0, 0.1 + 0.2)
 
 

@@ -268,6 +268,58 @@ def test_a_notebook_shows_it_in_a_root_of_its_own(browser: Browser, tmp_path: Pa
     context.close()
 
 
+def test_keys_and_wheel_in_a_notebook(browser: Browser, tmp_path: Path) -> None:
+    """Keys stay in the cell, but commands and what leads out; the wheel zooms with Ctrl alone."""
+    path = tmp_path / "notebook.html"
+    cell = assur.examples.engine()._repr_html_()
+    tall = '<p style="height: 3000px"></p>'
+    path.write_text(f"<!doctype html><body>{cell}{tall}</body>", encoding="utf-8")
+    context = browser.new_context(viewport={"width": 1200, "height": 700})
+    page = context.new_page()
+    page.goto(path.as_uri())
+    page.evaluate(
+        """() => {
+             window.heard = [];
+             document.addEventListener("keydown", (event) => window.heard.push(event.key));
+           }"""
+    )
+    picture = page.locator("svg.picture")
+
+    def heard(*keys: str) -> list[str]:
+        page.evaluate("window.heard.length = 0")
+        for key in keys:
+            page.keyboard.press(key)
+        own: list[str] = page.evaluate("window.heard")
+        return own
+
+    letters = ("m", "a", "b", "x", "d", "z", "Enter", "Shift+Enter", "ArrowDown", "Space", "Space")
+    picture.focus()
+    assert heard(*letters) == []
+    assert [key for key in heard("Control+s") if key != "Control"] == ["s"]
+    assert heard("Escape") == ["Escape"]
+    page.get_by_role("textbox").focus()
+    assert [key for key in heard(*letters, "Control+a", "Escape") if key != "Control"] == []
+    assert heard("Tab") == ["Tab"]
+
+    def drawn() -> str:
+        return str(picture.inner_html())
+
+    picture.focus()
+    before = drawn()
+    box = picture.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + box["width"] / 2.0, box["y"] + box["height"] / 2.0)
+    page.mouse.wheel(0, 120)
+    page.wait_for_function("window.scrollY > 50")
+    assert drawn() == before
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -120)
+    page.keyboard.up("Control")
+    page.wait_for_timeout(200)
+    assert drawn() != before
+    context.close()
+
+
 def test_every_width_and_scheme(browser: Browser, crank_rocker: Path) -> None:
     with opening(browser, crank_rocker) as opened:
         page = opened.page

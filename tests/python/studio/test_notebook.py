@@ -191,9 +191,11 @@ def run_cell(page: Page, i: int) -> None:
     pytest.fail(f"cell {i} does not run")
 
 
-def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:
+@contextmanager
+def explored(browser: Browser, folder: Path) -> Iterator[Page]:
+    """Open the notebook, run its first cell, and wait for the widget; no script may fail."""
     pytest.importorskip("jupyterlab", reason="JupyterLab is not installed: no test in a notebook")
-    with jupyter(tmp_path) as address:
+    with jupyter(folder) as address:
         page = browser.new_page(viewport={"width": 1300, "height": 1000})
         errors: list[str] = []
         page.on("pageerror", lambda error: errors.append(str(error.stack or error)))
@@ -210,9 +212,118 @@ def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:
         page.locator(".assur-explorer .picture").wait_for(timeout=60_000)
         wait_until(page, "document.querySelector('.assur-explorer').studio !== undefined")
         wait_until(page, "document.querySelector('.assur-explorer').studio.model.moves")
-
-        # A joint that is dragged changes the mechanism of the kernel.
         page.locator(".assur-explorer").scroll_into_view_if_needed()
+        yield page
+        assert errors == []
+        page.close()
+
+
+def cells(page: Page) -> list[str]:
+    """Return the kinds and prompts of the notebook's cells."""
+    own: list[str] = page.evaluate(
+        """() => [...document.querySelectorAll(".jp-Notebook .jp-Cell")].map(
+             (one) => `${one.className.match(/jp-(Code|Markdown|Raw)Cell/)[0]} `
+               + (one.querySelector(".jp-InputPrompt")?.textContent ?? ""))"""
+    )
+    return own
+
+
+def test_keys_stay_in_the_cell(browser: Browser, tmp_path: Path) -> None:
+    with explored(browser, tmp_path) as page:
+        before = cells(page)
+        picture = page.locator(".assur-explorer .picture")
+        box = picture.bounding_box()
+        assert box is not None
+        keys = [
+            "m",
+            "y",
+            "a",
+            "b",
+            "x",
+            "c",
+            "v",
+            "z",
+            "d",
+            "d",
+            "1",
+            "Enter",
+            "Shift+Enter",
+            "Shift+M",
+        ]
+        places: dict[str, Any] = {
+            "picture": lambda: page.mouse.click(box["x"] + 30.0, box["y"] + box["height"] / 2.0),
+            "tab": page.locator(".assur-explorer .tab:visible").first.click,
+            "text": page.locator(".assur-explorer .section h2:visible").first.click,
+            "field": page.get_by_role("textbox", name="Speed of the driver").click,
+        }
+        for name, click in places.items():
+            if name == "field":
+                page.locator(".assur-explorer .tab[data-tab=diagrams]").click()
+            click()
+            for key in keys:
+                page.keyboard.press(key)
+            page.wait_for_timeout(150)
+            assert cells(page) == before, name
+            assert picture.is_visible()
+            page.keyboard.press("Escape")
+        # A word typed in a field is in it, and edited there.
+        field = page.get_by_role("textbox", name="Speed of the driver")
+        field.fill("")
+        field.press_sequentially("2 rpm")
+        field.press("Control+a")
+        field.press_sequentially("30 rpm")
+        assert field.input_value() == "30 rpm"
+        assert cells(page) == before
+        field.press("Enter")
+        wait_until(
+            page, "document.querySelector('.assur-explorer').studio.model.document.input_speed > 3"
+        )
+        # Ctrl S saves the notebook, and gives no file of the mechanism.
+        written = tmp_path / "explore.ipynb"
+        stamp = written.stat().st_mtime_ns
+        downloads: list[str] = []
+        page.on("download", lambda one: downloads.append(one.url))
+        picture.focus()
+        page.keyboard.press("Control+s")
+        for _ in range(100):
+            if written.stat().st_mtime_ns != stamp:
+                break
+            page.wait_for_timeout(50)
+        assert written.stat().st_mtime_ns != stamp
+        assert downloads == []
+        # Escape is the notebook's where there is nothing to end here.
+        page.evaluate("document.addEventListener('keydown', ({ key }) => (window.last = key))")
+        page.keyboard.press("Escape")
+        assert page.evaluate("window.last") == "Escape"
+
+
+def test_the_wheel_scrolls_and_zooms_with_ctrl(browser: Browser, tmp_path: Path) -> None:
+    with explored(browser, tmp_path) as page:
+        box = page.locator(".assur-explorer .picture").bounding_box()
+        assert box is not None
+        scale = "studio.canvas.stage.view.scale"
+        before = in_widget(page, scale)
+        top = "document.querySelector('.assur-explorer').getBoundingClientRect().top"
+        page.mouse.click(box["x"] + 30.0, box["y"] + box["height"] / 2.0)
+        page.mouse.wheel(0, 100)
+        own = page.evaluate(top)
+        page.wait_for_timeout(300)
+        moved = page.evaluate(top)
+        page.mouse.wheel(0, -100)
+        page.wait_for_timeout(300)
+        assert in_widget(page, scale) == before
+        assert own != moved or page.evaluate(top) != moved
+        page.get_by_text("Ctrl and the wheel zoom.").wait_for()
+        page.keyboard.down("Control")
+        page.mouse.wheel(0, -100)
+        page.keyboard.up("Control")
+        page.wait_for_timeout(200)
+        assert in_widget(page, scale) > before
+
+
+def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:
+    with explored(browser, tmp_path) as page:
+        # A joint that is dragged changes the mechanism of the kernel.
         start = in_widget(
             page,
             "(() => { const { stage } = studio.canvas; const box ="
@@ -252,5 +363,3 @@ def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:
             ".dimensions['rocker.length'] === 3",
         )
         wait_until(page, "document.querySelector('.assur-explorer').studio.playback.q === 0.7")
-        assert errors == []
-        page.close()

@@ -24,11 +24,13 @@ _LINE_COMMENT = re.compile(r"^[ ]*//.*\n", re.MULTILINE)
 _INDENT = re.compile(r"^[ ]+", re.MULTILINE)
 _BLANK = re.compile(r"\n{2,}")
 _NEEDLESS_END = re.compile(r"(?<=[;,{(\[])\n")
-# Texts and templates are kept; of the rest blanks about signs go. Not about + and -: `a - -b`.
+# Texts and templates are kept; of the rest blanks about signs go, about + and - not before another
+# sign: `a - -b`.
 _PIECE = re.compile(
     r"""("(?:\\.|[^"\\\n])*"|`(?:\\.|\$\{[^{}]*\}|[^`\\\n])*`"""
     r"""|/[^/\n ](?:\\.|[^/\\\n])*/[gu]*(?=[.,)]))"""
-    r"""|[ ]*(=>|[=!]==|&&|\|\||\?\?=?|[=<>?:,;(){}\[\]])[ ]*"""
+    r"""|[ ]*(=>|[=!]==|[<>*]=|\*\*|&&|\|\||\?\?=?|[=<>*?:,;(){}\[\]])[ ]*"""
+    r"""|[ ]([-+/])[ ](?=[\w($.])"""
 )
 
 
@@ -51,7 +53,7 @@ def plain(source: str) -> str:
 def inlined(source: str) -> str:
     """Return a module without imports, exports, comments and needless blanks."""
     lines = _tidy(_LINE_COMMENT.sub("", _BLOCK_COMMENT.sub("", plain(source))))
-    return _PIECE.sub(lambda piece: piece[1] or piece[2], lines)
+    return _PIECE.sub(lambda piece: piece[1] or piece[2] or piece[3], lines)
 
 
 @cache

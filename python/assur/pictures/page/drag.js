@@ -100,6 +100,9 @@ export function linkAt(drawing, pose, x, y, isTouch) {
   return best;
 }
 
+/** Whether a wheel is meant to zoom also where it scrolls a page; a pinch on a touch pad is one with Ctrl. */
+export const isZoom = (event) => event.ctrlKey || event.metaKey;
+
 /**
  * What gestures do; places are px from the upper left corner of the element.
  * @typedef {Object} Handlers
@@ -109,7 +112,7 @@ export function linkAt(drawing, pose, x, y, isTouch) {
  * @property {(grip: any) => void} [cancel]
  * @property {(dx: number, dy: number) => void} pan
  * @property {(x: number, y: number, factor: number) => void} zoom
- * @property {() => boolean} takesWheel whether the wheel zooms here, or scrolls the page
+ * @property {(event: WheelEvent) => boolean} takesWheel whether the wheel zooms here, or scrolls the page
  */
 
 export class Gestures {
@@ -185,7 +188,7 @@ export class Gestures {
   }
 
   #wheel(event) {
-    if (!this.handlers.takesWheel()) return;
+    if (!this.handlers.takesWheel(event)) return;
     event.preventDefault();
     const { x, y } = this.#place(event);
     const px = event.deltaMode === 1 ? 16 * event.deltaY : event.deltaY;

@@ -3,6 +3,26 @@
 const FIELDS = "input:not([type=checkbox], [type=range]), select, textarea";
 const PRESSED = "button, summary, input[type=checkbox]";
 
+const EDITING = /^([acvxyz]|Arrow.*|Home|End|Backspace|Delete)$/i;
+
+/**
+ * Keep the keys that are pressed in a cell of a notebook from it: there letters change and delete
+ * cells. Commands pass (Ctrl S), unless they edit a text here, and so do Tab and Escape.
+ * @param {HTMLElement} root with what listens for keys, in a root of the cell
+ */
+export function holdKeys(root) {
+  // A click beside all that takes the focus is in the cell too.
+  root.tabIndex = -1;
+  const hold = (event) => {
+    const { key } = event;
+    const isText = event.composedPath()[0].matches?.(FIELDS);
+    const isCommand = (event.ctrlKey || event.metaKey || event.altKey) && !(isText && EDITING.test(key));
+    const passes = isCommand || key === "Tab" || (key === "Escape" && !isText);
+    if (event.defaultPrevented || !passes) event.stopPropagation();
+  };
+  for (const kind of ["keydown", "keypress", "keyup"]) root.parentNode.addEventListener(kind, hold);
+}
+
 /**
  * Listen for keys.
  * @param {HTMLElement} root in a notebook keys are those of the focus

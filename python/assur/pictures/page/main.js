@@ -1,10 +1,10 @@
 // Puts a page together: picture, dial, play, diagrams, switches, keys.
 
 import { Canvas } from "./canvas.js";
-import { Gestures } from "./drag.js";
+import { Gestures, isZoom } from "./drag.js";
 import { driving } from "./driving.js";
 import { html } from "./elements.js";
-import { listenForKeys, playingKey } from "./keys.js";
+import { holdKeys, listenForKeys, playingKey } from "./keys.js";
 import { button, formula } from "./panel.js";
 import { Playback } from "./playback.js";
 import { pointState } from "./quantities.js";
@@ -73,10 +73,15 @@ export function mount(root, data) {
   const head = html("header", { class: "head" }, html("h1", {}, data.title), formula(data.formula));
   root.replaceChildren(html("div", { class: "frame" }, head, canvas.element, playback.element));
 
+  const isEmbedded = root.classList.contains("embedded");
   const gestures = new Gestures(canvas.picture, {
     ...driving(canvas, playback),
-    takesWheel: () => !root.classList.contains("embedded") || root.contains(root.getRootNode().activeElement),
+    takesWheel: (event) => !isEmbedded || isZoom(event),
   });
+  if (isEmbedded) {
+    holdKeys(root);
+    canvas.fit.title = say("wheelZooms");
+  }
   listenForKeys(root, (key, isShift) => playingKey(playback, stage, key, isShift));
 
   const resize = () => {

@@ -9,6 +9,7 @@ const WORDS = {
     speedStays: "It stays {kept}.",
     slower: "shown {n} times slower",
     fit: "Fit",
+    wheelZooms: "Ctrl and the wheel zoom.",
     scheme: "Light or dark",
     names: "Names",
     paths: "Paths",

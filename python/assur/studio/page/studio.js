@@ -1,7 +1,7 @@
 // Puts the studio together: the model, the picture, what plays, tools, panel, keys.
 
 import { Canvas } from "../../pictures/page/canvas.js";
-import { Gestures } from "../../pictures/page/drag.js";
+import { Gestures, isZoom } from "../../pictures/page/drag.js";
 import { driving } from "../../pictures/page/driving.js";
 import { html } from "../../pictures/page/elements.js";
 import { listenForKeys, playingKey } from "../../pictures/page/keys.js";
@@ -47,6 +47,9 @@ import { LOADS_WORDS } from "./words/loads.js";
 import { PANEL_WORDS } from "./words/panel.js";
 import { PICTURE_WORDS } from "./words/picture.js";
 import { RUN_WORDS } from "./words/run.js";
+
+/** So long it is told how the wheel zooms, ms. */
+const WHEEL_TOLD = 2500;
 
 const TABLES = [PICTURE_WORDS, FRAME_WORDS, FIELD_WORDS, PANEL_WORDS, BUILD_WORDS, DESIGN_WORDS, HELP_WORDS];
 for (const words of [...TABLES, LOADS_WORDS, DRIVE_WORDS, RUN_WORDS]) learn(words);
@@ -224,9 +227,21 @@ export class Studio {
       move: (grip, x, y) => (grip.joint ? joints.move(grip, view.m(x, y)) : links.move(grip, x, y)),
       drop: (grip) => (grip.joint ? joints.drop(grip) : links.drop(grip)),
       cancel: (grip) => (grip.joint ? joints.cancel(grip) : links.drop(grip)),
-      takesWheel: () => !this.isEmbedded || this.root.contains(this.root.getRootNode().activeElement),
+      takesWheel: (event) => !this.isEmbedded || isZoom(event) || this.#tellWheel(),
     };
   }
+
+  /** A wheel over a cell scrolls the notebook; who works in the cell is told how to zoom. */
+  #tellWheel() {
+    if (this.root.contains(this.root.getRootNode().activeElement)) {
+      this.notify(say("wheelZooms"), { kind: "wheel" });
+      clearTimeout(this.#wheelTold);
+      this.#wheelTold = setTimeout(() => this.dismiss("wheel"), WHEEL_TOLD);
+    }
+    return false;
+  }
+
+  #wheelTold = 0;
 
   #key(key, isShift, target) {
     const { model, gestures } = this;

@@ -1,6 +1,7 @@
 // The studio in a cell of a notebook: the kernel computes, over the model of its widget.
 
 import { html } from "../../pictures/page/elements.js";
+import { holdKeys } from "../../pictures/page/keys.js";
 import { hasShapeOfDocument } from "./document/shape.js";
 import { Link } from "./model/link.js";
 import { openStudio } from "./studio.js";
@@ -19,6 +20,7 @@ export function render({ model: cell, el }) {
   host.style.height = `${cell.get("height")}px`;
   // Styles of the notebook stay out, ours stay in.
   host.attachShadow({ mode: "open" }).append(html("style", {}, STYLE), root);
+  holdKeys(root);
   el.append(host);
 
   const link = new Link({ send: (text) => cell.send({ text }), isOpen: true });

@@ -24,7 +24,9 @@ export function toolKey(builder, key, isShift, target) {
  */
 export function listenForEdits({ root, isEmbedded, model, bar }, choice) {
   const listening = isEmbedded ? root : document;
-  const keys = { z: () => model.undo(), y: () => model.redo(), Z: () => model.redo(), s: () => bar.save() };
+  const keys = { z: () => model.undo(), y: () => model.redo(), Z: () => model.redo() };
+  // In a notebook Ctrl S saves that.
+  if (!isEmbedded) keys.s = () => bar.save();
   const listener = async (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
     const key = event.shiftKey ? event.key.toUpperCase() : event.key.toLowerCase();

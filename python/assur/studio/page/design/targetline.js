@@ -1,6 +1,7 @@
 // The target path on the picture, and the sheet over the picture on which it is drawn.
 
 import { html, put, svg } from "../../../pictures/page/elements.js";
+import { isZoom } from "../../../pictures/page/drag.js";
 import { pathOf } from "../../../pictures/page/draw.js";
 import { targetOf } from "./deviation.js";
 
@@ -67,6 +68,8 @@ export class TargetSheet {
     element.addEventListener("pointerup", () => this.#end(true));
     element.addEventListener("pointercancel", () => this.#end(false));
     element.addEventListener("wheel", (event) => {
+      // In a notebook the wheel scrolls that.
+      if (canvas.root.classList.contains("embedded") && !isZoom(event)) return;
       event.preventDefault();
       const [x, y] = this.#px(event);
       canvas.stage.zoom(x, y, Math.exp(-0.0016 * Math.min(Math.max(event.deltaY, -300), 300)));

@@ -11,7 +11,7 @@ export const HELP_DE = {
   helpWhatJoint: "Die Maße seiner Glieder folgen, auch während der Bewegung.",
   helpDoLink: "Glied ziehen",
   helpWhatLink: "Es treibt das Getriebe an, bis zu einer Totlage.",
-  helpDoCanvas: "Hintergrund ziehen, Rad, zwei Finger",
+  helpDoCanvas: "Hintergrund ziehen, Rad (im Notebook mit Strg), zwei Finger",
   helpWhatCanvas: "Verschiebt und zoomt das Bild; Einpassen zeigt alles.",
   helpDoShift: "Umschalttaste beim Ziehen",
   helpWhatShift: "Nur längs x, y oder des Glieds.",

@@ -11,7 +11,7 @@ export const HELP_EN = {
   helpWhatJoint: "The dimensions of its links follow, also while it plays.",
   helpDoLink: "Drag a link",
   helpWhatLink: "It drives the mechanism, up to a dead point.",
-  helpDoCanvas: "Drag the background, wheel, pinch",
+  helpDoCanvas: "Drag the background, wheel (in a notebook with Ctrl), pinch",
   helpWhatCanvas: "Moves and zooms the picture; Fit shows all of it.",
   helpDoShift: "Shift while dragging",
   helpWhatShift: "Along x, y or the link only.",

@@ -1,9 +1,12 @@
 // A field of the lesson: a symbol, what is typed, its unit, and why it cannot be taken.
 
 import { html, put } from "../../../pictures/page/elements.js";
-import { say } from "../../../pictures/page/words.js";
+import { learn, say } from "../../../pictures/page/words.js";
+import { FIELD_WORDS } from "../words/fields.js";
 import { readTyped, typedText } from "./entries.js";
 import { plainText, withSymbols } from "./symbols.js";
+
+learn(FIELD_WORDS);
 
 let lessonFields = 0;
 
