@@ -55,10 +55,12 @@ def run(data: dict[str, Any], session: Session) -> Answer:
     if wants_forces:
         assert machine is not None
         session.deadline.check()
-        # Of a run the sense of its motion is known where its speed is 0.
-        own = (State(t, q, speed, acceleration),) if by == "machine" else (q, speed, acceleration)
-        given = {} if by == "machine" else {"t": t}
-        found = machine.reactions(*own, **given, on_error="nan")
+        # The sense of a run is known where its speed is 0.
+        if by == "machine":
+            state = State(t, q, speed, acceleration)
+            found = machine.reactions(state, on_error="nan")
+        else:
+            found = machine.reactions(q, speed, acceleration, t=t, on_error="nan")
         named, forces = forces_of(mechanism, found)
         applied, forces["applied"] = applied_forces(machine, mechanism, found, q, speed, t)
         header["reactions"] = {**named, "applied": applied}
