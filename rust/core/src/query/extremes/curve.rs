@@ -5,10 +5,13 @@ use std::f64::consts::PI;
 use super::known::{ByAngle, Known, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
-use super::zero_lengths::ASIDE;
 use crate::math::root::all_roots::{Roots, Sample, all_roots};
 use crate::query::evaluator::Evaluator;
 use crate::structure::closure::point_of_joint;
+
+/// Distance (as an angle) beside a length of 0 at which values are taken: nearer, second derivatives lose
+/// digits.
+pub(super) const ASIDE: f64 = 1.0e-6;
 
 /// A coordinate along the branch, and the order of its derivative.
 pub(super) struct Curve<'m> {

@@ -1,7 +1,7 @@
 //! Where the joints of a passive cylinder coincide: its length has a kink there, and its angle steps by
 //! half a turn. No derivative shows it, so these places are looked for by themselves.
 
-use super::curve::Curve;
+use super::curve::{ASIDE, Curve};
 use super::tracked::{Tracked, ValueAt};
 use super::window::Window;
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
@@ -9,9 +9,6 @@ use crate::plan::dyad::Unknown;
 
 /// Greatest length there, relative to the size: the root of the rounding of its square.
 const ZERO: f64 = 1.0e-7;
-/// Distance (as an angle) beside a length of 0 at which values are taken: nearer, second derivatives lose
-/// digits.
-pub(super) const ASIDE: f64 = 1.0e-6;
 
 impl Curve<'_> {
     /// Values beside the places where the tracked coordinate is not smooth.
