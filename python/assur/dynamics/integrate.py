@@ -106,10 +106,10 @@ def run(
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
     # A machine from a table has no singular positions.
-    off = 0.0 if machine.mechanism is None else made.energy.error
-    if off > max(IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS * float(options["rtol"])):
+    allowed = max(IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS * float(options["rtol"]))
+    if machine.mechanism is not None and made.energy._is_off(allowed):
         message = (
-            f"the balance of energy is off by {off:.1e} of the greatest energy: beside singular "
+            f"the balance of energy is off by {made.energy.error:.1e} of the greatest energy: beside singular "
             "positions, or where a function jumps (breaks=), the motion is no more accurate"
         )
         warnings.warn(message, AssurWarning, stacklevel=3)

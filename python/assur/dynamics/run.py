@@ -29,6 +29,8 @@ __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statisti
 
 # `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as many.
 END_ULPS = 4.0
+# Rounding of the sum of the energies, in units of the last place of the greatest.
+ROUNDINGS = 64.0
 
 
 class State(NamedTuple):
@@ -164,10 +166,22 @@ class Energy(NamedTuple):
     @property
     def error(self) -> float:
         """Greatest imbalance, relative to the greatest kinetic energy (or change of the others)."""
-        changes = [self.kinetic, self.potential - self.potential[:1], self.work]
-        size = max(float(np.nanmax(np.abs(change))) for change in changes)
+        size = self._size()
         worst = float(np.nanmax(np.abs(self.balance)))
         return worst / size if size > 0.0 else worst
+
+    def _size(self) -> float:
+        changes = [self.kinetic, self.potential - self.potential[:1], self.work]
+        return max(float(np.nanmax(np.abs(change))) for change in changes)
+
+    def _is_off(self, part: float) -> bool:
+        """Whether the imbalance is above a part of the energies, and above rounding.
+
+        A machine that has hardly moved has a potential far greater than all changes.
+        """
+        rounding = ROUNDINGS * np.finfo(float).eps * float(np.nanmax(np.abs(self.potential)))
+        worst = float(np.nanmax(np.abs(self.balance)))
+        return worst > max(part * self._size(), rounding)
 
 
 class Statistics(NamedTuple):
