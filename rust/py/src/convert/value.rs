@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use super::Classes;
 use super::word::Word;
-use crate::detach::catch_panic;
+use crate::detach::{self, catch_panic};
 use crate::{error, error_map, reserve};
 
 pub(crate) const MODULE: Classes = Classes("assur.dynamics.table");
@@ -123,8 +123,8 @@ pub(crate) fn table_values<'py>(
     points: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let _room = reserve::room_for(py, SPLINE * table.q.as_array().len() + points.as_array().len())?;
-    catch_panic(|| {
-        let table = table.over_coordinate()?;
-        Ok(PyArray1::from_iter(py, points.as_array().iter().map(|&at| table.at(at))))
-    })
+    let table = catch_panic(|| table.over_coordinate())?;
+    let points = reserve::copied(&points)?;
+    let values = detach::map(py, points.len(), |i| table.at(points[i]))?;
+    Ok(PyArray1::from_vec(py, values))
 }

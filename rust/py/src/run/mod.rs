@@ -3,6 +3,7 @@
 mod state;
 mod stop_reason;
 
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use assur::dynamics::{Callbacks, Sample, Samples};
@@ -13,7 +14,11 @@ use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 use self::state::{EventState, RunState};
 use self::stop_reason::StopReasonState;
 use crate::detach::{self, SIGNAL_INTERVAL, catch_panic};
-use crate::{error, reserve};
+use crate::error::{Class, Fields, exception};
+use crate::reserve;
+
+/// Points of a run that take only milliseconds.
+const FEW_POINTS: usize = 10_000;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -66,7 +71,7 @@ fn call(
     let result = result.bind(py);
     match number(result) {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => {
+        other => {
             let name = function.bind(py).getattr("__name__").map_or_else(
                 |_| function.bind(py).repr().map_or_else(|_| "?".into(), |text| text.to_string()),
                 |name| name.to_string(),
@@ -76,7 +81,9 @@ fn call(
                 "the {what} {name}(t, q, speed) gave {shown} at t = {t}, q = {}: a finite number is needed",
                 q.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
             );
-            Err(error::input(&message, None))
+            let fields = Fields { q: Some(q), t: Some(t), ..Fields::default() };
+            let kind = other.is_ok().then_some("not_finite");
+            Err(exception(Class::Input, kind, &message, None, &fields))
         }
     }
 }
@@ -175,11 +182,13 @@ impl Run {
             acceleration: nan,
             work: f64::NAN,
         };
-        let found = detach::map(py, points.len(), |i| self.0.at(points[i]))?;
-        let mut all = Samples::default();
-        for one in &found {
-            all.push(one.as_ref().unwrap_or(&nothing));
-        }
+        let all = detach::run(py, points.len() < FEW_POINTS, |cancel| {
+            let mut all = Samples::default();
+            for &point in points.iter().take_while(|_| !cancel.load(Ordering::Relaxed)) {
+                all.push(self.0.at(point).as_ref().unwrap_or(&nothing));
+            }
+            all
+        })?;
         Ok(arrays(py, all))
     }
 
