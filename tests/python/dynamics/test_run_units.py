@@ -40,7 +40,8 @@ BODIES = {
 LOADS: list[Any] = [
     Gravity(),
     Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, 3.0),
-    Damper("C", ("ground", (3.0, 1.0)), 0.7),
+    # At C, of the coupler: there is friction, which depends on whose it is.
+    Damper(("coupler", (math.hypot(3.0, 1.3), 0.0)), ("ground", (3.0, 1.0)), 0.7),
     TorsionSpring("rocker", 20.0, 0.3, "coupler"),
     TorsionDamper("coupler", 0.4),
     Force("P", (Table([0.0, 1.0, 2.5, 4.0, TURN], [0.0, 9.0, -7.0, 3.0, 0.0]), 2.0)),

@@ -135,7 +135,7 @@ def test_arrows_point_as_the_forces(press: Window) -> None:
     # One scale for all, at all places.
     assert np.ptp(list(lengths.values())) < 2e-3 * np.mean(list(lengths.values()))
     # The load pushes onto the pin of the ram, 900 N.
-    start, end = arrow(press, "F 0 rod 0")
+    start, end = arrow(press, "F 0 ram 0")
     assert end[1] == pytest.approx(start[1], abs=0.05)
     assert (end[0] - start[0]) / -900.0 == pytest.approx(lengths["B", 4.0], rel=2e-3)
     box = press.page.locator("[data-switch=forces]")
