@@ -173,7 +173,7 @@ STEADY: dict[str, Case] = {
     ),
     "already_met": Case(InputError, lambda: press(MOTOR).flywheel(1.5), {"value": 1.5}),
     "too_many_steps": Case(
-        MotionError, lambda: press(MOTOR).steady_state(max_steps=1), {"q": 1.6957178e-3}
+        MotionError, lambda: press(MOTOR).steady_state(max_steps=1), {"q": 1.8362897189338e-3}
     ),
     "cancelled": Case(MotionError, lambda: press(MOTOR).steady_state(max_seconds=0.0), {"q": 0.0}),
     "stalled": Case(
