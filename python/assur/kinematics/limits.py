@@ -87,9 +87,11 @@ class Limits:
     >>> import assur
     >>> assur.FourBar(3.0, 2.5, 2.0, 4.0).limits().intervals.round(5)
     array([[-1.37156,  1.37156]])
-    >>> drawn = assur.FourBar(1.9, 3.6, 2.4, 2.7)
-    >>> drawn = drawn.with_assembly(drawn.assemblies(-1.5)[0])
-    >>> drawn.q0, drawn.limits().intervals.round(5).tolist()
+    >>> four_bar = assur.FourBar(1.9, 3.6, 2.4, 2.7)
+    >>> below = four_bar.solve(-1.5)
+    >>> joints = {name: below[name].value for name in four_bar.joints}
+    >>> drawn = assur.Mechanism(joints, four_bar.links, "crank")
+    >>> round(drawn.q0, 9), drawn.limits().intervals.round(5).tolist()
     (-1.5, [[-5.88567, -0.39751]])
     >>> turning = assur.FourBar(1.0, 3.0, 2.5, 3.0).limits()
     >>> turning.full_rotation, turning.period
