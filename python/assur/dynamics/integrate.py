@@ -109,8 +109,9 @@ def run(
     allowed = max(IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS * float(options["rtol"]))
     if machine.mechanism is not None and made.energy._is_off(allowed):
         message = (
-            f"the balance of energy is off by {made.energy.error:.1e} of the greatest energy: beside "
-            "singular positions, or where a function jumps (breaks=), the motion is no more accurate"
+            f"the balance of energy is off by {made.energy.error:.1e} of the greatest energy: "
+            "beside singular positions, or where a function jumps (breaks=), the motion is no more "
+            "accurate"
         )
         warnings.warn(message, AssurWarning, stacklevel=3)
     return made
