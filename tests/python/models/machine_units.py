@@ -54,13 +54,17 @@ def in_units(d: Description, machine: assur.Machine, u: Units) -> assur.Machine:
     """The machine with every number in other units."""
     unit = u.coordinate(d)
     mechanism = assur.Mechanism(**arguments(u.description(d)))
-    return assur.Machine(
-        mechanism,
-        {n: body(one, u) for n, one in machine.bodies.items()},
-        [load(one, u, unit) for one in machine.loads],
-        motors(machine, u, unit),
-        friction={n: rubbed(one, u) for n, one in machine.friction.items()},
-    )
+    friction = {n: rubbed(one, u) for n, one in machine.friction.items()}
+    bodies = {n: body(one, u) for n, one in machine.bodies.items()}
+    loads = [load(one, u, unit) for one in machine.loads]
+    return rubbing(mechanism, bodies, loads, motors(machine, u, unit), friction)
+
+
+def rubbing(mechanism: assur.Mechanism, *parts: Any) -> assur.Machine:
+    """A machine whose loads at joints are on the links that the library chooses."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", ".*the friction depends on which", assur.AssurWarning)
+        return assur.Machine(mechanism, *parts)
 
 
 def body(one: assur.Body, u: Units) -> assur.Body:
@@ -175,9 +179,4 @@ def with_friction(d: Description, machine: assur.Machine, rng: Any) -> assur.Mac
             )
     mechanism = machine.mechanism
     assert mechanism is not None
-    with warnings.catch_warnings():
-        # Loads at its joints are on the links that the library chooses.
-        warnings.filterwarnings("ignore", ".*the friction depends on which", assur.AssurWarning)
-        return assur.Machine(
-            mechanism, machine.bodies, machine.loads, machine.motor, friction=friction
-        )
+    return rubbing(mechanism, machine.bodies, machine.loads, machine.motor, friction)
