@@ -7,7 +7,7 @@ use super::stretch::Stretch;
 use crate::branch::design::Design;
 use crate::math::angle::whole_part;
 use crate::math::root::all_roots::{Sample, all_roots};
-use crate::math::trig::sin_cos;
+use crate::math::trig::{asin, sin_cos};
 use crate::plan::dyad::{Dyad, Form};
 use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
@@ -15,12 +15,25 @@ use crate::state::state::{Context, State};
 /// Nodes for each cell of the branch, and at least.
 const NODES_PER_CELL: f64 = 2.0;
 const LEAST_NODES: f64 = 48.0;
-/// Rounding of a sample, relative to 1.
+/// Rounding of a sample, relative to 1, for each unit of the condition of what it is made of.
 const NOISE: f64 = 1.0e-14;
-/// Nearest node to the end of a stretch, as an angle: 5e-9 of its length.
-const NEAR_END: f64 = 2.0e-4;
-/// Step of a difference where the derivative is not known.
+/// Nearest node to the end of a stretch, in u of the greater end: the end is known no better.
+const NEAR_END_ULPS: f64 = 8.0;
+/// The same as an angle, at most: of a stretch of a few u.
+const FARTHEST_NODE: f64 = 0.01;
+/// Where a part is examined, from 0 to 1: change points are often in its middle.
+const WITHIN: [f64; 3] = [0.3, 0.5, 0.8];
+/// Step of a difference where the derivative is not known, at most, and as a part of the way to the end
+/// of the stretch.
 const DIFFERENCE: f64 = 1.0e-6;
+const DIFFERENCE_TO_END: f64 = 0.5;
+
+/// What must not be negative, its derivative and its rounding.
+struct Sampled {
+    value: f64,
+    rate: f64,
+    noise: f64,
+}
 
 /// A search on the branch of a design.
 pub(super) struct Search<'d, 'm> {
@@ -51,9 +64,9 @@ impl<'d> Search<'d, '_> {
     /// The parts over which a dyad closes.
     fn parts(&mut self, within: Stretch, dyad: &Dyad, step: usize) -> Vec<Stretch> {
         let has_sign = dyad.form != Form::TwoLines;
-        let parts = self.cut(within, dyad.sign, |search, q| search.sample(q, dyad, step));
+        let parts = self.cut(within, dyad.sign, |search, q| search.sample(q, within, dyad, step));
         let closes = |search: &mut Self, part: &Stretch| {
-            search.sample(middle_of(part), dyad, step).is_some_and(|[x, _]| x >= 0.0)
+            is_positive(part, |q| search.value(q, dyad, step)).unwrap_or(false)
         };
         parts.into_iter().filter(|part| !has_sign || closes(self, part)).collect()
     }
@@ -67,7 +80,7 @@ impl<'d> Search<'d, '_> {
         }
         let parts = self.cut(within, end, |search, q| search.length(q, slide, step));
         let exists = |search: &mut Self, part: &Stretch| {
-            search.length(middle_of(part), slide, step).is_none_or(|[x, _]| x >= 0.0)
+            is_positive(part, |q| search.length(q, slide, step)).unwrap_or(true)
         };
         parts.into_iter().filter(|part| exists(self, part)).collect()
     }
@@ -77,25 +90,26 @@ impl<'d> Search<'d, '_> {
         &mut self,
         within: Stretch,
         fold: Option<usize>,
-        mut sample: impl FnMut(&mut Self, f64) -> Option<[f64; 2]>,
+        mut sample: impl FnMut(&mut Self, f64) -> Option<Sampled>,
     ) -> Vec<Stretch> {
         let [from, to] = within.ends;
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         // Square roots at the ends, where earlier dyads are flat, are smooth in this angle.
         let at = |angle: f64| middle - half * sin_cos(angle).1;
-        let count = (NODES_PER_CELL * 2.0 * half / self.cell).max(LEAST_NODES).ceil();
-        let inner = PI - 2.0 * NEAR_END;
-        let nodes: Vec<f64> =
-            (0..=whole_part(count)).map(|node| NEAR_END + inner * node as f64 / count).collect();
+        let nodes = self.nodes(within);
         let roots = all_roots(&nodes, |angle| {
-            let [value, rate] = sample(self, at(angle))?;
-            let slope = rate * half * sin_cos(angle).0;
-            let known = value.is_finite() && slope.is_finite();
-            known.then_some(Sample { x: angle, value, slope, noise: NOISE })
+            let own = sample(self, at(angle))?;
+            let slope = own.rate * half * sin_cos(angle).0;
+            let known = own.value.is_finite() && slope.is_finite();
+            known.then_some(Sample { x: angle, value: own.value, slope, noise: own.noise })
         });
         let crossings = roots.isolated.iter().filter(|root| root.signs[0] != root.signs[1]);
+        // A change of sign is an end, also where the value beside it is more than its rounding.
+        let places = crossings.map(|root| root.at).chain(roots.jumps);
+        let mut inner: Vec<f64> = places.map(at).collect();
+        inner.sort_by(f64::total_cmp);
         let mut ends: Vec<(f64, Option<usize>)> = vec![(from, within.folds[0])];
-        ends.extend(crossings.map(|root| (at(root.at), fold)));
+        ends.extend(inner.into_iter().map(|end| (end, fold)));
         ends.push((to, within.folds[1]));
         let part = |pair: &[(f64, Option<usize>)]| {
             let ((start, first), (end, last)) = (pair[0], pair[1]);
@@ -104,26 +118,49 @@ impl<'d> Search<'d, '_> {
         ends.windows(2).map(part).filter(|part| part.ends[0] < part.ends[1]).collect()
     }
 
+    /// Nodes of a search over a stretch, as angles: evenly, and the drawing, which is on the branch.
+    fn nodes(&self, within: Stretch) -> Vec<f64> {
+        let [from, to] = within.ends;
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let count = (NODES_PER_CELL * 2.0 * half / self.cell).max(LEAST_NODES).ceil();
+        let nearest = NEAR_END_ULPS * f64::EPSILON * from.abs().max(to.abs());
+        let near_end = (2.0 * nearest / half).sqrt().min(FARTHEST_NODE);
+        let inner = PI - 2.0 * near_end;
+        let mut nodes: Vec<f64> =
+            (0..=whole_part(count)).map(|node| near_end + inner * node as f64 / count).collect();
+        let drawing = 0.5 * PI - asin((middle - self.design.q0[0]) / half);
+        if let Some(after) = nodes.iter().position(|&node| drawing <= node)
+            && after > 0
+            && drawing < nodes[after]
+        {
+            nodes.insert(after, drawing);
+        }
+        nodes
+    }
+
     /// The value of a slide, and its derivative.
-    fn length(&mut self, q: f64, slide: usize, step: usize) -> Option<[f64; 2]> {
+    fn length(&mut self, q: f64, slide: usize, step: usize) -> Option<Sampled> {
         self.solve(q);
-        if self.state.has_failed() && self.state.fault.is_none_or(|fault| fault.step() < step) {
+        if self.fails_before(step) {
             return None;
         }
         let jet = &self.state.pose.slides[slide * self.state.len..];
-        Some([jet[0][0], jet[1][0]])
+        let condition2 = self.state.conditions.of_slide[slide][0];
+        Some(Sampled { value: jet[0][0], rate: jet[1][0], noise: NOISE * condition2.sqrt() })
     }
 
     /// The square of a dyad's discriminant, and its derivative; of two guides the sine of the angle
     /// between them.
-    fn sample(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<[f64; 2]> {
-        let [value, rate] = self.value(q, dyad, step)?;
-        if rate.is_nan() || dyad.form == Form::TwoLines {
-            let [ahead, _] = self.value(q + DIFFERENCE, dyad, step)?;
-            let [behind, _] = self.value(q - DIFFERENCE, dyad, step)?;
-            return Some([value, (ahead - behind) / (2.0 * DIFFERENCE)]);
+    fn sample(&mut self, q: f64, within: Stretch, dyad: &Dyad, step: usize) -> Option<Sampled> {
+        let own = self.value(q, dyad, step)?;
+        if !own.rate.is_nan() {
+            return Some(own);
         }
-        Some([value, rate])
+        let to_end = (q - within.ends[0]).min(within.ends[1] - q);
+        let aside = DIFFERENCE.min(DIFFERENCE_TO_END * to_end);
+        let ahead = self.value(q + aside, dyad, step)?;
+        let behind = self.value(q - aside, dyad, step)?;
+        Some(Sampled { rate: (ahead.value - behind.value) / (2.0 * aside), ..own })
     }
 
     /// The group above class II that folds at an end of the branch, as an index of the groups: just
@@ -148,23 +185,37 @@ impl<'d> Search<'d, '_> {
         cx
     }
 
-    fn value(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<[f64; 2]> {
+    /// Whether the position just solved fails before a step.
+    fn fails_before(&self, step: usize) -> bool {
+        self.state.has_failed() && self.state.fault.is_none_or(|fault| fault.step() < step)
+    }
+
+    /// The same, its derivative only where it is known from the position.
+    fn value(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<Sampled> {
         let cx = self.solve(q);
-        let state = &mut self.state;
-        if state.has_failed() && state.fault.is_none_or(|fault| fault.step() < step) {
+        if self.fails_before(step) {
             return None;
         }
+        let state = &mut self.state;
         let op = &cx.tape.ops[cx.tape.dyads[dyad.index]];
         let sample = state.sample(0, &cx, dyad, op);
+        let [start, end] = [dyad.start, dyad.end].map(|point| state.conditions.of_point[point][0]);
+        let condition2 =
+            dyad.sign.map_or(start.max(end), |sign| state.conditions.upstream[sign][0]);
+        let noise = NOISE * condition2.sqrt();
         Some(if dyad.form == Form::TwoLines {
-            [sample.side, f64::NAN]
+            Sampled { value: sample.side, rate: f64::NAN, noise }
         } else {
-            [sample.square, sample.rate]
+            Sampled { value: sample.square, rate: sample.rate, noise }
         })
     }
 }
 
-/// The middle of a stretch.
-fn middle_of(part: &Stretch) -> f64 {
-    0.5 * (part.ends[0] + part.ends[1])
+/// Whether a value without changes of sign over a part is positive there: where it is greatest, for at a
+/// change point it touches zero. `None` if it has no value.
+fn is_positive(part: &Stretch, mut value: impl FnMut(f64) -> Option<Sampled>) -> Option<bool> {
+    let [from, to] = part.ends;
+    let values = WITHIN.iter().filter_map(|&on| value(from + on * (to - from)));
+    let greatest = values.max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
+    greatest.map(|own| own.value > 0.0)
 }

@@ -1,0 +1,159 @@
+"""Limits of chains of dyads beside other dead points, against fifty digits and `solve`."""
+
+from __future__ import annotations
+
+import math
+import random
+from typing import TYPE_CHECKING
+
+import mpmath
+import numpy as np
+import pytest
+
+import assur
+import campaign_cases
+import flat_models
+import mixed_models
+from assur import Status
+from mechanism_data import Description, arguments
+from variants import Variant, shuffled
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    import dyad_models
+
+# Dead points are promised to this.
+DEAD_POINT = 1e-10
+SCANNED = 4001
+# A bracket is halved to the spacing of q.
+HALVINGS = 50
+# Positions beside ends and the drawing.
+BESIDE = np.geomspace(1e-9, 1e-2, 40)
+# Where guides become parallel a limit is not an end of what `solve` finds: a joint is at infinity.
+POLE = 1e4
+
+KINDS: dict[str, Callable[[int], dyad_models.Case]] = {
+    "random": campaign_cases.random_case,
+    "mixed": mixed_models.mixed_case,
+    "flat": flat_models.flat_case,
+}
+
+
+def pin(q: mpmath.mpf) -> mpmath.mpc:
+    """Where coupler and rocker meet: crank 3, coupler 2.5, rocker 2, ground 4."""
+    b = 3 * mpmath.expj(q)
+    chord = 4 - b
+    d = abs(chord)
+    along = (d**2 + mpmath.mpf(2.5) ** 2 - 4) / (2 * d)
+    return b + chord / d * mpmath.mpc(along, mpmath.sqrt(mpmath.mpf(2.5) ** 2 - along**2))
+
+
+@pytest.mark.parametrize("before", [0.0, *np.geomspace(1e-14, 1e-2, 25)])
+@pytest.mark.parametrize("pivot", [6.5 + 0.5j, 4.0 + 4.0j, -1.0 - 2.0j, 1.0j])
+def test_a_dyad_that_folds_just_before_another(before: float, pivot: complex) -> None:
+    """A second dyad hangs at the four-bar's pin and folds so much before the four-bar does."""
+    with mpmath.workdps(50):
+        outer = mpmath.acos((9 + 16 - mpmath.mpf(4.5) ** 2) / 24)
+        fold, drawn = outer - mpmath.mpf(before), mpmath.mpf("1.1")
+        reach, near = abs(pin(fold) - pivot), abs(pin(drawn) - pivot)
+        # Stretched where the pin goes away from the pivot, folded where it comes nearer.
+        rod = (mpmath.mpf("0.6") * reach) if near < reach else mpmath.mpf("1.5") * reach
+        arm = reach - rod if near < reach else rod - reach
+        chord = pivot - pin(drawn)
+        along = (near**2 + rod**2 - arm**2) / (2 * near)
+        knee = pin(drawn) + chord / near * mpmath.mpc(along, mpmath.sqrt(rod**2 - along**2))
+        crank, c, e, upper = (complex(x) for x in (3 * mpmath.expj(drawn), pin(drawn), knee, fold))
+    joints = {"A": 0j, "B": crank, "C": c, "D": 4 + 0j, "E": e, "F": pivot}
+    mechanism = assur.Mechanism(
+        {name: (at.real, at.imag) for name, at in joints.items()},
+        {"ground": "ADF", "crank": "AB", "coupler": "BC", "rocker": "CD", "rod": "CE", "arm": "EF"},
+        "crank",
+    )
+    limits = mechanism.limits()
+    found = [end for _, end in limits.intervals.tolist() if abs(end - upper.real) < 0.5]
+    assert found == pytest.approx([upper.real], abs=1e-12, rel=0.0), limits
+    if before > 1e-12:
+        assert "II(rod, arm)" in {point.group for point in limits.dead_points}
+
+
+def there(mechanism: assur.Mechanism, q: NDArray[np.float64]) -> NDArray[np.bool_]:
+    found = mechanism.solve(q, order=0, on_error="nan", threads=1)
+    return np.asarray(found.status) <= Status.SINGULAR
+
+
+def apart(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far each is from the nearest of the other, on a turn."""
+    if not len(other):
+        return np.full(len(one), np.inf)
+    turned = np.remainder(one[:, None] - other + math.pi, math.tau) - math.pi
+    return np.asarray(np.abs(turned).min(axis=1))
+
+
+def faults(d: Description) -> list[str]:
+    """What limits of a class II chain say otherwise than a scan whose changes are bisected."""
+    mechanism = assur.Mechanism(**arguments(d))
+    intervals, q0 = np.asarray(mechanism.limits().intervals), float(mechanism.q0)
+    ends = intervals[np.isfinite(intervals)]
+    around = [at + side * BESIDE for at in (q0, *ends) for side in (-1, 1)]
+    q = np.unique(np.concatenate([q0 + np.linspace(-math.pi, math.pi, SCANNED), *around]))
+    reached = there(mechanism, q)
+    low, high, before = q[:-1], q[1:], reached[:-1]
+    change = before != reached[1:]
+    low, high, before = low[change], high[change], before[change]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        same = there(mechanism, middle) == before
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    faults = [f"solve ends at {at!r}" for at in low[apart(low, ends) > DEAD_POINT].tolist()]
+    for at in ends[apart(ends, low) > DEAD_POINT].tolist():
+        beside = mechanism.solve(at + np.array([-1e-9, 1e-9]), order=0, on_error="nan", threads=1)
+        if not (np.asarray(beside.condition) > POLE).all():
+            faults.append(f"limits end at {at!r}")
+    if not ((intervals[:, 0] <= q0) & (q0 <= intervals[:, 1])).any():
+        faults.append(f"the drawing's {q0!r} is in no interval")
+    return [f"{fault}: {intervals.tolist()}" for fault in faults]
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed"),
+    [
+        *(("random", seed) for seed in (27, 116, 250, 335, 502, 517)),
+        ("mixed", 47),
+        *(("flat", seed) for seed in (112, 118, 1089, 2275)),
+    ],
+)
+def test_chains_that_fold_beside_other_dead_points(kind: str, seed: int) -> None:
+    d = KINDS[kind](seed).description
+    assert not faults(d)
+    assert not faults(shuffled(Variant.same(d), random.Random(seed)).description)
+
+
+@pytest.mark.parametrize("seed", [9, 69, 158, 165, 188, 248, 350, 369])
+def test_stretches_around_change_points(seed: int) -> None:
+    """Where a dyad has a change point in the very middle of a stretch, the stretch exists."""
+    mechanism = assur.Mechanism(**arguments(campaign_cases.changing_case(seed).description))
+    intervals, q0 = np.asarray(mechanism.limits().intervals), float(mechanism.q0)
+    assert ((intervals[:, 0] <= q0) & (q0 <= intervals[:, 1])).any()
+    q = q0 + np.linspace(-math.pi, math.pi, SCANNED)
+    turns = q + math.tau * np.arange(-2, 3)[:, None]
+    low, high = intervals.T[:, :, None, None]
+    held = ((low <= turns) & (turns <= high)).any(axis=(0, 1))
+    assert not (there(mechanism, q) & ~held).any()
+    for start, end in intervals:
+        assert there(
+            mechanism, start + (end - start) * np.linspace(1e-6, 1.0 - 1e-6, SCANNED)
+        ).all()
+
+
+def test_random_chains_end_where_solve_does() -> None:
+    checked = 0
+    for seed in range(60):
+        case = campaign_cases.random_case(seed)
+        if case.driver.startswith("slide") or len(case.description.drivers) > 1:
+            continue
+        assert not faults(case.description), seed
+        checked += 1
+    assert checked > 30
