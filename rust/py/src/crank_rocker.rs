@@ -26,7 +26,7 @@ pub(crate) fn crank_rocker_solve<'py>(
     let phi1 = reserve::copied(&phi1)?;
     let mut columns = Vec::new();
     for column in lengths.iter().chain(&rates) {
-        let column = reserve::copied(&column)?;
+        let column = reserve::copied(column)?;
         check_same_length(phi1.len(), column.len())?;
         columns.push(column);
     }

@@ -56,7 +56,7 @@ pub(crate) fn instant_centre<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let read = |link: &[PyReadonlyArray1<'py, f64>; 3]| -> PyResult<_> {
         let [point, point_rate, angle_rate] = link;
-        Ok((vectors(point)?, vectors(point_rate)?, reserve::copied(&angle_rate)?))
+        Ok((vectors(point)?, vectors(point_rate)?, reserve::copied(angle_rate)?))
     };
     let (a, b) = (read(&a)?, read(&b)?);
     check_same_length(a.2.len(), b.2.len())?;

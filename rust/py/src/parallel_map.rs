@@ -2,7 +2,7 @@
 
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
+use std::thread::{self, ScopedJoinHandle};
 
 use assur::available_threads;
 
@@ -33,10 +33,11 @@ pub(crate) fn parallel_map<T: Send>(
             worker.map_err(|_| run_share(first))
         };
         let workers: Vec<_> = (0..count).step_by(share).map(start).collect();
-        let joined = workers.into_iter().flat_map(|worker| match worker.map(|one| one.join()) {
-            Ok(Ok(done)) | Err(done) => done,
-            Ok(Err(panic)) => resume_unwind(panic),
-        });
+        let joined =
+            workers.into_iter().flat_map(|worker| match worker.map(ScopedJoinHandle::join) {
+                Ok(Ok(done)) | Err(done) => done,
+                Ok(Err(panic)) => resume_unwind(panic),
+            });
         joined.collect()
     })
 }

@@ -36,7 +36,7 @@ fn map_pairs<'py>(
     ratio: &Flat<'py>,
     of: impl Fn(f64, f64) -> Jet + Sync,
 ) -> PyResult<Orders<'py>> {
-    let (phi, ratio) = (reserve::copied(&phi)?, reserve::copied(&ratio)?);
+    let (phi, ratio) = (reserve::copied(phi)?, reserve::copied(ratio)?);
     check_same_length(phi.len(), ratio.len())?;
     let jets = detach::map(py, phi.len(), |i| of(phi[i], ratio[i]))?;
     Ok(orders(py, &jets))
