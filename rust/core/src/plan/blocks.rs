@@ -8,7 +8,7 @@ use super::plan::{EdgeSlide, Plan, PlanEdge, Step};
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
-use crate::structure::assur_group::roman;
+use crate::structure::assur_group::{Group as AssurGroup, roman};
 use crate::structure::matching::Pattern;
 
 /// Adds the steps of all blocks; returns for every point whether it is fixed or a step places it.
@@ -36,12 +36,16 @@ pub(crate) fn add_steps(
         match unknowns.len() {
             0 => {}
             2 => {
-                let dyad = dyad(plan, linkage, &mut edges, &mut unknowns, &known);
+                let dyad = dyad(plan, (linkage, structure), &mut edges, &mut unknowns, &known);
                 plan.steps.push(Step::Dyad(dyad));
             }
             _ => {
                 let links = plan_links(linkage, &plan.edges, &edges);
-                let name = group_name(links, linkage, structure);
+                let own = owner(plan, structure, &unknowns);
+                let name = own.map_or_else(
+                    || named(linkage, 3, &links),
+                    |g| named(linkage, g.class, &g.links),
+                );
                 let (group, chords) = Group::new(plan, &edges, &unknowns, &known, name);
                 edges.retain(|edge| !chords.contains(edge));
                 plan.steps.push(Step::Group(group));
@@ -76,12 +80,26 @@ fn plan_links(linkage: &Linkage, edges: &[PlanEdge], of: &[usize]) -> Vec<usize>
     links
 }
 
+/// The Assur group that some unknowns belong to: a slide is a pair of one group, an angle is that of links
+/// of the first group in solving order that has it, and known to those after.
+fn owner<'s>(
+    plan: &Plan,
+    structure: &'s Structure,
+    unknowns: &[Unknown],
+) -> Option<&'s AssurGroup> {
+    let groups = &structure.groups;
+    let of_slide = unknowns.iter().find_map(|&unknown| match unknown {
+        Unknown::Slide(slide) => groups.iter().find(|group| group.slides.contains(&slide)),
+        Unknown::Class(_) => None,
+    });
+    let turns = |&link: &usize| unknowns.contains(&Unknown::Class(plan.rotation[link].class));
+    of_slide.or_else(|| groups.iter().find(|group| group.links.iter().any(turns)))
+}
+
 /// Class and links of a group, for messages.
-fn group_name(links: Vec<usize>, linkage: &Linkage, structure: &Structure) -> String {
-    let group = structure.groups.iter().find(|g| g.links.iter().any(|l| links.contains(l)));
-    let links = group.map_or(links, |g| g.links.clone());
+fn named(linkage: &Linkage, class: usize, links: &[usize]) -> String {
     let names: Vec<&str> = links.iter().map(|&l| linkage.links[l].name.as_str()).collect();
-    format!("{}({})", roman(group.map_or(3, |g| g.class.max(3))), names.join(", "))
+    format!("{}({})", roman(class), names.join(", "))
 }
 
 /// Incidence pattern of the kept edges' equations, and the meaning of its unknowns.
@@ -162,7 +180,7 @@ fn place_points(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
 /// the points).
 fn dyad(
     plan: &mut Plan,
-    linkage: &Linkage,
+    (linkage, structure): (&Linkage, &Structure),
     edges: &mut Vec<usize>,
     unknowns: &mut [Unknown],
     known: &[bool],
@@ -225,12 +243,14 @@ fn dyad(
         let name = inner_pair(plan, linkage, &loop_path, form, unknowns, &tip, &tail);
         let links =
             plan_links(linkage, &plan.edges, &loop_path.iter().map(|x| x.0).collect::<Vec<_>>());
-        let moving: Vec<&str> = links
-            .iter()
-            .filter(|&&l| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l))
-            .map(|&l| linkage.links[l].name.as_str())
-            .collect();
-        (name, moving.join("-"), format!("II({})", moving.join(", ")))
+        let moves =
+            |&l: &usize| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l);
+        let moving: Vec<usize> = links.into_iter().filter(moves).collect();
+        let names: Vec<&str> = moving.iter().map(|&l| linkage.links[l].name.as_str()).collect();
+        let own = owner(plan, structure, &unknowns);
+        let group =
+            own.map_or_else(|| named(linkage, 2, &moving), |g| named(linkage, g.class, &g.links));
+        (name, names.join("-"), group)
     });
     let sign = sign.map(|(name, links, group)| {
         // Loops through links with driven angles may share their inner joint.

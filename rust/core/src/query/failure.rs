@@ -6,6 +6,7 @@ use std::fmt;
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
+use super::folding::{fold_of, folding_step};
 use crate::branch::design::Design;
 use crate::description::error::{
     Hint, Named, SolveError, TOO_FAR, coordinate_text, number, rounded,
@@ -262,10 +263,20 @@ fn of_lost(design: &Design<'_>, q: &[f64]) -> Reason {
             if distance > FAR_JOINT {
                 return Reason::JointGoesToInfinity { groups, end, distance };
             }
-            Reason::BeyondDeadPoint { groups, end }
+            let mut state = design.state(design.tracing_derivatives());
+            let step = folding_step(design, &mut state, at);
+            let own = step.map(|step| vec![fold_name(design.mechanism, step)]);
+            Reason::BeyondDeadPoint { groups: own.unwrap_or(groups), end }
         }
         _ => Reason::DeadPointOnPath { groups },
     }
+}
+
+/// The class and links of the dyad or group that a step of the plan solves, or its name.
+fn fold_name(mechanism: &Mechanism, step: usize) -> String {
+    let names = mechanism.fold_names();
+    let of_fold = fold_of(mechanism.plan(), step).and_then(|fold| names.into_iter().nth(fold));
+    of_fold.unwrap_or_else(|| group_name(mechanism, step).name)
 }
 
 /// Name of the dyad or group that a step of the plan solves.

@@ -4,5 +4,6 @@ pub(crate) mod diagnosis;
 pub(crate) mod evaluator;
 pub(crate) mod extremes;
 pub(crate) mod failure;
+pub(crate) mod folding;
 pub(crate) mod limits;
 pub mod metrics;

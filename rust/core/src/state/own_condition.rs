@@ -13,23 +13,25 @@ impl State {
     /// The step with the greatest condition of its own, and that condition; `None` without dyads
     /// and groups.
     pub(crate) fn worst_own_condition(&self, cx: &Context<'_>) -> Option<(usize, f64)> {
-        let steps = cx.plan.steps.iter().enumerate();
-        let conditions = steps.filter_map(|(index, step)| match step {
-            Step::Dyad(dyad) => {
-                let of = self.condition2_of(dyad.unknowns[0]);
-                Some((index, of / self.upstream_of_dyad(cx, dyad)))
-            }
-            Step::Group(group) => Some((index, self.own_condition2_of_group(cx, group)?)),
-            _ => None,
-        });
+        let conditions = (0..cx.plan.steps.len())
+            .filter_map(|step| Some((step, self.own_condition2(cx, step)?)));
         let worst = conditions.max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some((worst.0, worst.1.sqrt()))
     }
 
-    /// Square of the condition of a group above class II on its own.
-    pub(crate) fn own_condition2_of_group(&self, cx: &Context<'_>, group: &Group) -> Option<f64> {
-        let of = self.condition2_of(*group.unknowns.first()?);
-        Some(of / self.upstream_of_group(cx, group))
+    /// Square of the condition of a dyad or group on its own.
+    pub(crate) fn own_condition2(&self, cx: &Context<'_>, step: usize) -> Option<f64> {
+        match &cx.plan.steps[step] {
+            Step::Dyad(dyad) => {
+                let of = self.condition2_of(dyad.unknowns[0]);
+                Some(of / self.upstream_of_dyad(cx, dyad))
+            }
+            Step::Group(group) => {
+                let of = self.condition2_of(*group.unknowns.first()?);
+                Some(of / self.upstream_of_group(cx, group))
+            }
+            _ => None,
+        }
     }
 
     fn condition2_of(&self, unknown: Unknown) -> f64 {

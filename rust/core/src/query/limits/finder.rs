@@ -12,12 +12,10 @@ use crate::description::error::SolveError;
 use crate::math::angle::whole_part;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
+use crate::query::folding::{fold_of, folding_step};
 
 /// Where (rad) a turn is cut, off the drawing's opposite point: dead points may lie there.
 const OFF: f64 = 0.123_456_7;
-/// Where the group is told that folds at the end of a branch: before it by this part of the way from
-/// the drawing, where its condition is about three thousand.
-const BEFORE_FOLD: f64 = 1.0e-7;
 /// Beside this coordinate (in sizes) of a driven length the branch of a group ends at length 0.
 const AT_ZERO: f64 = 1.0e-6;
 /// How often, and by what factor, the range of a slide is widened where nothing ends it.
@@ -170,8 +168,8 @@ impl<'m> LimitsFinder<'m> {
                 }
                 let is_fold = end.is_finite() && (*end - q0).abs() < turns && design.has_groups();
                 if is_fold {
-                    let group = search.folding_group(*end + BEFORE_FOLD * (q0 - *end));
-                    within.folds[side] = group.map(|group| mechanism.plan().signs() + group);
+                    let step = folding_step(design, &mut search.state, *end);
+                    within.folds[side] = step.and_then(|step| fold_of(mechanism.plan(), step));
                 } else {
                     *end = end.clamp(q0 - beyond, q0 + beyond);
                 }

@@ -10,6 +10,7 @@ use crate::math::root::all_roots::{Sample, all_roots};
 use crate::math::trig::{asin, sin_cos};
 use crate::plan::dyad::{Dyad, Form};
 use crate::plan::plan::Step;
+use crate::query::folding::solve;
 use crate::state::state::{Context, State};
 
 /// Nodes for each cell of the branch, and at least.
@@ -163,26 +164,9 @@ impl<'d> Search<'d, '_> {
         Some(Sampled { rate: (ahead.value - behind.value) / (2.0 * aside), ..own })
     }
 
-    /// The group above class II that folds at an end of the branch, as an index of the groups: just
-    /// before it, at `q`, its condition is by far the greatest.
-    pub(super) fn folding_group(&mut self, q: f64) -> Option<usize> {
-        let cx = self.solve(q);
-        let groups = cx.plan.groups().filter_map(|group| {
-            let condition2 = self.state.own_condition2_of_group(&cx, group)?;
-            Some((group.index, condition2)).filter(|_| condition2.is_finite())
-        });
-        groups.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
-    }
-
     /// Solves a position of the branch.
     fn solve(&mut self, q: f64) -> Context<'d> {
-        let Self { design, state, .. } = self;
-        let branch = &design.branch;
-        design.guess(0, state, branch, &branch.locate(q));
-        let own = design.context(design.tracing_derivatives());
-        let cx = Context { signs: branch.signs(q), ..own };
-        state.solve(&cx, &[q]);
-        cx
+        solve(self.design, &mut self.state, q)
     }
 
     /// Whether the position just solved fails before a step.
