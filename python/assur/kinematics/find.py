@@ -110,7 +110,9 @@ def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mech
         core = bare_core(description)
     except StructureError as error:
         if "." not in name and name not in mechanism._joint_names:
-            raise
+            if error.kind != "cannot_drive":
+                raise
+            raise _does_not_change(mechanism, name) from error
         joint = name if name in mechanism._joint_names else name.rpartition(".")[0]
         why = "the joint moves along a curve only, or not without other drivers"
         if joint in mechanism.links.get("ground", ()):
@@ -120,6 +122,17 @@ def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mech
     drawn = zip(core.dimension_names, core.drawing, strict=True)
     values = np.array([own.get(name, value) for name, value in drawn])
     return mechanism._make(description, values, core)
+
+
+def _does_not_change(mechanism: Mechanism, name: str) -> InputError:
+    """Return the error for a link's angle or a slide's value that is the same in all positions."""
+    motion = mechanism.solve(mechanism.q0, order=0, on_error="nan")
+    is_slide = name in mechanism.slides
+    value = float((motion.slide(name) if is_slide else motion.link(name)).value)
+    what, unit = ("value of slide", "m") if is_slide else ("angle of link", "rad")
+    kept = f" (it is {value:.6g} {unit})" if np.isfinite(value) else ""
+    message = f"{name!r} cannot be set: the {what} {name!r} does not change{kept}"
+    return InputError(message, **{"slide" if is_slide else "link": name})
 
 
 def _to_size(mechanism: Mechanism) -> Description:
