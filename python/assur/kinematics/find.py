@@ -132,7 +132,7 @@ def _does_not_change(mechanism: Mechanism, name: str) -> InputError:
     what, unit = ("value of slide", "m") if is_slide else ("angle of link", "rad")
     kept = f" (it is {value:.6g} {unit})" if np.isfinite(value) else ""
     message = f"{name!r} cannot be set: the {what} {name!r} does not change{kept}"
-    return InputError(message, **{"slide" if is_slide else "link": name})
+    return InputError(message, slide=name) if is_slide else InputError(message, link=name)
 
 
 def _to_size(mechanism: Mechanism) -> Description:

@@ -6,7 +6,7 @@ import math
 import random
 from typing import TYPE_CHECKING
 
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
