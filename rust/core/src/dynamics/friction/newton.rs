@@ -1,5 +1,7 @@
 //! Newton's iteration for the law of friction, and the way from no friction to all of it.
 
+use nalgebra::DVector;
+
 use super::problem::FrictionProblem;
 
 /// Steps of the iteration. It converges to the second order between the kinks of the law.
@@ -11,8 +13,11 @@ const STALLED: f64 = 1.0e-4;
 /// Parts of the way: the first step, the shortest one, and the longest.
 const FIRST: f64 = 0.25;
 const SHORTEST: f64 = 1.0e-9;
-/// The greatest correction of a predicted step, in parts of it.
-const MOST_CORRECTION: f64 = 0.5;
+/// How far a step may be from a sum of parts of both tangents, in parts of the longer one.
+const MOST_CORRECTION: f64 = 0.1;
+/// How far the tangent may turn over a step, in parts of it, unless the step is this part of the friction.
+const MOST_TURN: f64 = 0.5;
+const SHORT: f64 = 1.0e-3;
 
 impl FrictionProblem<'_> {
     /// The solution near a start; `scale` multiplies all coefficients. `None` if the iteration does not
@@ -86,14 +91,34 @@ impl FrictionProblem<'_> {
     }
 
     /// A step of it: along the tangent, then corrected.
+    ///
+    /// Between the kinks of the law the path is smooth, and at a kink its direction changes at once. So the
+    /// step must be nearly a part of both tangents. The determinant is 1 without friction and 0 where the
+    /// path turns back: on the path it is positive, on the branch behind it is not.
     fn advance(&self, from: &[f64], at: f64, next: f64) -> Option<Vec<f64>> {
-        // ∂(residual)/∂(scale) is what friction without feedback is.
-        let rate = (self.residual(from, 1.0) - self.residual(from, 0.0)) * (at - next);
-        let tangent = self.jacobian(from, at).lu().solve(&rate)?;
-        let start: Vec<f64> = from.iter().zip(tangent.iter()).map(|(a, b)| a + b).collect();
+        let (first, _) = self.tangent(from, at, next - at)?;
+        let start: Vec<f64> = from.iter().zip(first.iter()).map(|(a, b)| a + b).collect();
         let found = self.newton(&start, next)?;
-        let apart = found.iter().zip(&start).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let limit = MOST_CORRECTION * tangent.amax();
-        (apart <= limit.max(1e-9 * self.size())).then_some(found)
+        let (second, determinant) = self.tangent(&found, next, next - at)?;
+        let way = DVector::from_fn(from.len(), |row, _| found[row] - from[row]);
+        let (turn, rest) = (&first - &second, &way - &second);
+        let part = (rest.dot(&turn) / turn.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let missed = (rest - &turn * part).amax();
+        let limit = MOST_CORRECTION * first.amax().max(second.amax());
+        let is_near = missed <= limit.max(1e-9 * self.size());
+        // A long step that turns so far may have left the path for another.
+        let is_smooth = turn.amax() <= MOST_TURN * first.amax().max(second.amax());
+        let greatest = from.iter().fold(self.size(), |most, friction| most.max(friction.abs()));
+        let is_short = way.amax() <= SHORT * greatest;
+        (is_near && (is_smooth || is_short) && determinant > 0.0).then_some(found)
+    }
+
+    /// How far the path goes along its tangent while the coefficients grow by so much, and the determinant
+    /// of the law there.
+    fn tangent(&self, friction: &[f64], scale: f64, by: f64) -> Option<(DVector<f64>, f64)> {
+        // ∂(residual)/∂(scale) is what friction without feedback is.
+        let rate = (self.residual(friction, 1.0) - self.residual(friction, 0.0)) * -by;
+        let factors = self.jacobian(friction, scale).lu();
+        Some((factors.solve(&rate)?, factors.determinant()))
     }
 }
