@@ -199,3 +199,22 @@ def test_a_six_bar_counts_from_its_drawing(q0: float) -> None:
             middles = m.limits().intervals.mean(axis=1)
             assert (np.abs(middles - m.q0) <= math.pi + 1e-12).all()
             agrees_with_positions(m)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1.0, -2.3])
+@pytest.mark.parametrize("crank", ["OA", "AO"])
+def test_a_guide_may_be_described_from_either_side(angle: float, crank: str) -> None:
+    """The block slides on the ground, or the ground on the block: one linkage."""
+    joints = {"O": (0.0, 0.0), "A": (1.0, 0.2), "B": (3.0, 1.0)}
+    links = {"ground": "O", "crank": crank, "rod": "AB", "block": "B"}
+    found = []
+    for slide in (
+        assur.Slide("block", on="ground", angle=angle),
+        assur.Slide("ground", on="block", angle=angle),
+    ):
+        m = assur.Mechanism(joints, links, "crank", slides={"s": slide})
+        agrees_with_positions(m)
+        found.append(m.limits().intervals)
+        batch = m.with_dimensions({"rod.length": [m.dimensions["rod.length"], 1.9]}).limits()
+        np.testing.assert_array_equal(batch.intervals[0, : len(found[-1])], found[-1])
+    np.testing.assert_allclose(found[0], found[1], rtol=0.0, atol=DEAD_POINT)

@@ -24,8 +24,8 @@ pub(crate) struct CrankDyad {
     pub(crate) pivot: usize,
     /// The dyad's fixed point; the crank's pin is its other one.
     pub(crate) ground: usize,
-    /// The guide's edge, if there is one.
-    pub(crate) guide: Option<usize>,
+    /// The guide's edge, if there is one, and whether it leads to the dyad's fixed point.
+    guide: Option<(usize, bool)>,
 }
 
 impl CrankDyad {
@@ -49,6 +49,12 @@ impl CrankDyad {
             }
             _ => None,
         })?;
+        let guide = match guide.map(|edge| (edge, plan.edges[edge].ends(false))) {
+            None => None,
+            Some((edge, [from, _])) if from == ground => Some((edge, false)),
+            Some((edge, [_, to])) if to == ground => Some((edge, true)),
+            Some(_) => return None,
+        };
         (plan.edges[crank].class == 0).then_some(Self {
             dyad: dyad.index,
             crank,
@@ -57,6 +63,21 @@ impl CrankDyad {
             ground,
             guide,
         })
+    }
+
+    /// The direction of the guide, if there is one, and its distance from the crank's pivot, positive to
+    /// the left of it.
+    pub(crate) fn line(&self, constants: &DesignConstants) -> Option<(Vector, f64)> {
+        let (edge, backward) = self.guide?;
+        let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
+        let own = constants.edge_vector[edge];
+        let guide = constants.guide[edge];
+        Some((guide, guide.cross(if backward { frame - own } else { frame + own })))
+    }
+
+    /// Whether it has a guide.
+    pub(crate) fn has_guide(&self) -> bool {
+        self.guide.is_some()
     }
 
     /// The vector from the crank's pivot to its pin where the driver is at 0.
@@ -76,9 +97,7 @@ impl CrankDyad {
         let crank = self.arm(constants).norm();
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
         let [a, b] = &constants.legs[self.dyad];
-        if let Some(guide) = self.guide {
-            let line = frame + constants.edge_vector[guide];
-            let middle = constants.guide[guide].cross(line);
+        if let Some((_, middle)) = self.line(constants) {
             let near = NEAR * (crank + middle.abs() + a.norm);
             return middle.abs() + crank * (1.0 - squeeze(step)) > a.norm + near;
         }
@@ -90,10 +109,7 @@ impl CrankDyad {
         let crank = self.arm(constants).norm();
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
         let [a, b] = &constants.legs[self.dyad];
-        if let Some(guide) = self.guide {
-            // The line of the far joint, and the distance of the crank's pin from it.
-            let line = frame + constants.edge_vector[guide];
-            let middle = constants.guide[guide].cross(line);
+        if let Some((_, middle)) = self.line(constants) {
             let near = NEAR * (crank + middle.abs() + a.norm);
             let away = |extreme: f64| (extreme.abs() - a.norm).abs() > near;
             return away(middle + crank) && away(middle - crank);

@@ -18,7 +18,7 @@ pub(crate) struct CrankLengths {
 impl CrankLengths {
     /// The lengths, if each is that of one vector from joint to joint.
     pub(super) fn of(crank: &CrankDyad, dyad: &Dyad, slots: &DimensionMap) -> Option<Self> {
-        if crank.guide.is_some() {
+        if crank.has_guide() {
             return None;
         }
         let vector = |edge: usize| match slots.edges[edge] {

@@ -56,11 +56,9 @@ fn reach(dyad: &CrankDyad, plan: &Plan, constants: &DesignConstants) -> Option<R
     let [a, b] = &constants.legs[dyad.dyad];
     let radius = arm.norm();
     // Squares of the sines of half the angles at which the dyad is flat.
-    let (direction, [outer, inner]) = if let Some(guide) = dyad.guide {
-        let line = frame + constants.edge_vector[guide];
-        let middle = constants.guide[guide].cross(line);
+    let (direction, [outer, inner]) = if let Some((guide, middle)) = dyad.line(constants) {
         let half = |rod: f64| (radius - middle + rod) / (2.0 * radius);
-        (constants.guide[guide].angle() + FRAC_PI_2, [half(a.norm), half(-a.norm)])
+        (guide.angle() + FRAC_PI_2, [half(a.norm), half(-a.norm)])
     } else {
         let ground = frame.norm();
         let half = |chord: f64| {
