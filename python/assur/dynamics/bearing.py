@@ -218,7 +218,9 @@ def bearing(
     others = [link for link in links if link != on]
     for what, link in (("frame", frame), ("against", against)):
         known = links if what == "frame" else others
-        if link is not None and link not in (*known, *(["ground"] if what == "frame" else [])):
+        allowed = (*known, *(["ground"] if what == "frame" else []))
+        # An array equals each of them part by part.
+        if link is not None and not (type(link) in (str, np.str_) and link in allowed):
             message = f"{what} is {short(link)}: at joint {name!r} it is one of {', '.join(known)}"
             raise InputError(message, joint=name)
     other = against or (others[0] if len(others) == 1 else None)

@@ -80,7 +80,11 @@ def as_list(value: Any, name: str) -> list[Any]:
     if getattr(value, "ndim", 1) == 0:
         message = f"{name} must be a sequence, got {short(value)}"
         raise InputError(message)
-    return list(value)
+    try:
+        return list(value)
+    except TypeError as error:  # A single mechanism is no batch of designs.
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message) from error
 
 
 def positive_number(value: Any, name: str) -> float:

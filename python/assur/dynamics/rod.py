@@ -125,7 +125,8 @@ def _density(given: Any, length: float, mass: float) -> Density:
     """Return a checked density; uniform by default."""
     if given is None:
         return Density(np.array([0.0, length]), np.full(2, mass / length))
-    if not isinstance(given, tuple | list | np.ndarray) or len(given) != 2:
+    is_pair = isinstance(given, tuple | list) or (isinstance(given, np.ndarray) and given.ndim)
+    if not is_pair or len(given) != 2:
         message = f"density is {short(given)}: two lists (x, kg/m) are needed"
         raise InputError(message)
     x, value = finite_array(given[0], "density: x"), finite_array(given[1], "density: kg/m")

@@ -305,7 +305,8 @@ def tabulated_flywheel(
 
 def warn_if_degrees(span: float, periodic: bool = True) -> None:
     """Warn if a period is neither a number of turns nor a fraction of one: likely degrees."""
-    if not periodic:
+    # Rows that are not finite are refused by the core.
+    if not periodic or not np.isfinite(span):
         return
     turns = span / (2.0 * np.pi)
     ratio = max(turns, 1.0 / turns) if turns > 0.0 else 1.0

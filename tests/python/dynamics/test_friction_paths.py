@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pytest
 
 import assur
 from assur import Body, Force, JointFriction, Machine, SlideFriction
+
+if TYPE_CHECKING:
+    from assur.dynamics.friction import PairFriction
 
 
 def press(times: float) -> Machine:
@@ -16,7 +21,7 @@ def press(times: float) -> Machine:
         "rod": Body(0.427, 0.0476, (0.0977, -0.0076)),
         "piston": Body(3.94),
     }
-    friction = {
+    friction: dict[str, PairFriction] = {
         "A": JointFriction(0.82 * times, 0.034),
         "B": JointFriction(0.97 * times, 0.078),
         "bore": SlideFriction(1.09 * times, 0.0416),
@@ -43,7 +48,7 @@ def test_the_first_solution_goes_on_from_smaller_coefficients() -> None:
 @pytest.mark.parametrize("times", [1.0, 29.03, 31.93, 32.22, 32.29, 36.0, 42.0])
 def test_safety_is_where_the_path_ends_whatever_it_begins_with(times: float) -> None:
     """On the way the law of the bore has a corner, where the path bends and goes on."""
-    friction = {
+    friction: dict[str, PairFriction] = {
         "A": JointFriction(0.1 * times, 0.01),
         "bore": SlideFriction(0.1 * times, 0.1),
     }

@@ -182,3 +182,29 @@ def test_a_batch_with_its_own_motor() -> None:
     own = assur.Machine(batch, {"rod": assur.Body(1.0)}, motor=assur.ConstantTorque(9.0))
     with pytest.raises(assur.InputError, match=r"^flywheel\(fluctuation\) .* is a batch \(2,\)"):
         own.flywheel(0.05)
+
+
+def test_values_of_a_wrong_kind_are_refused_by_name() -> None:
+    """Infinity in a table, one mechanism for a list, an array for a name."""
+    crank = assur.SliderCrank(0.1, 0.4)
+    bodies = {"crank": assur.Body(1.0, 1.0), "rod": assur.Body(1.0, 0.1)}
+    machine = assur.Machine(crank, bodies, [assur.Force("B", (-100.0, 0.0), on="piston")])
+    one: Any = crank
+    pair: Any = np.zeros(2)
+    number: Any = np.array(5.0)
+    found = machine.reactions(1.0, speed=1.0)
+    calls: list[tuple[str, Any]] = [
+        ("phi is inf", lambda: assur.Machine.from_table([0.0, 1.0, np.inf], [0.0, 1.0, 0.0])),
+        ("loads must be a sequence", lambda: assur.Machine(crank, loads=one)),
+        ("events must be a sequence", lambda: machine.run(0.1, 1.0, 1.0, events=one)),
+        ("weights must be a sequence", lambda: machine.with_counterweights(one)),
+        (
+            "density is array",
+            lambda: machine.internal_loads("rod", 1.0, speed=1.0, density=number),
+        ),
+        ("frame is array", lambda: found.bearing("B", on="rod", frame=pair)),
+        ("against is array", lambda: found.bearing("B", on="rod", against=pair)),
+    ]
+    for words, call in calls:
+        with pytest.raises(assur.InputError, match=words):
+            call()
