@@ -175,3 +175,21 @@ def test_where_nothing_slides_safety_is_the_greatest(viscous: float) -> None:
         np.testing.assert_array_equal(found.locked, False)
         np.testing.assert_array_equal(found.residual, 0.0)
         assert len(found.solutions) == 1
+
+
+@pytest.mark.parametrize("power", [-13, -8, 8, 10])
+def test_the_window_of_rest_grows_with_the_size(power: int) -> None:
+    """Of a named mechanism too, whose drawing has a size of its own."""
+
+    def rubs(length: float, q: float) -> bool:
+        machine = assur.Machine(
+            assur.SliderCrank(0.13 * length, 0.37 * length),
+            loads=[assur.Force("B", (-100.0, -30.0), on="piston")],
+            friction={"bore": assur.SlideFriction(0.2, 0.1 * length)},
+        )
+        return float(machine.reactions(q, speed=1.0).slide("bore").friction) != 0.0
+
+    for q in (-1e-10, -2e-12, -1e-12, -1e-13):
+        assert rubs(1.0, q) == rubs(2.0**power, q), q
+    assert rubs(1.0, -1e-10)
+    assert not rubs(1.0, -1e-13)

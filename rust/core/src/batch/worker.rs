@@ -100,6 +100,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
+    /// The size of the design bound last, m: a power of 2 beside its greatest length.
+    pub(crate) fn size(&self) -> f64 {
+        self.design.constants.scale
+    }
+
     /// Swaps work spaces with a worker of the same request, so that each set of jobs finds its own
     /// coordinates loaded.
     pub(crate) fn swap_space(&mut self, other: &mut Self) {

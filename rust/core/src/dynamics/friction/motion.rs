@@ -49,8 +49,7 @@ pub(crate) struct FrictionMotion<'m> {
     columns: Vec<Column>,
     sources: Sources,
     guides: Vec<Vector>,
-    size: f64,
-    /// The unit of length, m: a power of 2.
+    /// The unit of length, m, and the size of the design: a power of 2 beside its greatest length.
     unit: f64,
     values: Vec<Vec<f64>>,
     scene: Scene<f64>,
@@ -77,7 +76,6 @@ impl<'m> FrictionMotion<'m> {
         Self {
             sources: Sources::new(&plan, &columns),
             guides: guide_directions(mechanism, dimensions),
-            size: mechanism.linkage().size(),
             unit,
             values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
             scene,
@@ -124,7 +122,7 @@ impl<'m> FrictionMotion<'m> {
         scene.read(plan, sources, guides, &still, ROW);
         scene.apply(plan, machine, values_of_loads, ROW);
         let pairs = (&*plan, rubbing);
-        scene.read_rubbing(pairs, sources, (&still, ROW), &[state.sense], self.size);
+        scene.read_rubbing(pairs, sources, (&still, ROW), &[state.sense], self.unit);
         scene.rubs.is_static = Some(state.is_static);
         scene.drag(plan, rubbing);
         scene.start(plan);

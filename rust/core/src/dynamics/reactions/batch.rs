@@ -147,9 +147,6 @@ impl Batch<'_> {
     ) {
         let Shape { designs: all, positions, drivers } = *self.shape;
         let Own { worker, designs, scratch, scene, tables, followed, squares } = own;
-        let size = self.mechanism.linkage().size();
-        let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
-        let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
         designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
         // Squares are of all positions.
         let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };
@@ -171,6 +168,9 @@ impl Batch<'_> {
             if worker.bind(row, &mut job) {
                 L::run(worker, &mut job);
             }
+            let size = worker.size();
+            let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
+            let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
             let values: Vec<&[f64]> =
                 (0..self.columns.len()).map(|column| rows.column(column)).collect();
             for (table, values) in self.machine.tables.iter().zip(tables.iter_mut()) {
@@ -198,6 +198,7 @@ impl Batch<'_> {
             let mut task = Evaluate {
                 batch: self,
                 guides: guide_directions(self.mechanism, row.dimensions),
+                size,
                 solved,
                 values: Values {
                     tables,

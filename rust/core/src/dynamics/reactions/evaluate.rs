@@ -47,6 +47,8 @@ pub(super) struct Batch<'b> {
 pub(super) struct Evaluate<'e, 'r, R: Real> {
     pub batch: &'e Batch<'e>,
     pub guides: Vec<Vector>,
+    /// The size of the design, m.
+    pub size: f64,
     pub solved: Solved<'e>,
     pub values: Values<'e>,
     pub status: &'e [u8],
@@ -108,8 +110,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
     fn rub(&mut self, rows: Rows) {
-        let Batch { mechanism, plan, sources, asked, rubbing, control, .. } = self.batch;
-        let size = mechanism.linkage().size();
+        let Batch { plan, sources, asked, rubbing, control, .. } = self.batch;
+        let size = self.size;
         let ways = self.scene.ways(asked.sense);
         let pairs = (*plan, &rubbing[..]);
         self.scene.read_rubbing(pairs, sources, (&self.solved, rows), &ways, size);
@@ -242,7 +244,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Leaves out what a self-stress changes: it cannot be known.
     #[inline(always)]
     fn drop_stressed(&mut self, first: usize, lanes: usize) {
-        let size = self.batch.mechanism.linkage().size();
+        let size = self.size;
         for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
             let unit = match reaction {
                 Reaction::ShakingForce
