@@ -113,6 +113,13 @@ class Cylinder:
     barrel, rod : str, optional
         Names of the two links; by default the cylinder's with ``_barrel`` and ``_rod``.
 
+    Notes
+    -----
+    Where both joints coincide the direction of the cylinder is not determined: the position is
+    `Status.SINGULAR`. A motion through that point goes on with a length that grows again; the
+    cylinder has then turned by half a turn at once, counter-clockwise as q grows (either way would
+    be as good).
+
     Examples
     --------
     A boom that a cylinder lifts:
@@ -128,13 +135,6 @@ class Cylinder:
     (True, ('eye',))
     >>> boom.limits()
     <assur.Limits [0.821854, 3.65028], does not close>
-
-    Notes
-    -----
-    Where both joints coincide the direction of the cylinder is not determined: the position is
-    `Status.SINGULAR`. A motion through that point goes on with a length that grows again; the
-    cylinder has then turned by half a turn at once, counter-clockwise as q grows (either way would
-    be as good).
     """
 
     base: str

@@ -70,6 +70,11 @@ class Table(ByValue):
         that is not finite, coordinates that do not ascend or that come three times, a jump at an
         end of a table that is not periodic, an unknown spline.
 
+    References
+    ----------
+    F. N. Fritsch and R. E. Carlson, *Monotone Piecewise Cubic Interpolation*, SIAM J. Numer. Anal.
+    17 (1980) 238; as SciPy's ``PchipInterpolator``, which periodic tables close smoothly.
+
     Examples
     --------
     A step, and a force over the stroke of a slide:
@@ -88,11 +93,6 @@ class Table(ByValue):
     >>> force = assur.Table([0.0, 4.0, 5.0, 5.5, 6.0, 6.28], [0.0, 0.0, 5e5, 1e6, 0.0, 0.0])
     >>> float(force.at([1.0, 5.4, 5.5, 5.6]).max())
     1000000.0
-
-    References
-    ----------
-    F. N. Fritsch and R. E. Carlson, *Monotone Piecewise Cubic Interpolation*, SIAM J. Numer. Anal.
-    17 (1980) 238; as SciPy's ``PchipInterpolator``, which periodic tables close smoothly.
     """
 
     q: Float
