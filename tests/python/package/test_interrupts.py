@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 
+# On a loaded machine the thread that sends a signal may not run before the work is done.
+ATTEMPTS = 3
+
+
 class StoppedError(Exception):
     """What the handler raises: an ordinary exception, as that of a time limit is."""
 
@@ -113,7 +117,10 @@ def test_new_arrays_are_dropped_without_being_filled() -> None:
     # pages, but the thread that watches runs only now and then beside the one that works: half of
     # them leaves it time on a loaded machine, and a call that went on to the end would touch twice
     # as many.
-    few, how = run(9 * 10**6, whole)
+    for _ in range(ATTEMPTS):
+        few, how = run(9 * 10**6, whole)
+        if how == "stopped":
+            break
     assert how == "stopped"
     assert whole <= few < 15 * whole
 
