@@ -11,6 +11,7 @@ from campaign_cylinders import Cylinders
 from campaign_ends import Ends
 from campaign_flat import Flat
 from campaign_resting import Resting
+from campaign_saved import Saved
 from campaign_sweeps import Covered, Swept
 from campaign_turned import Turned
 from campaign_units import InUnits
@@ -24,13 +25,13 @@ if TYPE_CHECKING:
 
     from campaign_report import Findings
 
-# These cost as much as all other checks of a mechanism, and up to three times as much of a machine:
-# one in so many adds a sixth to a campaign.
+# Most cost as much as all other checks of a mechanism, and up to ten times as much of a machine.
 ASKED: dict[str, dict[type[Any], int]] = {
-    "random": {Variants: 20, Ends: 5, Swept: 20},
-    "higher": {Variants: 10, Ends: 2, Swept: 10},
-    "mixed": {Variants: 40, Ends: 20, Swept: 40},
-    "machine": {InUnits: 4, Turned: 2, Covered: 2},
+    "random": {Saved: 1, Variants: 5, Ends: 5, Swept: 20},
+    "changing": {Saved: 1},
+    "higher": {Saved: 1, Variants: 5, Ends: 2, Swept: 10},
+    "mixed": {Saved: 1, Variants: 5, Ends: 20, Swept: 40},
+    "machine": {InUnits: 1, Turned: 2, Covered: 2},
 }
 DRAWN: dict[str, dict[type[Any], tuple[Callable[[int], Any], int]]] = {
     "random": {Flat: (flat_case, 10), Cylinders: (cylinder_case, 200)},

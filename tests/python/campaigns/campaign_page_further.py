@@ -16,7 +16,6 @@ from campaign_further import ASKED, DRAWN
 from campaign_resting import Resting
 from campaign_sweeps import Covered, Swept
 from campaign_turned import Turned
-from campaign_units import InUnits
 from campaign_variants import Variants
 
 if TYPE_CHECKING:
@@ -32,6 +31,7 @@ def number(report: Report, name: str) -> str:
 def of_mechanisms(report: Report) -> Rows:
     """Other descriptions, limits, extremes and sweeps."""
     names = (
+        ("mechanisms saved and loaded", "mechanisms loaded"),
         ("mechanisms described otherwise", "described again"),
         ("of these drawn at another position", "described redrawn"),
         ("of these renamed", "described renamed"),
@@ -94,6 +94,7 @@ def described(kind: str) -> str:
   are inside the intervals where `solve` has positions, {of_ends.BESIDE:g} to either side of an end
   too; an interval holds the drawing; no position has less or more than the extremes of order 0 to 2
   by {of_ends.BEATEN:g} of their size.
+- **Files.** Read back from its file a mechanism is equal to itself.
 - **Sweeps** of one in {_one_in(kind, Swept)} in any assembly: the designs handed back reproduce the
   metrics that were measured.
 """
@@ -110,9 +111,9 @@ joints.
 """
 
 MACHINES = f"""
-- **Units.** One machine in {_one_in("machine", InUnits)} (one in {of_units.RUBBING} of them with
-  friction) is computed in other units of length, time and mass. In even powers of two runs have the
-  same steps and bits, in any others as many steps to {100 * of_units.STEPS:g} %, and the same end.
+- **Units.** Every machine (one in {of_units.RUBBING} with friction) is computed in other units of
+  length, time and mass. In even powers of two runs have the same steps and bits, in any others as
+  many steps to {100 * of_units.STEPS:g} %, and the same end.
 - **All that there is.** Of its results every property and every method without arguments is asked,
   and raises nothing but the library's own errors; a run from rest has reactions; from its file it
   is equal, and its results have the same bits.

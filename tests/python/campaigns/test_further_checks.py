@@ -19,6 +19,7 @@ from campaign_cylinders import Cylinders
 from campaign_ends import Ends
 from campaign_flat import Flat
 from campaign_resting import Resting
+from campaign_saved import Saved
 from campaign_sweeps import Covered, Swept
 from campaign_turned import Turned
 from campaign_units import InUnits
@@ -49,6 +50,9 @@ SAMPLE: dict[str, tuple[Callable[[Any], Findings], Callable[[int], Any], Iterabl
     "limits and extremes of higher groups": (Ends, higher_case, range(4)),
     "sweeps of class II": (Swept, campaign_cases.random_case, range(10, 30)),
     "sweeps of mixed groups": (Swept, mixed_case, (20, 21, 22)),
+    "files of class II": (Saved, campaign_cases.random_case, range(20)),
+    "files of mixed groups": (Saved, mixed_case, range(20)),
+    "files of higher groups": (Saved, higher_case, range(20)),
     "tables that end": (Covered, machine_models.machine_case, range(20)),
     "other units": (InUnits, machine_models.machine_case, range(2)),
     "other frames": (Turned, machine_models.machine_case, range(5, 17)),
