@@ -430,3 +430,42 @@ def test_a_gap_is_not_a_change_point() -> None:
     assert ((motion.status == Status.UNREACHABLE) == gap).all()
     error = np.abs(motion.link("rocker").value[~gap] - above_diagonal(lengths, q[~gap]))
     assert (error <= POSITION * motion.condition[~gap] * sum(lengths)).all()
+
+
+def kite_with_a_rod(*order: str) -> assur.Mechanism:
+    """The crank is as long as the ground, the other two links are equal: at q = 0 B meets D.
+
+    A short rod hangs on the crank, its block on a guide: it reaches about q = π/2 alone.
+    """
+    joints = {"A": (0, 0), "D": (1, 0), "B": (0, 1), "C": (1.3, 1.1), "E": (0.1, 1.2)}
+    links = {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC", "rod": "BE"}
+    joints["C"] = kite_point(joints["B"], joints["D"], 1.4)
+    return assur.Mechanism(
+        joints=joints,
+        links={name: links.get(name, "E") for name in order},
+        slides={"guide": assur.Slide("block", on="ground", angle=0.0)},
+        driver="crank",
+    )
+
+
+def kite_point(b: tuple[float, float], d: tuple[float, float], leg: float) -> tuple[float, float]:
+    """The point at the same distance from both, on the side away from the origin."""
+    across = math.dist(b, d)
+    height = math.sqrt(leg**2 - across**2 / 4) / across
+    return (b[0] + d[0]) / 2 + height * (b[1] - d[1]), (b[1] + d[1]) / 2 - height * (b[0] - d[0])
+
+
+KITE_FIRST = ("ground", "crank", "coupler", "rocker", "rod", "block")
+ROD_FIRST = ("ground", "crank", "rod", "block", "coupler", "rocker")
+
+
+@pytest.mark.parametrize("order", [KITE_FIRST, ROD_FIRST])
+def test_a_change_point_in_a_gap_is_not_passed(order: tuple[str, ...]) -> None:
+    """Across a gap the assembly does not change, whichever dyad is solved first."""
+    m = kite_with_a_rod(*order)
+    assert len(m.limits().intervals) == 1
+    turns = m.q0 + 2 * math.pi * np.arange(-2, 3)
+    motion = m.solve(turns, on_error="nan")
+    assert (np.asarray(motion.status) == Status.OK).all()
+    for name in "BCE":
+        np.testing.assert_allclose(motion.joint(name).value, [m.joints[name]] * 5, atol=1e-12)

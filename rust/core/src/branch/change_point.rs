@@ -46,14 +46,27 @@ impl BranchTracer<'_, '_> {
                 a.at + tracer.direction * least
             };
             let change = ChangePoint { at, sign };
-            if certain || redundant_links_confirm(tracer, change, [a.at, b.at]) {
+            let passed = certain && tracer.is_assembled_beside(at);
+            if passed || redundant_links_confirm(tracer, change, [a.at, b.at]) {
                 tracer.changes.push(change);
                 return true;
             }
         }
         false
     }
+
+    /// Whether the whole mechanism closes right beside a change point, with either sign of its dyad. If
+    /// not, the change point lies in a gap, across which the assembly does not change, in whatever order
+    /// the dyads are solved.
+    fn is_assembled_beside(&mut self, at: f64) -> bool {
+        // On the other side this sign is what the other sign is on this one.
+        self.visit(at - BESIDE) || self.visit(at + BESIDE)
+    }
 }
+
+/// How far (rad, or units of the scale) from a change point the mechanism is solved to see whether it
+/// closes there: the dyad's own discriminant is known there to half of the digits.
+const BESIDE: f64 = 1.0e-6;
 
 /// How far past the first knot redundant links are checked, in cells: close to the change point
 /// they fit on both branches.
