@@ -9,7 +9,7 @@ use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
 use crate::structure::assur_group::{Group as AssurGroup, roman};
-use crate::structure::matching::Pattern;
+use crate::structure::matching::{Block, Pattern};
 
 /// Adds the steps of all blocks; returns for every point whether it is fixed or a step places it.
 pub(crate) fn add_steps(
@@ -23,6 +23,7 @@ pub(crate) fn add_steps(
         excess: 1,
         links: linkage.links.iter().map(|l| l.name.clone()).collect(),
     })?;
+    let blocks = groups_first(blocks, &nodes);
     let mut known = plan.fixed.clone();
     for (slide, own) in linkage.slides.iter().enumerate() {
         if own.length && linkage.drivers.contains(&Driver::Slide(slide)) {
@@ -55,6 +56,32 @@ pub(crate) fn add_steps(
         place_points(plan, &mut known, edges);
     }
     Ok(known)
+}
+
+/// Groups above class II and the blocks that they depend on come first. So no dyad that does not close
+/// keeps a group from being followed that does not depend on it.
+fn groups_first(blocks: Vec<Block>, nodes: &Nodes) -> Vec<Block> {
+    let mut block_of = vec![0; nodes.unknowns.len()];
+    for (index, block) in blocks.iter().enumerate() {
+        for &unknown in &block.unknowns {
+            block_of[unknown] = index;
+        }
+    }
+    let mut first = vec![false; blocks.len()];
+    for (index, block) in blocks.iter().enumerate().rev() {
+        let is_group = block.unknowns.iter().filter_map(|&u| nodes.unknown(u)).count() > 2;
+        first[index] |= is_group;
+        if first[index] {
+            for &equation in &block.equations {
+                for &unknown in &nodes.pattern.unknowns_in[equation] {
+                    first[block_of[unknown]] = true;
+                }
+            }
+        }
+    }
+    let (before, after): (Vec<_>, Vec<_>) =
+        blocks.into_iter().zip(first).partition(|&(_, first)| first);
+    before.into_iter().chain(after).map(|(block, _)| block).collect()
 }
 
 /// Adds checks of the lengths that the last step finds, unless their sign is that of a square root.
