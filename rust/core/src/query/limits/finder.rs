@@ -201,10 +201,11 @@ impl<'m> LimitsFinder<'m> {
                 }
             }
         }
+        if is_periodic {
+            shift_near(&mut stretches, q0, 2.0 * half);
+        }
         if design.has_groups() {
             stretches.retain(|stretch| stretch.ends[0] <= q0 && q0 <= stretch.ends[1]);
-        } else if is_periodic {
-            shift_near(&mut stretches, q0, 2.0 * half);
         }
         stretches
     }
