@@ -874,7 +874,7 @@ class Mechanism:
         Parameters
         ----------
         positions : int
-            Coordinates of the fan, evenly spaced over a turn, or over all that a slide can reach.
+            Coordinates of the fan about `q0`, over a turn, or over all that a slide can reach.
 
         Returns
         -------

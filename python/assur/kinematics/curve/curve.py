@@ -85,8 +85,9 @@ class ConfigurationCurve:
     circuits : tuple of Circuit
         What is connected.
     fan : ndarray
-        Coordinates at which all assemblies were found, rad or m. A circuit that turns back between
-        two neighbours at both of its ends may have been missed.
+        Coordinates at which all assemblies were found, rad or m. With a group above class II, or
+        more than nine signs, a circuit that turns back between two neighbours at both of its ends
+        may have been missed.
 
     Examples
     --------

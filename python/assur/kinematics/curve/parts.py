@@ -90,7 +90,8 @@ class Circuit:
     turns : int
         Turns of the driver when the motion closes: 0 if it swings between dead points.
     is_closed : bool
-        Whether the motion closes; if not, it ends where a joint goes to infinity.
+        Whether the motion closes; if not, it goes from one end to the other, where a joint goes to
+        infinity or a slide that is a length reaches 0.
 
     Examples
     --------

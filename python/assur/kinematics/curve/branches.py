@@ -1,0 +1,127 @@
+"""The branches of a configuration curve that are known so far."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.kinematics.curve.parts import SAME, Branch, has_driven_angle
+from assur.kinematics.place import place_of, places_along, size_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from assur._arrays import Float
+    from assur.kinematics.assembly import Assembly
+    from assur.kinematics.limits import Limits
+    from assur.kinematics.mechanism import Mechanism
+
+
+@dataclass(slots=True)
+class Branches:
+    """The branches known so far, and the groups that fold at their ends.
+
+    Each branch is solved once for all of `coordinates`, those that will be asked for.
+    """
+
+    mechanism: Mechanism
+    coordinates: list[float] = field(default_factory=list)
+    branches: list[Branch] = field(default_factory=list)
+    groups: list[tuple[str | None, str | None]] = field(default_factory=list)
+    size: float = field(init=False)
+    is_angle: bool = field(init=False)
+    # Of each branch its places at coordinates, and limits by the signs of class II.
+    _solved: list[dict[float, Float]] = field(default_factory=list)
+    _limits: dict[frozenset[tuple[str, int]], Limits] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.size = size_of(self.mechanism)
+        self.is_angle = has_driven_angle(self.mechanism)
+
+    @property
+    def unit(self) -> float:
+        """What the driver's coordinate is measured in: rad, or for a slide the size."""
+        return 1.0 if self.is_angle else self.size
+
+    def places(self, assembly: Mapping[str, int], q: Float) -> Float:
+        """Return the places of an assembly at coordinates, shape (N, n)."""
+        motion = self.mechanism.solve(q, order=0, assembly=assembly, on_error="nan")
+        return places_along(motion, self.size)
+
+    def look_at(self, q: float) -> int:
+        """Add the branches of all assemblies at a coordinate; return how many assemblies it has."""
+        found = list(self.mechanism.assemblies(q))
+        for assembly in found:
+            self.add(assembly, q)
+        return len(found)
+
+    def add(self, assembly: Assembly, q: float) -> None:
+        """Add the branch of an assembly, if it is a new one."""
+        assert assembly._place is not None
+        own = place_of(assembly._place.numbers, self.size)
+        if self.has(own, q):
+            return
+        limits = self.limits(assembly)
+        dead = {one.q: one.group for one in limits.dead_points}
+        intervals = [
+            Branch(assembly, low, high, limits.period) for low, high in limits.intervals.tolist()
+        ]
+        # An angle may be in several of them, each in other turns.
+        there = [self._solve(branch, [q])[q] for branch in intervals]
+        apart = [(_apart(places, own), index) for index, places in enumerate(there)]
+        nearest, index = min(apart, default=(math.inf, 0))
+        if math.isfinite(nearest):
+            branch = intervals[index]
+            self.branches.append(branch)
+            self.groups.append((dead.get(branch.low), dead.get(branch.high)))
+            self._solved.append({})
+
+    def limits(self, assembly: Mapping[str, int]) -> Limits:
+        """Return the limits of an assembly."""
+        if self.mechanism._core.cls > 2:
+            return self.mechanism.limits(assembly)
+        signs = frozenset(assembly.items())
+        if signs not in self._limits:
+            self._limits[signs] = self.mechanism.limits(assembly)
+        return self._limits[signs]
+
+    def has(self, place: Float, q: float) -> bool:
+        """Whether a known branch goes through a place at a coordinate, of an angle in any turn."""
+        for branch, solved in zip(self.branches, self._solved, strict=True):
+            if q not in solved:
+                asked = [one for one in self.coordinates if one not in solved]
+                solved.update(self._solve(branch, asked if q in asked else [q]))
+            if _apart(solved[q], place) <= SAME:
+                return True
+        return False
+
+    def _solve(self, branch: Branch, coordinates: list[float]) -> dict[float, Float]:
+        """Return all places of a branch at each coordinate, of an angle in any turn."""
+        turns = [self._turns(branch, q) for q in coordinates]
+        inside = [one for own in turns for one in own]
+        if not inside:
+            return dict.fromkeys(coordinates, np.empty((0, 1)))
+        places = self.places(branch.assembly, np.array(inside))
+        parts = np.split(places, np.cumsum([len(own) for own in turns])[:-1])
+        return dict(zip(coordinates, parts, strict=True))
+
+    def _turns(self, branch: Branch, q: float) -> list[float]:
+        """Return a coordinate in all the turns in which it is within a branch."""
+        if not self.is_angle:
+            return [q] if branch.low <= q <= branch.high else []
+        if branch.period is not None:
+            return [q + math.tau * turn for turn in range(branch.period)]
+        first = math.ceil((branch.low - q) / math.tau)
+        last = math.floor((branch.high - q) / math.tau)
+        return [q + math.tau * turn for turn in range(first, last + 1)]
+
+
+def _apart(places: Float, place: Float) -> float:
+    """Return how far the nearest of some places is, in sizes; infinite if there is none."""
+    if not len(places):
+        return math.inf
+    apart = np.abs(places - place).max(axis=1)
+    return float(np.where(np.isnan(apart), math.inf, apart).min())

@@ -1,0 +1,102 @@
+"""The coordinates at which all assemblies of a configuration curve are looked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from itertools import pairwise, product
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.kinematics.curve.parts import SAME
+from assur.kinematics.place import lengths
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.curve.branches import Branches
+    from assur.kinematics.mechanism import Mechanism
+
+# Of a step, how far the first coordinate is to either side of the drawing's: off the values that
+# people draw at, where things may be special, and in a mirror the same.
+OFF = 0.4877
+# Most combinations of signs whose intervals are looked at.
+MOST_SIGNS = 512
+# Where an interval is looked at, as a part of it: change points are often in its middle.
+WITHIN = 0.3813
+
+
+@dataclass(slots=True)
+class Fan:
+    """Coordinates at which all assemblies were found, in order, with their number."""
+
+    known: Branches
+    q: list[float] = field(default_factory=list)
+    counts: list[int] = field(default_factory=list)
+
+    def look_at(self, coordinates: list[float]) -> None:
+        """Find all assemblies at more coordinates."""
+        self.known.coordinates = coordinates
+        for q in coordinates:
+            index = int(np.searchsorted(self.q, q))
+            self.q.insert(index, q)
+            self.counts.insert(index, self.known.look_at(q))
+
+    def gaps(self) -> list[float]:
+        """Return middles of neighbours whose counts differ by other than the ends between them."""
+        known = self.known
+        begins = np.array([branch.low for branch in known.branches])
+        ends = np.array([branch.high for branch in known.branches])
+        middles = []
+        for i, (low, high) in enumerate(pairwise(self.q)):
+            change = sum(
+                sign * int(np.count_nonzero(self._is_between(at[np.isfinite(at)], low, high)))
+                for sign, at in ((1, begins), (-1, ends))
+            )
+            if change != self.counts[i + 1] - self.counts[i] and high - low > SAME * known.unit:
+                middles.append(0.5 * (low + high))
+        return middles
+
+    def _is_between(self, at: Float, low: float, high: float) -> npt.NDArray[np.bool_]:
+        """Whether coordinates, of an angle in any turn, are between two."""
+        turned = low + np.mod(at - low, math.tau) if self.known.is_angle else at
+        return (low < turned) & (turned < high)
+
+
+def around_drawing(mechanism: Mechanism, positions: int, is_angle: bool) -> list[float]:
+    """Return coordinates over a turn, or as far as all lengths together, about the drawing's."""
+    q0 = float(np.ravel(mechanism.q0)[0])
+    step = 2.0 * (math.pi if is_angle else sum(lengths(mechanism))) / positions
+    below = [q0 - (k + OFF) * step for k in range((positions + 1) // 2)]
+    return [*below[::-1], *(q0 + (k + OFF) * step for k in range(positions // 2))]
+
+
+def look_within_intervals(known: Branches) -> None:
+    """Look for circuits between two coordinates of the fan: in class II every interval is known."""
+    mechanism = known.mechanism
+    drawn = dict(mechanism._core.assembly)
+    slides = mechanism.slides
+    free = [name for name in drawn if not (name in slides and slides[name].length)]
+    if mechanism._core.cls > 2 or 2 ** len(free) > MOST_SIGNS:
+        return
+    for signs in product((1, -1), repeat=len(free)):
+        assembly = drawn | dict(zip(free, signs, strict=True))
+        ends = known.limits(assembly).intervals.tolist()
+        if not ends:
+            continue
+        within = [_within(known, low, high) for low, high in ends]
+        for q, place in zip(within, known.places(assembly, np.array(within)), strict=True):
+            if np.isfinite(place).all() and not known.has(place, q):
+                known.look_at(q)
+
+
+def _within(known: Branches, low: float, high: float) -> float:
+    """Return a coordinate within an interval."""
+    if math.isfinite(high - low):
+        return low + WITHIN * (high - low)
+    if math.isfinite(low):
+        return low + known.unit
+    q0 = float(np.ravel(known.mechanism.q0)[0])
+    return high - known.unit if math.isfinite(high) else q0 + WITHIN * known.unit

@@ -1,0 +1,109 @@
+"""Folds of a configuration curve: which ends of branches meet at a dead point of the driver."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from assur.kinematics.curve.parts import SAME, Fold
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.kinematics.curve.branches import Branches
+    from assur.kinematics.curve.parts import Branch
+
+# How far from a dead point, as a part of the branch, positions are taken to extrapolate it …
+BESIDE = 1e-6
+# … and at least, in units of the coordinate: dead points are known to less.
+NEAREST = 1e-11
+# How far a place may go between these positions: the extrapolation leaves out the cube of it.
+STRAIGHT = 1e-3
+# Distances from it, as squares, for the roots go as 1, 2 and 3; their weights at a distance of 0.
+SQUARES = np.array([1.0, 4.0, 9.0])
+WEIGHTS = np.array([3.0, -3.0, 1.0])
+# How near (relative to the size) two extrapolations of one fold are.
+SAME_FOLD = 1e-4
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """An end of a branch: 0 the low one, 1 the high one; with its place."""
+
+    branch: int
+    side: int
+    q: float
+    place: Float
+
+
+@dataclass(slots=True)
+class Folds:
+    """The ends of the known branches."""
+
+    known: Branches
+    _ends: list[End] = field(default_factory=list)
+    _seen: int = 0
+
+    def find(self) -> list[Fold]:
+        """Pair the ends; a partner that is not known yet is found beside the fold."""
+        known = self.known
+        while self._seen < len(known.branches):
+            branch = known.branches[self._seen]
+            for side, q in enumerate((branch.low, branch.high)):
+                if not math.isfinite(q):
+                    continue
+                end = _end(known, self._seen, side, q)
+                if all(_apart(known, end, other) > SAME_FOLD for other in self._ends):
+                    known.look_at(q + (1 - 2 * side) * BESIDE * _length(known, branch))
+                self._ends.append(end)
+            self._seen += 1
+        return [
+            Fold(a.q, known.groups[a.branch][a.side], (a.branch, b.branch), a.side == 1)
+            for a, b in self._pairs()
+        ]
+
+    def _pairs(self) -> list[tuple[End, End]]:
+        """Return the ends that meet: the nearest first, whatever the order of the branches."""
+        near = []
+        for i, j in combinations(range(len(self._ends)), 2):
+            apart = _apart(self.known, self._ends[i], self._ends[j])
+            if apart <= SAME_FOLD:
+                near.append((apart, i, j))
+        taken: set[int] = set()
+        pairs = []
+        for _, i, j in sorted(near):
+            if taken.isdisjoint((i, j)):
+                taken |= {i, j}
+                pairs.append((i, j))
+        return [(self._ends[i], self._ends[j]) for i, j in sorted(pairs)]
+
+
+def _length(known: Branches, branch: Branch) -> float:
+    return min(branch.high - branch.low, known.unit)
+
+
+def _end(known: Branches, number: int, side: int, q: float) -> End:
+    """Extrapolate the place of a fold: joints go as the square root of the distance from it."""
+    branch = known.branches[number]
+    inward = 1 - 2 * side
+    step = BESIDE * _length(known, branch)
+    least = NEAREST * max(known.unit, abs(q))
+    places = known.places(branch.assembly, q + inward * step * SQUARES)
+    # Where joints nearly coincide a link turns fast.
+    while step > least and (far := float(np.abs(places[1] - places[0]).max())) > STRAIGHT:
+        step = max(least, step * min(0.5, (STRAIGHT / far) ** 2))
+        places = known.places(branch.assembly, q + inward * step * SQUARES)
+    return End(number, side, q, WEIGHTS @ places)
+
+
+def _apart(known: Branches, one: End, other: End) -> float:
+    """Return how far apart the places of two ends are, in sizes; infinite if they cannot meet."""
+    if one.side != other.side or one.branch == other.branch:
+        return math.inf
+    gap = one.q - other.q
+    gap = math.remainder(gap, math.tau) if known.is_angle else gap
+    apart = float(np.abs(one.place - other.place).max())
+    return apart if abs(gap) <= SAME * known.unit and apart <= SAME_FOLD else math.inf
