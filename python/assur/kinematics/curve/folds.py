@@ -45,25 +45,33 @@ class Folds:
 
     known: Branches
     _ends: list[End] = field(default_factory=list)
-    _seen: int = 0
+    # How many branches are among the ends; at how many ends a partner has been looked for.
+    _measured: int = 0
+    _looked: int = 0
 
     def find(self) -> list[Fold]:
         """Pair the ends; a partner that is not known yet is found beside the fold."""
         known = self.known
-        while self._seen < len(known.branches):
-            branch = known.branches[self._seen]
-            for side, q in enumerate((branch.low, branch.high)):
-                if not math.isfinite(q):
-                    continue
-                end = _end(known, self._seen, side, q)
-                if all(_apart(known, end, other) > SAME_FOLD for other in self._ends):
-                    known.look_at(q + (1 - 2 * side) * BESIDE * _length(known, branch))
-                self._ends.append(end)
-            self._seen += 1
+        self._measure()
+        while self._looked < len(self._ends):
+            end = self._ends[self._looked]
+            self._looked += 1
+            if all(_apart(known, end, other) > SAME_FOLD for other in self._ends):
+                length = _length(known, known.branches[end.branch])
+                known.look_at(end.q + (1 - 2 * end.side) * BESIDE * length)
+                self._measure()
         return [
             Fold(a.q, known.groups[a.branch][a.side], (a.branch, b.branch), a.side == 1)
             for a, b in self._pairs()
         ]
+
+    def _measure(self) -> None:
+        """Add the ends of branches that are new."""
+        known = self.known
+        for number in range(self._measured, len(known.branches)):
+            own = enumerate((known.branches[number].low, known.branches[number].high))
+            self._ends += [_end(known, number, side, q) for side, q in own if math.isfinite(q)]
+        self._measured = len(known.branches)
 
     def _pairs(self) -> list[tuple[End, End]]:
         """Return the ends that meet: the nearest first, whatever the order of the branches."""
