@@ -47,6 +47,17 @@ def places_along(motion: Motion, size: float) -> Float:
     )
 
 
+def nearest(places: Float, place: Float) -> float:
+    """Return how far the nearest of some places is, in sizes; infinite if there is none.
+
+    What is farther away than a size, beside a joint at infinity, counts as a part of its distance.
+    """
+    if not len(places):
+        return float("inf")
+    apart = (np.abs(places - place) / np.maximum(np.abs(place), 1.0)).max(axis=1)
+    return float(np.where(np.isnan(apart), np.inf, apart).min())
+
+
 def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
     """Return the lengths of one design, wherever it stands: distances, not places on the ground.
 

@@ -44,6 +44,12 @@ def test_class_ii(seed: int, variant: str) -> None:
     assert not differences(campaign_cases.random_case(seed).description, variant)
 
 
+@pytest.mark.parametrize("seed", [35, 39])
+def test_above_class_ii(seed: int) -> None:
+    """Branches that end at a pole, and an oval where a slide hardly moves."""
+    assert not differences(mixed_models.mixed_case(seed).description, f"{seed} 0")
+
+
 def test_a_fold_beside_a_joint_that_goes_to_infinity() -> None:
     """A branch of 1.1e-4 from a dead point to a pole: all ends but those at the poles are folds."""
     d = campaign_cases.random_case(6).description

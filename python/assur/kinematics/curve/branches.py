@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.kinematics.curve.parts import SAME, Branch, has_driven_angle
-from assur.kinematics.place import place_of, places_along, size_of
+from assur.kinematics.place import nearest, place_of, places_along, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,9 +71,9 @@ class Branches:
         ]
         # An angle may be in several of them, each in other turns.
         there = [self._solve(branch, [q])[q] for branch in intervals]
-        apart = [(_apart(places, own), index) for index, places in enumerate(there)]
-        nearest, index = min(apart, default=(math.inf, 0))
-        if math.isfinite(nearest):
+        apart = [(nearest(places, own), index) for index, places in enumerate(there)]
+        least, index = min(apart, default=(math.inf, 0))
+        if math.isfinite(least):
             branch = intervals[index]
             self.branches.append(branch)
             self.groups.append((dead.get(branch.low), dead.get(branch.high)))
@@ -94,7 +94,7 @@ class Branches:
             if q not in solved:
                 asked = [one for one in self.coordinates if one not in solved]
                 solved.update(self._solve(branch, asked if q in asked else [q]))
-            if _apart(solved[q], place) <= SAME:
+            if nearest(solved[q], place) <= SAME:
                 return True
         return False
 
@@ -117,11 +117,3 @@ class Branches:
         first = math.ceil((branch.low - q) / math.tau)
         last = math.floor((branch.high - q) / math.tau)
         return [q + math.tau * turn for turn in range(first, last + 1)]
-
-
-def _apart(places: Float, place: Float) -> float:
-    """Return how far the nearest of some places is, in sizes; infinite if there is none."""
-    if not len(places):
-        return math.inf
-    apart = np.abs(places - place).max(axis=1)
-    return float(np.where(np.isnan(apart), math.inf, apart).min())

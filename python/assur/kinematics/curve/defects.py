@@ -12,7 +12,7 @@ from assur._arrays import short
 from assur._validate import real_number
 from assur.errors import InputError
 from assur.kinematics.curve.parts import SAME, ends_of, has_driven_angle
-from assur.kinematics.place import places_along, size_of
+from assur.kinematics.place import nearest, places_along, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -86,7 +86,7 @@ def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[i
             if not low <= there <= high:
                 continue
             motion = mechanism.solve(there, order=0, assembly=branch.assembly, on_error="nan")
-            if np.abs(places_along(motion, size) - own).max() <= SAME:
+            if nearest(places_along(motion, size)[np.newaxis], own) <= SAME:
                 return number, there
     message = f"no branch goes through q = {q!r} in {assembly!r}: give the curve more positions"
     raise InputError(message, value=q)

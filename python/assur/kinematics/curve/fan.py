@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 OFF = 0.4877
 # Most combinations of signs whose intervals are looked at.
 MOST_SIGNS = 512
+# Of the fan, the part that is enough where branches are.
+ENOUGH = 0.5
 # Where an interval is looked at, as a part of it: change points are often in its middle.
 WITHIN = 0.3813
 
@@ -43,6 +45,39 @@ class Fan:
             index = int(np.searchsorted(self.q, q))
             self.q.insert(index, q)
             self.counts.insert(index, self.known.look_at(q))
+
+    def look_where_known(self, positions: int) -> None:
+        """Look at as many coordinates again where branches are, if few of the fan are there."""
+        if not all(math.isfinite(one.high - one.low) for one in self.known.branches):
+            return
+        stretches = self._stretches()
+        total = sum(high - low for low, high in stretches)
+        there = sum(int(self._is_between(np.array(self.q), *ends).sum()) for ends in stretches)
+        if there >= ENOUGH * positions:
+            return
+        more = []
+        for low, high in stretches:
+            count = math.ceil(positions * (high - low) / total)
+            more += [low + (k + 0.5) / count * (high - low) for k in range(count)]
+        first, is_angle = self.q[0], self.known.is_angle
+        self.look_at([first + (q - first) % math.tau if is_angle else q for q in more])
+
+    def _stretches(self) -> list[tuple[float, float]]:
+        """Return what the branches cover together, of an angle within a turn."""
+        known = self.known
+        ends = [(one.low, one.high) for one in known.branches]
+        if known.is_angle:
+            ends = [(low % math.tau, low % math.tau + high - low) for low, high in ends]
+        merged: list[tuple[float, float]] = []
+        for low, high in sorted(ends):
+            if merged and low <= merged[-1][1]:
+                merged[-1] = merged[-1][0], max(high, merged[-1][1])
+            else:
+                merged.append((low, high))
+        # Over the end of a turn the last goes on in the first.
+        while known.is_angle and len(merged) > 1 and merged[0][0] + math.tau <= merged[-1][1]:
+            merged[-1] = merged[-1][0], max(merged[-1][1], merged.pop(0)[1] + math.tau)
+        return merged
 
     def gaps(self) -> list[float]:
         """Return middles of neighbours whose counts differ by other than the ends between them."""
@@ -73,14 +108,17 @@ def around_drawing(mechanism: Mechanism, positions: int, is_angle: bool) -> list
     return [*below[::-1], *(q0 + (k + OFF) * step for k in range(positions // 2))]
 
 
-def look_within_intervals(known: Branches) -> None:
-    """Look for circuits between two coordinates of the fan: in class II every interval is known."""
+def look_within_intervals(known: Branches) -> bool:
+    """Look for circuits between two coordinates of the fan: whether every interval is known.
+
+    It is in class II.
+    """
     mechanism = known.mechanism
     drawn = dict(mechanism._core.assembly)
     slides = mechanism.slides
     free = [name for name in drawn if not (name in slides and slides[name].length)]
     if mechanism._core.cls > 2 or 2 ** len(free) > MOST_SIGNS:
-        return
+        return False
     for signs in product((1, -1), repeat=len(free)):
         assembly = drawn | dict(zip(free, signs, strict=True))
         ends = known.limits(assembly).intervals.tolist()
@@ -90,6 +128,7 @@ def look_within_intervals(known: Branches) -> None:
         for q, place in zip(within, known.places(assembly, np.array(within)), strict=True):
             if np.isfinite(place).all() and not known.has(place, q):
                 known.look_at(q)
+    return True
 
 
 def _within(known: Branches, low: float, high: float) -> float:

@@ -36,7 +36,8 @@ def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCu
     known.look_at(float(np.ravel(mechanism.q0)[0]))
     fan, folds = Fan(known), Folds(known)
     fan.look_at(around_drawing(mechanism, positions, known.is_angle))
-    look_within_intervals(known)
+    if not look_within_intervals(known):
+        fan.look_where_known(positions)
     found = folds.find()
     for _ in range(MOST_HALVINGS):
         gaps = fan.gaps()
