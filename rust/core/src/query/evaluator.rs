@@ -187,6 +187,19 @@ impl<'m> Evaluator<'m> {
         (Some(step).filter(|&step| has_two_solutions(&steps[step])), condition)
     }
 
+    /// The condition of every step of the plan on its own at the last position; NaN of those without
+    /// one, and of a dyad that is nearly flat where the position is interpolated.
+    pub(crate) fn own_conditions(&self, conditions: &mut Vec<f64>) {
+        let cx = self.design.context(self.design.derivatives);
+        // The greatest condition is that of the interpolant's nodes there.
+        let greatest2 = self.state.conditions.greatest[0];
+        conditions.clear();
+        conditions.extend((0..cx.plan.steps.len()).map(|step| {
+            let own2 = self.state.own_condition2(&cx, step).filter(|&own2| own2 <= greatest2);
+            own2.map_or(f64::NAN, f64::sqrt)
+        }));
+    }
+
     /// What makes a position of one driver so ill-conditioned, if that is a length of nearly 0: the step
     /// of its dyad, or the check of a driven one. `step`: the dyad with the greatest condition.
     pub(crate) fn zero_length(
@@ -334,6 +347,16 @@ impl LastPosition {
 }
 
 impl Position<'_> {
+    /// The greatest derivative of an order of all points and slides (in sizes) and angles, of one driver.
+    pub(crate) fn greatest(&self, order: usize) -> f64 {
+        let (len, pose) = (self.state.len, &self.state.pose);
+        let points = pose.points.iter().skip(order).step_by(len);
+        let lengths = points.flat_map(|point| [point[0].x, point[0].y]);
+        let rates = [&pose.slides, &pose.theta].into_iter();
+        let rates = rates.flat_map(|jets| jets.iter().skip(order).step_by(len).map(|rate| rate[0]));
+        lengths.chain(rates).fold(0.0, |greatest, own| own.abs().max(greatest))
+    }
+
     /// Angle of a link, rad, continuous along the branch.
     pub(crate) fn angle(&self, link: usize) -> f64 {
         let rotation = &self.plan.rotation[link];

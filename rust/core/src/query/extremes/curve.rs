@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
-use super::known::{ByAngle, Known, Rounding};
+use super::known::{ByAngle, Known, NOISE, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
 use crate::math::root::all_roots::{Roots, Sample, all_roots};
+use crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED;
 use crate::query::evaluator::Evaluator;
 use crate::structure::closure::point_of_joint;
 
-/// Distance (as an angle) beside a length of 0 at which values are taken: nearer, second derivatives lose
-/// digits.
-pub(super) const ASIDE: f64 = 1.0e-6;
+/// Where the value between two ends is taken, from 0 to 1: the first may be without.
+const WITHIN: [f64; 3] = [0.5, 0.3, 0.8];
 
 /// A coordinate along the branch, and the order of its derivative.
 pub(super) struct Curve<'m> {
@@ -45,6 +45,19 @@ impl Curve<'_> {
         jet.iter().all(|x| x.is_finite()).then_some(jet)
     }
 
+    /// How far rounding reaches at the last position, usually and at most: a coordinate that stands, or
+    /// does not take part in what folds, may be made of others that do.
+    pub(super) fn rounding(&self) -> [f64; 2] {
+        let position = self.evaluator.position();
+        let units = position.units;
+        let unit = if let Tracked::Link(_) = self.tracked { &units.angle } else { &units.length };
+        // Beside a change point the error of a k-th derivative is one of κ^(k + 1).
+        let condition = self.evaluator.total_condition();
+        let grown = (0..self.order).fold(condition, |power, _| power * condition);
+        let parts = [NOISE, NOISE.max(ANALOGUE_PER_CONDITION_SQUARED * grown)];
+        parts.map(|part| part * position.greatest(self.order) * unit[self.order])
+    }
+
     /// The derivative at a coordinate.
     pub(super) fn value(&mut self, q: f64) -> Option<f64> {
         self.by_coordinate(q).map(|jet| jet[0])
@@ -57,15 +70,6 @@ impl Curve<'_> {
         Some([value, rate * first, bend * first * first + rate * second])
     }
 
-    fn known(&mut self, window: &Window) -> Known {
-        self.known_at(window, window.nodes())
-    }
-
-    fn known_at(&mut self, window: &Window, nodes: Vec<f64>) -> Known {
-        let values = nodes.iter().map(|&angle| self.by_angle(window, angle)).collect();
-        Known { nodes, values }
-    }
-
     /// Roots of what `of` makes of the values, its slope with it; `entry` is the one whose poles it has.
     fn roots(
         &mut self,
@@ -76,15 +80,23 @@ impl Curve<'_> {
     ) -> Roots {
         let unit = self.unit(window, entry);
         let rounding = Rounding::new(known, (entry, poles), unit);
-        all_roots(&known.nodes, |angle| {
-            let own = match known.node(angle) {
-                Some(node) => known.values[node],
-                None => self.by_angle(window, angle),
-            }?;
+        let mut sample = |angle: f64| {
+            let own = known.value(angle).unwrap_or_else(|| self.by_angle(window, angle))?;
             let weight = Weight::new(angle, poles);
             let [value, slope] = weight.of(of(own));
             Some(Sample { x: angle, value, slope, noise: rounding.at(angle, weight.factor) })
-        })
+        };
+        let mut found = Roots::default();
+        // From one place where the value is not smooth to the next.
+        let is_smooth = |from: &f64, to: &f64| {
+            !window.zero_lengths.iter().any(|zero| (*from..*to).contains(&zero.angle))
+        };
+        for nodes in known.nodes.chunk_by(is_smooth) {
+            let own = all_roots(nodes, &mut sample);
+            found.isolated.extend(own.isolated);
+            found.jumps.extend(own.jumps);
+        }
+        found
     }
 
     /// The natural size of the derivative, or of its own by the angle.
@@ -96,19 +108,17 @@ impl Curve<'_> {
 
     /// Values that may be extremes.
     pub(super) fn candidates(&mut self, window: &Window) -> Vec<ValueAt> {
-        let known = self.known(window);
+        let known = self.known_at(window, &window.nodes());
+        if self.order > 0 && known.is_zero() {
+            return vec![ValueAt { value: 0.0, q: window.middle }];
+        }
         let mut values = Vec::new();
-        let mut last: Option<(f64, ByAngle)> = None;
         for (&angle, own) in known.nodes.iter().zip(&known.values) {
-            let here = own.map(|own| (angle, own));
             values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(angle) }));
-            if let (Some(from), Some(to)) = (last, here)
-                && let Some(q) = self.pole(window, from, to)
-            {
-                values.push(ValueAt { value: f64::NEG_INFINITY, q });
-                values.push(ValueAt { value: f64::INFINITY, q });
-            }
-            last = here;
+        }
+        for q in self.poles_between(window, &known) {
+            values.push(ValueAt { value: f64::NEG_INFINITY, q });
+            values.push(ValueAt { value: f64::INFINITY, q });
         }
         // The derivative by the angle has a pole of one order more.
         let poles = window.poles(self.order).map(|pole| if pole == 0 { 0 } else { pole + 1 });
@@ -117,46 +127,58 @@ impl Curve<'_> {
             let q = window.at(root.at);
             values.extend(self.value(q).map(|value| ValueAt { value, q }));
         }
-        values.extend(self.at_zero_lengths(window, &known.nodes));
+        values.extend(self.at_zero_lengths(window));
         values.extend(self.at_ends(window, &known));
-        let [first, last] = window.ends();
-        if window.is_period
-            && matches!(self.tracked, Tracked::Link(_))
-            && self.order == 0
-            && let (Some(first), Some(last)) = (self.value(first), self.value(last))
-            && (last - first).abs() > PI
-        {
+        if self.goes_round(window, &known) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q: f64::NAN });
             values.push(ValueAt { value: f64::INFINITY, q: f64::NAN });
         }
         values
     }
 
+    /// Whether it is the angle of a link that is another after a period. At the very ends the angle may
+    /// step (of a cylinder without length), and has no value: it is compared where it has one.
+    fn goes_round(&mut self, window: &Window, known: &Known) -> bool {
+        if !(window.is_period && matches!(self.tracked, Tracked::Link(_)) && self.order == 0) {
+            return false;
+        }
+        let gains = known.nodes.iter().zip(&known.values).find_map(|(&angle, own)| {
+            let [first, ..] = (*own)?;
+            Some(self.value(window.at(PI + angle))? - first)
+        });
+        gains.is_some_and(|gain| gain.abs() > PI)
+    }
+
     /// Stretches over which a linear function of the value is not negative.
     pub(super) fn stretches(&mut self, window: &Window, of: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-        let mut nodes = window.nodes();
-        for at in self.zero_lengths(window, &window.nodes()) {
-            nodes.extend([at - ASIDE, at + ASIDE]);
+        let known = self.known_at(window, &window.nodes());
+        if self.order > 0 && known.is_zero() {
+            return if of(0.0) >= 0.0 { vec![window.ends()] } else { Vec::new() };
         }
-        nodes.sort_by(f64::total_cmp);
-        let known = self.known_at(window, nodes);
         let slope = of(1.0) - of(0.0);
         let poles = window.poles(self.order);
         let roots = self.roots(window, &known, (0, poles), |own| [of(own[0]), slope * own[1]]);
         let [first, last] = window.ends();
-        let mut ends = vec![first];
-        ends.extend(roots.isolated.iter().map(|root| window.at(root.at)));
-        ends.push(last);
+        // Where the value steps, or goes through infinity, it may pass the level without a root.
+        let steps = window.zero_lengths.iter().map(|zero| zero.angle).chain(roots.jumps);
+        // Not so near to an end of the window that there are no values between.
+        let steps = steps.filter(|at| (window.aside..=PI - window.aside).contains(at));
+        let inner = roots.isolated.iter().map(|root| root.at).chain(steps);
+        let mut ends: Vec<f64> = inner.map(|at| window.at(at)).collect();
+        ends.extend(self.poles_between(window, &known));
+        ends.extend([first, last]);
+        ends.sort_by(f64::total_cmp);
         let mut found: Vec<[f64; 2]> = Vec::new();
         for pair in ends.windows(2) {
-            let inside = self.value(0.5 * (pair[0] + pair[1]));
+            let [from, to] = [pair[0], pair[1]];
+            let inside = WITHIN.iter().find_map(|on| self.value(from + on * (to - from)));
             if !inside.is_some_and(|value| of(value) >= 0.0) {
                 continue;
             }
             match found.last_mut() {
                 // A value that only touches the level ends nothing.
-                Some(last) if last[1] == pair[0] => last[1] = pair[1],
-                _ => found.push([pair[0], pair[1]]),
+                Some(last) if last[1] == from => last[1] = to,
+                _ => found.push([from, to]),
             }
         }
         found

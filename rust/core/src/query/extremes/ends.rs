@@ -16,9 +16,9 @@ const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
 /// How near (in halves of the window) to an end without a fold a value is compared.
 const BESIDE_END: [f64; 2] = [1.0e-6, 1.0e-4];
-/// Nodes (as angles) from which a value is extrapolated to where a length is 0. Nearer, where the driven
+/// Nodes (as angles) from which a value is extrapolated to where a length is 0. Nearer, where the
 /// cylinder is short, derivatives lose digits; the polynomial is good to the sixth power of these.
-const CUT_NODES: [f64; 3] = [0.01, 0.02, 0.03];
+pub(super) const CUT_NODES: [f64; 3] = [0.01, 0.02, 0.03];
 /// The coefficient of a pole at a dead point, relative to the greatest of the weighted values: below, it
 /// is the rounding of its extrapolation.
 const LEAST_POLE: f64 = 1.0e-7;
@@ -43,9 +43,18 @@ impl Curve<'_> {
         values
     }
 
+    /// Where the value goes through infinity between nodes.
+    pub(super) fn poles_between(&mut self, window: &Window, known: &Known) -> Vec<f64> {
+        let nodes = known.nodes.iter().zip(&known.values);
+        // At a pole itself there is no value.
+        let values: Vec<(f64, ByAngle)> =
+            nodes.filter_map(|(&angle, own)| own.map(|own| (angle, own))).collect();
+        values.windows(2).filter_map(|pair| self.pole(window, pair[0], pair[1])).collect()
+    }
+
     /// Where a value goes through infinity between two angles: it steps back although it grows at both,
     /// or forward although it falls.
-    pub(super) fn pole(
+    fn pole(
         &mut self,
         window: &Window,
         (mut from, [first, rate, _]): (f64, ByAngle),
@@ -117,11 +126,12 @@ impl Curve<'_> {
         let mut beside = Vec::new();
         for part in [4.0, 8.0, 12.0].map(|part| part * NEAR_END) {
             let angle = if side == 0 { part } else { PI - part };
-            beside.push((part, angle, self.by_angle(window, angle)?));
+            let own = self.by_angle(window, angle)?;
+            beside.push((part, angle, own, self.rounding()));
         }
         let extrapolated = |pole: usize| {
             let poles = [0, 1].map(|end| if end == side { pole } else { 0 });
-            let nodes = beside.iter().map(|&(part, angle, [value, slope, _])| {
+            let nodes = beside.iter().map(|&(part, angle, [value, slope, _], _)| {
                 let [value, slope] = Weight::new(angle, poles).of([value, slope]);
                 (part, value, way * slope)
             });
@@ -136,7 +146,10 @@ impl Curve<'_> {
                 .sizes(0, poles)
                 .filter(|&(angle, _)| own(angle))
                 .fold(0.0_f64, |size, (_, [_, weighted])| size.max(weighted));
-            if coefficient.abs() > LEAST_POLE * size {
+            let rounding = beside.iter().fold(0.0_f64, |most, &(_, angle, _, [rounding, _])| {
+                most.max(Weight::new(angle, poles).factor * rounding)
+            });
+            if coefficient.abs() > (LEAST_POLE * size).max(rounding) {
                 return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
             }
         }
@@ -145,7 +158,7 @@ impl Curve<'_> {
 }
 
 /// The value at 0 of the polynomial through values and slopes at nodes.
-fn hermite_at_zero(nodes: &[(f64, f64, f64)]) -> f64 {
+pub(super) fn hermite_at_zero(nodes: &[(f64, f64, f64)]) -> f64 {
     let weight = |i: usize| {
         let (own, ..) = nodes[i];
         let others = nodes.iter().enumerate().filter(|(j, _)| *j != i);

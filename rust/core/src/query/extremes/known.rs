@@ -1,10 +1,11 @@
 //! What is known at the nodes of a window: values that are not computed twice, and how far rounding
 //! reaches between them.
 
+use super::graded::Node;
 use super::window::Weight;
 
 /// Rounding of a value, relative to the greatest around it.
-const NOISE: f64 = 1.0e-11;
+pub(super) const NOISE: f64 = 1.0e-11;
 /// A coordinate stands whose derivative is below this part of its unit.
 const STANDS: f64 = 1.0e-13;
 
@@ -12,15 +13,51 @@ const STANDS: f64 = 1.0e-13;
 pub(super) type ByAngle = [f64; 3];
 
 /// Values at the nodes.
+#[derive(Default)]
 pub(super) struct Known {
     pub nodes: Vec<f64>,
     pub values: Vec<Option<ByAngle>>,
+    /// How far rounding of everything else reaches at each, usually and at most.
+    rounding: Vec<[f64; 2]>,
+    /// Values between nodes, where a search looks first.
+    between: Vec<(f64, Option<ByAngle>)>,
 }
 
 impl Known {
-    /// The node at an angle.
-    pub(super) fn node(&self, angle: f64) -> Option<usize> {
-        self.nodes.binary_search_by(|node| node.total_cmp(&angle)).ok()
+    /// Adds a node behind the others.
+    pub(super) fn push_node(&mut self, node: &Node) {
+        self.nodes.push(node.angle);
+        self.values.push(node.value);
+        self.rounding.push(node.rounding);
+    }
+
+    /// Whether all values are rounding, and most of them no more than usual.
+    pub(super) fn is_zero(&self) -> bool {
+        let (mut known, mut usual) = (0, 0);
+        for (own, [usually, at_most]) in self.values.iter().zip(&self.rounding) {
+            let Some([value, ..]) = own else { continue };
+            if value.abs() > *at_most {
+                return false;
+            }
+            known += 1;
+            usual += usize::from(value.abs() <= *usually);
+        }
+        2 * usual > known
+    }
+
+    /// Adds a value that is no node, behind the others.
+    pub(super) fn push_between(&mut self, node: &Node) {
+        self.between.push((node.angle, node.value));
+    }
+
+    /// The value at an angle, if that is known.
+    pub(super) fn value(&self, angle: f64) -> Option<Option<ByAngle>> {
+        let node = self.nodes.binary_search_by(|node| node.total_cmp(&angle));
+        let between = || self.between.binary_search_by(|(at, _)| at.total_cmp(&angle));
+        match node {
+            Ok(node) => Some(self.values[node]),
+            Err(_) => between().ok().map(|index| self.between[index].1),
+        }
     }
 
     /// Sizes at the nodes, plain and weighted, of entry `entry` of the values.
@@ -61,9 +98,7 @@ impl Rounding {
                 [0, 1].map(|i| near.iter().fold(0.0, |size, own| own[i].max(size)))
             })
             .collect();
-        let mut plain: Vec<f64> = sizes.iter().map(|size| size[0]).collect();
-        plain.sort_by(f64::total_cmp);
-        let typical = plain[plain.len() / 2].max(STANDS / NOISE * unit);
+        let typical = median(known, &sizes).max(STANDS / NOISE * unit);
         Self { nodes: known.nodes.clone(), around, typical }
     }
 
@@ -73,4 +108,20 @@ impl Rounding {
         let [plain, weighted] = self.around[cell];
         NOISE * (factor * self.typical).max(weighted.min(factor * plain))
     }
+}
+
+/// The size that is not exceeded over half of the window: nodes are closer together where it is great.
+fn median(known: &Known, sizes: &[[f64; 2]]) -> f64 {
+    let at = |node: usize| known.nodes[node.min(known.nodes.len() - 1)];
+    let width = |node: usize| at(node + 1) - at(node.saturating_sub(1));
+    let mut sized: Vec<[f64; 2]> =
+        sizes.iter().enumerate().map(|(node, size)| [size[0], width(node)]).collect();
+    sized.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let half = 0.5 * sized.iter().map(|own| own[1]).sum::<f64>();
+    let mut so_far = 0.0;
+    let beyond = sized.iter().find(|own| {
+        so_far += own[1];
+        so_far > half
+    });
+    beyond.map_or(0.0, |own| own[0])
 }

@@ -3,6 +3,7 @@
 
 mod curve;
 mod ends;
+mod graded;
 mod known;
 pub(crate) mod tracked;
 mod window;
@@ -116,7 +117,8 @@ impl Mechanism {
         let mut curve = Curve { evaluator, tracked, order };
         let turns = limits.period.map_or(1.0, f64::from);
         for interval in &limits.intervals {
-            let window = Window::of(self, &curve.evaluator, interval, turns);
+            let mut window = Window::of(self, &curve.evaluator, interval, turns);
+            curve.find_zero_lengths(&mut window);
             visit(&mut curve, &window);
         }
         Ok(())

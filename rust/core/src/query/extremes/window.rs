@@ -30,8 +30,21 @@ pub(super) struct Window {
     pub infinite: [bool; 2],
     /// Whether it is one period of a motion that closes.
     pub is_period: bool,
+    /// Where passive cylinders have no length and what is looked at is not smooth.
+    pub zero_lengths: Vec<ZeroLength>,
+    /// Distance (as an angle) from these places nearer to which no values are taken.
+    pub aside: f64,
     /// Turns of the driver, or its way in sizes.
     length: f64,
+}
+
+/// A place, as an angle of a window, where a passive cylinder has no length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ZeroLength {
+    pub angle: f64,
+    /// The step of the plan that solves it, and its slide.
+    pub step: usize,
+    pub slide: usize,
 }
 
 impl Window {
@@ -56,6 +69,8 @@ impl Window {
             cuts: interval.folds.map(|fold| fold?.checked_sub(first_length)),
             infinite: interval.ends.map(|end| end.is_infinite() && !is_turn),
             is_period: is_turn && interval.ends[0].is_infinite(),
+            zero_lengths: Vec::new(),
+            aside: 0.0,
             length: (high - low) / unit,
         }
     }
@@ -74,12 +89,33 @@ impl Window {
         self.folds[0] || self.folds[1]
     }
 
-    /// Angles from end to end.
+    /// Distance (as an angle) from a place; in a period the shorter way.
+    pub(super) fn distance(&self, angle: f64, place: f64) -> f64 {
+        let distance = (angle - place).abs();
+        if self.is_period { distance.min((PI - distance).abs()) } else { distance }
+    }
+
+    /// Angles from end to end, but none where a cylinder is too short.
     pub(super) fn nodes(&self) -> Vec<f64> {
         let count = (NODES * self.length).max(NODES).ceil();
         let margin = if self.has_folds() { NEAR_END } else { 0.0 };
         let node = |i: usize| margin + (PI - 2.0 * margin) * i as f64 / count;
-        (0..=whole_part(count)).map(node).collect()
+        let even = (0..=whole_part(count)).map(node);
+        let is_off = |angle: &f64| {
+            self.zero_lengths.iter().all(|zero| self.distance(*angle, zero.angle) > self.aside)
+        };
+        let mut nodes: Vec<f64> = even.filter(is_off).collect();
+        for zero in &self.zero_lengths {
+            let beside = [-self.aside, self.aside].map(|aside| self.in_period(zero.angle + aside));
+            nodes.extend(beside.into_iter().filter(|angle| (0.0..=PI).contains(angle)));
+        }
+        nodes.sort_by(f64::total_cmp);
+        nodes
+    }
+
+    /// The angle of a period where the motion is as at this one.
+    pub(super) fn in_period(&self, angle: f64) -> f64 {
+        if self.is_period { angle - PI * (angle / PI).floor() } else { angle }
     }
 
     pub(super) fn at(&self, angle: f64) -> f64 {
@@ -160,6 +196,8 @@ mod tests {
             cuts: [None; 2],
             infinite: [false; 2],
             is_period: false,
+            zero_lengths: Vec::new(),
+            aside: 0.0,
             length: 0.2,
         }
     }

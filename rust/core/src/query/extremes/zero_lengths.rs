@@ -1,39 +1,81 @@
 //! Where the joints of a passive cylinder coincide: its length has a kink there, and its angle steps by
 //! half a turn. No derivative shows it, so these places are looked for by themselves.
 
-use super::curve::{ASIDE, Curve};
+use std::f64::consts::PI;
+
+use super::curve::Curve;
+use super::ends::{CUT_NODES, hermite_at_zero};
 use super::tracked::{Tracked, ValueAt};
-use super::window::Window;
+use super::window::{Window, ZeroLength};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::plan::dyad::Unknown;
+use crate::plan::plan::Step;
 
+/// Distance (as an angle) from a length of 0 nearer to which no values are taken, of each order: the
+/// direction there has errors of u κ, and its k-th derivatives of u κ^(k + 1).
+const ASIDE: [f64; 4] = [1.0e-6, 1.0e-4, 1.0e-3, 3.0e-3];
 /// Greatest length there, relative to the size: the root of the rounding of its square.
 const ZERO: f64 = 1.0e-7;
+/// Places (as angles) nearer to each other than this are one, found from both ends of a period.
+const SAME: f64 = 1.0e-9;
 
 impl Curve<'_> {
     /// Values beside the places where the tracked coordinate is not smooth.
-    pub(super) fn at_zero_lengths(&mut self, window: &Window, nodes: &[f64]) -> Vec<ValueAt> {
+    pub(super) fn at_zero_lengths(&mut self, window: &Window) -> Vec<ValueAt> {
         let mut values = Vec::new();
-        for angle in self.zero_lengths(window, nodes) {
-            let q = window.at(angle);
-            if self.order == 0 && matches!(self.tracked, Tracked::Slide(_)) {
+        for zero in &window.zero_lengths {
+            let q = window.at(zero.angle);
+            if self.order == 0 && self.tracked == Tracked::Slide(zero.slide) {
                 values.push(ValueAt { value: 0.0, q });
                 continue;
             }
-            for aside in [-ASIDE, ASIDE] {
-                let beside = window.at(angle + aside);
-                let Some([value, rate, _]) = self.by_coordinate(beside) else { continue };
-                values.push(ValueAt { value: value + rate * (q - beside), q });
-            }
+            let sides = [-1.0, 1.0].map(|way| self.beside(window, zero.angle, way));
+            values.extend(sides.into_iter().flatten().map(|value| ValueAt { value, q }));
         }
         values
     }
 
-    /// The places, as angles of the window, where the cylinder has no length that is tracked or whose
-    /// link is.
-    pub(super) fn zero_lengths(&mut self, window: &Window, nodes: &[f64]) -> Vec<f64> {
-        let Some(slide) = self.tracked_length() else { return Vec::new() };
+    /// Looks for the places where passive cylinders have no length. What depends on their direction has no
+    /// derivatives there; other coordinates are smooth, and pass without notice.
+    pub(super) fn find_zero_lengths(&mut self, window: &mut Window) {
+        let mut found = self.zero_lengths(window);
+        found.retain(|zero| self.by_angle(window, zero.angle).is_none());
+        window.zero_lengths = found;
+        window.aside = ASIDE[self.order];
+    }
+
+    /// The value toward an angle, from below (−1) or above.
+    fn beside(&mut self, window: &Window, angle: f64, way: f64) -> Option<f64> {
+        let mut node = |distance: f64| {
+            let [value, slope, _] = self.by_angle(window, angle + way * distance)?;
+            Some((distance, value, way * slope))
+        };
+        let [first, second, third] = CUT_NODES.map(&mut node);
+        Some(hermite_at_zero(&[first?, second?, third?]))
+    }
+
+    /// The places where passive cylinders have no length.
+    fn zero_lengths(&mut self, window: &Window) -> Vec<ZeroLength> {
+        let lengths = self.passive_lengths();
+        if lengths.is_empty() {
+            return Vec::new();
+        }
+        let mut nodes = window.nodes();
+        if window.is_period {
+            // The end of a period is within it, too.
+            nodes.extend(nodes.get(1).map(|first| PI + first));
+        }
         let mut found = Vec::new();
+        for (step, slide) in lengths {
+            let places = self.zeros_of(window, &nodes, slide);
+            found.extend(places.into_iter().map(|angle| ZeroLength { angle, step, slide }));
+        }
+        found
+    }
+
+    /// The angles where one of them has none.
+    fn zeros_of(&mut self, window: &Window, nodes: &[f64], slide: usize) -> Vec<f64> {
+        let mut found: Vec<f64> = Vec::new();
         let mut before: Option<(f64, f64)> = None;
         for &angle in nodes {
             let here = self.length(window, angle, slide).map(|(_, rate)| (angle, rate));
@@ -49,7 +91,10 @@ impl Curve<'_> {
                 {
                     // Beside the place no rate is known; up to it the length falls evenly.
                     let ahead = -length / rate * self.evaluator.unit(0);
-                    found.push(at + ahead / window.rates(at)[0]);
+                    let place = window.in_period(at + ahead / window.rates(at)[0]);
+                    if found.iter().all(|&known| window.distance(known, place) > SAME) {
+                        found.push(place);
+                    }
                 }
             }
             // At length 0 itself it is neither.
@@ -58,20 +103,21 @@ impl Curve<'_> {
         found
     }
 
-    /// A passive length that is tracked, or with which a tracked link turns.
-    fn tracked_length(&self) -> Option<usize> {
-        let plan = self.evaluator.position().plan;
-        let lengths = plan.dyads().filter(|dyad| dyad.is_length);
-        let mut pairs = lengths.filter_map(|dyad| match dyad.unknowns {
-            [Unknown::Class(class), Unknown::Slide(slide)] => Some((class, slide)),
-            _ => None,
-        });
-        let is_tracked = |&(class, slide): &(usize, usize)| match self.tracked {
-            Tracked::Slide(own) => own == slide,
-            Tracked::Link(link) => plan.rotation[link].class == class,
-            Tracked::Joint(..) => false,
+    /// The steps of passive cylinders, and their slides.
+    fn passive_lengths(&self) -> Vec<(usize, usize)> {
+        let slide = |unknown: Unknown| match unknown {
+            Unknown::Slide(slide) => Some(slide),
+            Unknown::Class(_) => None,
         };
-        pairs.find(is_tracked).map(|(_, slide)| slide)
+        let steps = self.evaluator.position().plan.steps.iter().enumerate();
+        steps
+            .filter_map(|(step, of)| match of {
+                Step::Dyad(dyad) if dyad.is_length => {
+                    dyad.unknowns.into_iter().find_map(slide).map(|slide| (step, slide))
+                }
+                _ => None,
+            })
+            .collect()
     }
 
     /// A length in sizes, and its derivative by q; at length 0 it is neither falling nor rising.

@@ -1,0 +1,83 @@
+//! Nodes as close together as the motion is sharp.
+//!
+//! Beside a change point that is missed by δ a coordinate turns within some δ of q, and even nodes step
+//! over it. There the inverse of the condition of a dyad is the root of a smooth function, 1/κ² ~ x² + δ²,
+//! whose complex zeros are where the series of the motion end: as far from x as 1/κ. So a cell in which 1/κ
+//! of every dyad and group is of one size is no wider than the distance to them. Three samples of such a
+//! parabola that passes its minimum between them differ at least by a factor of 3.
+//!
+//! At a length of 0 the condition of its dyad is infinite, but on each side the motion is smooth: times the
+//! distance that condition is of one size.
+
+use super::curve::Curve;
+use super::known::{ByAngle, Known};
+use super::window::Window;
+
+/// The greatest ratio of a condition's values in a cell.
+const GREATEST_RATIO: f64 = 2.0;
+/// Halvings of a cell: 1e-9 of a turn. Nearer to a place where a joint is at infinity, or a length is 0,
+/// conditions grow without end.
+const MAX_HALVINGS: u32 = 24;
+/// How near (as an angle) to a length of 0 the condition is weighted by the distance.
+const NEAR_ZERO: f64 = 0.1;
+
+/// A sample of the curve, with the conditions of what it is made of.
+pub(super) struct Node {
+    pub angle: f64,
+    pub value: Option<ByAngle>,
+    /// How far rounding of everything else reaches, usually and at most.
+    pub rounding: [f64; 2],
+    conditions: Vec<f64>,
+}
+
+impl Curve<'_> {
+    /// Values at nodes, and at those between them that show how sharp the motion is.
+    pub(super) fn known_at(&mut self, window: &Window, nodes: &[f64]) -> Known {
+        let mut known = Known::default();
+        let mut before: Option<Node> = None;
+        for &angle in nodes {
+            let here = self.node(window, angle);
+            if let Some(before) = &before {
+                self.grade(window, [before, &here], MAX_HALVINGS, &mut known);
+            }
+            known.push_node(&here);
+            before = Some(here);
+        }
+        known
+    }
+
+    fn node(&mut self, window: &Window, angle: f64) -> Node {
+        let value = self.by_angle(window, angle);
+        let mut conditions = Vec::new();
+        if value.is_some() {
+            self.evaluator.own_conditions(&mut conditions);
+            for zero in &window.zero_lengths {
+                conditions[zero.step] *= window.distance(angle, zero.angle).min(NEAR_ZERO);
+            }
+        }
+        let rounding = if value.is_some() { self.rounding() } else { [0.0; 2] };
+        Node { angle, value, rounding, conditions }
+    }
+
+    /// Adds what is known between two nodes.
+    fn grade(&mut self, window: &Window, [a, b]: [&Node; 2], halvings: u32, known: &mut Known) {
+        let middle = self.node(window, 0.5 * (a.angle + b.angle));
+        let is_within = middle.angle > a.angle && middle.angle < b.angle;
+        if halvings > 0 && is_within && vary([a, &middle, b]) {
+            self.grade(window, [a, &middle], halvings - 1, known);
+            known.push_node(&middle);
+            self.grade(window, [&middle, b], halvings - 1, known);
+        } else {
+            known.push_between(&middle);
+        }
+    }
+}
+
+/// Whether a condition has values of different sizes.
+fn vary(samples: [&Node; 3]) -> bool {
+    let [a, middle, b] = samples.map(|node| &node.conditions);
+    a.iter().zip(middle).zip(b).any(|((&a, &middle), &b)| {
+        let (least, greatest) = (a.min(middle).min(b), a.max(middle).max(b));
+        greatest > GREATEST_RATIO * least
+    })
+}
