@@ -81,7 +81,7 @@ impl Curve<'_> {
         let unit = self.unit(window, entry);
         let rounding = Rounding::new(known, (entry, poles), unit);
         let mut sample = |angle: f64| {
-            let own = known.value(angle).unwrap_or_else(|| self.by_angle(window, angle))?;
+            let own = known.value_or(angle, || self.by_angle(window, angle))?;
             let weight = Weight::new(angle, poles);
             let [value, slope] = weight.of(of(own));
             Some(Sample { x: angle, value, slope, noise: rounding.at(angle, weight.factor) })

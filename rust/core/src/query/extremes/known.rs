@@ -50,13 +50,18 @@ impl Known {
         self.between.push((node.angle, node.value));
     }
 
-    /// The value at an angle, if that is known.
-    pub(super) fn value(&self, angle: f64) -> Option<Option<ByAngle>> {
-        let node = self.nodes.binary_search_by(|node| node.total_cmp(&angle));
-        let between = || self.between.binary_search_by(|(at, _)| at.total_cmp(&angle));
-        match node {
-            Ok(node) => Some(self.values[node]),
-            Err(_) => between().ok().map(|index| self.between[index].1),
+    /// The value at an angle: the one that is known, or else what `find` gives.
+    pub(super) fn value_or(
+        &self,
+        angle: f64,
+        find: impl FnOnce() -> Option<ByAngle>,
+    ) -> Option<ByAngle> {
+        if let Ok(node) = self.nodes.binary_search_by(|node| node.total_cmp(&angle)) {
+            return self.values[node];
+        }
+        match self.between.binary_search_by(|(at, _)| at.total_cmp(&angle)) {
+            Ok(index) => self.between[index].1,
+            Err(_) => find(),
         }
     }
 
