@@ -23,7 +23,11 @@ class Status(IntEnum):
     OK = 0
     """Solved."""
     NEAR_SINGULAR = 1
-    """Solved; fewer than six digits of the analogues may remain."""
+    """Solved; fewer than six digits of the first analogues may remain.
+
+    Beside a change point second and third analogues lose theirs at lower conditions, while the
+    status is `OK`: see `Motion.condition`.
+    """
     SINGULAR = 2
     """The position is given; its analogues are NaN, except at a change point.
 

@@ -491,7 +491,16 @@ class Motion:
     def condition(self) -> Float:
         """Condition κ of each position: 1/sin of the angle between a dyad's legs.
 
-        For dyads in sequence, the product along the worst chain.
+        For dyads in sequence, the product along the worst chain. Beside a change point the error of
+        a k-th analogue is up to 1.8e-15 κ^(k + 1) of the mechanism's size: four digits remain of a
+        second one up to κ = 3800, of a third up to κ = 480.
+
+        Examples
+        --------
+        >>> import assur
+        >>> motion = assur.SliderCrank(1.0, 1.3, 0.3).solve([-1.58, -1.571], order=3)
+        >>> motion.status.tolist(), (motion.condition < 480.0).tolist()
+        ([0, 0], [True, False])
         """
         return self._diagnose()[1]
 
