@@ -102,8 +102,9 @@ def test_four_bars_that_nearly_pass_a_change_point(seed: int) -> None:
         a, b, c = rng.uniform(0.5, 2.5, 3)
         grounds = [length for length in (b + c - a, a + c - b, a + b - c) if length > 0.2]
         ground = rng.choice(grounds)
-        lengths = (a, b, c, ground + miss) if part % 2 else (a, b + miss, a - miss, b)
-        m = assur.FourBar(*(float(length) for length in lengths))
+        lengths = (a, b, c, ground + miss) if part % 2 else (a, b + miss, a + 0.3 * miss, b)
+        crank, coupler, rocker, base = (float(length) for length in lengths)
+        m = assur.FourBar(crank, coupler, rocker, base)
         limits = m.limits()
         near = np.geomspace(1e-3 * abs(miss), math.pi, 1500)
         turn = (m.q0 - math.pi, m.q0 + math.pi)

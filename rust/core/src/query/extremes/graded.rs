@@ -22,11 +22,11 @@ const MAX_HALVINGS: u32 = 24;
 const NEAR_ZERO: f64 = 0.1;
 
 /// A sample of the curve, with the conditions of what it is made of.
-pub(super) struct Node {
-    pub angle: f64,
-    pub value: Option<ByAngle>,
+struct Node {
+    angle: f64,
+    value: Option<ByAngle>,
     /// How far rounding of everything else reaches, usually and at most.
-    pub rounding: [f64; 2],
+    rounding: [f64; 2],
     conditions: Vec<f64>,
 }
 
@@ -40,7 +40,7 @@ impl Curve<'_> {
             if let Some(before) = &before {
                 self.grade(window, [before, &here], MAX_HALVINGS, &mut known);
             }
-            known.push_node(&here);
+            known.push_node(angle, here.value, here.rounding);
             before = Some(here);
         }
         known
@@ -65,10 +65,10 @@ impl Curve<'_> {
         let is_within = middle.angle > a.angle && middle.angle < b.angle;
         if halvings > 0 && is_within && vary([a, &middle, b]) {
             self.grade(window, [a, &middle], halvings - 1, known);
-            known.push_node(&middle);
+            known.push_node(middle.angle, middle.value, middle.rounding);
             self.grade(window, [&middle, b], halvings - 1, known);
         } else {
-            known.push_between(&middle);
+            known.push_between(middle.angle, middle.value);
         }
     }
 }

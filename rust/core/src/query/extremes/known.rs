@@ -1,7 +1,6 @@
 //! What is known at the nodes of a window: values that are not computed twice, and how far rounding
 //! reaches between them.
 
-use super::graded::Node;
 use super::window::Weight;
 
 /// Rounding of a value, relative to the greatest around it.
@@ -25,10 +24,10 @@ pub(super) struct Known {
 
 impl Known {
     /// Adds a node behind the others.
-    pub(super) fn push_node(&mut self, node: &Node) {
-        self.nodes.push(node.angle);
-        self.values.push(node.value);
-        self.rounding.push(node.rounding);
+    pub(super) fn push_node(&mut self, angle: f64, value: Option<ByAngle>, rounding: [f64; 2]) {
+        self.nodes.push(angle);
+        self.values.push(value);
+        self.rounding.push(rounding);
     }
 
     /// Whether all values are rounding, and most of them no more than usual.
@@ -46,8 +45,8 @@ impl Known {
     }
 
     /// Adds a value that is no node, behind the others.
-    pub(super) fn push_between(&mut self, node: &Node) {
-        self.between.push((node.angle, node.value));
+    pub(super) fn push_between(&mut self, angle: f64, value: Option<ByAngle>) {
+        self.between.push((angle, value));
     }
 
     /// The value at an angle: the one that is known, or else what `find` gives.
