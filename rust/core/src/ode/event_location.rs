@@ -3,7 +3,7 @@
 use super::event::EventTracker;
 use super::pair::dense::Interpolant;
 use super::pair::stages::{Block, Refusal, Stages};
-use super::system::{Action, System};
+use super::system::{Action, Fault, System};
 
 /// Limit of Newton steps that polish the location of an event.
 const MAX_POLISH_STEPS: u32 = 3;
@@ -24,6 +24,8 @@ const MAX_CORRECTION: f64 = 1.0 / 32.0;
 pub(super) struct Cut {
     /// Where.
     pub t: f64,
+    /// The width that the polynomial of the step has now.
+    pub width: f64,
     /// The event that ends the run here, if one does.
     pub stop: Option<usize>,
 }
@@ -43,6 +45,8 @@ pub(super) struct Step<'a, S> {
     pub state: &'a mut [Block],
     /// The state at an event, before the event changed it.
     pub event_state: &'a mut [Block],
+    /// The rates there.
+    pub event_rates: &'a mut [f64],
 }
 
 impl<S: System> Step<'_, S> {
@@ -176,6 +180,11 @@ impl<S: System> Step<'_, S> {
             }
             self.event_state.copy_from_slice(self.state);
             record(j, t, &self.event_state.as_flattened()[..self.n]);
+            // After the event the system may be another.
+            let may_cut = self.system.may_cut(j);
+            if may_cut {
+                self.evaluate_event_rates(theta)?;
+            }
             let action =
                 self.system.on_event(j, t, &mut self.state.as_flattened_mut()[..self.n])?;
             tracker.pass_event(j);
@@ -187,10 +196,13 @@ impl<S: System> Step<'_, S> {
             for &(before, other) in &found[..i] {
                 tracker.fired[other] = theta - before <= tolerance;
             }
+            let mut width = self.h;
             if theta > 0.0 {
-                self.interpolant.correct(theta, self.event_state.as_flattened());
+                let state = self.event_state.as_flattened();
+                let widths = [self.h, t - self.t];
+                width = self.interpolant.end_at(theta, widths, state, self.event_rates);
             }
-            let mut cut = Cut { t, stop: Some(j).filter(|_| action == Action::Stop) };
+            let mut cut = Cut { t, width, stop: Some(j).filter(|_| action == Action::Stop) };
             // Other functions that cross here must make their events now: after the restart they
             // are past their crossing.
             for other in 0..tracker.len() {
@@ -211,6 +223,21 @@ impl<S: System> Step<'_, S> {
             return Ok(Some(cut));
         }
         Ok(None)
+    }
+
+    /// The rates at an event, before it changes anything. Where they have no value, those of dense
+    /// output: the step itself went on.
+    fn evaluate_event_rates(&mut self, theta: f64) -> Result<(), S::Error> {
+        self.stages.evaluations += 1;
+        let (t, state) = (self.time(theta), &self.event_state.as_flattened()[..self.n]);
+        match self.system.rates(t, state, self.event_rates) {
+            Ok(()) if self.event_rates.iter().all(|rate| rate.is_finite()) => Ok(()),
+            Err(Fault::Error(error)) => Err(error),
+            _ => {
+                self.interpolant.slope(theta, self.h, self.event_rates);
+                Ok(())
+            }
+        }
     }
 
     /// State and event functions at a polished event.

@@ -20,6 +20,8 @@ pub struct Integrator {
     /// The state at an event, after and before its change by [`super::System::on_event`].
     pub(super) state: Vec<Block>,
     pub(super) event_state: Vec<Block>,
+    /// The rates there.
+    pub(super) event_rates: Vec<f64>,
 }
 
 impl Integrator {
@@ -37,6 +39,7 @@ impl Integrator {
             new: zero.clone(),
             state: zero.clone(),
             event_state: zero,
+            event_rates: vec![0.0; n],
         }
     }
 }

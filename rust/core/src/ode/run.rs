@@ -349,7 +349,8 @@ impl<'a, S: System> Run<'a, S> {
         self.statistics.add_step((reached - self.t).abs(), last || cut.is_some(), self.stiff);
         if reached != self.t {
             let Integrator { interpolant, n, .. } = &*self.integrator;
-            let recorded = self.record.step(interpolant, *n, self.t, h, reached);
+            let width = cut.as_ref().map_or(h, |cut| cut.width);
+            let recorded = self.record.step(interpolant, *n, self.t, width, reached);
             recorded.map_err(|_| Error::OutOfMemory { steps: self.record.dense.ends().len() })?;
             self.restarts_in_place = 0;
         }
@@ -373,7 +374,7 @@ impl<'a, S: System> Run<'a, S> {
     }
 
     fn detect_events(&mut self, h: f64, t_new: f64) -> Result<Option<Cut>, S::Error> {
-        let Integrator { n, stages, interpolant, tracker, y, new, state, event_state } =
+        let Integrator { n, stages, interpolant, tracker, y, new, state, event_state, event_rates } =
             &mut *self.integrator;
         if tracker.len() == 0 {
             return Ok(None);
@@ -390,6 +391,7 @@ impl<'a, S: System> Run<'a, S> {
             new,
             state,
             event_state,
+            event_rates,
         };
         let record = &mut self.record;
         step.detect(tracker, |index, t, y| record.event(index, t, y))

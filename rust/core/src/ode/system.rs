@@ -90,6 +90,12 @@ pub trait System {
         Ok(Action::Continue)
     }
 
+    /// Whether an event may restart or end the run: then the step that it cuts ends with the rates there.
+    fn may_cut(&self, event: usize) -> bool {
+        let _ = event;
+        true
+    }
+
     /// Starts to monitor an invariant. The last call of `rates` was for this state.
     fn watch_invariant(&mut self, t: f64, y: &[f64]) {
         let _ = (t, y);

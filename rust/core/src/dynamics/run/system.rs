@@ -459,6 +459,13 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         Ok(Action::Restart)
     }
 
+    fn may_cut(&self, event: usize) -> bool {
+        self.event_index(event).is_none_or(|index| {
+            let EventSpec { stops, rebound, .. } = self.events[index];
+            stops || rebound.is_some()
+        })
+    }
+
     fn watch_invariant(&mut self, _: f64, y: &[f64]) {
         self.total = self.balance(y).0;
     }

@@ -12,6 +12,10 @@ use super::tableau::HERMITE_ROWS;
 /// Least rows of a step: y₀ and the cubic of Hermite.
 pub(crate) const LEAST_ROWS: usize = 1 + HERMITE_ROWS;
 
+/// A step cut to less than this part of it is a cubic to rounding: its fourth derivative contributes
+/// 1e-12 of what it contributes to the whole step, by 1/384.
+const CUBIC_WITHIN: f64 = 1.0e-3;
+
 /// The continuous extension of one step.
 #[derive(Debug)]
 pub(in crate::ode) struct Interpolant {
@@ -63,13 +67,50 @@ impl Interpolant {
         }
     }
 
-    /// Corrects the polynomial to pass through a more accurate state at θ. The difference is of the
-    /// size of its error and is added in proportion to θ.
-    pub(in crate::ode) fn correct(&mut self, theta: f64, y: &[f64]) {
-        for i in 0..self.n {
-            let error = y[i] - component(&self.rows, self.n, theta, i);
-            self.rows[self.n + i] += error / theta;
+    /// Writes the rates at θ of a step of width h.
+    pub(in crate::ode) fn slope(&self, theta: f64, h: f64, rates: &mut [f64]) {
+        for (i, rate) in rates.iter_mut().enumerate() {
+            *rate = component_slope(&self.rows, self.n, theta, i) / h;
         }
+    }
+
+    /// Ends the polynomial at θ with a more accurate state, and with the rates there: after the part
+    /// `to` of the step's width h. Returns the width that the polynomial then has.
+    ///
+    /// The differences, of the size of its own error, are added as the cubic in θ/θ₁ that begins at zero
+    /// with slope zero: the start and its rates stay. Divided by θ₁³ it would lose its digits where θ₁ is
+    /// small; there the cubic through both ends is all of the step.
+    pub(in crate::ode) fn end_at(
+        &mut self,
+        theta: f64,
+        [h, to]: [f64; 2],
+        y: &[f64],
+        rates: &[f64],
+    ) -> f64 {
+        let n = self.n;
+        if theta < CUBIC_WITHIN {
+            for i in 0..n {
+                let rate = (self.rows[n + i] + self.rows[2 * n + i]) / h;
+                let change = y[i] - self.rows[i];
+                let second = to * rate - change;
+                self.rows[n + i] = change;
+                self.rows[2 * n + i] = second;
+                self.rows[3 * n + i] = change - to * rates[i] - second;
+            }
+            self.rows[LEAST_ROWS * n..].fill(0.0);
+            return to;
+        }
+        for i in 0..n {
+            let error = y[i] - component(&self.rows, n, theta, i);
+            let slope = theta * (h * rates[i] - component_slope(&self.rows, n, theta, i));
+            // a θ² + b θ³ = (a + b) (θ − θ (1 − θ)) − b θ² (1 − θ).
+            let a = (3.0 * error - slope) / (theta * theta);
+            let b = (slope - 2.0 * error) / (theta * theta * theta);
+            self.rows[n + i] += a + b;
+            self.rows[2 * n + i] -= a + b;
+            self.rows[3 * n + i] -= b;
+        }
+        h
     }
 }
 

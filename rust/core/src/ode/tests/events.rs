@@ -381,3 +381,53 @@ fn output_stops_and_starts_at_restarts() {
         assert!(dense.at(*t, &mut at) && (at[0] - y).abs() < 1e-14, "{t}: {at:?}");
     }
 }
+
+/// A step that an event cuts ends with the rates there, and begins with its own, however little of it
+/// is left.
+#[test]
+fn steps_cut_by_events_end_with_the_rates_there() {
+    for method in BOTH {
+        let run = |places: &[f64]| {
+            let mut system = Watched {
+                rates: oscillate,
+                events: |t: f64, _: &[f64], values: &mut [f64]| {
+                    values.iter_mut().zip(places).for_each(|(value, place)| *value = t - place);
+                },
+                act: |_: usize, _: usize, _: &mut [f64]| Action::Restart,
+                count: 0,
+            };
+            let crossings = vec![Crossing::Rising; places.len()];
+            let options = Options {
+                relative: &[1e-5],
+                absolute: &[1e-5],
+                events: &crossings,
+                output: Output::Dense,
+                ..Options::default()
+            };
+            let run = Integrator::new(method, 2).run(&mut system, 0.0, &[0.0, 1.0], 6.0, &options);
+            run.expect("a run")
+        };
+        let first = run(&[]).dense.ends()[1];
+        for beside in [0.3, 0.03, 2e-3, 1e-4, 1e-6, 1e-9] {
+            let found = run(&[first + beside, 4.0]);
+            assert_eq!(found.events.len(), 2, "{method:?} {beside}");
+            let (mut y, mut rates, mut own) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+            found.dense.each_end(|t, y, rates| {
+                oscillate(t, y, &mut own);
+                assert!(
+                    largest_difference(rates, &own) < 1e-13,
+                    "{method:?} {beside} {t}: {rates:?}"
+                );
+            });
+            assert!(found.dense.slope(0.0, &mut rates) && rates == [1.0, 0.0]);
+            for i in 0..=600 {
+                let t = 0.01 * f64::from(i);
+                assert!(found.dense.at(t, &mut y) && found.dense.slope(t, &mut rates));
+                let exact = [t.sin(), t.cos()];
+                assert!(largest_difference(&y, &exact) < 1e-3, "{method:?} {beside} {t}: {y:?}");
+                let exact = [t.cos(), -t.sin()];
+                assert!(largest_difference(&rates, &exact) < 1e-2, "{method:?} {t}: {rates:?}");
+            }
+        }
+    }
+}
