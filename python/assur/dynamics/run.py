@@ -225,7 +225,9 @@ class Run(Tabular):
     t : ndarray
         Times at the ends of the steps, s.
     q, speed, acceleration : ndarray
-        Coordinate, speed and acceleration of the driver at these times.
+        Coordinate, speed and acceleration of the driver at these times. Where the acceleration
+        jumps (a load, friction that reverses, a stop) it is that before the jump; in the first row
+        that behind it.
     events : list of EventRecord
         The events detected, in order.
     end : str

@@ -194,6 +194,23 @@ impl Machine {
         }
     }
 
+    /// Where pairs with friction reverse between two coordinates.
+    fn reversals(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        start: f64,
+        end: f64,
+    ) -> PyResult<Vec<f64>> {
+        match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                let core = &mechanism.get().inner;
+                detach::run(py, true, |_| machine.reversals(core, &dimensions, [start, end]))
+            }
+            Inner::Tables(_) => Ok(Vec::new()),
+        }
+    }
+
     /// The first table over another coordinate that does not cover a position of a design: its ends, and
     /// the value there.
     fn uncovered(&self, dimensions: Vec<f64>, q: Vec<f64>) -> PyResult<Option<(f64, f64, f64)>> {

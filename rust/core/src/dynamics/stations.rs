@@ -29,6 +29,22 @@ const BESIDE_TURN: f64 = 1.0e-5;
 /// Width to which a station is located, in u of its coordinate or unit.
 const WIDTH_ULPS: f64 = 4.0;
 
+/// Positions between which coordinates are followed over a range; `unit` is that of the driver.
+pub(crate) fn nodes_of([from, to]: [f64; 2], unit: f64) -> Vec<f64> {
+    // A root at an end lies between positions.
+    let [low, high] = [from.min(to) - STEP * unit, from.max(to) + STEP * unit];
+    let steps = ((high - low) / (STEP * unit)).ceil().clamp(MIN_STEPS, MAX_STEPS);
+    let parts = std::iter::successors(Some(0.0), |&part| (part < steps).then_some(part + 1.0));
+    parts.map(|part| low + (high - low) * (part / steps)).collect()
+}
+
+/// Whether a station is in a range, or at an end of it to rounding.
+pub(crate) fn within(q: f64, [from, to]: [f64; 2], unit: f64) -> bool {
+    let [low, high] = [from.min(to), from.max(to)];
+    let slack = AT_END * low.abs().max(high.abs()).max(unit);
+    (low - slack..=high + slack).contains(&q)
+}
+
 /// A coordinate that loads follow, and the tables over it.
 struct Coordinate<'m> {
     measure: Measure,
@@ -115,12 +131,7 @@ impl Coordinate<'_> {
         [from, to]: [f64; 2],
     ) -> Vec<f64> {
         let unit = evaluator.unit(0);
-        let ends = [from.min(to), from.max(to)];
-        // A root at an end lies between positions.
-        let [low, high] = [ends[0] - STEP * unit, ends[1] + STEP * unit];
-        let steps = ((high - low) / (STEP * unit)).ceil().clamp(MIN_STEPS, MAX_STEPS);
-        let parts = std::iter::successors(Some(0.0), |&part| (part < steps).then_some(part + 1.0));
-        let nodes: Vec<f64> = parts.map(|part| low + (high - low) * (part / steps)).collect();
+        let nodes = nodes_of([from, to], unit);
         let size = if matches!(self.measure, Measure::Slide(_)) {
             evaluator.position().constants.scale
         } else {
@@ -180,8 +191,7 @@ impl Coordinate<'_> {
                 }
             }
         }
-        let slack = AT_END * ends[0].abs().max(ends[1].abs()).max(unit);
-        found.retain(|q| (ends[0] - slack..=ends[1] + slack).contains(q));
+        found.retain(|&q| within(q, [from, to], unit));
         found
     }
 }

@@ -6,5 +6,6 @@ pub(crate) mod motion;
 mod newton;
 pub(crate) mod problem;
 mod quadrics;
+pub(crate) mod reversals;
 pub(crate) mod solutions;
 mod work;

@@ -53,6 +53,9 @@ pub(crate) struct FrictionMotion<'m> {
     unit: f64,
     values: Vec<Vec<f64>>,
     scene: Scene<f64>,
+    /// The way in which every pair slides while the driver moves forward, +1 or −1, or 0 where it rests;
+    /// none before a motion begins.
+    held: Option<Vec<f64>>,
 }
 
 /// The only position.
@@ -84,7 +87,27 @@ impl<'m> FrictionMotion<'m> {
             machine,
             columns,
             plan,
+            held: None,
         }
+    }
+
+    /// Holds the ways in which pairs slide at a position, until one reverses: in between the acceleration
+    /// is a smooth function, ends included.
+    pub(crate) fn hold(&mut self, pose: &SolvedPose<'_>) {
+        self.read_values(pose);
+        let Self { plan, rubbing, sources, guides, values, scene, .. } = self;
+        let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let forward =
+            Solved { columns: &columns, speed: &[1.0], acceleration: &[0.0], positions: 1 };
+        scene.read(plan, sources, guides, &forward, ROW);
+        let pairs = (&*plan, &rubbing[..]);
+        scene.read_rubbing(pairs, sources, (&forward, ROW), &[1.0], self.unit);
+        scene.respond(plan, rubbing, |_| ());
+        let rubs = &scene.rubs;
+        let way = |(&[_, way], &still): (&[f64; 2], &f64)| {
+            if way.abs() > still { way.signum() } else { 0.0 }
+        };
+        self.held = Some(rubs.speeds.iter().zip(&rubs.still).map(way).collect());
     }
 
     /// The acceleration; `None` where friction leaves none. `numbers`: what the loads read.
@@ -140,6 +163,11 @@ impl<'m> FrictionMotion<'m> {
         for (slopes, effort) in scene.rubs.slopes.iter_mut().zip(&per_friction) {
             for (slope, &rate) in slopes.iter_mut().zip(&per_acceleration) {
                 *slope = *slope - rate.scale(effort / inertia);
+            }
+        }
+        if let Some(held) = &self.held {
+            for (pair, &way) in held.iter().enumerate() {
+                scene.rubs.hold(pair, way * state.sense);
             }
         }
         let (problem, used) = scene.problem(rubbing, 0);

@@ -36,3 +36,13 @@ impl<R: Real> Rubs<R> {
         -(self.friction[pair] * self.speeds[pair][0])
     }
 }
+
+impl Rubs<f64> {
+    /// Lets a pair slide one way, +1 or −1, whatever its speed; or, with 0, rest.
+    pub(crate) fn hold(&mut self, pair: usize, way: f64) {
+        let speed = &mut self.speeds[pair][1];
+        *speed = speed.abs().copysign(way);
+        // No speed is below a negative one.
+        self.still[pair] = if way == 0.0 { f64::INFINITY } else { -1.0 };
+    }
+}

@@ -211,7 +211,11 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
 
     /// Enters the interval between stations where a motion in time begins.
     pub(crate) fn begin_in_time(&mut self, q: f64, speed: f64) -> Result<(), RunError<O::Error>> {
-        if self.model.has_stations() && q.abs() > MAX_COORDINATE * self.model.unit(0) {
+        let is_far = q.abs() > MAX_COORDINATE * self.model.unit(0);
+        if is_far {
+            self.model.ignore_reversals();
+        }
+        if is_far && self.model.has_stations() {
             return Err(RunError::TooManyKnots { most: MAX_KNOTS, from: q, to: q });
         }
         self.face(q, speed >= 0.0).map_err(|which| self.outside_curve(which))

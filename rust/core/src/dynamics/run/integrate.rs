@@ -192,8 +192,12 @@ pub(crate) fn stations_between<S: ReducedModel, E>(
         return Ok(Vec::new());
     }
     let unit = model.unit(0);
-    if from.abs().max(to.abs()) > MAX_COORDINATE * unit || (to - from).abs() > MOST_FOLLOWED * unit
-    {
+    let is_long = (to - from).abs() > MOST_FOLLOWED * unit;
+    let is_far = is_long || from.abs().max(to.abs()) > MAX_COORDINATE * unit;
+    if is_far {
+        model.ignore_reversals();
+    }
+    if is_far && model.has_stations() {
         return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
     let mut found = model.stations([from.min(to), from.max(to)]);

@@ -6,6 +6,7 @@ use crate::dynamics::angle_between::Angle;
 use crate::dynamics::flywheel::cycle::{with_seam, without_jumps};
 use crate::dynamics::followers::{Followers, Held};
 use crate::dynamics::friction::motion::{Drive, FrictionMotion, RubbingState};
+use crate::dynamics::friction::reversals::{Sliding, reversals};
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::{Machine, ReducedTable};
 use crate::dynamics::measure::Over;
@@ -54,22 +55,26 @@ pub(crate) trait ReducedModel {
         None
     }
 
-    /// Whether loads of a machine with one driver follow others, and may not be smooth between stations.
+    /// Whether loads of a machine with one driver follow others, or pairs with friction reverse: then the
+    /// motion is smooth between stations.
     fn has_stations(&self) -> bool {
         false
     }
+
+    /// Reversals of pairs with friction are no stations: they would be too many, or too inexact.
+    fn ignore_reversals(&mut self) {}
 
     /// Whether loads depend on the sense of the motion.
     fn has_ways(&self) -> bool {
         false
     }
 
-    /// The coordinates between which loads that follow others are smooth, in a range.
+    /// The coordinates between which loads that follow others, and friction, are smooth, in a range.
     fn stations(&mut self, _: [f64; 2]) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Holds what is true of these loads at a coordinate until the next station. Returns whether it is
+    /// Holds what is true of these at a coordinate until the next station. Returns whether it is
     /// reachable.
     ///
     /// # Errors
@@ -128,6 +133,8 @@ pub(crate) struct MechanismModel<'m> {
     held: Held,
     followers: Followers,
     friction: Option<FrictionMotion<'m>>,
+    /// The pairs with friction, whose reversals are stations.
+    reversing: Vec<Sliding>,
 }
 
 /// Beyond this condition of a dyad or group the analogues have too few digits to be integrated:
@@ -194,8 +201,9 @@ impl<'m> MechanismModel<'m> {
         let rubs = !machine.friction.is_empty() && mechanism.q0().len() == 1;
         let unit = evaluator.unit_of_length();
         let friction = rubs.then(|| FrictionMotion::new(machine, mechanism, dimensions, unit));
+        let reversing = if rubs { Sliding::of(machine, mechanism) } else { Vec::new() };
         let (held, followers) = (Held::default(), Followers::default());
-        Self { machine, derivatives, evaluator, held, followers, friction }
+        Self { machine, derivatives, evaluator, held, followers, friction, reversing }
     }
 }
 
@@ -246,7 +254,12 @@ impl ReducedModel for MechanismModel<'_> {
     }
 
     fn has_stations(&self) -> bool {
-        self.machine.has_stations() && self.derivatives.drivers == 1
+        let has_own = self.machine.has_stations() && self.derivatives.drivers == 1;
+        has_own || !self.reversing.is_empty()
+    }
+
+    fn ignore_reversals(&mut self) {
+        self.reversing.clear();
     }
 
     fn has_ways(&self) -> bool {
@@ -257,7 +270,13 @@ impl ReducedModel for MechanismModel<'_> {
         if !self.has_stations() {
             return Vec::new();
         }
-        self.machine.stations_of(&mut self.evaluator, self.derivatives, range)
+        let Self { machine, derivatives, evaluator, reversing, .. } = self;
+        let mut found = machine.stations_of(evaluator, derivatives, range);
+        if !reversing.is_empty() {
+            found.extend(reversals(reversing, evaluator, derivatives, range));
+            found.sort_unstable_by(f64::total_cmp);
+        }
+        found
     }
 
     fn hold(&mut self, q: f64) -> Result<bool, (usize, f64)> {
@@ -265,7 +284,11 @@ impl ReducedModel for MechanismModel<'_> {
             return Ok(false);
         }
         let pose = SolvedPose::new(self.evaluator.position(), self.derivatives);
-        self.held.hold(self.machine.followed(), &pose, &[q]).map(|()| true)
+        self.held.hold(self.machine.followed(), &pose, &[q])?;
+        if let Some(friction) = self.friction.as_mut().filter(|_| !self.reversing.is_empty()) {
+            friction.hold(&pose);
+        }
+        Ok(true)
     }
 
     fn table_over(&self, index: usize) -> Option<&Table> {

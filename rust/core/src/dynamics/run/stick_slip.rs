@@ -43,7 +43,7 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         self.apply_loads(t, &[q], &[0.0])?;
         let mut both = [f64::NEG_INFINITY, f64::INFINITY];
         for (own, sense) in both.iter_mut().zip([1.0, -1.0]) {
-            if sense < 0.0 && self.model.has_ways() {
+            if sense < 0.0 && self.model.has_stations() {
                 self.turn_to(q, sense);
                 self.set_configuration(&[q])?;
                 self.apply_loads(t, &[q], &[0.0])?;
