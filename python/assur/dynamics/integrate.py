@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 import warnings
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from assur import events as known_events
 from assur import flywheel as flywheels
 from assur._arrays import finite_array, real_number
 from assur._validate import one_of
+from assur.dynamics.no_value import not_covered, table_names
 from assur.dynamics.options import (
     as_list,
     checked_breaks,
@@ -31,8 +35,11 @@ from assur.errors import AssurWarning, InputError
 from assur.kinematics.solve import warn_if_degrees
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy.typing as npt
 
+    from assur._arrays import Float
     from assur.dynamics.machine import Machine
 
 # Less accurate periods do not determine the speed.
@@ -47,6 +54,8 @@ EARLY_ENDS = (
     "step limit",
     "time limit",
 )
+# Places of a period at which tables are looked at, to name the load of one that does not cover it.
+PLACES = 721
 # Events of friction.
 STICK, SLIP = "stick", "slip"
 # Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
@@ -84,25 +93,24 @@ def run(
     if along_q and (end - start[0]) * speeds[0] < 0.0:
         message = f"q_end = {end:g} lies behind q0 = {start[0]:g} at speed0 = {speeds[0]:g}"
         raise InputError(message, value=end)
-    core = machine._core.run(
-        _dimensions(machine),
-        along_q,
-        (real_number(t0, "t0"), start, speeds),
-        end,
-        options["method"],
-        (relative_tolerance(options["rtol"]), tolerance_pair(options["atol"])),
-        (
-            positive_number(options["max_step"], "max_step"),
-            step_count(options["max_steps"]),
-            checked_seconds(options["max_seconds"]),
-        ),
-        checked_breaks(options["breaks"]),
-        checked,
-    )
+    with _naming_tables(machine, np.array(start)):
+        core = machine._core.run(
+            _dimensions(machine),
+            along_q,
+            (real_number(t0, "t0"), start, speeds),
+            end,
+            options["method"],
+            (relative_tolerance(options["rtol"]), tolerance_pair(options["atol"])),
+            (
+                positive_number(options["max_step"], "max_step"),
+                step_count(options["max_steps"]),
+                checked_seconds(options["max_seconds"]),
+            ),
+            checked_breaks(options["breaks"]),
+            checked,
+        )
     # The core counts what friction does after the events that were asked for.
-    made = Run(
-        core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, len(machine._core.tables)
-    )
+    made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, table_names(machine))
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
     # A machine from a table has no singular positions.
@@ -140,19 +148,22 @@ def steady_state(
     if relative_tolerance(options["rtol"]) > LOOSEST_RTOL:
         message = f"rtol is {options['rtol']!r}: it must be at most {LOOSEST_RTOL}"
         raise InputError(message)
-    core, numbers = machine._core.steady(
-        _dimensions(machine),
-        _start(machine, q0, "q0")[0],
-        span,
-        guess,
-        options["mean"],
-        options["method"],
-        relative_tolerance(options["rtol"]),
-        (step_count(options["max_steps"]), checked_seconds(options["max_seconds"])),
-        checked_breaks(options["breaks"]),
-        flywheel,
-        wanted,
-    )
+    start = _start(machine, q0, "q0")[0]
+    # Where the core finds a table that does not cover the period, it says nothing of the load.
+    with _naming_tables(machine, start + np.linspace(0.0, span, PLACES)):
+        core, numbers = machine._core.steady(
+            _dimensions(machine),
+            start,
+            span,
+            guess,
+            options["mean"],
+            options["method"],
+            relative_tolerance(options["rtol"]),
+            (step_count(options["max_steps"]), checked_seconds(options["max_seconds"])),
+            checked_breaks(options["breaks"]),
+            flywheel,
+            wanted,
+        )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])
     if machine.motor is not None and abs(made.found_moment) > BALANCE_WARN_RTOL * abs(
         made.motor_moment
@@ -163,6 +174,20 @@ def steady_state(
         )
         warnings.warn(message, AssurWarning, stacklevel=3)
     return made
+
+
+@contextmanager
+def _naming_tables(machine: Machine, places: Float) -> Iterator[None]:
+    """Name the load whose table does not cover one of these places, where the core refuses one."""
+    try:
+        yield
+    except InputError as error:
+        if error.kind != "table_ends" or machine.mechanism is None or machine._drivers > 1:
+            raise
+        named = not_covered(machine, places)
+        if named is None:
+            raise
+        raise named from None
 
 
 def _dimensions(machine: Machine) -> list[float]:

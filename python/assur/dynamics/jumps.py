@@ -1,4 +1,4 @@
-"""Where loads and friction may jump over the driver's coordinate, and how a motion is read there."""
+"""Where loads and friction jump over the driver's coordinate, and how a motion is read there."""
 
 from __future__ import annotations
 

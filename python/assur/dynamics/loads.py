@@ -173,10 +173,15 @@ class Force:
         if not listed or len(force) != 2:
             message = f"Force: {short(force)} is not two components (fx, fy)"
             raise InputError(message)
+        at = _checked_point(self.at, "Force at")
+        where = repr(at) if isinstance(at, str) else f"a point of {at[0]!r}"
+        components = zip(("fx", "fy"), force, strict=True)
         replace_fields(
             self,
-            at=_checked_point(self.at, "Force at"),
-            force=tuple(checked_value(value) for value in force),
+            at=at,
+            force=tuple(
+                checked_value(one, f"Force at {where}: {name}") for name, one in components
+            ),
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
             on=None if self.on is None else _link(self.on, "Force on"),
         )
@@ -215,7 +220,7 @@ class Torque:
     def __post_init__(self) -> None:
         check_way(self)
         _check_links(self)
-        replace_fields(self, torque=checked_value(self.torque))
+        replace_fields(self, torque=checked_value(self.torque, f"Torque on {self.link!r}: torque"))
 
 
 @dataclass(frozen=True)

@@ -465,7 +465,10 @@ class MachineModel:
         >>> assur.Machine(press, loads=[spring]).potential([0.0, 3.141592653589793]).round(9)
         array([1., 1.])
         """
-        return self._reduce(q, None, on_error)[3][()]
+        found = self._reduce(q, None, on_error)[3]
+        if on_error == "raise":
+            reduce.require_potential(self, q, found)
+        return found[()]
 
     def _reduce(
         self,

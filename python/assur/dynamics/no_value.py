@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
 
 EXTEND = "extend the table"
+START_WITHIN = "extend the table, or start within it"
 
 
 class Moment(NamedTuple):
@@ -72,6 +73,43 @@ def named_loads(machine: MachineModel) -> Iterator[tuple[str, Load]]:
     """Yield the loads with their names in messages."""
     for index, load in enumerate(machine.loads):
         yield f"loads[{index}], {_described(load)}", load
+
+
+def table_names(machine: MachineModel) -> tuple[str, ...]:
+    """Return names of the tables in the order of the core: those over q, then those over others."""
+    over_q, others = list[str](), list[str]()
+    every = [(name, value) for name, load in named_loads(machine) for value in _values(load)]
+    for name, value in [*every, *_motor_values(machine)]:
+        if isinstance(value, Gas):
+            others.append(name)
+        elif isinstance(value, Table):
+            one = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
+            (over_q if value.over is None else others).append(one)
+    return (*(over_q or ["a table over q"] * len(machine._core.tables)), *others)
+
+
+def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
+    """Return the error of the first of the coordinates (P,) that a load's table does not cover."""
+    mechanism = machine.mechanism
+    assert mechanism is not None
+    found: list[tuple[int, str, Table, float]] = []
+    every = [(name, value) for name, load in named_loads(machine) for value in _values(load)]
+    for name, value in [*every, *_motor_values(machine)]:
+        if not isinstance(value, Table):
+            continue
+        at = places
+        if value.over is not None:
+            motion = mechanism.solve(places, order=0, outputs=[value.over], on_error="nan")
+            of = motion.slide if value.over in mechanism.slides else motion.link
+            at = of(value.over).value
+        outside = np.flatnonzero(~np.isfinite(value.at(at)) & np.isfinite(at))
+        if outside.size:
+            found.append((int(outside[0]), name, value, float(at[outside[0]])))
+    if not found:
+        return None
+    row, name, table, value_there = min(found, key=lambda one: one[0])
+    moment = Moment(places[row : row + 1], np.zeros(1), 0.0)
+    return table_ends(name, table, value_there, moment, START_WITHIN)
 
 
 def _described(load: Load) -> str:
@@ -152,7 +190,9 @@ def _of_value(mechanism: Mechanism, name: str, value: Any, moment: Moment) -> As
     return InputError(message, kind="not_finite", q=moment.at, value=float(found[0]))
 
 
-def table_ends(name: str, table: Table, at: float, moment: Moment) -> AssurError:
+def table_ends(
+    name: str, table: Table, at: float, moment: Moment, hint: str = EXTEND
+) -> AssurError:
     """Return the error of a table that does not reach a position."""
     first, last = float(table.q[0]), float(table.q[-1])
     over, place = "q", ""
@@ -160,9 +200,9 @@ def table_ends(name: str, table: Table, at: float, moment: Moment) -> AssurError
         over, place = repr(table.over), f", at q = {moment.shown},"
     message = (
         f"{name}: a table over {over} covers {first:.9g} to {last:.9g}: {at:.9g}{place} is not "
-        f"in it; {EXTEND}"
+        f"in it; {hint}"
     )
-    return InputError(message, kind="table_ends", hint=EXTEND, q=moment.at, value=at)
+    return InputError(message, kind="table_ends", hint=hint, q=moment.at, value=at)
 
 
 def _coordinate(mechanism: Mechanism, name: str, moment: Moment) -> float:

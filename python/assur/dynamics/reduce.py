@@ -86,6 +86,22 @@ def reduce(
     )
 
 
+def require_potential(machine: MachineModel, q: npt.ArrayLike, potential: Float) -> None:
+    """Raise the error of the first position without a potential energy: beyond a load's table."""
+    missing = np.flatnonzero(np.isnan(potential))
+    if not missing.size:
+        return
+    n, row = machine._drivers, int(missing[0])
+    x = real_array(q, "q")
+    places = np.broadcast_to(x, potential.shape if n == 1 else (*potential.shape, n))
+    one, design = single(machine, row, potential.size)
+    # At no speed the loads of one sense only need none.
+    moment = Moment(places.reshape(-1, n)[row], np.zeros(n), 0.0, [1.0] * n if n > 1 else 1.0)
+    failed = without_value(one, moment, "the potential energy is")
+    failed.design = design
+    raise failed
+
+
 def checked_senses(
     machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
 ) -> list[float]:

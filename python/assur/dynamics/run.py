@@ -260,7 +260,7 @@ class Run(Tabular):
         drivers: int,
         events: list[Any],
         along_q: bool,
-        tables: int = 0,
+        tables: tuple[str, ...] = (),
     ) -> None:
         self._init_args = core, mechanism, drivers, events, along_q, tables
         self._core, self._along_q, self._drivers = core, along_q, drivers
@@ -508,8 +508,8 @@ class Run(Tabular):
                 "lengths clear of it"
             )
         event = None if which is None else events[which]
-        # The tables over other coordinates come after those over q.
-        is_over = ending["table"] is not None and ending["table"] >= self._tables
+        index = ending["table"]
+        table = "a table" if index is None or index >= len(self._tables) else self._tables[index]
         sentences = {
             "reached": f"reached its end{self._rest()}",
             "event": f"{event} at {place}",
@@ -520,7 +520,7 @@ class Run(Tabular):
             "locked": f"friction locks the machine at {place}: no acceleration agrees with it",
             "lost": f"the branch cannot be tracked beyond {place}: {ending['why']}",
             "rest": f"the machine came to rest at {place}",
-            "table ends": f"a table over {'a slide or link' if is_over else 'q'} ends at {place}",
+            "table ends": f"{table} ends at {place}",
             "motor table ends": f"the motor's table ends at {place}",
             "stalled": f"the tolerance cannot be met with any step beyond {place}",
             "step limit": f"max_steps was reached at {place}"

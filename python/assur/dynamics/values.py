@@ -19,7 +19,7 @@ Function: TypeAlias = Callable[[float, Any, Any], float]
 Value: TypeAlias = float | Table | Function
 
 
-def checked_value(value: Any, what: str = "the value of a load") -> Value:
+def checked_value(value: Any, what: str) -> Value:
     """Check a value: a table, a function, or a number, returned as float."""
     if isinstance(value, Table):
         if value.ratio != 1.0 or value.rotor_inertia != 0.0:

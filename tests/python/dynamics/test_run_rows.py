@@ -1,4 +1,4 @@
-"""Every row of a run has the acceleration of its own state: where it jumps, that before the jump."""
+"""Every row of a run has the acceleration of its own state; where it jumps, that before it."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ WAYS, FORCES = [0.2, 0.3, 0.5], [1.0, 5.0, 2.0]
 
 
 def rubbing(length: float = 1.0, time: float = 1.0) -> Machine:
-    """Return the machine, with a metre of so many units of length and a second of so many of time."""
+    """Return the machine in units of which a metre and a second have so many."""
     force, mass_moment = length / time**2, length**2
     ways = Table(np.multiply(WAYS, length), np.multiply(FORCES, force), over="bore")
     return Machine(

@@ -102,6 +102,26 @@ pub(super) fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (
 
 impl Load {
     /// The direction in which it acts, if it does not in both.
+    /// The values that it reads.
+    fn values(&self) -> &[Value] {
+        match self {
+            Self::Force { force, .. } => force,
+            Self::Torque { torque, .. } => std::slice::from_ref(torque),
+            Self::Pressure { pressure, .. } => std::slice::from_ref(pressure),
+            _ => &[],
+        }
+    }
+
+    /// Whether its tables cover the position where `numbers` were read. What acts one way only need not
+    /// have a value everywhere.
+    pub(crate) fn is_covered(&self, numbers: Numbers<'_>) -> bool {
+        let has_value = |value: &Value| match value {
+            Value::Table(_) | Value::Over(_) => !value.at(numbers).is_nan(),
+            Value::Number(_) | Value::External(_) => true,
+        };
+        self.one_way().is_some() || self.values().iter().all(has_value)
+    }
+
     pub(crate) fn one_way(&self) -> Option<OneWay> {
         match self {
             Self::Force { one_way, .. }

@@ -63,7 +63,7 @@ pub struct ReducedTable {
     pub d_inertia: Vec<f64>,
     /// Reduced moments (forces, for slides) of all loads.
     pub moment: Vec<f64>,
-    /// Potential energies of weights and springs, J.
+    /// Potential energies of weights and springs, J; NaN beyond a load's table.
     pub potential: Vec<f64>,
     /// Status of each position.
     pub status: Vec<Status>,
@@ -117,6 +117,9 @@ impl Machine {
             followers.read(self.followed(), &pose, q, if rests { sense } else { speed });
             let numbers = Numbers { tables: &tables, external: &numbers, ..followers.numbers() };
             self.add_speed_loads(&pose, speed, numbers, &mut reduced);
+            if !self.loads.iter().all(|load| load.is_covered(numbers)) {
+                reduced.potential = f64::NAN;
+            }
             // At a change point the values are those of the motion through it.
             let status = match evaluator.status() {
                 Status::Ok => Status::Ok,

@@ -187,6 +187,12 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         Ok(())
     }
 
+    /// The error of a motion that begins where a table over another coordinate has no value, or ends.
+    fn outside_at(&mut self, q: f64, ahead: (usize, f64)) -> RunError<O::Error> {
+        let outside = self.model.hold(q).err().unwrap_or(ahead);
+        self.outside_curve(outside)
+    }
+
     fn outside_curve(&self, (which, at): (usize, f64)) -> RunError<O::Error> {
         match self.model.table_over(which) {
             Some(table) => outside_table("table over a slide or link", table, at),
@@ -218,7 +224,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         if is_far && self.model.has_stations() {
             return Err(RunError::TooManyKnots { most: MAX_KNOTS, from: q, to: q });
         }
-        self.face(q, speed >= 0.0).map_err(|which| self.outside_curve(which))
+        self.face(q, speed >= 0.0).map_err(|outside| self.outside_at(q, outside))
     }
 
     /// Enters the first interval between stations of a motion along the coordinate.
@@ -229,7 +235,28 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     ) -> Result<(), RunError<O::Error>> {
         let first = if to >= from { stations.first() } else { stations.last() };
         self.hold_between(from, first.copied().unwrap_or(to))
-            .map_err(|which| self.outside_curve(which))
+            .map_err(|outside| self.outside_at(from, outside))
+    }
+
+    /// Where a motion along the coordinate meets the end of a table over another coordinate, behind its
+    /// first interval between stations; and the index of that table, behind those over the driver.
+    pub(crate) fn first_uncovered(
+        &mut self,
+        [from, to]: [f64; 2],
+        stations: &[f64],
+    ) -> Option<(f64, usize)> {
+        if !self.model.has_tables_over() {
+            return None;
+        }
+        let mut places: Vec<f64> = stations.to_vec();
+        if to < from {
+            places.reverse();
+        }
+        places.push(to);
+        places.windows(2).find_map(|pair| {
+            let (which, _) = self.hold_between(pair[0], pair[1]).err()?;
+            Some((pair[0], self.tables.len() + which))
+        })
     }
 
     /// Faces the sense of a motion that may begin at a coordinate: there may be a station at it. What

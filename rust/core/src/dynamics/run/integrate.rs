@@ -87,7 +87,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         Variable::Time => (options.t, options.end),
         Variable::Coordinate => (options.q[0], options.end),
     };
-    let (to, clipped) = match options.along {
+    let (mut to, mut clipped) = match options.along {
         Variable::Time => (end, None),
         Variable::Coordinate => clip_to_tables(equation.tables, from, end),
     };
@@ -96,6 +96,10 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         (Variable::Time, &[q]) => equation.begin_in_time(q, options.speed[0])?,
         (Variable::Coordinate, _) => {
             stations = stations_between(&mut equation.model, [from, to])?;
+            if let Some((end, which)) = equation.first_uncovered([from, to], &stations) {
+                (to, clipped) = (end, Some(which));
+                stations.retain(|&station| (station - end) * (to - from).signum() < 0.0);
+            }
             equation.begin_along([from, to], &stations)?;
         }
         _ => {}

@@ -84,6 +84,11 @@ pub(crate) trait ReducedModel {
         Ok(true)
     }
 
+    /// Whether loads have tables over other coordinates.
+    fn has_tables_over(&self) -> bool {
+        false
+    }
+
     /// The table of a curve over another coordinate.
     fn table_over(&self, _: usize) -> Option<&Table> {
         None
@@ -289,6 +294,10 @@ impl ReducedModel for MechanismModel<'_> {
             friction.hold(&pose);
         }
         Ok(true)
+    }
+
+    fn has_tables_over(&self) -> bool {
+        self.machine.over.iter().any(|over| over.table().is_some())
     }
 
     fn table_over(&self, index: usize) -> Option<&Table> {
