@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import short
+from assur._arrays import flag, short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ class Tabular:
         >>> list(table)[:6]
         ['q', 'status', 'driver', 'O.x on crank', 'O.y on crank', 'A.x on rod']
         """
-        return frame(self._columns(degrees))
+        return frame(self._columns(flag(degrees, "degrees")))
 
     def to_excel(self, path: str | PathLike[str], degrees: bool = False) -> None:
         """Write a workbook, a sheet for each quantity, units in the second row (needs openpyxl).
@@ -189,7 +189,7 @@ class Tabular:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     found.to_excel(pathlib.Path(folder, "forces.xlsx"), degrees=True)
         """
-        write_excel(path, self._columns(degrees))
+        write_excel(path, self._columns(flag(degrees, "degrees")))
 
     def to_parquet(self, path: str | PathLike[str], degrees: bool = False) -> None:
         """Write `to_dataframe` as a Parquet file (needs pandas and pyarrow).
@@ -209,7 +209,7 @@ class Tabular:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     found.to_parquet(pathlib.Path(folder, "forces.parquet"))
         """
-        write_parquet(path, self._columns(degrees))
+        write_parquet(path, self._columns(flag(degrees, "degrees")))
 
     def to_xarray(self, degrees: bool = False) -> Any:
         """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units.
@@ -237,7 +237,7 @@ class Tabular:
         except ImportError as error:  # pragma: no cover
             message = "to_xarray needs xarray: pip install assur[xarray]"
             raise ImportError(message) from error
-        columns = self._columns(degrees)
+        columns = self._columns(flag(degrees, "degrees"))
         return xr.Dataset(
             {one.name: ("row", one.values, {"units": one.unit}) for one in columns if one.quantity},
             {

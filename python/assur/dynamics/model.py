@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from assur import _core
-from assur._arrays import counted, real_array
+from assur._arrays import counted, flag, real_array
 from assur._by_value import key_of
 from assur._summary import summary
 from assur._validate import one_of
@@ -204,12 +204,13 @@ class MachineModel:
         self._drivers = 1
         x, columns = parts.columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
+        periodic = flag(periodic, "periodic")
         warn_if_degrees(float(x[-1] - x[0]), periodic)
         table = x, columns["moment"], columns["inertia"]
         self._rebuild_with = cls.from_table, (*table, motor, spline, periodic)
         motors = parts.motors(motor, 1)
         self._core = _core.Machine.from_table(
-            x, columns["moment"], columns["inertia"], spline, bool(periodic), *motors
+            x, columns["moment"], columns["inertia"], spline, periodic, *motors
         )
         check_functions((), motors, [float(x[0])])
         return self

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from assur._arrays import finite_array
+from assur._arrays import finite_array, flag
 from assur._extreme import Extreme
 from assur._table import Column, Tabular
 from assur._validate import one_of
@@ -189,4 +189,4 @@ class SteadyState(Tabular):
         from assur.pictures.diagrams.steady import steady_picture
 
         one_of(what, ("speed", "time", "energy"), "what")
-        return steady_picture(self, what, ax, degrees, dark)
+        return steady_picture(self, what, ax, flag(degrees, "degrees"), dark)

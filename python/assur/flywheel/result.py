@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur._arrays import Float, finite_array
+from assur._arrays import Float, finite_array, flag
 from assur._table import Column, Tabular, angle_column, design_columns
 from assur._validate import checked_index, one_of, whole_number
 from assur.errors import InputError
@@ -408,4 +408,5 @@ class Flywheel(Tabular, ABC):
             raise InputError(message)
         kinds = ("speed", "time", "moment", "energy", "energy-mass", "reduced")
         one_of(what, kinds, "what")
-        return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax, degrees, dark)
+        shown = flag(degrees, "degrees")
+        return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax, shown, dark)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur._arrays import flag
 from assur._by_value import key_of
 from assur._validate import require_rows
 from assur.errors import InputError
@@ -115,7 +116,7 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable
         raise InputError(message)
     require_rows(len(rows), 2, f"{path}: the table")
     phi, moment, inertia = np.array(rows, np.float64).reshape(-1, 3).T
-    return ReducedTable(np.deg2rad(phi) if degrees else phi, moment, inertia)
+    return ReducedTable(np.deg2rad(phi) if flag(degrees, "degrees") else phi, moment, inertia)
 
 
 def _number(row: list[str], column: int) -> float | None:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import short
+from assur._arrays import flag, short
 from assur._validate import checked_index, checked_name
 from assur.errors import InputError
 from assur.kinematics import transmission
@@ -748,7 +748,7 @@ class Motion:
         from assur.pictures.diagrams.diagram import motion_diagram
 
         speeds = None if omega is None else (omega, alpha, beta)
-        return motion_diagram(self, name, ax, speeds, orders, degrees, dark)
+        return motion_diagram(self, name, ax, speeds, orders, flag(degrees, "degrees"), dark)
 
     def plot(
         self,

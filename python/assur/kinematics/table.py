@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur._arrays import flag
 from assur._table import Column, coordinate_columns, design_columns
 from assur.errors import InputError
 
@@ -45,6 +46,8 @@ class _Quantity(NamedTuple):
 
 def motion_columns(motion: Motion, options: Options) -> list[Column]:
     """Return the columns of a motion's table, rows over designs and positions."""
+    flag(options.degrees, "degrees")
+    flag(options.moving, "moving")
     columns = _rows(motion, options.degrees)
     taken = {column.name for column in columns}
     for quantity in _quantities(motion, taken):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import real_array, short
+from assur._arrays import flag, real_array, short
 from assur._summary import summary
 from assur._table import Column, Tabular
 from assur._validate import one_of
@@ -220,7 +220,7 @@ class TimedMotion(Tabular):
         """
         from assur.pictures.diagrams.diagram import timed_diagram
 
-        return timed_diagram(self, name, ax, orders, degrees, dark)
+        return timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
 
     def _in_time(self, of: Analogues) -> InTime:
         omega, alpha, beta = self.speed, self.acceleration, self.jerk

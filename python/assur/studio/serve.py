@@ -8,6 +8,7 @@ import webbrowser
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from assur._arrays import flag
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ def serve(
     say : callable
         Called with the address.
     """
+    browser = flag(browser, "browser")
     require_packages()
     import uvicorn
 

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import Float, finite_array, real_number
+from assur._arrays import Float, finite_array, flag, real_number
 from assur._trig import sin_cos
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
@@ -148,7 +148,7 @@ class JammingRun:
         from assur.papers.crank_rocker.jamming_picture import jamming_picture
 
         one_of(what, ("positions", "ground", "angle"), "what")
-        return jamming_picture(self, what, ax, degrees, dark)
+        return jamming_picture(self, what, ax, flag(degrees, "degrees"), dark)
 
 
 def run(

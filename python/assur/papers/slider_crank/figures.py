@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
-from assur._arrays import real_number
+from assur._arrays import flag, real_number
 from assur._validate import one_of, whole_number
 from assur.errors import InputError
 from assur.papers.slider_crank.theory import contour, rod_angle, rod_point, stroke
@@ -283,7 +283,7 @@ def plot_motion(
     speeds = None
     if speed is not None:
         speeds = real_number(speed, "speed"), real_number(alpha, "alpha")
-    source = _Formulas(quantity, lengths, speeds, degrees)
+    source = _Formulas(quantity, lengths, speeds, flag(degrees, "degrees"))
     # The title has its name.
     of = Quantity("slide" if quantity == "stroke" else "link", "")
     return diagrams(source, [of], ax, orders, style_of(dark))

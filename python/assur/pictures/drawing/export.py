@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_number, short
+from assur._arrays import flag, real_number, short
 from assur.errors import InputError
 from assur.pictures.axes import nice_length
 from assur.pictures.drawing.layers import layer_names
@@ -60,6 +60,7 @@ def write_drawing(
     if paper is not None and paper not in PAPERS:
         message = f"paper is {short(paper)}: one of {', '.join(PAPERS)} is needed"
         raise InputError(message)
+    flag(show_outlines, "outlines")
     if title is not None and not isinstance(title, str):
         message = f"title is {short(title)}: a text is needed"
         raise InputError(message)
