@@ -56,3 +56,38 @@ def test_safety_is_where_the_path_ends_whatever_it_begins_with(times: float) -> 
     machine = Machine(assur.SliderCrank(0.1, 0.3), loads=loads, friction=friction)
     safety = machine.reactions(0.272, -1.0).safety
     assert times * safety == pytest.approx(42.415674, rel=1e-7)
+
+
+@pytest.mark.parametrize("times", [0.2, 1.0, 3.7, 6.0, 7.5])
+def test_the_path_may_turn_back_at_a_corner_where_nothing_is_singular(times: float) -> None:
+    """The bore's law comes to its corner, and the determinant jumps from 1.43 to −1.65.
+
+    By the balance of the links, Newton's iteration with 40 digits on each side of the corner: both
+    sides are solutions below it, and beyond it neither is. Farther on there is another solution, to
+    which a long step would lead.
+    """
+    friction: dict[str, PairFriction] = {
+        "O": JointFriction(0.30677798776251813 * times, 0.025181780134908828),
+        "B": JointFriction(0.14469853296185275 * times, 0.026700061042563304),
+        "bore": SlideFriction(0.5201112949688464 * times, 0.08768114424336929),
+    }
+    bodies = {
+        "crank": Body(
+            3.901445797808873, 0.003347392584418952, (-0.03617870697824903, 0.01590788676987244)
+        ),
+        "rod": Body(
+            3.4882303443817575, 0.04491111667190858, (-0.03007397482214262, -0.01543584513949571)
+        ),
+        "piston": Body(
+            0.4559905865891969, 0.022556371274955626, (-0.018703925477693048, -0.03623695293373248)
+        ),
+    }
+    loads = [
+        Force("B", (25.219478021812492, -9.140614440404601)),
+        assur.Spring("O", ("rod", (0.05, 0.03)), 130.79936546997112, 0.1574506184688631),
+        assur.Damper(("ground", (0.0, 1.9)), ("rod", (0.02, 0.03)), 4.300218600497804),
+    ]
+    linkage = assur.SliderCrank(0.193768440232073, 0.892424197694784, 0.108020104912621)
+    machine = Machine(linkage, bodies, loads, friction=friction)
+    found = machine.reactions(-0.08806302186425219, 10.249475468437039, -49.3137351671353)
+    assert times * found.safety == pytest.approx(7.741976812442126, rel=1e-7)

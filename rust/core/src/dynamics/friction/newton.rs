@@ -94,7 +94,9 @@ impl FrictionProblem<'_> {
     ///
     /// Between the kinks of the law the path is smooth, and at a kink its direction changes at once. So the
     /// step must be nearly a part of both tangents. The determinant is 1 without friction and 0 where the
-    /// path turns back: on the path it is positive, on the branch behind it is not.
+    /// path turns back: on the path it is positive, on the branch behind it is not. At a kink it may jump from
+    /// one sign to the other: there the path turns back, though the law is not singular, and only a short
+    /// step shows that it does not go on.
     fn advance(&self, from: &[f64], at: f64, next: f64) -> Option<Vec<f64>> {
         let (first, _) = self.tangent(from, at, next - at)?;
         let start: Vec<f64> = from.iter().zip(first.iter()).map(|(a, b)| a + b).collect();
@@ -110,6 +112,10 @@ impl FrictionProblem<'_> {
         let is_smooth = turn.amax() <= MOST_TURN * first.amax().max(second.amax());
         let greatest = from.iter().fold(self.size(), |most, friction| most.max(friction.abs()));
         let is_short = way.amax() <= SHORT * greatest;
+        // Between the same faces it may have been in another one: so one of its tangents says then.
+        let back: Vec<f64> = found.iter().zip(second.iter()).map(|(a, b)| a - b).collect();
+        let is_smooth =
+            is_smooth && [&start, &found, &back].iter().all(|at| self.is_same_face(from, at));
         (is_near && (is_smooth || is_short) && determinant > 0.0).then_some(found)
     }
 

@@ -46,6 +46,18 @@ impl Law {
         }
     }
 
+    /// Which of its linear forms is the size, of those that it has: a law is smooth within a face, and has
+    /// a kink where it comes to another one.
+    fn face(self, [x, y]: [f64; 2]) -> u8 {
+        match self {
+            Self::Journal { .. } => 0,
+            Self::Guide { half_length, .. } if x.abs() >= y.abs() / half_length => {
+                u8::from(x > 0.0)
+            }
+            Self::Guide { .. } => 2 + u8::from(y > 0.0),
+        }
+    }
+
     /// The law if moments are divided by a unit of length.
     fn in_forces(self, unit: f64) -> Self {
         match self {
@@ -142,6 +154,14 @@ impl FrictionProblem<'_> {
             sum[1] += slope[1] * friction;
         }
         sum
+    }
+
+    /// Whether the laws of all pairs are in the same face with two frictions.
+    pub(super) fn is_same_face(&self, one: &[f64], other: &[f64]) -> bool {
+        (0..self.pairs.len()).all(|pair| {
+            let law = self.pairs[pair].law;
+            law.face(self.reaction(pair, one)) == law.face(self.reaction(pair, other))
+        })
     }
 
     /// By how much the law is missed, if all coefficients are multiplied by `scale`.
