@@ -1,5 +1,7 @@
 //! Flywheels of many tables. Python checks, broadcasts and reshapes the arrays.
 
+use std::sync::atomic::AtomicBool;
+
 use assur::Hint;
 use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean, TableError};
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -16,6 +18,8 @@ type Outcome = Result<Flywheel, TableError>;
 
 /// Tables per thread; up to this number one thread does all.
 const TABLES_PER_THREAD: usize = 64;
+/// Rows of all tables up to which they take some ten milliseconds: too short for a signal.
+const FEW_ROWS: usize = 32_768;
 /// Numbers of a spline and of what is made of it, for each of its table.
 const SPLINES: usize = 8;
 
@@ -40,11 +44,17 @@ impl Words for Task {
 }
 
 impl Task {
-    fn solve(self, turn: Cycle, [first, second]: [f64; 2], mean: Mean) -> Outcome {
+    fn solve(
+        self,
+        turn: Cycle,
+        [first, second]: [f64; 2],
+        mean: Mean,
+        cancel: &AtomicBool,
+    ) -> Outcome {
         match self {
-            Self::Fluctuation => Flywheel::for_fluctuation(turn, first, second, mean),
-            Self::MeanSpeed => Flywheel::for_mean_speed(turn, first, second, mean),
-            Self::InitialSpeed => Flywheel::for_initial_speed(turn, first, second),
+            Self::Fluctuation => Flywheel::for_fluctuation(turn, first, second, mean, cancel),
+            Self::MeanSpeed => Flywheel::for_mean_speed(turn, first, second, mean, cancel),
+            Self::InitialSpeed => Flywheel::for_initial_speed(turn, first, second, cancel),
         }
     }
 }
@@ -133,17 +143,20 @@ impl Flywheels {
         if second.len() != count || [&moment, &inertia].iter().any(|a| a.len() != count * rows) {
             return Err(error::input("the arrays do not fit", None));
         }
-        let one = |i: usize| {
+        let one = |i: usize, cancel: &AtomicBool| {
             let table = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
             let (moment, inertia) = (table(&moment), table(&inertia));
             let turn = match &corners {
-                Some(corners) => Cycle::with_corners(&phi, &moment, &inertia, ends, corners),
-                None => Cycle::new(&phi, &moment, &inertia, ends),
+                Some(corners) => {
+                    Cycle::with_corners(&phi, &moment, &inertia, ends, corners, cancel)
+                }
+                None => Cycle::new(&phi, &moment, &inertia, ends, cancel),
             };
-            turn.and_then(|turn| task.solve(turn, [first[i], second[i]], mean))
+            turn.and_then(|turn| task.solve(turn, [first[i], second[i]], mean, cancel))
         };
-        detach::run(py, count <= TABLES_PER_THREAD, |cancel| {
-            parallel_map(count, TABLES_PER_THREAD, threads, cancel, &one)
+        let small = count <= TABLES_PER_THREAD && count.saturating_mul(rows) <= FEW_ROWS;
+        detach::run(py, small, |cancel| {
+            parallel_map(count, TABLES_PER_THREAD, threads, cancel, &|i| one(i, cancel))
         })
         .map(Self)
     }

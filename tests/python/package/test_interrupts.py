@@ -139,6 +139,8 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "condition": lambda n: _condition(_angles(n)),
     "reduced inertia": lambda n: partial(_machine().reduced_inertia, _angles(n)),
     "run": lambda n: partial(_machine().run, float(n), 0.0, 1.0, max_steps=10**9),
+    "reactions": lambda n: partial(_machine().reactions, *_moving(n)),
+    "a flywheel of one long table": lambda n: partial(_wheel, n),
     "reactions that friction locks": lambda n: partial(_rubbing().reactions, *_moving(n)),
     "safety": lambda n: partial(getattr, _rubbing(0.1).reactions(*_moving(n)), "safety"),
     "self-locking": lambda n: partial(_rubbing(0.3).self_locking, n=n),
@@ -172,6 +174,16 @@ def test_other_threads_of_python_go_on_while_a_mechanism_is_built() -> None:
     worked, longest = longest_standstill(lambda: _chain(1200))
     assert worked > 0.1
     assert longest < worked / 2
+
+
+def _wheel(rows: int) -> assur.flywheel.Flywheel:
+    """The mean over the period takes most time for its memory."""
+    phi = np.linspace(0.0, math.tau, rows)
+    moment = 100.0 * np.sin(phi)
+    moment[-1] = moment[0]
+    return assur.flywheel.from_table(
+        phi, moment, 2.0, fluctuation=0.1, mean_speed=10.0, mean="period"
+    )
 
 
 def _chain_parts(dyads: int) -> tuple[Any, Any]:

@@ -6,13 +6,16 @@
 //! (I. M. Matsyuk & E. M. Shlyakhov):
 //!
 //! ```
+//! use std::sync::atomic::AtomicBool;
+//!
 //! use assur::dynamics::{Cycle, EndCondition, Flywheel, Mean};
 //!
 //! let phi: Vec<f64> = (0..9).map(|i| std::f64::consts::FRAC_PI_4 * f64::from(i)).collect();
 //! let moment = [-0.23, -274.4, -950.5, 19.9, 1.26, -300.0, -23.9, -15.9, -0.23];
 //! let inertia = [4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93];
-//! let cycle = Cycle::new(&phi, &moment, &inertia, EndCondition::NotAKnot)?;
-//! let flywheel = Flywheel::for_fluctuation(cycle, 0.125, 15.0, Mean::Extremes)?;
+//! let cancel = AtomicBool::new(false);
+//! let cycle = Cycle::new(&phi, &moment, &inertia, EndCondition::NotAKnot, &cancel)?;
+//! let flywheel = Flywheel::for_fluctuation(cycle, 0.125, 15.0, Mean::Extremes, &cancel)?;
 //! assert!((flywheel.inertia - 19.918150).abs() < 1e-6);
 //! # Ok::<(), assur::dynamics::TableError>(())
 //! ```

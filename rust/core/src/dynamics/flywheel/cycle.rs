@@ -1,6 +1,7 @@
 //! Reduced inertia and work over one period of the driver, as piecewise polynomials.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::dynamics::tables::error::TableError;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, fit_sections};
@@ -14,6 +15,14 @@ const PERIODIC_RTOL: f64 = 1.0e-9;
 /// greatest inertia: tables have three or four digits, and a spline overshoots beside rows of zero.
 /// With the flywheel added the inertia must still be positive.
 const UNDERSHOOT_RTOL: f64 = 1.0e-3;
+
+/// Pieces between two looks at whether the work is cancelled: some hundred microseconds.
+const CANCEL_CHECK_PIECES: usize = 4096;
+
+/// Whether the work is cancelled, at one piece in several.
+pub(crate) fn is_cancelled(piece: usize, cancel: &AtomicBool) -> bool {
+    piece.is_multiple_of(CANCEL_CHECK_PIECES) && cancel.load(Ordering::Relaxed)
+}
 
 /// An extreme value and its coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,7 +48,8 @@ pub struct Cycle {
 impl Cycle {
     /// Fits a table over one period: coordinates, reduced moment without the motor (N·m), reduced
     /// inertia (kg·m²). Two rows at one coordinate are a jump of the moment; a table with one may
-    /// also jump at its seam, between its last row and its first.
+    /// also jump at its seam, between its last row and its first. Once `cancel` is true the result is
+    /// not to be used.
     ///
     /// # Errors
     ///
@@ -49,18 +59,25 @@ impl Cycle {
         moment: &[f64],
         inertia: &[f64],
         ends: EndCondition,
+        cancel: &AtomicBool,
     ) -> Result<Self, TableError> {
+        let unread = || TableError::TooShort { count: 0, least: 2 };
+        let go_on = || (!cancel.load(Ordering::Relaxed)).then_some(()).ok_or_else(unread);
         let rows = with_seam(knots, moment, inertia);
+        go_on()?;
         let (knots, moment, inertia) = (&rows[0][..], &rows[1][..], &rows[2][..]);
         check(knots, [("moment", moment), ("inertia", inertia)])?;
+        go_on()?;
         let (own, smooth) = without_jumps(knots, inertia)?;
+        go_on()?;
         let jump = (1..knots.len()).find(|&row| knots[row] == knots[row - 1]);
         if let (Some(row), EndCondition::Periodic) = (jump, ends) {
             return Err(TableError::PeriodicJump { at: knots[row] });
         }
         let whole = 0..own.len();
-        let inertia = fit_sections(&own, &smooth, ends, std::slice::from_ref(&whole), true)?;
-        Self::of_pieces(own, fit(knots, moment, ends, &[])?, inertia)
+        let inertia =
+            fit_sections(&own, &smooth, ends, std::slice::from_ref(&whole), true, cancel)?;
+        Self::of_pieces(own, fit(knots, moment, ends, &[], cancel)?, inertia, cancel)
     }
 
     /// The same with corners at some rows: a separate curve is fitted from each corner to the next.
@@ -75,21 +92,27 @@ impl Cycle {
         inertia: &[f64],
         ends: EndCondition,
         corners: &[usize],
+        cancel: &AtomicBool,
     ) -> Result<Self, TableError> {
         check(knots, [("moment", moment), ("inertia", inertia)])?;
-        let fit = |values: &[f64]| fit(knots, values, ends, corners);
+        let fit = |values: &[f64]| fit(knots, values, ends, corners, cancel);
         let mut own = knots.to_vec();
         own.dedup();
-        Self::of_pieces(own, fit(moment)?, fit(inertia)?)
+        Self::of_pieces(own, fit(moment)?, fit(inertia)?, cancel)
     }
 
-    fn of_pieces(knots: Vec<f64>, moment: Pieces, inertia: Pieces) -> Result<Self, TableError> {
+    fn of_pieces(
+        knots: Vec<f64>,
+        moment: Pieces,
+        inertia: Pieces,
+        cancel: &AtomicBool,
+    ) -> Result<Self, TableError> {
         let mut cycle = Self { knots, moment, inertia, work: Vec::new(), motor: 0.0 };
         cycle.integrate_work();
         // The motor balances the mean moment.
         cycle.motor = -cycle.total_work() / cycle.period();
         cycle.integrate_work();
-        let [least, greatest] = cycle.extremes(1.0, 0.0);
+        let [least, greatest] = cycle.extremes(1.0, 0.0, cancel);
         // NaN must fail too.
         let is_positive = least.value >= -UNDERSHOOT_RTOL * greatest.value;
         if !is_positive {
@@ -166,13 +189,13 @@ impl Cycle {
         [value(&self.inertia[piece], x), value(&self.work[piece], x)]
     }
 
-    pub(crate) fn least_inertia(&self) -> Extreme {
-        self.extremes(1.0, 0.0)[0]
+    pub(crate) fn least_inertia(&self, cancel: &AtomicBool) -> Extreme {
+        self.extremes(1.0, 0.0, cancel)[0]
     }
 
     /// Least and greatest value of `speed2 · I − work · W` over the period: its derivative is a
     /// cubic in every piece.
-    pub(crate) fn extremes(&self, speed2: f64, work: f64) -> [Extreme; 2] {
+    pub(crate) fn extremes(&self, speed2: f64, work: f64, cancel: &AtomicBool) -> [Extreme; 2] {
         let combined = |piece: usize, x: f64| {
             let [inertia, energy] = self.inertia_and_work(piece, x);
             speed2 * inertia - work * energy
@@ -180,6 +203,9 @@ impl Cycle {
         let first = Extreme { at: self.start(), value: combined(0, 0.0) };
         let [mut least, mut greatest] = [first; 2];
         for (piece, ends) in self.knots.windows(2).enumerate() {
+            if is_cancelled(piece, cancel) {
+                break;
+            }
             let mut consider = |x: f64| {
                 let here = Extreme { at: ends[0] + x, value: combined(piece, x) };
                 if here.value < least.value {
@@ -222,6 +248,7 @@ fn fit(
     values: &[f64],
     ends: EndCondition,
     corners: &[usize],
+    cancel: &AtomicBool,
 ) -> Result<Pieces, TableError> {
     let last = knots.len() - 1;
     let mut cuts: Vec<usize> = [0]
@@ -239,7 +266,7 @@ fn fit(
         .collect();
     let has_corner = corners.iter().any(|&row| row == 0 || row == last);
     let closed = !has_corner && knots[0] < knots[1] && knots[last - 1] < knots[last];
-    fit_sections(knots, values, ends, &sections, closed)
+    fit_sections(knots, values, ends, &sections, closed, cancel)
 }
 
 /// The coordinates, moments and inertias of a period. Where the moment jumps, and its ends differ, it

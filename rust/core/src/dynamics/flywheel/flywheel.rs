@@ -7,7 +7,9 @@
 //! two equations, linear in K and C (the tangents of F. Wittenbauer's diagram, Graphische Dynamik,
 //! 1923).
 
-use super::cycle::{Cycle, Extreme, wrap_to_period};
+use std::sync::atomic::AtomicBool;
+
+use super::cycle::{Cycle, Extreme, is_cancelled, wrap_to_period};
 use crate::dynamics::tables::error::TableError;
 use crate::math::quadrature::integral;
 use crate::math::root::illinois;
@@ -55,6 +57,7 @@ impl Flywheel {
         fluctuation: f64,
         mean: f64,
         by: Mean,
+        cancel: &AtomicBool,
     ) -> Result<Self, TableError> {
         if !(fluctuation > 0.0 && fluctuation < 2.0) {
             return Err(TableError::BadFluctuation { value: fluctuation });
@@ -65,22 +68,22 @@ impl Flywheel {
             Mean::Extremes => Some(mean - 0.5 * range),
             Mean::Period => {
                 let residual = |least: f64| {
-                    let [inertia, constant] = tangents(&cycle, [least, least + range]);
-                    cycle.period() / duration(&cycle, inertia, constant) - mean
+                    let [inertia, constant] = tangents(&cycle, [least, least + range], cancel);
+                    cycle.period() / duration(&cycle, [inertia, constant], cancel) - mean
                 };
                 illinois::find_root(residual, mean - 0.5 * range)
             }
         };
-        let found = least.map(|least| tangents(&cycle, [least, least + range]));
+        let found = least.map(|least| tangents(&cycle, [least, least + range], cancel));
         if let Some([inertia, constant]) = found
             && inertia >= 0.0
         {
             if inertia.is_infinite() {
                 return Err(TableError::NoFlywheel { wanted: fluctuation });
             }
-            return Self::with_energy(cycle, inertia, constant, ("mean_speed", mean));
+            return Self::with_energy(cycle, inertia, constant, ("mean_speed", mean), cancel);
         }
-        let without = Self::for_mean_speed(cycle, 0.0, mean, by)?.fluctuation(by);
+        let without = Self::for_mean_speed(cycle, 0.0, mean, by, cancel)?.fluctuation(by);
         Err(TableError::AlreadyMet { without, wanted: fluctuation })
     }
 
@@ -94,11 +97,12 @@ impl Flywheel {
         inertia: f64,
         mean: f64,
         by: Mean,
+        cancel: &AtomicBool,
     ) -> Result<Self, TableError> {
-        check_inertia(&cycle, inertia)?;
+        check_inertia(&cycle, inertia, cancel)?;
         check_speed("mean_speed", mean)?;
         // With a smaller constant the speed would not be real everywhere.
-        let [greatest, least] = cycle.extremes(0.0, 2.0);
+        let [greatest, least] = cycle.extremes(0.0, 2.0, cancel);
         let guess = mean * mean * (cycle.inertia(cycle.start()) + inertia);
         if guess <= f64::EPSILON * greatest.value.abs().max(least.value.abs()) {
             // The kinetic energy at this mean speed is below the rounding of the work.
@@ -108,15 +112,15 @@ impl Flywheel {
             let constant = least.value + above;
             let own_mean = match by {
                 Mean::Extremes => {
-                    let [a, b] = speeds(&cycle, inertia, constant);
+                    let [a, b] = speeds(&cycle, [inertia, constant], cancel);
                     0.5 * (a.value + b.value)
                 }
-                Mean::Period => cycle.period() / duration(&cycle, inertia, constant),
+                Mean::Period => cycle.period() / duration(&cycle, [inertia, constant], cancel),
             };
             own_mean - mean
         };
         let above = illinois::find_root(residual, guess).ok_or(TableError::NoMean { mean })?;
-        Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean))
+        Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean), cancel)
     }
 
     /// The motion with a given flywheel and initial speed (rad/s).
@@ -124,16 +128,21 @@ impl Flywheel {
     /// # Errors
     ///
     /// An invalid flywheel or speed, or a speed at which the machine stops within the cycle.
-    pub fn for_initial_speed(cycle: Cycle, inertia: f64, speed0: f64) -> Result<Self, TableError> {
-        check_inertia(&cycle, inertia)?;
+    pub fn for_initial_speed(
+        cycle: Cycle,
+        inertia: f64,
+        speed0: f64,
+        cancel: &AtomicBool,
+    ) -> Result<Self, TableError> {
+        check_inertia(&cycle, inertia, cancel)?;
         check_speed("speed0", speed0)?;
         let constant = (cycle.inertia(cycle.start()) + inertia) * speed0 * speed0;
-        let [_, least] = cycle.extremes(0.0, 2.0);
+        let [_, least] = cycle.extremes(0.0, 2.0, cancel);
         if constant <= least.value {
             let missing = 0.5 * (least.value - constant);
             return Err(TableError::Stalls { speed0, at: least.at, missing });
         }
-        Self::with_energy(cycle, inertia, constant, ("speed0", speed0))
+        Self::with_energy(cycle, inertia, constant, ("speed0", speed0), cancel)
     }
 
     /// The motion with the energy constant C; `name` and `speed`: the user's argument, for errors.
@@ -142,16 +151,20 @@ impl Flywheel {
         inertia: f64,
         constant: f64,
         (name, speed): (&'static str, f64),
+        cancel: &AtomicBool,
     ) -> Result<Self, TableError> {
-        check_inertia(&cycle, inertia)?;
+        check_inertia(&cycle, inertia, cancel)?;
         if !constant.is_finite() {
             return Err(TableError::Infinite { name, speed, flywheel: inertia });
         }
         let speed0 = (constant / (cycle.inertia(cycle.start()) + inertia)).sqrt();
-        let [least, greatest] = speeds(&cycle, inertia, constant);
+        let [least, greatest] = speeds(&cycle, [inertia, constant], cancel);
         let mut times = vec![0.0];
         let mut sum = 0.0;
         for (piece, ends) in cycle.knots().windows(2).enumerate() {
+            if is_cancelled(piece, cancel) {
+                break;
+            }
             sum += time_within(&cycle, [inertia, constant], piece, ends[1] - ends[0]);
             times.push(sum);
         }
@@ -229,20 +242,20 @@ fn check_speed(name: &'static str, value: f64) -> Result<(), TableError> {
 }
 
 /// Checks that the flywheel is valid and the total inertia positive everywhere.
-fn check_inertia(cycle: &Cycle, flywheel: f64) -> Result<(), TableError> {
+fn check_inertia(cycle: &Cycle, flywheel: f64, cancel: &AtomicBool) -> Result<(), TableError> {
     if !(flywheel >= 0.0 && flywheel.is_finite()) {
         return Err(TableError::BadInertia { value: flywheel });
     }
-    let least = cycle.least_inertia();
+    let least = cycle.least_inertia(cancel);
     let value = least.value + flywheel;
     if value > 0.0 { Ok(()) } else { Err(TableError::NoInertia { flywheel, value, at: least.at }) }
 }
 
 /// The flywheel and the constant C with which these are the extreme speeds.
-fn tangents(cycle: &Cycle, [least, greatest]: [f64; 2]) -> [f64; 2] {
+fn tangents(cycle: &Cycle, [least, greatest]: [f64; 2], cancel: &AtomicBool) -> [f64; 2] {
     let [low, high] = [least * least, greatest * greatest];
-    let [above, _] = cycle.extremes(high, 2.0);
-    let [_, below] = cycle.extremes(low, 2.0);
+    let [above, _] = cycle.extremes(high, 2.0, cancel);
+    let [_, below] = cycle.extremes(low, 2.0, cancel);
     let inertia = (below.value - above.value) / (high - low);
     [inertia, high * inertia + above.value]
 }
@@ -250,13 +263,13 @@ fn tangents(cycle: &Cycle, [least, greatest]: [f64; 2]) -> [f64; 2] {
 /// Least and greatest speed. Dinkelbach's iteration: a quotient of two functions is extreme where
 /// their difference, with that quotient as a factor, is (W. Dinkelbach, On nonlinear fractional
 /// programming, 1967).
-fn speeds(cycle: &Cycle, inertia: f64, constant: f64) -> [Extreme; 2] {
+fn speeds(cycle: &Cycle, [inertia, constant]: [f64; 2], cancel: &AtomicBool) -> [Extreme; 2] {
     [0, 1].map(|which| {
         let mut best = Extreme::default();
         let mut speed2 = constant / (cycle.inertia(cycle.start()) + inertia);
         for step in 0..MAX_STEPS {
             // `extremes` has the opposite sign, so the other extreme is the one.
-            let at = cycle.extremes(speed2, 2.0)[1 - which].at;
+            let at = cycle.extremes(speed2, 2.0, cancel)[1 - which].at;
             let quotient = (2.0 * cycle.work(at) + constant) / (cycle.inertia(at) + inertia);
             // The last step changes the coordinate only.
             best = Extreme { at, value: quotient.sqrt() };
@@ -281,7 +294,8 @@ fn time_within(cycle: &Cycle, state: [f64; 2], piece: usize, x: f64) -> f64 {
 }
 
 /// Time of a cycle.
-fn duration(cycle: &Cycle, inertia: f64, constant: f64) -> f64 {
+fn duration(cycle: &Cycle, state: [f64; 2], cancel: &AtomicBool) -> f64 {
     let pieces = cycle.knots().windows(2).enumerate();
-    pieces.map(|(i, ends)| time_within(cycle, [inertia, constant], i, ends[1] - ends[0])).sum()
+    let going = pieces.take_while(|&(piece, _)| !is_cancelled(piece, cancel));
+    going.map(|(piece, ends)| time_within(cycle, state, piece, ends[1] - ends[0])).sum()
 }

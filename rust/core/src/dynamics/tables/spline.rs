@@ -1,6 +1,7 @@
 //! Piecewise cubics through tables: splines with several end conditions, and monotone ones.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::error::TableError;
 use super::monotone::{self, Leg};
@@ -33,11 +34,11 @@ pub type Pieces = Vec<[f64; 4]>;
 ///
 /// Fewer than two knots (periodic: three), or a different number of values.
 pub fn spline(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Pieces, TableError> {
-    spline_beside(knots, values, ends, [None; 2])
+    spline_beside(knots, values, ends, [None; 2], &AtomicBool::new(false))
 }
 
 /// The curves through the sections of a table, each by itself. Monotone cubics of a `closed` table
-/// go on from its last section into its first.
+/// go on from its last section into its first. Once `cancel` is true the curves are not fitted.
 ///
 /// # Errors
 ///
@@ -48,6 +49,7 @@ pub(crate) fn fit_sections(
     ends: EndCondition,
     sections: &[Range<usize>],
     closed: bool,
+    cancel: &AtomicBool,
 ) -> Result<Pieces, TableError> {
     let mut all = Pieces::with_capacity(knots.len());
     let leg = |row: usize| leg(knots, values, row);
@@ -55,7 +57,7 @@ pub(crate) fn fit_sections(
         let before = (closed && k == 0).then(|| leg(knots.len() - 2));
         let behind = (closed && k + 1 == sections.len()).then(|| leg(0));
         let (own, at) = (&knots[section.clone()], &values[section.clone()]);
-        all.append(&mut spline_beside(own, at, ends, [before, behind])?);
+        all.append(&mut spline_beside(own, at, ends, [before, behind], cancel)?);
     }
     Ok(all)
 }
@@ -70,21 +72,33 @@ fn spline_beside(
     values: &[f64],
     ends: EndCondition,
     beyond: [Option<Leg>; 2],
+    cancel: &AtomicBool,
 ) -> Result<Pieces, TableError> {
     let n = knots.len();
     let least = if ends == EndCondition::Periodic { 3 } else { 2 };
     if n < least || values.len() != n {
         return Err(TableError::TooShort { count: n.min(values.len()), least });
     }
+    let is_cancelled = || cancel.load(Ordering::Relaxed);
+    let unfitted = || Ok(vec![[0.0; 4]; n - 1]);
+    if is_cancelled() {
+        return unfitted();
+    }
     let legs: Vec<Leg> = (0..n - 1).map(|row| leg(knots, values, row)).collect();
     let (width, rise): (Vec<f64>, Vec<f64>) = legs.iter().map(|&[h, r]| (h, r)).unzip();
+    if is_cancelled() {
+        return unfitted();
+    }
     if ends == EndCondition::Linear {
         return Ok(values.iter().zip(&rise).map(|(&v, &r)| [v, r, 0.0, 0.0]).collect());
     }
     let slopes = match ends {
         EndCondition::Pchip => monotone::slopes(&legs, beyond),
-        _ => slopes(&width, &rise, ends),
+        _ => slopes(&width, &rise, ends, cancel),
     };
+    if is_cancelled() {
+        return unfitted();
+    }
     let piece = |i: usize| {
         let (h, r) = (width[i], rise[i]);
         let (a, b) = (slopes[i], slopes[i + 1]);
@@ -94,7 +108,7 @@ fn spline_beside(
 }
 
 /// Slopes at the knots that make second derivatives continuous.
-fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
+fn slopes(width: &[f64], rise: &[f64], ends: EndCondition, cancel: &AtomicBool) -> Vec<f64> {
     let n = width.len() + 1;
     let last = n - 2;
     let inner = |i: usize| {
@@ -120,17 +134,17 @@ fn slopes(width: &[f64], rise: &[f64], ends: EndCondition) -> Vec<f64> {
         }
         EndCondition::Natural => ([[2.0, 1.0]; 2], [3.0 * rise[0], 3.0 * rise[last]]),
         EndCondition::Clamped => ([[1.0, 0.0]; 2], [0.0; 2]),
-        EndCondition::Periodic => return periodic(width, rise),
+        EndCondition::Periodic => return periodic(width, rise, cancel),
         EndCondition::Linear | EndCondition::Pchip => return rise.to_vec(),
     };
     let mut rows: Vec<([f64; 3], f64)> = vec![([0.0, head[0], head[1]], first)];
     rows.extend((1..n - 1).map(inner));
     rows.push(([foot[1], foot[0], 0.0], final_));
-    tridiagonal(&mut rows)
+    tridiagonal(&mut rows, cancel)
 }
 
 /// Slopes of a periodic spline: a tridiagonal system with corners, by Sherman & Morrison.
-fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
+fn periodic(width: &[f64], rise: &[f64], cancel: &AtomicBool) -> Vec<f64> {
     let n = width.len();
     let row = |i: usize| {
         let before = (i + n - 1) % n;
@@ -156,7 +170,7 @@ fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
         }
         extra[0].1 = pivot;
         extra[n - 1].1 = other;
-        let (y, z) = (tridiagonal(&mut rows), tridiagonal(&mut extra));
+        let (y, z) = (tridiagonal(&mut rows, cancel), tridiagonal(&mut extra, cancel));
         let part = |x: &[f64]| x[0] + corner / pivot * x[n - 1];
         let factor = part(&y) / (1.0 + part(&z));
         y.iter().zip(&z).map(|(y, z)| y - factor * z).collect()
@@ -167,14 +181,20 @@ fn periodic(width: &[f64], rise: &[f64]) -> Vec<f64> {
 
 /// Solves a tridiagonal system of rows (before, own, behind) = right-hand side. It is diagonally
 /// dominant except for the not-a-knot rows, where elimination is still stable (de Boor).
-fn tridiagonal(rows: &mut [([f64; 3], f64)]) -> Vec<f64> {
+fn tridiagonal(rows: &mut [([f64; 3], f64)], cancel: &AtomicBool) -> Vec<f64> {
+    let mut solution = vec![0.0; rows.len()];
+    if cancel.load(Ordering::Relaxed) {
+        return solution;
+    }
     for i in 1..rows.len() {
         let ([_, pivot, behind], right) = rows[i - 1];
         let factor = rows[i].0[0] / pivot;
         rows[i].0[1] -= factor * behind;
         rows[i].1 -= factor * right;
     }
-    let mut solution = vec![0.0; rows.len()];
+    if cancel.load(Ordering::Relaxed) {
+        return solution;
+    }
     let mut next = 0.0;
     for (([_, own, behind], right), out) in rows.iter().zip(&mut solution).rev() {
         next = (right - behind * next) / own;

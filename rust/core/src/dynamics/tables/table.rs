@@ -1,5 +1,7 @@
 //! A function of a coordinate or a speed, given by points.
 
+use std::sync::atomic::AtomicBool;
+
 use super::error::TableError;
 use super::spline::{EndCondition, Pieces, fit_sections};
 use crate::dynamics::flywheel::cycle::{check_columns, wrap_to_period};
@@ -26,6 +28,9 @@ pub(crate) struct Cell {
     start: f64,
 }
 
+/// Nobody cancels the fit of a table.
+static NEVER: AtomicBool = AtomicBool::new(false);
+
 impl Table {
     /// Fits the curve; `periodic`: the table is one period.
     ///
@@ -39,8 +44,9 @@ impl Table {
         periodic: bool,
     ) -> Result<Self, TableError> {
         check_columns(knots, &[("value", values)], periodic, false)?;
-        let pieces =
-            fit_sections(knots, values, ends, std::slice::from_ref(&(0..knots.len())), periodic)?;
+        let whole = 0..knots.len();
+        let sections = std::slice::from_ref(&whole);
+        let pieces = fit_sections(knots, values, ends, sections, periodic, &NEVER)?;
         Ok(Self { knots: knots.to_vec(), pieces, periodic, jumps: Vec::new() })
     }
 
@@ -83,7 +89,7 @@ impl Table {
             from = start;
         }
         let closed = periodic && at_end.is_none();
-        let pieces = fit_sections(knots, values, ends, &sections, closed)?;
+        let pieces = fit_sections(knots, values, ends, &sections, closed, &NEVER)?;
         Ok(Self { knots: own, pieces, periodic, jumps })
     }
 
