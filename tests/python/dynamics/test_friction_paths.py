@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -82,7 +82,7 @@ def test_the_path_may_turn_back_at_a_corner_where_nothing_is_singular(times: flo
             0.4559905865891969, 0.022556371274955626, (-0.018703925477693048, -0.03623695293373248)
         ),
     }
-    loads = [
+    loads: list[Any] = [
         Force("B", (25.219478021812492, -9.140614440404601)),
         assur.Spring("O", ("rod", (0.05, 0.03)), 130.79936546997112, 0.1574506184688631),
         assur.Damper(("ground", (0.0, 1.9)), ("rod", (0.02, 0.03)), 4.300218600497804),

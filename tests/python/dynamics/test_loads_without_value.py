@@ -156,7 +156,7 @@ def test_a_run_that_starts_outside_a_table_names_load_value_and_range(
         ),
     ]:
         own = machine(Gravity(), Torque("crank", 1.0), load)
-        end = {"q_end": q0 + way} if over_q else {"t_end": 1.0}
+        end: dict[str, Any] = {"q_end": q0 + way} if over_q else {"t_end": 1.0}
         with pytest.raises(assur.InputError) as raised:
             own.run(q0=q0, speed0=5.0 * way, **end)
         assert str(raised.value).startswith(f"loads[2], {message}")

@@ -63,6 +63,36 @@ def forces() -> Any:
     return MACHINE.reactions([0.1, 1.0, 2.0], speed=3.0)
 
 
+@cache
+def timed() -> Any:
+    return WHEEL.follow(assur.laws.Cycloidal(0.5, 1.5, 2.0), [0.5, 1.0, 1.5])
+
+
+@cache
+def five_bar() -> assur.Mechanism:
+    return assur.Mechanism(
+        joints={"A": (0, 0), "B": (0.3, 1), "C": (1.4, 2), "D": (2.5, 0.9), "E": (2, 0)},
+        links={"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"},
+        driver=["left", "right"],
+    )
+
+
+@cache
+def loci() -> Any:
+    return five_bar().singular_loci()
+
+
+@cache
+def workspace() -> Any:
+    return five_bar().workspace("C")
+
+
+@cache
+def design_map() -> Any:
+    both = {"rocker.length": [2.4, 2.6], "coupler.length": [2.9, 3.1]}
+    return WHEEL.map("assemblies", both)
+
+
 # What has flags, called with them; `at`: a place for a file.
 CALLS: dict[str, Callable[..., Any]] = {
     "Slide": lambda _, **f: slide(**f),
@@ -123,36 +153,6 @@ CALLS: dict[str, Callable[..., Any]] = {
     "plot_deviation": lambda _, **f: slider_crank.plot_deviation(**f),
     "sweep": lambda _, **f: swept(**f),
 }
-
-
-@cache
-def timed() -> Any:
-    return WHEEL.follow(assur.laws.Cycloidal(0.5, 1.5, 2.0), [0.5, 1.0, 1.5])
-
-
-@cache
-def five_bar() -> assur.Mechanism:
-    return assur.Mechanism(
-        joints={"A": (0, 0), "B": (0.3, 1), "C": (1.4, 2), "D": (2.5, 0.9), "E": (2, 0)},
-        links={"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"},
-        driver=["left", "right"],
-    )
-
-
-@cache
-def loci() -> Any:
-    return five_bar().singular_loci()
-
-
-@cache
-def workspace() -> Any:
-    return five_bar().workspace("C")
-
-
-@cache
-def design_map() -> Any:
-    both = {"rocker.length": [2.4, 2.6], "coupler.length": [2.9, 3.1]}
-    return WHEEL.map("assemblies", both)
 
 
 MODULES = (assur, flywheel, events, metric, slider_crank, crank_rocker, assur.laws, assur.balance)
