@@ -84,7 +84,7 @@ pub fn limits(c: &mut Criterion) {
             })
             .collect();
         let mut finder =
-            LimitsFinder::new(&mechanism, mechanism.signs(), &tables).expect("one driver");
+            LimitsFinder::new(&mechanism, mechanism.signs(), &tables, None).expect("one driver");
         group.bench_function(BenchmarkId::new(name, DESIGNS), |b| {
             b.iter(|| {
                 for design in &designs {

@@ -1,6 +1,6 @@
 //! Limits of designs for Python.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use assur::{Limits, LimitsFinder, SolveError, Tables};
 use numpy::PyArray1;
@@ -33,14 +33,11 @@ pub(crate) fn find(
     let designs = dimensions.len().checked_div(mechanism.dimensions().len()).unwrap_or(1);
     let chunk = |index: usize| -> Result<Vec<Limits>, SolveError> {
         let tables = Tables::default();
-        let mut finder = LimitsFinder::new(mechanism, signs, &tables)?;
+        let mut finder = LimitsFinder::new(mechanism, signs, &tables, Some(cancel))?;
         let own = index * CHUNK..((index + 1) * CHUNK).min(designs);
         let mut values = vec![0.0; mechanism.dimensions().len()];
         let mut limits = Vec::with_capacity(own.len());
         for design in own {
-            if cancel.load(Ordering::Relaxed) {
-                return Err(SolveError::Interrupted);
-            }
             for (value, of) in values.iter_mut().zip(dimensions.chunks_exact(designs.max(1))) {
                 *value = of[design];
             }

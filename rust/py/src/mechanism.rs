@@ -32,8 +32,10 @@ const KNOTS_PER_UNIT: f64 = 16.0;
 const FEW_SIGNS: usize = 12;
 /// Positions whose assemblies take only milliseconds then.
 const FEW_ASSEMBLIES: usize = 100;
-/// Links below which building a mechanism need not check for signals.
+/// Links below which building a mechanism, or one search along its branch, need not check for signals.
 pub(crate) const FEW_LINKS: usize = 64;
+/// Links of the mechanisms for which positions are counted: of longer ones each takes so much longer.
+const LINKS_COUNTED: usize = 4;
 /// Bytes below which a result is one array: making many takes longer than solving.
 const SMALL_RESULT: usize = 64 << 10;
 /// Number of positions that take as long as tracing one branch from the drawing; fewer without groups
@@ -49,7 +51,8 @@ pub(crate) fn is_short(mechanism: &assur::Mechanism, designs: usize, positions: 
         0..=2 => POSITIONS_PER_BRANCH_OF_DYADS,
         _ => POSITIONS_PER_BRANCH,
     };
-    let cost = designs.saturating_mul(positions.saturating_add(per_branch));
+    let links = (mechanism.linkage().links.len() / LINKS_COUNTED).max(1);
+    let cost = designs.saturating_mul(positions.saturating_add(per_branch)).saturating_mul(links);
     mechanism.q0().len() == 1 && cost < FEW_POSITIONS
 }
 
@@ -116,6 +119,13 @@ pub(crate) fn described(
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Mechanism {
     pub(crate) inner: assur::Mechanism,
+}
+
+impl Mechanism {
+    /// Whether one search along its branch takes only milliseconds.
+    fn is_small(&self) -> bool {
+        self.inner.structure().class() <= 2 && self.inner.linkage().links.len() < FEW_LINKS
+    }
 }
 
 #[pymethods]
@@ -206,9 +216,9 @@ impl Mechanism {
         within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
         let asked = (tracked(&coordinate), order);
-        let small = self.inner.structure().class() <= 2;
-        let found =
-            detach::run(py, small, |_| self.inner.extremes(&dimensions, &signs, asked, within))?;
+        let found = detach::run(py, self.is_small(), |cancel| {
+            self.inner.extremes(&dimensions, &signs, asked, within, Some(cancel))
+        })?;
         let pair = |one: assur::ValueAt| (one.value, one.q);
         Ok(found.map_err(error_map::solve)?.map(|both| both.map(pair)))
     }
@@ -224,9 +234,8 @@ impl Mechanism {
         level: (f64, bool),
     ) -> PyResult<Vec<[f64; 2]>> {
         let asked = (tracked(&coordinate), order);
-        let small = self.inner.structure().class() <= 2;
-        let found = detach::run(py, small, |_| {
-            self.inner.stretches_beyond(&dimensions, &signs, asked, level)
+        let found = detach::run(py, self.is_small(), |cancel| {
+            self.inner.stretches_beyond(&dimensions, &signs, asked, level, Some(cancel))
         })?;
         found.map_err(error_map::solve)
     }
@@ -558,7 +567,7 @@ impl Mechanism {
         let _room = reserve::room_for(py, 2 * dimensions.as_array().len())?;
         let dimensions = dimensions.as_slice()?.to_vec();
         let designs = dimensions.len() / self.inner.dimensions().len().max(1);
-        let small = self.inner.structure().class() <= 2 && designs < FEW_ASSEMBLIES;
+        let small = self.is_small() && designs < FEW_ASSEMBLIES;
         let found = detach::run(py, small, |cancel| {
             limits::find(&self.inner, &dimensions, &signs, threads, cancel)
         })?;

@@ -78,6 +78,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let mut space = WorkSpace::take(mechanism, derivatives, writer);
         let mut design = Design::new(mechanism, request.signs, derivatives)
             .reusing(std::mem::take(&mut space.design));
+        design.cancel = control.cancel;
         if control.care == Care::Needed
             && let Some(tape) = space.tracing_tape.take()
         {

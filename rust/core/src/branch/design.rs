@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::branch::Branch;
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
@@ -61,6 +62,8 @@ pub(crate) struct Design<'a> {
     pub(super) interpolants: RefCell<Vec<(f64, Option<ChangeInterpolant>)>>,
     /// Work space of [`Self::may_change`].
     at_drawing: Option<Box<State>>,
+    /// See [`Context::cancel`].
+    pub cancel: Option<&'a AtomicBool>,
 }
 
 /// What a design fills when it is bound and traced: allocated once for all designs of a mechanism.
@@ -105,7 +108,13 @@ impl<'a> Design<'a> {
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
             at_drawing: None,
+            cancel: None,
         }
+    }
+
+    /// Whether its searches are to end.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
 
     /// The same with the memory of an earlier one of the mechanism.
@@ -196,6 +205,7 @@ impl<'a> Design<'a> {
             derivatives,
             signs: &self.signs,
             tape: &self.mechanism.plan().tape,
+            cancel: self.cancel,
         }
     }
 

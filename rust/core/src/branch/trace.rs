@@ -114,6 +114,7 @@ impl Design<'_> {
             derivatives: &self.tracing_derivatives,
             signs: &self.signs,
             tape: &self.tracing_tape,
+            cancel: self.cancel,
         };
         let (branch, tracer, settled) = (&mut self.branch, &mut *self.lane_tracer, &self.settled);
         let with_angles = !classes.is_empty();

@@ -324,6 +324,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     pub(crate) fn advance(&mut self, to: f64) {
         let mut ends = vec![(to, 0_u32)];
         while let Some((end, depth)) = ends.pop() {
+            self.ended |= self.cx.is_cancelled();
             if self.ended {
                 return;
             }

@@ -1,6 +1,7 @@
 //! One design, one position after another: what a motion in time needs.
 
 use std::borrow::Cow;
+use std::sync::atomic::AtomicBool;
 
 use crate::branch::branch::Branch;
 use crate::branch::change_interpolant::ChangeWindow;
@@ -101,18 +102,20 @@ impl<'m> Evaluator<'m> {
         needs_angles: bool,
     ) -> Self {
         let own = (dimensions, mechanism.signs());
-        Self::with_signs(mechanism, own, derivatives, queries, needs_angles)
+        Self::with_signs(mechanism, own, derivatives, queries, needs_angles, None)
     }
 
-    /// The same in another assembly.
+    /// The same in another assembly; once `cancel` is true the branch ends where it is.
     pub(crate) fn with_signs(
         mechanism: &'m Mechanism,
         (dimensions, signs): (&[f64], &[i8]),
         derivatives: &'m DerivativeTables,
         queries: Queries<'_>,
         needs_angles: bool,
+        cancel: Option<&'m AtomicBool>,
     ) -> Self {
         let mut design = Design::new(mechanism, signs, derivatives);
+        design.cancel = cancel;
         design.change_window = ChangeWindow::LONG;
         design.bind(dimensions);
         let far = MAX_SLIDE * design.constants.scale;

@@ -1,6 +1,8 @@
 //! State of one position of a design, or of several at once: points, orientations and slides with
 //! their analogues.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::conditions::Conditions;
 use super::pose::Pose;
 use super::status::{Fault, Status};
@@ -48,6 +50,15 @@ pub(crate) struct Context<'a> {
     pub signs: &'a [f64],
     /// The operations to run.
     pub tape: &'a Tape,
+    /// Once it is true, what is traced along a branch ends.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+impl Context<'_> {
+    /// Whether work along a branch is to end, without a result.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+    }
 }
 
 impl<R: Real, const G: usize> State<R, G> {

@@ -1,6 +1,7 @@
 //! A coordinate along the branch: where it is stationary, and where it is beyond a level.
 
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::known::{ByAngle, Known, NOISE, Rounding};
 use super::tracked::{Tracked, ValueAt};
@@ -18,11 +19,16 @@ pub(super) struct Curve<'m> {
     pub evaluator: Evaluator<'m>,
     pub tracked: Tracked,
     pub order: usize,
+    /// Once it is true, there are no more values.
+    pub cancel: Option<&'m AtomicBool>,
 }
 
 impl Curve<'_> {
     /// The derivative with its first two derivatives by q.
     pub(super) fn by_coordinate(&mut self, q: f64) -> Option<ByAngle> {
+        if self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
+            return None;
+        }
         self.evaluator.solve(&[q]).ok()?;
         let position = self.evaluator.position();
         let (state, units) = (position.state, position.units);

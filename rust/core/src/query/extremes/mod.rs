@@ -9,6 +9,8 @@ pub(crate) mod tracked;
 mod window;
 mod zero_lengths;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use curve::Curve;
 use tracked::{Tracked, ValueAt};
 use window::Window;
@@ -26,18 +28,20 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// Those of [`LimitsFinder`], and an order above 3.
+    /// Those of [`LimitsFinder`], and an order above 3; [`SolveError::Interrupted`] once `cancel` is
+    /// true.
     pub fn extremes(
         &self,
         dimensions: &[f64],
         signs: &[i8],
         (tracked, order): (Tracked, usize),
         within: Option<f64>,
+        cancel: Option<&AtomicBool>,
     ) -> Result<Option<[ValueAt; 2]>, SolveError> {
         let mut found: Option<[ValueAt; 2]> = None;
         let is_length = matches!(tracked, Tracked::Slide(slide) if self.linkage().slides[slide].length)
             && order == 0;
-        self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
+        self.over_intervals((dimensions, signs), (tracked, order), cancel, |curve, window| {
             if within.is_some_and(|q| !window.holds(q)) {
                 return;
             }
@@ -70,10 +74,11 @@ impl Mechanism {
         signs: &[i8],
         (tracked, order): (Tracked, usize),
         (level, at_least): (f64, bool),
+        cancel: Option<&AtomicBool>,
     ) -> Result<Vec<[f64; 2]>, SolveError> {
         let mut found = Vec::new();
         let sign = if at_least { 1.0 } else { -1.0 };
-        self.over_intervals((dimensions, signs), tracked, order, |curve, window| {
+        self.over_intervals((dimensions, signs), (tracked, order), cancel, |curve, window| {
             let mut own = curve.stretches(window, |value| sign * (value - level));
             if window.is_period {
                 join(&mut own, window.ends());
@@ -87,15 +92,15 @@ impl Mechanism {
     fn over_intervals(
         &self,
         (dimensions, signs): (&[f64], &[i8]),
-        tracked: Tracked,
-        order: usize,
+        (tracked, order): (Tracked, usize),
+        cancel: Option<&AtomicBool>,
         mut visit: impl FnMut(&mut Curve<'_>, &Window),
     ) -> Result<(), SolveError> {
         if order > MAX_ORDER {
             return Err(SolveError::Order(order));
         }
         let tables = Tables::default();
-        let limits = LimitsFinder::new(self, signs, &tables)?.limits(dimensions)?;
+        let limits = LimitsFinder::new(self, signs, &tables, cancel)?.limits(dimensions)?;
         // An extreme is a root of the next derivative, found with its slope. Kernels end at
         // `MAX_ORDER`; the general formulas serve any order.
         let highest = order + 2;
@@ -113,15 +118,17 @@ impl Mechanism {
             &derivatives,
             Queries::Any,
             matches!(tracked, Tracked::Link(_)),
+            cancel,
         );
-        let mut curve = Curve { evaluator, tracked, order };
+        let mut curve = Curve { evaluator, tracked, order, cancel };
         let turns = limits.period.map_or(1.0, f64::from);
         for interval in &limits.intervals {
             let mut window = Window::of(self, &curve.evaluator, interval, turns);
             curve.find_zero_lengths(&mut window);
             visit(&mut curve, &window);
         }
-        Ok(())
+        let interrupted = cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        if interrupted { Err(SolveError::Interrupted) } else { Ok(()) }
     }
 }
 

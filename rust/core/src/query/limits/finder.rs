@@ -1,6 +1,7 @@
 //! Limits of designs, one after another.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
 
 use super::crank_stretches::crank_stretches;
 use super::search::Search;
@@ -73,7 +74,7 @@ impl Mechanism {
 }
 
 impl<'m> LimitsFinder<'m> {
-    /// For designs in the assembly with these signs.
+    /// For designs in the assembly with these signs; `cancel`: see [`Self::limits`].
     ///
     /// # Errors
     ///
@@ -82,12 +83,14 @@ impl<'m> LimitsFinder<'m> {
         mechanism: &'m Mechanism,
         signs: &[i8],
         derivatives: &'m Tables,
+        cancel: Option<&'m AtomicBool>,
     ) -> Result<Self, SolveError> {
         if mechanism.q0().len() != 1 {
             return Err(SolveError::Shape("limits are those of one driver".into()));
         }
         mechanism.check(mechanism.drawing(), mechanism.q0(), signs)?;
-        let design = Design::new(mechanism, signs, &derivatives.0);
+        let mut design = Design::new(mechanism, signs, &derivatives.0);
+        design.cancel = cancel;
         let plan = mechanism.plan();
         let is_closed = plan.groups().next().is_none()
             && plan.driven_slide(0).is_none()
@@ -101,7 +104,7 @@ impl<'m> LimitsFinder<'m> {
     ///
     /// # Errors
     ///
-    /// A wrong number of dimensions.
+    /// A wrong number of dimensions; [`SolveError::Interrupted`] once `cancel` is true.
     pub fn limits(&mut self, dimensions: &[f64]) -> Result<Limits, SolveError> {
         let mechanism = self.design.mechanism;
         if dimensions.len() != mechanism.dimensions().len() {
@@ -113,6 +116,9 @@ impl<'m> LimitsFinder<'m> {
         self.design.bind(dimensions);
         let stretches = self.in_closed_form().unwrap_or_else(|| self.by_search());
         let period = self.period(&stretches);
+        if self.design.is_cancelled() {
+            return Err(SolveError::Interrupted);
+        }
         let unit = self.design.units.coordinate[0];
         let interval = |stretch: Stretch| Interval {
             ends: stretch.ends.map(|end| end / unit),

@@ -141,7 +141,7 @@ impl<'d> Search<'d, '_> {
 
     /// The value of a slide, and its derivative.
     fn length(&mut self, q: f64, slide: usize, step: usize) -> Option<Sampled> {
-        self.solve(q);
+        self.solve(q)?;
         if self.fails_before(step) {
             return None;
         }
@@ -164,9 +164,9 @@ impl<'d> Search<'d, '_> {
         Some(Sampled { rate: (ahead.value - behind.value) / (2.0 * aside), ..own })
     }
 
-    /// Solves a position of the branch.
-    fn solve(&mut self, q: f64) -> Context<'d> {
-        solve(self.design, &mut self.state, q)
+    /// Solves a position of the branch, unless the search is to end.
+    fn solve(&mut self, q: f64) -> Option<Context<'d>> {
+        (!self.design.is_cancelled()).then(|| solve(self.design, &mut self.state, q))
     }
 
     /// Whether the position just solved fails before a step.
@@ -176,7 +176,7 @@ impl<'d> Search<'d, '_> {
 
     /// The same, its derivative only where it is known from the position.
     fn value(&mut self, q: f64, dyad: &Dyad, step: usize) -> Option<Sampled> {
-        let cx = self.solve(q);
+        let cx = self.solve(q)?;
         if self.fails_before(step) {
             return None;
         }
