@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from assur._arrays import Float
 
 QUANTITIES = ("axial", "shear", "moment")
 # Halvings from a cell to a neighbouring number.
 HALVINGS = 60
+# Values computed at once: some milliseconds.
+PART = 1 << 16
 
 
 class Density(NamedTuple):
@@ -71,11 +75,21 @@ class Beam(NamedTuple):
 
     def at(self, quantity: str, x: Float) -> Float:
         """Return a quantity at places x, (n,), as (P, n): at a load just beyond it."""
-        cells = self.edges.shape[1] - 1
-        inner = self.edges[:, 1:-1, np.newaxis]
-        cell = np.minimum((x >= inner).sum(axis=1), cells - 1)
-        rows = np.arange(self.edges.shape[0])[:, np.newaxis]
-        return _value(self.coefficients[quantity][rows, cell], x - self.edges[rows, cell])
+        positions = self.edges.shape[0]
+        values = np.empty((positions, x.size))
+        # In parts: NumPy hears no signal within an operation.
+        for of_x in _parts(x.size, PART):
+            for rows in _parts(positions, max(1, PART // x[of_x].size)):
+                values[rows, of_x] = self._part(quantity, rows, x[of_x])
+        return values
+
+    def _part(self, quantity: str, rows: slice, x: Float) -> Float:
+        """Return a quantity at some of the positions."""
+        edges, own = self.edges[rows], self.coefficients[quantity][rows]
+        inner = edges[:, 1:-1, np.newaxis]
+        cell = np.minimum((x >= inner).sum(axis=1), edges.shape[1] - 2)
+        each = np.arange(edges.shape[0])[:, np.newaxis]
+        return _value(own[each, cell], x - edges[each, cell])
 
     def extremes(self, quantity: str) -> tuple[Float, Float, Float, Float]:
         """Return the least value and its place, the greatest and its place, (P,) each."""
@@ -144,6 +158,10 @@ def solve_beam(
         )
         own[..., 0], end[:, k] = before[:, :-1], before[:, -1]
     return Beam(edges, coefficients, end)
+
+
+def _parts(count: int, size: int) -> Iterator[slice]:
+    return (slice(start, start + size) for start in range(0, count, size))
 
 
 def _value(coefficients: Float, t: Float) -> Float:

@@ -9,6 +9,7 @@ import gc
 import signal
 import threading
 import time
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ WHOLE, PART = 2.0, 1 / 8
 # Processor time after which it is interrupted, and in which it is then to be heard, s. A machine
 # that is busy does the same work in half of the time or in twice: half is longer than both.
 WORKED, SOON = 0.3, 0.4
+# Time between two signals, and the longest in which none may be heard where work is done in small
+# parts, s of processor time.
+TICK, SILENT = 0.01, 0.1
 # A busy machine may keep the thread that listens waiting; what hears nothing is late every time.
 ATTEMPTS = 3
 LARGEST = 1e8
@@ -85,6 +89,25 @@ def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float
         size *= 2
         assert size < LARGEST, "the work ended before it was interrupted"
     return after
+
+
+def longest_silence(call: Callable[[], object]) -> float:
+    """Processor time of a call, at most, in which no signal is heard, s."""
+    heard: list[float] = []
+
+    def hear(*_: object) -> None:
+        heard.append(time.process_time())
+
+    before = signal.signal(signal.SIGPROF, hear)
+    hear()
+    signal.setitimer(signal.ITIMER_PROF, TICK, TICK)
+    try:
+        call()
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+    hear()
+    return max(after - before for before, after in pairwise(heard))
 
 
 def longest_standstill(call: Callable[[], object]) -> tuple[float, float]:

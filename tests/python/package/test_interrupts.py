@@ -20,7 +20,16 @@ import numpy as np
 import pytest
 
 import assur
-from interruptions import SOON, heard_after, is_heard, longest_standstill
+from interruptions import (
+    SILENT,
+    SOON,
+    WORKED,
+    heard_after,
+    interrupted,
+    is_heard,
+    longest_silence,
+    longest_standstill,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -144,12 +153,29 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "reactions that friction locks": lambda n: partial(_rubbing().reactions, *_moving(n)),
     "safety": lambda n: partial(getattr, _rubbing(0.1).reactions(*_moving(n)), "safety"),
     "self-locking": lambda n: partial(_rubbing(0.3).self_locking, n=n),
+    "limits of a chain": lambda n: _chain(n).limits,
+    "extremes of a chain": lambda n: partial(_chain(n).extremes, f"rocker{n}"),
+    "extremes of accelerations of a chain": lambda n: partial(_chain(n).extremes, f"rocker{n}", 2),
+    "dwells of a chain": lambda n: partial(_chain(n).extremes(f"rocker{n}").dwells, 0.01),
 }
 
 
 @pytest.mark.parametrize("name", LONG)
 def test_every_long_call_can_be_stopped(name: str) -> None:
     assert is_heard(LONG[name], 64)
+
+
+def test_much_work_at_once_can_be_stopped() -> None:
+    """A part of it, as above, shows too little of how long it is between two checks."""
+    call = partial(_rubbing(0.3).self_locking, n=10**5)
+    after = (interrupted(call, WORKED) for _ in range(ATTEMPTS))
+    assert any(seconds is not None and seconds < SOON for seconds in after)
+
+
+def test_a_link_is_cut_at_many_sections_in_parts() -> None:
+    """NumPy hears no signal within an operation: none takes long."""
+    call = partial(_rod().internal_loads, "coupler", _angles(10**5), 1.0)
+    assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
 
 
 def test_a_call_that_hears_nothing_is_found() -> None:
@@ -266,6 +292,11 @@ def _rubbing(coefficient: float = 0.9) -> assur.Machine:
 def _moving(count: int) -> tuple[Any, ...]:
     """Positions, their speed, acceleration."""
     return _angles(count), 10.0, 0.0
+
+
+def _rod() -> assur.Machine:
+    bodies = {"coupler": assur.Body(1.0, 0.75, (1.5, 0.0))}
+    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies)
 
 
 def _machine() -> assur.Machine:
