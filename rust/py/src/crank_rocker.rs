@@ -45,7 +45,8 @@ pub(crate) fn crank_rocker_solve<'py>(
         Some(all)
     })?;
     let row = |row: usize| found.iter().map(move |one| one.map_or(f64::NAN, |all| all[row]));
-    Ok(PyArray1::from_vec(py, (0..ROWS).flat_map(row).collect()))
+    let numbers = reserve::collected(ROWS * found.len(), (0..ROWS).flat_map(row))?;
+    Ok(PyArray1::from_vec(py, numbers))
 }
 
 /// The four lengths of each design.

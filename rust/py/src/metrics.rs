@@ -9,7 +9,8 @@ use crate::{detach, reserve};
 
 /// Vectors of a flat array of x, y.
 fn vectors(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<Vector>> {
-    Ok(array.as_slice()?.as_chunks::<2>().0.iter().map(|&[x, y]| Vector::new(x, y)).collect())
+    let pairs = array.as_slice()?.as_chunks::<2>().0;
+    reserve::collected(pairs.len(), pairs.iter().map(|&[x, y]| Vector::new(x, y)))
 }
 
 pub(crate) fn check_same_length(a: usize, b: usize) -> PyResult<()> {
@@ -67,5 +68,6 @@ pub(crate) fn instant_centre<'py>(
     let centres = detach::map(py, a.2.len(), |i| {
         metrics::instant_centre((a.0[i], a.1[i], a.2[i]), (b.0[i], b.1[i], b.2[i]))
     })?;
-    Ok(PyArray1::from_vec(py, centres.into_iter().flat_map(|p| [p.x, p.y]).collect()))
+    let numbers = centres.iter().flat_map(|p| [p.x, p.y]);
+    Ok(PyArray1::from_vec(py, reserve::collected(2 * centres.len(), numbers)?))
 }

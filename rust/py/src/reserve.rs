@@ -171,10 +171,15 @@ pub(crate) fn room_for(py: Python<'_>, numbers: usize) -> PyResult<Option<Room>>
 /// A copy of an array, or `MemoryError`.
 pub(crate) fn copied(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
     let numbers = array.as_slice()?;
-    let mut copy = Vec::new();
-    copy.try_reserve_exact(numbers.len()).map_err(|_| out_of_memory())?;
-    copy.extend_from_slice(numbers);
-    Ok(copy)
+    collected(numbers.len(), numbers.iter().copied())
+}
+
+/// A list of so many items, or `MemoryError`.
+pub(crate) fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> PyResult<Vec<T>> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(count).map_err(|_| out_of_memory())?;
+    list.extend(items);
+    Ok(list)
 }
 
 /// How often the system has refused memory: a call that sees it change ends.

@@ -20,9 +20,12 @@ type Orders<'py> = (Array<'py>, Array<'py>, Array<'py>);
 /// Angles and values.
 type AnglesAndValues<'py> = (Array<'py>, Array<'py>);
 
-fn orders<'py>(py: Python<'py>, jets: &[Jet]) -> Orders<'py> {
-    let of = |k: usize| PyArray1::from_vec(py, jets.iter().map(|jet| jet.order(k)).collect());
-    (of(0), of(1), of(2))
+fn orders<'py>(py: Python<'py>, jets: &[Jet]) -> PyResult<Orders<'py>> {
+    let of = |k: usize| -> PyResult<_> {
+        let values = reserve::collected(jets.len(), jets.iter().map(|jet| jet.order(k)))?;
+        Ok(PyArray1::from_vec(py, values))
+    };
+    Ok((of(0)?, of(1)?, of(2)?))
 }
 
 fn angles_and_values(py: Python<'_>, angles: Vec<f64>, values: Vec<f64>) -> AnglesAndValues<'_> {
@@ -39,7 +42,7 @@ fn map_pairs<'py>(
     let (phi, ratio) = (reserve::copied(phi)?, reserve::copied(ratio)?);
     check_same_length(phi.len(), ratio.len())?;
     let jets = detach::map(py, phi.len(), |i| of(phi[i], ratio[i]))?;
-    Ok(orders(py, &jets))
+    orders(py, &jets)
 }
 
 /// Exact strokes divided by the crank length.
@@ -84,6 +87,7 @@ pub(crate) fn slider_crank_series<'py>(
 ) -> PyResult<Orders<'py>> {
     let (phi, k) = (reserve::copied(&phi)?, reserve::copied(&k)?);
     check_same_length(phi.len(), k.len())?;
+    let _room = reserve::room(py, phi.len().saturating_mul(size_of::<Jet>()))?;
     let jets = detach::run(py, phi.len() < FEW_VALUES, |cancel| {
         // Neighbouring values mostly belong to one design, with the same k.
         let mut last: Option<(f64, Series)> = None;
@@ -98,7 +102,7 @@ pub(crate) fn slider_crank_series<'py>(
         }
         Ok(jets)
     })?;
-    Ok(orders(py, &jets.map_err(error_map::series)?))
+    orders(py, &jets.map_err(error_map::series)?)
 }
 
 /// Fourier coefficients, one k after another.
@@ -137,7 +141,7 @@ pub(crate) fn slider_crank_rod_point<'py>(
     check_same_length(phi.len(), along.len())?;
     let jets =
         detach::map(py, phi.len(), |i| core::rod_point(phi[i], lambda[i], along[i], across[i]))?;
-    Ok(orders(py, &jets.into_iter().flatten().collect::<Vec<_>>()))
+    orders(py, jets.as_flattened())
 }
 
 /// Angles and values of the greatest speed, exact or by three terms of the series.

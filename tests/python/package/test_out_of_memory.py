@@ -35,6 +35,7 @@ loads = [assur.Force("B", (-100.0, 0.0), on="piston")]
 smooth = assur.Machine(crank, bodies, loads)
 rough = assur.Machine(crank, bodies, loads, friction={"A": assur.JointFriction(0.1, 0.01)})
 angles = np.linspace(0.0, 2.0 * np.pi, N)
+turn = four_bar.solve(np.linspace(0.0, 6.0, 5 * N), order=1)
 calls = {
     "assemblies": lambda: four_bar.assemblies(many),
     "assemblies of designs": lambda: designs.assemblies(1.0),
@@ -43,11 +44,14 @@ calls = {
     "flywheel": lambda: assur.flywheel.from_table(
         angles, np.sin(angles), fluctuation=0.1, mean_speed=20.0
     ),
+    "instant centres": lambda: turn.instant_centre("coupler"),
     "limits": lambda: designs.limits(),
     "reactions": lambda: rough.reactions(many, speed=1.0),
     "run": lambda: smooth.run(t_end=1e9, q0=1.0, speed0=10.0),
     "self-locking": lambda: rough.self_locking(n=N),
     "solve": lambda: four_bar.solve(many),
+    "stroke": lambda: assur.slider_crank.stroke(many, 1.0, 3.0),
+    "transmission angles": lambda: turn.transmission_angle("C"),
     "sweep": lambda: assur.sweep(
         four_bar,
         {"coupler.length": np.linspace(2.9, 3.1, 10 * N)},
