@@ -15,8 +15,9 @@ import campaign_cases
 import flat_models
 import mixed_models
 from assur import Status
+from frames import Frame
 from mechanism_data import Description, arguments
-from variants import Variant, shuffled
+from variants import Variant, framed, shuffled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -178,3 +179,25 @@ def test_random_chains_end_where_solve_does() -> None:
         assert not faults(case.description), seed
         checked += 1
     assert checked > 30
+
+
+@pytest.mark.parametrize("seed", [222, 546])
+def test_change_points_are_no_ends_in_any_frame(seed: int) -> None:
+    """Turned, a drawing has other rounding, by which a discriminant may be less than 0 there."""
+    d = campaign_cases.changing_case(seed).description
+    turned = framed(Variant.same(d), Frame(0.7, (1.0, -2.0), mirror=False)).description
+    one, two = (assur.Mechanism(**arguments(of)) for of in (d, turned))
+    assert len(one.limits().dead_points) == len(two.limits().dead_points)
+    assert one.limits().full_rotation == two.limits().full_rotation
+
+
+def test_redundant_links_that_do_not_fit() -> None:
+    """`solve` has no position there."""
+    m = assur.examples.locomotive()
+    assert m.limits().full_rotation
+    longer = m.with_dimensions({"coupling_rod.length": 2.21})
+    assert (longer.solve(longer.q0 + np.arange(-3.0, 3.0), on_error="nan").status > 2).all()
+    assert not len(longer.limits().intervals)
+    crossed = m.with_assembly(assur.Assembly({"A1": -1}))
+    assert (crossed.solve(m.q0 + np.arange(-3.0, 3.0), on_error="nan").status > 2).all()
+    assert not len(crossed.limits().intervals)

@@ -469,3 +469,20 @@ def test_a_change_point_in_a_gap_is_not_passed(order: tuple[str, ...]) -> None:
     assert (np.asarray(motion.status) == Status.OK).all()
     for name in "BCE":
         np.testing.assert_allclose(motion.joint(name).value, [m.joints[name]] * 5, atol=1e-12)
+
+
+@pytest.mark.parametrize("miss", [1e-3, 1e-5, 2e-6, 1e-6, -1e-6, -2e-6, -1e-4])
+def test_a_pin_that_misses_the_pivot_of_its_guide(miss: float) -> None:
+    """The crank is nearly as long as the ground: the block keeps to its side of the pivot."""
+    crank = 1.0 + miss
+    a = crank * math.cos(0.73), crank * math.sin(0.73)
+    m = assur.Mechanism(
+        joints={"O": (0, 0), "A": a, "D": (1, 0)},
+        links={"ground": "OD", "crank": "OA", "lever": "D", "block": "A"},
+        slides={"s": assur.Slide("block", on="lever", along=("D", "A"), origin="D")},
+        driver="crank",
+    )
+    assert m.limits().period == 1
+    q = np.array([-1e-3, -1e-5, -1e-6, 0.0, 1e-6, 1e-5, 1e-3])
+    distance = np.hypot(crank * np.cos(q) - 1.0, crank * np.sin(q))
+    np.testing.assert_allclose(m.solve(q).slide("s").value, distance, rtol=0, atol=1e-12)

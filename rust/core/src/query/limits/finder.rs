@@ -1,10 +1,10 @@
 //! Limits of designs, one after another.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
 use super::crank_stretches::crank_stretches;
-use super::search::Search;
+use super::search::{Search, WITHIN};
 use super::stretch::{Stretch, intersections, shift_near};
 use crate::branch::branch::{CELLS_PER_TURN, MAX_TURNS};
 use crate::branch::crank_dyad::CrankDyad;
@@ -13,7 +13,7 @@ use crate::description::error::SolveError;
 use crate::math::angle::whole_part;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
-use crate::query::folding::{fold_of, folding_step};
+use crate::query::folding::{fold_of, folding_step, solve};
 
 /// Where (rad) a turn is cut, off the drawing's opposite point: dead points may lie there.
 const OFF: f64 = 0.123_456_7;
@@ -114,7 +114,10 @@ impl<'m> LimitsFinder<'m> {
             return Ok(Limits::default());
         }
         self.design.bind(dimensions);
-        let stretches = self.in_closed_form().unwrap_or_else(|| self.by_search());
+        let mut stretches = self.in_closed_form().unwrap_or_else(|| self.by_search());
+        if mechanism.plan().redundant_links().next().is_some() {
+            self.keep_where_redundant_links_fit(&mut stretches);
+        }
         let period = self.period(&stretches);
         if self.design.is_cancelled() {
             return Err(SolveError::Interrupted);
@@ -214,6 +217,24 @@ impl<'m> LimitsFinder<'m> {
             stretches.retain(|stretch| stretch.ends[0] <= q0 && q0 <= stretch.ends[1]);
         }
         stretches
+    }
+
+    /// Redundant links fit over a whole stretch or at single positions of it, which are no motion.
+    fn keep_where_redundant_links_fit(&mut self, stretches: &mut Vec<Stretch>) {
+        if self.cranks.is_some() {
+            self.design.trace(&[]);
+        }
+        let q0 = self.design.q0[0];
+        let mut state = self.design.state(self.design.tracing_derivatives());
+        let mut fits = |q: f64| {
+            let cx = solve(&self.design, &mut state, q);
+            state.redundant_links_fit(&cx)
+        };
+        stretches.retain(|stretch| {
+            let [from, to] = stretch.ends.map(|end| end.clamp(q0 - PI, q0 + PI));
+            let [from, to] = if from < to { [from, to] } else { stretch.ends };
+            WITHIN.iter().all(|on| fits(from + on * (to - from)) != Some(false))
+        });
     }
 
     /// Turns after which the motion over all coordinates closes.

@@ -22,8 +22,10 @@ const NOISE: f64 = 1.0e-14;
 const NEAR_END_ULPS: f64 = 8.0;
 /// The same as an angle, at most: of a stretch of a few u.
 const FARTHEST_NODE: f64 = 0.01;
+/// How far (rad, or units of the scale) a change point and the ends of a part beside it may be apart.
+const BESIDE: f64 = 1.0e-9;
 /// Where a part is examined, from 0 to 1: change points are often in its middle.
-const WITHIN: [f64; 3] = [0.3, 0.5, 0.8];
+pub(super) const WITHIN: [f64; 3] = [0.3, 0.5, 0.8];
 /// Step of a difference where the derivative is not known, at most, and as a part of the way to the end
 /// of the stretch.
 const DIFFERENCE: f64 = 1.0e-6;
@@ -69,7 +71,27 @@ impl<'d> Search<'d, '_> {
         let closes = |search: &mut Self, part: &Stretch| {
             is_positive(part, |q| search.value(q, dyad, step)).unwrap_or(false)
         };
-        parts.into_iter().filter(|part| !has_sign || closes(self, part)).collect()
+        let closed = parts.into_iter().filter(|part| !has_sign || closes(self, part)).collect();
+        self.joined_at_change_points(closed, dyad)
+    }
+
+    /// Joins parts between which the branch passes a change point of the dyad: there the square of its
+    /// discriminant is less than 0 by rounding alone.
+    fn joined_at_change_points(&self, parts: Vec<Stretch>, dyad: &Dyad) -> Vec<Stretch> {
+        let mut joined: Vec<Stretch> = Vec::new();
+        for part in parts {
+            if let Some(last) = joined.last_mut() {
+                let [from, to] = [last.ends[1], part.ends[0]];
+                let reach = 0.5 * (to - from) + BESIDE;
+                let change = self.design.branch.change_near(0.5 * (from + to), reach);
+                if change.is_some_and(|(change, _)| dyad.sign == Some(change.sign)) {
+                    (last.ends[1], last.folds[1]) = (part.ends[1], part.folds[1]);
+                    continue;
+                }
+            }
+            joined.push(part);
+        }
+        joined
     }
 
     /// The parts over which the value of a slide that is a length is not negative.

@@ -59,17 +59,18 @@ impl<R: Real, const G: usize> State<R, G> {
 }
 
 impl State {
-    /// Ratio of a dyad's greatest length or coordinate to its shortest leg: the factor from
-    /// rounding to an error of the discriminant.
+    /// Ratio of a dyad's greatest length or coordinate to its shortest leg, or to the scale where the
+    /// discriminant is a length: the factor from rounding to an error of the discriminant.
     pub(crate) fn length_ratio(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let a = self.leg_vector(0, cx, dyad, 0, 0).norm2();
         let b = match dyad.form {
             Form::TwoCircles => self.leg_vector(0, cx, dyad, 1, 0).norm2(),
             _ => a,
         };
+        let unit = if dyad.form == Form::TurningGuide { 1.0 } else { a.min(b) };
         let coordinate_scale2 = self.conditions.coordinate_scale2[dyad.start][0]
             .max(self.conditions.coordinate_scale2[dyad.end][0]);
-        (coordinate_scale2.max(a).max(b) / a.min(b)).sqrt()
+        (coordinate_scale2.max(a).max(b) / unit).sqrt()
     }
 
     /// Greatest closure error of any edge, relative to the scale.
