@@ -24,8 +24,10 @@ BESIDE = 1e-6
 # An extreme may be beaten by this part of the greatest value: its place is known to 1e-9, its value
 # to 64 u κ² of itself, at 1/sqrt(BESIDE) from a dead point 1e-8.
 BEATEN = 1e-7
-# What does not move has the noise of rounding, m or rad.
+# What does not move has the noise of rounding, m or rad: of solve's values by the law, of extremes'
+# own at most this.
 NOISE = 1e-11
+U = 2.220446049250313e-16
 # A value at its own place, beside a dead point.
 RETURNED = 1e-6
 # Beside a pole the condition is about the inverse of the distance.
@@ -51,6 +53,8 @@ class Ends(Findings):
         if not self.turning and self.rng.randrange(SLIDING):
             return
         self.higher = self.m.structure.cls > 2
+        places = list(case.description.joints.values())
+        self.size = max(1.0, *np.ptp(places, axis=0)) if places else 1.0
         self.report.counts["limits scanned"] += 1
         reach = math.pi if self.turning else SLIDE_REACH
         self.q = float(self.m.q0) + reach * np.linspace(-1.0, 1.0, SCANNED)
@@ -120,14 +124,14 @@ class Ends(Findings):
         angle = kind == "link" and order == 0
         if angle and (len(self.intervals) > 1 or not math.isfinite(high - low)):
             return  # each interval is counted from its own turn
-        value = self.scanned(kind, own, name, order, angle)
+        value, noise = self.scanned(kind, own, name, order, angle)
         if not len(value):
             return
         if angle:
             value = value - math.tau * round((value.mean() - 0.5 * (low + high)) / math.tau)
         known = [0.0, *(abs(v) for v in (low, high) if math.isfinite(v))]
         tolerance = max(BEATEN * max(*known, np.abs(value).min()), NOISE)
-        if value.min() < low - tolerance or value.max() > high + tolerance:
+        if ((value < low - tolerance - noise) | (value > high + tolerance + noise)).any():
             text = f"[{low!r}, {high!r}], a scan has [{value.min()!r}, {value.max()!r}]"
             self.fail("extremes beaten", f"order {order} of {name}: {text}")
             return
@@ -142,8 +146,13 @@ class Ends(Findings):
                     "extremes place", f"order {order} of {name}: {end}, solve has {back!r} there"
                 )
 
-    def scanned(self, kind: str, own: str, name: str, order: int, angle: bool) -> Array:
-        """Values at the scan's positions; of an angle over the one interval, in its own turn."""
+    def scanned(
+        self, kind: str, own: str, name: str, order: int, angle: bool
+    ) -> tuple[Array, Array]:
+        """Values at the scan's positions, and their rounding.
+
+        Of an angle over the one interval, in its own turn.
+        """
         if angle and np.isfinite(self.intervals).all():
             low, high = self.intervals[0].tolist()
             q = np.linspace(low, high, SCANNED)
@@ -152,11 +161,12 @@ class Ends(Findings):
             q, motion = self.q, self.motion
         inside, beside = self.inside(q)
         # Where a joint runs to infinity values are of no use.
-        good = (np.asarray(motion.status) <= Status.SINGULAR) & (
-            np.asarray(motion.condition) < FLAT
-        )
+        condition = np.asarray(motion.condition)
+        good = (np.asarray(motion.status) <= Status.SINGULAR) & (condition < FLAT)
+        kept = inside & ~beside & good
         value = self.values(motion, kind, own, name, order)
-        return np.asarray(value[inside & ~beside & good])
+        known = condition[kept]
+        return value[kept], self.size * (64 * U * known**2 if order else 8 * U * known)
 
     def values(self, motion: assur.Motion, kind: str, own: str, name: str, order: int) -> Array:
         found = getattr(getattr(motion, kind)(own), f"d{order}" if order else "value")

@@ -28,6 +28,9 @@ CLOSE_VALUE = 1e-5
 NARROW = 1e-6
 # An analogue below this (at the second's drawing) is that of a link that does not turn.
 RESTS = 1e-6
+# Where a joint of a group above class II is as far away at an end, in sizes, the condition has
+# grown with the square of that, and the end is where following is given up.
+FAR = 100.0
 # Places of assemblies, in parts of the size.
 CLOSE_PLACE = 1e-6
 
@@ -40,8 +43,8 @@ def same_limits(p: Pairing) -> Iterator[str]:
         return
     want, have = np.sort(p.q(a.intervals), axis=1), np.asarray(b.intervals)
     unit, higher = _unit(p), p.one.structure.cls > 2
-    if higher and not _holds(a.intervals, float(p.drawn_q[0])):
-        return  # a group above class II has the interval of its own drawing only
+    if _in_other_interval(p, a) or _runs_far(p, a):
+        return
     around = p.turning[0] and not higher
     if not _same_ends(_gaps(want, around), _gaps(have, around), unit, around):
         yield f"limits {have.tolist()}, from the other description {want.tolist()}"
@@ -51,6 +54,25 @@ def same_limits(p: Pairing) -> Iterator[str]:
     ]
     if groups[0] != groups[1] and len(a.dead_points) == len(b.dead_points):
         yield f"dead points of {groups[1]}, by the other description of {groups[0]}"
+
+
+def _in_other_interval(p: Pairing, limits: assur.Limits) -> bool:
+    """Whether the second, with a group above class II, is drawn in another interval."""
+    return p.one.structure.cls > 2 and not _holds(limits.intervals, float(p.drawn_q[0]))
+
+
+def _runs_far(p: Pairing, limits: assur.Limits) -> bool:
+    """Whether a joint or slide is far away at an end, with a group above class II."""
+    ends = limits.intervals[np.isfinite(limits.intervals)]
+    if p.one.structure.cls <= 2 or not len(ends):
+        return False
+    low, high = limits.intervals[0]
+    inward = np.where(ends == low, 1.0, -1.0) * NARROW * min(high - low, 1.0)
+    motion = p.one.solve(ends + inward, order=0, on_error="nan", threads=1)
+    places = [np.abs(motion.joint(name).value).ravel() for name in p.d.joints]
+    places += [np.abs(motion.slide(name).value).ravel() for name in p.d.slides]
+    size = float(np.ptp(list(p.d.joints.values()), axis=0).max())
+    return bool((np.nan_to_num(np.concatenate(places)) > FAR * size).any())
 
 
 def _links(p: Pairing, point: assur.DeadPoint, second: int) -> tuple[str, ...]:
@@ -105,6 +127,9 @@ def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]
         yield f"extremes of {name}: {error}"
         return
     if kind == "link" and order == 0 and any(len(m.limits().intervals) > 1 for m in (p.one, p.two)):
+        return
+    limits = p.one.limits()
+    if _in_other_interval(p, limits) or _runs_far(p, limits):
         return
     b = p.two.extremes(p.name(kind, name), order)
     have = np.array([b.least.value, b.greatest.value])

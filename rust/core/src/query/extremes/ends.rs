@@ -19,6 +19,8 @@ const BESIDE_END: [f64; 2] = [1.0e-6, 1.0e-4];
 /// Nodes (as angles) from which a value is extrapolated to where a length is 0. Nearer, where the
 /// cylinder is short, derivatives lose digits; the polynomial is good to the sixth power of these.
 pub(super) const CUT_NODES: [f64; 3] = [0.01, 0.02, 0.03];
+/// Multiples of these for an end where a joint is at infinity.
+const OPEN_END_FACTORS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
 /// The coefficient of a pole at a dead point, relative to the greatest of the weighted values: below, it
 /// is the rounding of its extrapolation.
 const LEAST_POLE: f64 = 1.0e-7;
@@ -88,8 +90,27 @@ impl Curve<'_> {
         if near.abs() > GROWS * far.abs() {
             return Some(ValueAt { value: f64::INFINITY.copysign(near), q: end });
         }
-        let [beside, beyond] = BESIDE_END;
-        Some(ValueAt { value: near + (near - far) * beside / (beyond - beside), q: end })
+        let value = self.extrapolated_to_open_end(window, side).unwrap_or(near);
+        Some(ValueAt { value, q: end })
+    }
+
+    /// The limit of a value at an end where a joint is at infinity. Near it derivatives lose digits, far
+    /// from it a polynomial does: of nodes ever farther away the two sets that agree best.
+    fn extrapolated_to_open_end(&mut self, window: &Window, side: usize) -> Option<f64> {
+        let way = [1.0, -1.0][side];
+        let mut limits = Vec::new();
+        for factor in OPEN_END_FACTORS {
+            let mut table = Vec::new();
+            for node in CUT_NODES.map(|node| factor * node) {
+                let angle = if side == 0 { node } else { PI - node };
+                let [value, slope, _] = self.by_angle(window, angle)?;
+                table.push((node, value, way * slope));
+            }
+            limits.push(hermite_at_zero(&table));
+        }
+        let apart = |pair: &&[f64]| (pair[1] - pair[0]).abs();
+        let best = limits.windows(2).min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+        Some(best[0])
     }
 
     /// The value where a length is 0, extrapolated as at a dead point: of a driven one the position

@@ -15,6 +15,11 @@ use super::window::Window;
 
 /// The greatest ratio of a condition's values in a cell.
 const GREATEST_RATIO: f64 = 2.0;
+/// How far the value in the middle of a cell may be from the cubic through its ends, as a part of the
+/// greatest of the three. Conditions of groups are those of several motions, and may hide a sharp one.
+const GREATEST_BEND: f64 = 0.1;
+/// Halvings of a cell for that, beside a sharp motion: in smaller cells conditions show it.
+const BEND_HALVINGS: u32 = 3;
 /// Halvings of a cell: 1e-9 of a turn. Nearer to a place where a joint is at infinity, or a length is 0,
 /// conditions grow without end.
 const MAX_HALVINGS: u32 = 24;
@@ -63,7 +68,9 @@ impl Curve<'_> {
     fn grade(&mut self, window: &Window, [a, b]: [&Node; 2], halvings: u32, known: &mut Known) {
         let middle = self.node(window, 0.5 * (a.angle + b.angle));
         let is_within = middle.angle > a.angle && middle.angle < b.angle;
-        if halvings > 0 && is_within && vary([a, &middle, b]) {
+        let first_ones = halvings > MAX_HALVINGS - BEND_HALVINGS;
+        let is_sharp = vary([a, &middle, b]) || first_ones && bends([a, &middle, b]);
+        if halvings > 0 && is_within && is_sharp {
             self.grade(window, [a, &middle], halvings - 1, known);
             known.push_node(middle.angle, middle.value, middle.rounding);
             self.grade(window, [&middle, b], halvings - 1, known);
@@ -80,4 +87,16 @@ fn vary(samples: [&Node; 3]) -> bool {
         let (least, greatest) = (a.min(middle).min(b), a.max(middle).max(b));
         greatest > GREATEST_RATIO * least
     })
+}
+
+/// Whether the value is far from the cubic through the ends.
+fn bends([a, middle, b]: [&Node; 3]) -> bool {
+    let (Some([first, rate, _]), Some([value, ..]), Some([last, later, _])) =
+        (a.value, middle.value, b.value)
+    else {
+        return false;
+    };
+    let cubic = 0.5 * (first + last) + 0.125 * (b.angle - a.angle) * (rate - later);
+    let size = first.abs().max(value.abs()).max(last.abs());
+    (value - cubic).abs() > (GREATEST_BEND * size).max(middle.rounding[1])
 }

@@ -17,6 +17,9 @@ use crate::query::limits::finder::Interval;
 const NODES: f64 = 96.0;
 /// Nearest node to a dead point, as an angle.
 pub(super) const NEAR_END: f64 = 1.0e-3;
+/// Nearest node (in halves of the window) to an end where a joint is at infinity: there rounding grows as
+/// the inverse square of the distance and more.
+const NEAR_OPEN_END: f64 = 1.0e-4;
 
 /// An interval as a function of an angle from 0 to π: square roots at dead points are smooth in it.
 pub(super) struct Window {
@@ -98,8 +101,8 @@ impl Window {
     /// Angles from end to end, but none where a cylinder is too short.
     pub(super) fn nodes(&self) -> Vec<f64> {
         let count = (NODES * self.length).max(NODES).ceil();
-        let margin = if self.has_folds() { NEAR_END } else { 0.0 };
-        let node = |i: usize| margin + (PI - 2.0 * margin) * i as f64 / count;
+        let [before, behind] = self.margins();
+        let node = |i: usize| before + (PI - before - behind) * i as f64 / count;
         let even = (0..=whole_part(count)).map(node);
         let is_off = |angle: &f64| {
             self.zero_lengths.iter().all(|zero| self.distance(*angle, zero.angle) > self.aside)
@@ -111,6 +114,16 @@ impl Window {
         }
         nodes.sort_by(f64::total_cmp);
         nodes
+    }
+
+    /// How far (as an angle) the first and last node are from the ends.
+    fn margins(&self) -> [f64; 2] {
+        [0, 1].map(|side| match (self.has_folds(), self.is_open(side)) {
+            (true, false) => NEAR_END,
+            (false, false) => 0.0,
+            (true, true) => (2.0 * NEAR_OPEN_END).sqrt(),
+            (false, true) => 0.5 * PI * NEAR_OPEN_END,
+        })
     }
 
     /// The angle of a period where the motion is as at this one.
