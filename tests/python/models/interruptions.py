@@ -47,6 +47,8 @@ def interrupted(call: Callable[[], object], worked: float) -> float | None:
                 signal.raise_signal(signal.SIGINT)
 
     thread = threading.Thread(target=ctrl_c)
+    # A shell starts what it sends to the background with the signal ignored.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     # What is raised within the collector's callbacks (Hypothesis has one) is lost.
     gc.disable()
     thread.start()
@@ -60,6 +62,7 @@ def interrupted(call: Callable[[], object], worked: float) -> float | None:
         gc.enable()
         ended.set()
         thread.join()
+        signal.signal(signal.SIGINT, before)
     return None
 
 

@@ -91,6 +91,7 @@ def test_new_arrays_are_dropped_without_being_filled() -> None:
         import resource, signal, sys, threading, time
         import numpy as np, assur
         m, q = assur.FourBar(1.0, 3.0, 2.5, 3.0), np.linspace(0.0, 6.0, int(sys.argv[1]))
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         started = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
         faults = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_minflt - started
         ended = threading.Event()
