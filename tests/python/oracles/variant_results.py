@@ -44,8 +44,8 @@ class Pairing:
         # Results of both at the second's drawing: the constants between them.
         self.at_first = one.solve(self.plain(self.drawn_q), order=1)
         self.at_second = self.two.solve(self.two.q0, order=0)
-        kappa = float(self.at_first.condition)
-        self.rounded = TERMS * (kappa if variant.drawn is not None else 1.0)
+        self.drawn_condition = float(self.at_first.condition)
+        self.rounded = TERMS * (self.drawn_condition if variant.drawn is not None else 1.0)
         self.turning = [kind == "angle" for kind, *_ in d.drivers]
         # A link half a turn on behind a gap has turned clockwise by convention, in a mirror too,
         # and which position it is counted from is the drawing's.
@@ -102,25 +102,25 @@ class Pairing:
         long = 1.0 if all(self.turning) else size
         for k in range(order + 1):
             own = np.zeros(len(kappa))
-            worst: list[tuple[Array, str]] = []
+            worst: list[tuple[Array, str, str]] = []
             for kind in KINDS:
                 for name in self.variant.names[kind]:
                     have, want, unit = self._both(a, b, rows, kind, name, k)
                     unit = arm if kind == "link" else unit
                     flat = (len(kappa), -1)
-                    worst.append(
-                        (unit * np.abs(have - want).reshape(flat).max(1), f"{kind} {name}")
-                    )
+                    worst.append((unit * np.abs(have - want).reshape(flat).max(1), kind, name))
                     own = np.maximum(own, unit * np.abs(want).reshape(flat).max(1))
             if k:
                 least = np.maximum(own, least / long)
-            law = ANALOGUE * kappa**2 * least if k else POSITION * kappa * size
-            law = self.rounded * self.frame.scale * law + 1e-300
-            for error, of in worst:
+            for error, kind, name in worst:
+                # The constants between both come from the drawing, and are known as well as it is.
+                known = kappa if kind == "joint" else np.maximum(kappa, self.drawn_condition)
+                law = ANALOGUE * kappa**2 * least if k else POSITION * known * size
+                law = self.rounded * self.frame.scale * law + 1e-300
                 for i in np.flatnonzero(~(error <= law))[:1]:
                     at = q[np.flatnonzero(rows)[i]]
                     text = f"off by {error[i]:.3g}, law {law[i]:.3g}"
-                    yield f"order {k} of {of} at q = {at!r}: {text}"
+                    yield f"order {k} of {kind} {name} at q = {at!r}: {text}"
                     return
 
     def _both(
