@@ -26,6 +26,8 @@ TICK, SILENT = 0.01, 0.1
 # A busy machine may keep the thread that listens waiting; what hears nothing is late every time.
 ATTEMPTS = 3
 LARGEST = 1e8
+# Work that ends too early is doubled so often at most.
+DOUBLINGS = 4
 
 
 def interrupted(call: Callable[[], object], worked: float) -> float | None:
@@ -88,10 +90,12 @@ def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float
         size *= 2
         assert size < LARGEST, "the work does not grow"
     size = round(size * WHOLE / worked)
-    while (after := interrupted(make(size), WORKED)) is None:
+    for _ in range(DOUBLINGS):
+        if (after := interrupted(make(size), WORKED)) is not None:
+            return after
         size *= 2
-        assert size < LARGEST, "the work ended before it was interrupted"
-    return after
+    message = "the work ended before it was interrupted"
+    raise AssertionError(message)
 
 
 def longest_silence(call: Callable[[], object]) -> float:
