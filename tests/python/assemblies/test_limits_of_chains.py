@@ -201,3 +201,23 @@ def test_redundant_links_that_do_not_fit() -> None:
     crossed = m.with_assembly(assur.Assembly({"A1": -1}))
     assert (crossed.solve(m.q0 + np.arange(-3.0, 3.0), on_error="nan").status > 2).all()
     assert not len(crossed.limits().intervals)
+
+
+@pytest.mark.parametrize("longer", [0.0, 1e-13, 1e-11, 1e-10, 1e-9])
+def test_redundant_links_that_nearly_fit(longer: float) -> None:
+    """Where `solve` has a position an interval holds it, over the change points too."""
+    m = assur.examples.locomotive()
+    m = m.with_dimensions({"coupling_rod.length": 2.2 + longer})
+    q = float(m.q0) + np.linspace(-math.pi, math.pi, 361)
+    there = m.solve(q, on_error="nan").status <= Status.SINGULAR
+    assert there.any()
+    low, high = np.asarray(m.limits().intervals).T[:, :, None]
+    assert ((low <= q) & (q <= high)).any(axis=0)[there].all()
+
+
+@pytest.mark.parametrize("longer", [1e-8, 1e-6])
+def test_redundant_links_that_fit_here_and_there(longer: float) -> None:
+    m = assur.examples.locomotive().with_dimensions({"coupling_rod.length": 2.2 + longer})
+    q = float(m.q0) + np.linspace(-math.pi, math.pi, 361)
+    assert (m.solve(q, on_error="nan").status > Status.SINGULAR).any()
+    assert not len(m.limits().intervals)

@@ -44,7 +44,7 @@ impl Known {
         2 * usual > known
     }
 
-    /// Adds a value that is no node, behind the others.
+    /// Adds a value between nodes, behind the others.
     pub(super) fn push_between(&mut self, angle: f64, value: Option<ByAngle>) {
         self.between.push((angle, value));
     }

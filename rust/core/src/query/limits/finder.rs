@@ -92,7 +92,9 @@ impl<'m> LimitsFinder<'m> {
         let mut design = Design::new(mechanism, signs, &derivatives.0);
         design.cancel = cancel;
         let plan = mechanism.plan();
+        // Lengths that redundant links share may miss a change point by more than rounding.
         let is_closed = plan.groups().next().is_none()
+            && plan.redundant_links().next().is_none()
             && plan.driven_slide(0).is_none()
             && !plan.has_passive_lengths();
         let cranks =
@@ -219,11 +221,9 @@ impl<'m> LimitsFinder<'m> {
         stretches
     }
 
-    /// Redundant links fit over a whole stretch or at single positions of it, which are no motion.
+    /// Leaves out stretches over which redundant links do not fit throughout. Links that miss by about the
+    /// tolerance fit here and there, which is no motion.
     fn keep_where_redundant_links_fit(&mut self, stretches: &mut Vec<Stretch>) {
-        if self.cranks.is_some() {
-            self.design.trace(&[]);
-        }
         let q0 = self.design.q0[0];
         let mut state = self.design.state(self.design.tracing_derivatives());
         let mut fits = |q: f64| {
