@@ -39,7 +39,11 @@ window.renew = async (isWound, language) => {
   root.replaceChildren(host);
   const ask = async (kind, fields) => {
     if (window.isLost) throw Object.assign(new Error("disconnected"), { kind: "disconnected" });
-    return link.ask(kind, 0, fields);
+    const held = window.held;
+    window.held = null;
+    const answer = await link.ask(kind, 0, fields);
+    await held;
+    return answer;
   };
   window.lesson = isWound ? new Lesson(host, ask, wound) : new Lesson(host, ask);
   await window.lesson.ready;

@@ -577,6 +577,23 @@ def test_what_the_server_refuses_is_said_at_its_place(lesson: LessonPage) -> Non
     lesson.compare()
 
 
+@pytest.mark.parametrize("is_applied", [False, True])
+def test_a_late_answer_takes_nothing_back(lesson: LessonPage, is_applied: bool) -> None:
+    """What is typed while an answer is on its way stays, and what was asked later is shown."""
+    page = lesson.page
+    page.evaluate("() => { window.held = new Promise((end) => (window.release = end)); }")
+    lesson.control("combobox", "Unit of the lengths").select_option("metres")
+    lesson.control("textbox", "l4, ground").fill("0.999")
+    if is_applied:
+        page.get_by_role("button", name="Apply").click()
+        lesson.until("Math.abs(lesson.design.l4 - 0.999) < 1e-9 && !lesson.fields.isDirty")
+    page.evaluate("async () => { window.release(); await new Promise((end) => setTimeout(end)); }")
+    assert lesson.control("textbox", "l4, ground").input_value() == "0.999"
+    page.get_by_role("button", name="Apply").click(force=is_applied)
+    lesson.until("Math.abs(lesson.design.l4 - 0.999) < 1e-9 && !lesson.fields.isDirty")
+    lesson.compare()
+
+
 def test_without_a_connection_it_plays_on(lesson: LessonPage) -> None:
     page = lesson.page
     page.get_by_role("button", name="Run").click()

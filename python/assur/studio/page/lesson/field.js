@@ -50,10 +50,14 @@ export class LessonField {
     return this.input.value !== this.shown;
   }
 
-  /** Show a value that is in the picture now. */
-  keep(value) {
+  /**
+   * Show a value that is in the picture now.
+   * @param {string} [typed] only in the place of this text: another was typed since
+   */
+  keep(value, typed = this.input.value) {
     this.kept = value;
     this.shown = typedText(value, this.kind);
+    if (this.input.value !== typed) return;
     this.input.value = this.shown;
     this.refuse("");
   }

@@ -165,17 +165,25 @@ export class LessonFields {
     };
   }
 
-  /** Show what is in the picture. */
-  keep(design, least, isRelative) {
+  /** What each field holds as text. */
+  get typed() {
+    return Object.fromEntries(Object.entries(this.fields).map(([key, field]) => [key, field.input.value]));
+  }
+
+  /**
+   * Show what is in the picture.
+   * @param {Object<string, string>} [typed] the texts it was asked with: what was typed since stays
+   */
+  keep(design, least, isRelative, typed = {}) {
     this.isRelative = isRelative;
     this.unit.value = isRelative ? "relative" : "metres";
     for (const key of [...Object.keys(LENGTH_NAMES), "r_c", "r_d"]) {
       this.fields[key].kind = isRelative ? "ratio" : "length";
       this.fields[key].unit.textContent = isRelative ? "" : "m";
     }
-    for (const key of [...Object.keys(LENGTH_NAMES), "start", "speed"]) this.fields[key].keep(design[key]);
-    this.fields.least.keep(least);
-    for (const key of FRICTION_FIELDS) if (design.friction) this.fields[key].keep(design.friction[key]);
+    for (const key of [...Object.keys(LENGTH_NAMES), "start", "speed"]) this.fields[key].keep(design[key], typed[key]);
+    this.fields.least.keep(least, typed.least);
+    for (const key of FRICTION_FIELDS) if (design.friction) this.fields[key].keep(design.friction[key], typed[key]);
     this.hadFriction = design.friction !== null;
     this.general.hidden = true;
     this.changed();

@@ -177,10 +177,13 @@ export class Lesson {
     // Lengths relative to the crank: its own is 1.
     if (this.#isRelative) design = scaledDesign(design, 1 / design.l1);
     const isElsewhere = design.start !== this.#design.start || !this.isRunning;
-    this.#revision += 1;
+    const revision = (this.#revision += 1);
+    const { typed } = this.fields;
     try {
       const phi1 = isElsewhere ? design.start : this.#phi1;
       const motion = await this.#request(design, phi1, 0);
+      // Another took its place: its answer is the picture.
+      if (revision !== this.#revision) return;
       this.#design = { ...design, least: motion.header.gamma_min };
       this.#phi1 = isElsewhere ? phi1 : this.#phi1;
       this.#groundSpeed = 0;
@@ -189,10 +192,10 @@ export class Lesson {
       this.diagrams.clear();
       this.#take(motion, true);
       this.fit();
-      this.fields.keep(this.#design, this.#design.least, this.#isRelative);
+      this.fields.keep(this.#design, this.#design.least, this.#isRelative, typed);
       this.#tell();
     } catch (error) {
-      this.fields.refuse(error);
+      if (revision === this.#revision) this.fields.refuse(error);
     }
   }
 
