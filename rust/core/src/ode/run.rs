@@ -103,6 +103,8 @@ pub(super) struct Run<'a, S> {
     /// Refused steps near a domain boundary, and accepted steps since the last of them.
     refusals: u32,
     steps_since_refusal: u32,
+    /// Width of the next step toward the domain boundary, if one is ahead.
+    to_boundary: Option<f64>,
     /// Consecutive restarts at one t.
     restarts_in_place: u32,
     /// Consecutive steps rejected for their drift.
@@ -141,6 +143,7 @@ impl<'a, S: System> Run<'a, S> {
             obstacle: None,
             refusals: 0,
             steps_since_refusal: 0,
+            to_boundary: None,
             restarts_in_place: 0,
             drift_retries: 0,
             statistics: Statistics::default(),
@@ -242,7 +245,10 @@ impl<'a, S: System> Run<'a, S> {
         }
         self.attempted += 1;
         let remaining = to - self.t;
-        let proposed = self.h.unwrap_or(remaining);
+        let mut proposed = self.h.unwrap_or(remaining);
+        if let Some(width) = self.to_boundary {
+            proposed = self.direction * width.min(proposed.abs());
+        }
         let steps_left = (remaining / (proposed * LAST_STEP_STRETCH)).ceil();
         let last = steps_left <= 1.0;
         let (h, t_new) = if last {
@@ -251,7 +257,7 @@ impl<'a, S: System> Run<'a, S> {
             let h = if steps_left <= EQUAL_STEPS { remaining / steps_left } else { proposed };
             (h, self.t + h)
         };
-        if self.refusals > MAX_REFUSALS {
+        if self.refusals > MAX_REFUSALS || self.to_boundary == Some(0.0) {
             return Ok(Next::End(End::DomainBoundary { t: self.t }));
         }
         if !last && h.abs() < MIN_STEP * spacing(self.t) {
@@ -279,6 +285,7 @@ impl<'a, S: System> Run<'a, S> {
                 self.obstacle = Some(Obstacle::DomainBoundary);
                 self.refusals += 1;
                 self.steps_since_refusal = 0;
+                self.look_for_boundary()?;
                 self.control.factor_after_refusal()
             }
             Err(Refusal::NotFinite { t, component }) => {
@@ -360,6 +367,9 @@ impl<'a, S: System> Run<'a, S> {
             self.system.keep_invariant();
             std::mem::swap(&mut self.integrator.y, &mut self.integrator.new);
             self.integrator.stages.next_step();
+            if self.refusals > 0 {
+                self.look_for_boundary()?;
+            }
             return Ok(Next::Step);
         };
         self.integrator.y.copy_from_slice(&self.integrator.state);
@@ -371,6 +381,14 @@ impl<'a, S: System> Run<'a, S> {
             }
             None => Ok(Next::Restart),
         }
+    }
+
+    /// Asks how far it is to the domain boundary.
+    fn look_for_boundary(&mut self) -> Result<(), Error<S::Error>> {
+        let Integrator { n, y, .. } = &*self.integrator;
+        let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n]);
+        self.to_boundary = width.map_err(Error::System)?;
+        Ok(())
     }
 
     fn detect_events(&mut self, h: f64, t_new: f64) -> Result<Option<Cut>, S::Error> {

@@ -78,6 +78,18 @@ pub trait System {
         Ok(())
     }
 
+    /// Width of the next step toward the boundary of the domain: so wide that the few steps there have
+    /// widths that follow from the state; 0 where the boundary is reached, `None` if none is known ahead.
+    /// Called after steps that left the domain, and after the next few.
+    ///
+    /// # Errors
+    ///
+    /// Any error ends the run.
+    fn step_to_boundary(&mut self, t: f64, y: &[f64]) -> Result<Option<f64>, Self::Error> {
+        let _ = (t, y);
+        Ok(None)
+    }
+
     /// Called for each recorded event. It may change the state if it restarts the run: at an
     /// impact, or to set q exactly to the table knot it has reached, so that rounding does not
     /// decide which piece it is on.

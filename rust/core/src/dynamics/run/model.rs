@@ -145,7 +145,7 @@ pub(crate) struct MechanismModel<'m> {
 /// Beyond this condition of a dyad or group the analogues have too few digits to be integrated:
 /// about eight (64 u κ²). At a distance x from a dead point the condition is about 1/√x, so this
 /// is some 1e-7 before it.
-const MAX_CONDITION: f64 = 3.0e3;
+pub(crate) const MAX_CONDITION: f64 = 3.0e3;
 /// A dead point is within this multiple of 1/κ².
 const DEAD_POINT_WITHIN: f64 = 1.0e3;
 /// Limit of bisections for a dead point.
