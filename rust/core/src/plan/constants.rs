@@ -154,10 +154,15 @@ impl DimensionMap {
         Self { edges, slides, ground, origin, lengths }
     }
 
-    /// The scale of a design.
-    pub(crate) fn scale(&self, values: &[f64]) -> f64 {
+    /// The greatest length of a design.
+    pub(crate) fn size(&self, values: &[f64]) -> f64 {
         let origin = read_two(values, self.origin);
-        self.lengths.scale(values, [origin.x, origin.y])
+        self.lengths.size(values, [origin.x, origin.y])
+    }
+
+    /// The scale of a design: the power of two at or below its greatest length.
+    pub(crate) fn scale(&self, values: &[f64]) -> f64 {
+        power_of_two(self.size(values))
     }
 
     /// The scales of designs whose dimensions are in columns: `column(i)` holds the dimension `i`

@@ -39,15 +39,15 @@ impl Lengths {
         lengths
     }
 
-    /// Power of two at or below the greatest length.
-    pub(crate) fn scale(&self, values: &[f64], origin: [f64; 2]) -> f64 {
+    /// The greatest length.
+    pub(crate) fn size(&self, values: &[f64], origin: [f64; 2]) -> f64 {
         let greatest = |lengths: &[(usize, Option<usize>)]| {
             let taken_off = |from: Option<usize>| from.map_or(0.0, |axis| origin[axis]);
             let lengths = lengths.iter().map(|&(index, from)| values[index] - taken_off(from));
             lengths.fold(0.0, |greatest, length| greater(greatest, length.abs()))
         };
         let paired = greatest(&self.paired);
-        power_of_two(if paired > 0.0 { paired } else { greatest(&self.loose) })
+        if paired > 0.0 { paired } else { greatest(&self.loose) }
     }
 
     /// The greatest length at pairs of each of several designs, given the column of each dimension.

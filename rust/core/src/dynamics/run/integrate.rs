@@ -13,6 +13,7 @@ use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, same_within};
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use super::variable::Variable;
+use crate::description::Driver;
 use crate::description::error::Hint;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
@@ -47,7 +48,7 @@ impl Machine {
         check_counts(&[("dimensions", needed, dimensions.len())])?;
         let derivatives = DerivativeTables::new(drivers, 2);
         let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
-        let sizes: Vec<f64> = (0..options.q.len()).map(|driver| model.unit(driver)).collect();
+        let sizes = sizes_of(mechanism, dimensions);
         let equation = Equation::new(model, callbacks, &self.tables, &self.motors, options.q.len());
         run(equation, options, &sizes)
     }
@@ -230,6 +231,19 @@ pub(crate) fn breaks_of<E>(
     breaks.sort_unstable_by(f64::total_cmp);
     breaks.dedup_by(|a, b| (*a - *b).abs() <= same_within(*b, unit));
     Ok(breaks)
+}
+
+/// What the tolerance of each coordinate is relative to: 1 for an angle, the greatest length for a slide.
+/// A unit of length that is a power of 2 would not do: the tolerance would depend on the unit in which
+/// lengths are given.
+fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
+    let greatest = mechanism.slots.size(dimensions);
+    let length = if greatest > 0.0 { greatest } else { 1.0 };
+    let size = |driver: &Driver| match driver {
+        Driver::Angle { .. } => 1.0,
+        Driver::Slide(_) => length,
+    };
+    mechanism.linkage().drivers.iter().map(size).collect()
 }
 
 /// Why a motion cannot be continued, and where.
