@@ -103,6 +103,8 @@ pub(super) struct Run<'a, S> {
     /// Refused steps near a domain boundary, and accepted steps since the last of them.
     refusals: u32,
     steps_since_refusal: u32,
+    /// Where the last step ended that left the domain.
+    refused: Option<f64>,
     /// Width of the next step toward the domain boundary, if one is ahead.
     to_boundary: Option<f64>,
     /// Consecutive restarts at one t.
@@ -143,6 +145,7 @@ impl<'a, S: System> Run<'a, S> {
             obstacle: None,
             refusals: 0,
             steps_since_refusal: 0,
+            refused: None,
             to_boundary: None,
             restarts_in_place: 0,
             drift_retries: 0,
@@ -285,6 +288,7 @@ impl<'a, S: System> Run<'a, S> {
                 self.obstacle = Some(Obstacle::DomainBoundary);
                 self.refusals += 1;
                 self.steps_since_refusal = 0;
+                self.refused = Some(t_new);
                 self.look_for_boundary()?;
                 self.control.factor_after_refusal()
             }
@@ -386,7 +390,8 @@ impl<'a, S: System> Run<'a, S> {
     /// Asks how far it is to the domain boundary.
     fn look_for_boundary(&mut self) -> Result<(), Error<S::Error>> {
         let Integrator { n, y, .. } = &*self.integrator;
-        let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n]);
+        self.refused = self.refused.filter(|t| (t - self.t) * self.direction > 0.0);
+        let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n], self.refused);
         self.to_boundary = width.map_err(Error::System)?;
         Ok(())
     }

@@ -80,13 +80,19 @@ pub trait System {
 
     /// Width of the next step toward the boundary of the domain: so wide that the few steps there have
     /// widths that follow from the state; 0 where the boundary is reached, `None` if none is known ahead.
-    /// Called after steps that left the domain, and after the next few.
+    /// Called after steps that left the domain, and after the next few; `refused`: where the last of them
+    /// ended, if it is still ahead.
     ///
     /// # Errors
     ///
     /// Any error ends the run.
-    fn step_to_boundary(&mut self, t: f64, y: &[f64]) -> Result<Option<f64>, Self::Error> {
-        let _ = (t, y);
+    fn step_to_boundary(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        refused: Option<f64>,
+    ) -> Result<Option<f64>, Self::Error> {
+        let _ = (t, y, refused);
         Ok(None)
     }
 

@@ -1,5 +1,6 @@
 //! Runs: motions of machines integrated from an initial state.
 
+mod boundary;
 pub(crate) mod callbacks;
 pub(crate) mod dead_point;
 pub(crate) mod equation;

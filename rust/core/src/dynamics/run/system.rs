@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::callbacks::Callbacks;
 use super::equation::{Equation, just_inside};
 use super::error::RunError;
-use super::model::{MAX_CONDITION, ReducedModel};
+use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
@@ -41,13 +41,15 @@ pub(crate) struct RunSystem<'a, S, O> {
     pub(super) changes: Vec<Change>,
     /// The greatest speed with which it has hit an obstacle.
     hardest_hit: f64,
-    drivers: usize,
+    pub(super) drivers: usize,
+    /// Whether friction locks it ahead.
+    pub(super) locks_ahead: bool,
     /// Initial kinetic and potential energy, once known.
     energy: Option<[f64; 2]>,
     /// Within this distance of a dead point a driver at rest may be at it.
     reach: f64,
     /// The relative tolerance.
-    relative: f64,
+    pub(super) relative: f64,
     /// Kinetic and potential energy less work: at the start of a step, and at the end of the last
     /// trial step.
     total: f64,
@@ -73,16 +75,6 @@ const MIN_REACH: f64 = 1.0e-3;
 const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
 const CONDITION_STEP: f64 = 1.0e-6;
-/// A step toward a dead point leaves this part of the remaining time.
-const STEP_LEAVES: f64 = 0.25;
-/// The least inverse condition at which steps aim, a little inside the positions that are rejected; and
-/// which part of it is near enough.
-const NEAREST: f64 = 1.1 / MAX_CONDITION;
-const NEAR_ENOUGH: f64 = 0.8;
-/// Step back to find how a condition changes, as a part of its inverse square: that is about the
-/// remaining coordinate in its unit.
-const NEAR_PART: f64 = 1.0e-3;
-
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>) -> Self {
         Self {
@@ -96,6 +88,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             changes: Vec::new(),
             hardest_hit: 0.0,
             drivers: options.q.len(),
+            locks_ahead: false,
             energy: None,
             reach: (1.0e3 * options.relative).clamp(MIN_REACH, MAX_REACH),
             relative: options.relative,
@@ -210,7 +203,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     }
 
     /// The greatest speed, in units of its coordinate.
-    fn fastest(&self, speed: &[f64]) -> f64 {
+    pub(super) fn fastest(&self, speed: &[f64]) -> f64 {
         let relative = |(i, v): (usize, &f64)| v.abs() / self.equation.model.unit(i);
         speed.iter().enumerate().map(relative).fold(0.0, f64::max)
     }
@@ -224,35 +217,6 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             self.equation.model.inverse_condition(&beside)
         });
         ahead - back
-    }
-
-    /// Width of the next step toward a dead point ahead; 0 if it is as near as the analogues have digits.
-    fn step_to_dead_point(
-        &mut self,
-        q: &[f64],
-        speed: &[f64],
-    ) -> Result<Option<f64>, RunError<O::Error>> {
-        let beside = |t: f64| -> Vec<f64> { q.iter().zip(speed).map(|(q, v)| q + t * v).collect() };
-        let here = self.equation.model.inverse_condition(q);
-        let back = NEAR_PART * here * here / self.fastest(speed);
-        let before = self.equation.model.inverse_condition(&beside(-back));
-        let falls = (before - here) * (before + here) / back;
-        let is_ahead = falls > 0.0 && falls.is_finite();
-        if !is_ahead {
-            return Ok(None);
-        }
-        // 1/κ falls like the square root of the remaining coordinates, and so like the remaining time.
-        let remaining = 2.0 * here * here / falls;
-        let end = NEAREST / here;
-        if end < NEAR_ENOUGH {
-            return Ok(Some(remaining * (1.0 - end.max(STEP_LEAVES))));
-        }
-        // Three quarters of the coordinates that remain: there the model says what is ahead.
-        match self.equation.set_configuration(&beside(0.75 * 0.5 * remaining)) {
-            Ok(()) => Ok(None),
-            Err(Fault::OutOfDomain) => Ok(Some(0.0)),
-            Err(Fault::Error(error)) => Err(error),
-        }
     }
 
     fn on_possible_dead_point(&mut self, y: &[f64]) -> Action {
@@ -411,12 +375,13 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         Ok(())
     }
 
-    fn step_to_boundary(&mut self, _: f64, y: &[f64]) -> Result<Option<f64>, Self::Error> {
-        if self.along == Variable::Coordinate || self.has_stick_slip() {
-            return Ok(None);
-        }
-        let n = self.drivers;
-        self.step_to_dead_point(&y[..n], &y[n..2 * n])
+    fn step_to_boundary(
+        &mut self,
+        x: f64,
+        y: &[f64],
+        refused: Option<f64>,
+    ) -> Result<Option<f64>, Self::Error> {
+        self.aim_at_boundary(x, y, refused)
     }
 
     fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {

@@ -1,0 +1,120 @@
+//! Steps toward a boundary of the domain: a dead point, or a position where friction locks the machine.
+//!
+//! Bisection finds a boundary, too, but the steps that it takes on the way, and their number, are luck. Here
+//! their widths follow from the state.
+
+use super::callbacks::Callbacks;
+use super::error::RunError;
+use super::model::{MAX_CONDITION, ReducedModel};
+use super::stick_slip::Phase;
+use super::system::RunSystem;
+use super::variable::Variable;
+use crate::ode::system::{Fault, System};
+
+/// A step toward a dead point leaves this part of the remaining time.
+const STEP_LEAVES: f64 = 0.25;
+/// The least inverse condition at which steps aim, a little inside the positions that are rejected; and
+/// which part of it is near enough.
+const NEAREST: f64 = 1.1 / MAX_CONDITION;
+const NEAR_ENOUGH: f64 = 0.8;
+/// Step back to find how a condition changes, as a part of its inverse square: that is about the
+/// remaining coordinate in its unit.
+const NEAR_PART: f64 = 1.0e-3;
+/// A step toward a position that friction locks leaves this part of the way, which is known to half of it.
+const LOCK_LEAVES: f64 = 0.02;
+
+impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
+    /// Width of the next step toward a boundary ahead, 0 if it is reached. `refused`: where a step ended
+    /// that left the domain.
+    pub(super) fn aim_at_boundary(
+        &mut self,
+        x: f64,
+        y: &[f64],
+        refused: Option<f64>,
+    ) -> Result<Option<f64>, RunError<O::Error>> {
+        self.locks_ahead = refused.is_some() && (self.locks_ahead || self.equation.is_locked);
+        if let (true, Some(refused)) = (self.locks_ahead, refused) {
+            return self.aim_at_lock(x, y, refused - x);
+        }
+        if self.along == Variable::Coordinate || self.phase == Phase::Stick {
+            return Ok(None);
+        }
+        let n = self.drivers;
+        self.aim_at_dead_point(&y[..n], &y[n..2 * n])
+    }
+
+    /// The inverse condition falls like the square root of the remaining coordinates, and so like the
+    /// remaining time: the driver turns back at a dead point while the mechanism moves on.
+    fn aim_at_dead_point(
+        &mut self,
+        q: &[f64],
+        speed: &[f64],
+    ) -> Result<Option<f64>, RunError<O::Error>> {
+        let beside = |t: f64| -> Vec<f64> { q.iter().zip(speed).map(|(q, v)| q + t * v).collect() };
+        let here = self.equation.model.inverse_condition(q);
+        let back = NEAR_PART * here * here / self.fastest(speed);
+        let before = self.equation.model.inverse_condition(&beside(-back));
+        let falls = (before - here) * (before + here) / back;
+        let is_ahead = falls > 0.0 && falls.is_finite();
+        if !is_ahead {
+            return Ok(None);
+        }
+        let remaining = 2.0 * here * here / falls;
+        let end = NEAREST / here;
+        if end < NEAR_ENOUGH {
+            return Ok(Some(remaining * (1.0 - end.max(STEP_LEAVES))));
+        }
+        // Three quarters of the coordinates that remain: there the model says what is ahead.
+        match self.equation.set_configuration(&beside(0.75 * 0.5 * remaining)) {
+            Ok(()) => Ok(None),
+            Err(Fault::OutOfDomain) => Ok(Some(0.0)),
+            Err(Fault::Error(error)) => Err(error),
+        }
+    }
+
+    /// Bisects the way to a lock along the motion with the rates of this state; `most`: the way to where a
+    /// step was refused. The motion itself has no singularity there.
+    fn aim_at_lock(
+        &mut self,
+        x: f64,
+        y: &[f64],
+        most: f64,
+    ) -> Result<Option<f64>, RunError<O::Error>> {
+        let mut rates = [[0.0; 3]; 2];
+        let [own, ahead] = &mut rates;
+        match self.rates(x, y, own) {
+            Ok(()) => {}
+            Err(Fault::OutOfDomain) => return Ok(None),
+            Err(Fault::Error(error)) => return Err(error),
+        }
+        let is_in_time = self.along == Variable::Time;
+        let [mut low, mut high] = [0.0, most];
+        // The other way around both are negative.
+        while high.abs() - low.abs() > 0.5 * LOCK_LEAVES * high.abs() {
+            // Where friction has no solution, to know it may take 40 ms.
+            if self.cancelled() {
+                return Ok(None);
+            }
+            let middle = 0.5 * (low + high);
+            let mut there: [f64; 3] = std::array::from_fn(|i| y[i] + middle * own[i]);
+            if is_in_time {
+                there[0] += 0.5 * middle * middle * own[1];
+            }
+            let bound = match self.rates(x + middle, &there, ahead) {
+                Ok(()) => &mut low,
+                Err(Fault::OutOfDomain) if self.equation.is_locked => &mut high,
+                Err(Fault::OutOfDomain) => return Ok(None),
+                Err(Fault::Error(error)) => return Err(error),
+            };
+            *bound = middle;
+            let way = if is_in_time { own[0] } else { 1.0 };
+            if (way * high).abs() <= self.relative * self.equation.model.unit(0) {
+                // So that the run ends as locked.
+                self.equation.is_locked = true;
+                return Ok(Some(0.0));
+            }
+        }
+        let is_on_the_way = high != most && low != 0.0;
+        Ok(is_on_the_way.then(|| (1.0 - LOCK_LEAVES) * low.abs()))
+    }
+}
