@@ -8,7 +8,7 @@ use super::options::Options;
 use super::pair::stages::{Refusal, Scale};
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
-use super::system::System;
+use super::system::{Attempt, System};
 
 /// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a
 /// lock, and a hundred evaluations are a short wait.
@@ -289,7 +289,7 @@ impl<'a, S: System> Run<'a, S> {
                 self.refusals += 1;
                 self.steps_since_refusal = 0;
                 self.refused = Some(t_new);
-                self.look_for_boundary()?;
+                self.look_for_boundary(h)?;
                 self.control.factor_after_refusal()
             }
             Err(Refusal::NotFinite { t, component }) => {
@@ -371,9 +371,7 @@ impl<'a, S: System> Run<'a, S> {
             self.system.keep_invariant();
             std::mem::swap(&mut self.integrator.y, &mut self.integrator.new);
             self.integrator.stages.next_step();
-            if self.refusals > 0 {
-                self.look_for_boundary()?;
-            }
+            self.look_for_boundary(h)?;
             return Ok(Next::Step);
         };
         self.integrator.y.copy_from_slice(&self.integrator.state);
@@ -387,11 +385,12 @@ impl<'a, S: System> Run<'a, S> {
         }
     }
 
-    /// Asks how far it is to the domain boundary.
-    fn look_for_boundary(&mut self) -> Result<(), Error<S::Error>> {
+    /// Asks how far it is to the domain boundary after an attempted step of width `h`.
+    fn look_for_boundary(&mut self, h: f64) -> Result<(), Error<S::Error>> {
         let Integrator { n, y, .. } = &*self.integrator;
         self.refused = self.refused.filter(|t| (t - self.t) * self.direction > 0.0);
-        let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n], self.refused);
+        let last = Attempt { h, refused: self.refused, has_left_domain: self.refusals > 0 };
+        let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n], last);
         self.to_boundary = width.map_err(Error::System)?;
         Ok(())
     }

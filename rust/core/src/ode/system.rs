@@ -41,6 +41,17 @@ pub enum Crossing {
     Boundary,
 }
 
+/// The last attempted step.
+#[derive(Debug, Clone, Copy)]
+pub struct Attempt {
+    /// Its width, with its sign.
+    pub h: f64,
+    /// Where the last step ended that left the domain, if that is still ahead.
+    pub refused: Option<f64>,
+    /// Whether this or one of the last few left the domain.
+    pub has_left_domain: bool,
+}
+
 /// A system of ordinary differential equations y' = f(t, y) with its events.
 pub trait System {
     /// Error of the system's own functions.
@@ -80,8 +91,7 @@ pub trait System {
 
     /// Width of the next step toward the boundary of the domain: so wide that the few steps there have
     /// widths that follow from the state; 0 where the boundary is reached, `None` if none is known ahead.
-    /// Called after steps that left the domain, and after the next few; `refused`: where the last of them
-    /// ended, if it is still ahead.
+    /// Called after steps that left the domain, and after accepted ones.
     ///
     /// # Errors
     ///
@@ -90,9 +100,9 @@ pub trait System {
         &mut self,
         t: f64,
         y: &[f64],
-        refused: Option<f64>,
+        last: Attempt,
     ) -> Result<Option<f64>, Self::Error> {
-        let _ = (t, y, refused);
+        let _ = (t, y, last);
         Ok(None)
     }
 

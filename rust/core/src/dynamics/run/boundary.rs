@@ -9,7 +9,7 @@ use super::model::{MAX_CONDITION, ReducedModel};
 use super::stick_slip::Phase;
 use super::system::RunSystem;
 use super::variable::Variable;
-use crate::ode::system::{Fault, System};
+use crate::ode::system::{Attempt, Fault, System};
 
 /// A step toward a dead point leaves this part of the remaining time.
 const STEP_LEAVES: f64 = 0.25;
@@ -20,19 +20,27 @@ const NEAR_ENOUGH: f64 = 0.8;
 /// Step back to find how a condition changes, as a part of its inverse square: that is about the
 /// remaining coordinate in its unit.
 const NEAR_PART: f64 = 1.0e-3;
+/// Steps over a way of less than this many tolerances are narrow.
+const CREEPS: f64 = 16.0;
 /// A step toward a position that friction locks leaves this part of the way, which is known to half of it.
 const LOCK_LEAVES: f64 = 0.02;
 
 impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
-    /// Width of the next step toward a boundary ahead, 0 if it is reached. `refused`: where a step ended
-    /// that left the domain.
+    /// Width of the next step toward a boundary ahead, 0 if it is reached.
     pub(super) fn aim_at_boundary(
         &mut self,
         x: f64,
         y: &[f64],
-        refused: Option<f64>,
+        last: Attempt,
     ) -> Result<Option<f64>, RunError<O::Error>> {
+        let Attempt { h, refused, has_left_domain } = last;
         self.locks_ahead = refused.is_some() && (self.locks_ahead || self.equation.is_locked);
+        if self.is_about_to_lock(x, y, h)? {
+            return Ok(Some(0.0));
+        }
+        if !has_left_domain {
+            return Ok(None);
+        }
         if let (true, Some(refused)) = (self.locks_ahead, refused) {
             return self.aim_at_lock(x, y, refused - x);
         }
@@ -72,6 +80,32 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         }
     }
 
+    /// Whether friction locks the machine within the tolerance of its coordinate: asked where it moves by
+    /// little more than that in a step. The acceleration grows beyond all bounds there, and the last steps
+    /// would be rounding.
+    fn is_about_to_lock(&mut self, x: f64, y: &[f64], h: f64) -> Result<bool, RunError<O::Error>> {
+        let is_in_time = self.along == Variable::Time;
+        let within = self.relative * self.equation.model.unit(0);
+        let way = if is_in_time { y[1] * h } else { h };
+        let is_slipping =
+            matches!(self.phase, Phase::Slip(_)) && self.equation.model.has_friction();
+        if !is_slipping || way == 0.0 || way.abs() > CREEPS * within {
+            return Ok(false);
+        }
+        let (mut there, mut rates) = ([y[0], y[1], y[2]], [0.0; 3]);
+        let ahead = within.copysign(way);
+        if is_in_time {
+            there[0] += ahead;
+        }
+        let x = if is_in_time { x } else { x + ahead };
+        match self.rates(x, &there, &mut rates) {
+            Err(Fault::Error(error)) => Err(error),
+            // The run ends as locked.
+            Err(Fault::OutOfDomain) => Ok(self.equation.is_locked),
+            Ok(()) => Ok(false),
+        }
+    }
+
     /// Bisects the way to a lock along the motion with the rates of this state; `most`: the way to where a
     /// step was refused. The motion itself has no singularity there.
     fn aim_at_lock(
@@ -107,12 +141,6 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
                 Err(Fault::Error(error)) => return Err(error),
             };
             *bound = middle;
-            let way = if is_in_time { own[0] } else { 1.0 };
-            if (way * high).abs() <= self.relative * self.equation.model.unit(0) {
-                // So that the run ends as locked.
-                self.equation.is_locked = true;
-                return Ok(Some(0.0));
-            }
         }
         let is_on_the_way = high != most && low != 0.0;
         Ok(is_on_the_way.then(|| (1.0 - LOCK_LEAVES) * low.abs()))

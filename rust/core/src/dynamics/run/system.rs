@@ -10,7 +10,7 @@ use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
 use crate::dynamics::friction::motion::RubbingState;
-use crate::ode::system::{Action, Crossing, Fault, System};
+use crate::ode::system::{Action, Attempt, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
 /// What ended a run early.
@@ -379,9 +379,9 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         &mut self,
         x: f64,
         y: &[f64],
-        refused: Option<f64>,
+        last: Attempt,
     ) -> Result<Option<f64>, Self::Error> {
-        self.aim_at_boundary(x, y, refused)
+        self.aim_at_boundary(x, y, last)
     }
 
     fn begin_interval(&mut self, from: f64, to: f64, _: &[f64]) -> Result<(), Self::Error> {
