@@ -42,6 +42,10 @@ FACTORS = (1e-4, 1e4)
 # Reactions are solved with pivots, which depend on units: to this part of the largest, times κ².
 FORCE = 1e-12
 CONDITION = 1e4
+# Effort that is missing at a row of a run, as a part of what it is a difference of, and the greatest
+# condition κ at which that is asked: its rounding is 64 u κ².
+BALANCE = 1e-5
+BALANCED_TO = 1e3
 
 
 class InUnits(Findings):
@@ -155,6 +159,7 @@ class InUnits(Findings):
             self.report.counts[f"run refused: {str(error)[:30]}"] += 1
             return
         self.report.counts["runs in other units"] += 1
+        self.balanced(own)
         two = self.run_of(in_units(self.d, self.machine, self.two), self.two)
         per = self.coordinate(self.two)
         texts = []
@@ -173,6 +178,24 @@ class InUnits(Findings):
             texts = [f"other bits from step {k} of {len(own.t)} on"]
         self.fail("units run", *(f"{text}, in {self.two}" for text in texts))
         self.similar(own)
+
+    def balanced(self, own: assur.Run) -> None:
+        """At the accelerations of a run no effort of the driver is missing."""
+        machine, q = self.machine, own.q
+        if self.drivers > 1 or machine.motor is not None or own.end == "time limit":
+            return
+        try:
+            found = machine.reactions(q, own.speed, own.acceleration, on_error="nan")
+        except assur.InputError:  # friction on redundant links
+            return
+        own_part = np.abs(machine.reduced_inertia(q, on_error="nan").value * own.acceleration)
+        size = own_part + np.abs(machine.reduced_moment(q, own.speed, on_error="nan"))
+        condition = self.mechanism.solve(q, order=0, on_error="nan").condition
+        apart = np.abs(found.driver)
+        self.report.counts["rows of runs in balance"] += len(q)
+        for i in np.flatnonzero((condition < BALANCED_TO) & (apart > BALANCE * size))[:1]:
+            text = f"{apart[i]:.3g} of {size[i]:.3g} is missing at q = {q[i]!r}"
+            self.fail("effort of a run", f"{text}, speed {own.speed[i]!r}, row {i}")
 
     def similar(self, own: assur.Run) -> None:
         other = self.run_of(in_units(self.d, self.machine, self.other), self.other)

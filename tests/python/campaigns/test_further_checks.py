@@ -54,7 +54,7 @@ SAMPLE: dict[str, tuple[Callable[[Any], Findings], Callable[[int], Any], Iterabl
     "files of mixed groups": (Saved, mixed_case, range(20)),
     "files of higher groups": (Saved, higher_case, range(20)),
     "tables that end": (Covered, machine_models.machine_case, range(20)),
-    "other units": (InUnits, machine_models.machine_case, range(2)),
+    "other units": (InUnits, machine_models.machine_case, (0, 1, 91, 591)),
     "other frames": (Turned, machine_models.machine_case, range(5, 17)),
     "pairs at rest": (Resting, resting_case, range(52, 64)),
     "nearly flat drawings": (Flat, flat_case, range(320, 360)),

@@ -224,3 +224,32 @@ def test_friction_bends_a_rod() -> None:
     np.testing.assert_allclose(inside.moment[:, 0], -first, rtol=1e-12)
     # At the last place the loads there do not count: what is left balances the pin's moment.
     np.testing.assert_allclose(inside.moment[:, -1], last, rtol=1e-9)
+
+
+def test_friction_is_of_the_interval_in_which_it_moves() -> None:
+    """Behind a gap the same guide slides the other way; where a run moves its friction opposes it."""
+    mechanism = assur.Mechanism(
+        joints={"A": (0, 0), "B": (0.6, -0.8), "C": (3.2, -2.4), "D": (4, 0), "E": (7.5, 0)},
+        links={
+            "ground": "AD",
+            "crank": "AB",
+            "coupler": "BC",
+            "rocker": "CD",
+            "rod": "CE",
+            "block": "E",
+        },
+        driver="rocker",
+        slides={"guide": assur.Slide("block", on="ground", angle=0.0)},
+    )
+    bodies = {
+        name: assur.Body(1.0, 0.05) for name in ("crank", "coupler", "rocker", "rod", "block")
+    }
+    friction = {"guide": assur.SlideFriction(0.2, 0.3)}
+    machine = assur.Machine(mechanism, bodies, [assur.Gravity()], friction=friction)
+    (low, high), _ = (own for own in mechanism.limits().intervals[::-1])
+    for q in np.linspace(low + 0.02, high - 0.02, 9):
+        for speed in (1.0, -1.0):
+            run = machine.run(1e-9, q, speed)
+            found = machine.reactions(run.q, run.speed, run.acceleration)
+            # Nothing drives it but gravity.
+            np.testing.assert_allclose(found.driver, 0.0, atol=1e-9)

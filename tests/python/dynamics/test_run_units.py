@@ -159,6 +159,12 @@ def cases() -> dict[str, Case]:
             {"t_end": 0.5},
         ),
         "two drivers": Case(five, five.mechanism.q0, [0.6, -0.6], {"t_end": 0.9}),  # type: ignore[union-attr]
+        "two drivers to a dead point": Case(
+            five,
+            five.mechanism.q0,  # type: ignore[union-attr]
+            [0.6, -0.6],
+            {"t_end": 20.0, "max_steps": 1000},
+        ),
         "at rest in balance": Case(
             crank_press(Torque("crank", lambda t, _q, _v: 5.0 * t**3)), 0.0, 0.0, {"t_end": 1.0}
         ),

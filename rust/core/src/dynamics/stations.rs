@@ -15,7 +15,7 @@ use crate::state::status::Status;
 
 /// Distance of the positions (rad, or of the size) between which the coordinates are followed: the
 /// search itself adds some where they are not cubics.
-const STEP: f64 = std::f64::consts::TAU / 64.0;
+pub(crate) const STEP: f64 = std::f64::consts::TAU / 64.0;
 /// Least and greatest number of such steps in a range.
 const MIN_STEPS: f64 = 4.0;
 const MAX_STEPS: f64 = 1.0e6;

@@ -8,7 +8,7 @@ use super::options::Options;
 use super::pair::stages::{Refusal, Scale};
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
-use super::system::{Attempt, System};
+use super::system::{Aim, Attempt, System};
 
 /// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a
 /// lock, and a hundred evaluations are a short wait.
@@ -105,8 +105,8 @@ pub(super) struct Run<'a, S> {
     steps_since_refusal: u32,
     /// Where the last step ended that left the domain.
     refused: Option<f64>,
-    /// Width of the next step toward the domain boundary, if one is ahead.
-    to_boundary: Option<f64>,
+    /// The next step toward the domain boundary, if one is ahead.
+    to_boundary: Option<Aim>,
     /// Consecutive restarts at one t.
     restarts_in_place: u32,
     /// Consecutive steps rejected for their drift.
@@ -249,8 +249,9 @@ impl<'a, S: System> Run<'a, S> {
         self.attempted += 1;
         let remaining = to - self.t;
         let mut proposed = self.h.unwrap_or(remaining);
-        if let Some(width) = self.to_boundary {
-            proposed = self.direction * width.min(proposed.abs());
+        if let Some(Aim { width, is_by_rounding }) = self.to_boundary {
+            let most = if is_by_rounding { remaining.abs() } else { proposed.abs() };
+            proposed = self.direction * width.min(most);
         }
         let steps_left = (remaining / (proposed * LAST_STEP_STRETCH)).ceil();
         let last = steps_left <= 1.0;
@@ -260,7 +261,7 @@ impl<'a, S: System> Run<'a, S> {
             let h = if steps_left <= EQUAL_STEPS { remaining / steps_left } else { proposed };
             (h, self.t + h)
         };
-        if self.refusals > MAX_REFUSALS || self.to_boundary == Some(0.0) {
+        if self.refusals > MAX_REFUSALS || self.to_boundary.is_some_and(|aim| aim.width == 0.0) {
             return Ok(Next::End(End::DomainBoundary { t: self.t }));
         }
         if !last && h.abs() < MIN_STEP * spacing(self.t) {
@@ -326,7 +327,9 @@ impl<'a, S: System> Run<'a, S> {
         if stages.tableau.error_needs_end {
             stages.evaluate(self.system, end, t_new, new)?;
         }
-        let error = stages.error(&self.scale, y, new, h).max(excess);
+        let is_by_rounding = self.to_boundary.is_some_and(|aim| aim.is_by_rounding);
+        let error = if is_by_rounding { 0.0 } else { stages.error(&self.scale, y, new, h) };
+        let error = error.max(excess);
         if error > 1.0 {
             return Ok(error);
         }
@@ -334,7 +337,7 @@ impl<'a, S: System> Run<'a, S> {
             stages.evaluate(self.system, end, t_new, new)?;
         }
         let drift = self.system.drift(t_new, &new.as_flattened()[..*n]);
-        if drift > 1.0 && self.drift_retries < MAX_DRIFT_RETRIES {
+        if drift > 1.0 && self.drift_retries < MAX_DRIFT_RETRIES && !is_by_rounding {
             self.drift_retries += 1;
             return Ok(drift);
         }
@@ -389,7 +392,9 @@ impl<'a, S: System> Run<'a, S> {
     fn look_for_boundary(&mut self, h: f64) -> Result<(), Error<S::Error>> {
         let Integrator { n, y, .. } = &*self.integrator;
         self.refused = self.refused.filter(|t| (t - self.t) * self.direction > 0.0);
-        let last = Attempt { h, refused: self.refused, has_left_domain: self.refusals > 0 };
+        // Steps that aim at a boundary are not refused.
+        let has_left_domain = self.refusals > 0 || self.to_boundary.is_some();
+        let last = Attempt { h, refused: self.refused, has_left_domain };
         let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n], last);
         self.to_boundary = width.map_err(Error::System)?;
         Ok(())

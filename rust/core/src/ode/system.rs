@@ -48,8 +48,17 @@ pub struct Attempt {
     pub h: f64,
     /// Where the last step ended that left the domain, if that is still ahead.
     pub refused: Option<f64>,
-    /// Whether this or one of the last few left the domain.
+    /// Whether this or one of the last few left the domain, or aimed at its boundary.
     pub has_left_domain: bool,
+}
+
+/// A step toward the boundary of the domain.
+#[derive(Debug, Clone, Copy)]
+pub struct Aim {
+    /// The greatest width of the step, without its sign; 0 where the boundary is reached.
+    pub width: f64,
+    /// Whether the error of the step is rounding, which a narrower step has, too: then it has this width.
+    pub is_by_rounding: bool,
 }
 
 /// A system of ordinary differential equations y' = f(t, y) with its events.
@@ -89,9 +98,8 @@ pub trait System {
         Ok(())
     }
 
-    /// Width of the next step toward the boundary of the domain: so wide that the few steps there have
-    /// widths that follow from the state; 0 where the boundary is reached, `None` if none is known ahead.
-    /// Called after steps that left the domain, and after accepted ones.
+    /// The next step toward the boundary of the domain: so wide that the few steps there have widths that
+    /// follow from the state; `None` if no boundary is known ahead. Called after steps that left the domain, and after accepted ones.
     ///
     /// # Errors
     ///
@@ -101,7 +109,7 @@ pub trait System {
         t: f64,
         y: &[f64],
         last: Attempt,
-    ) -> Result<Option<f64>, Self::Error> {
+    ) -> Result<Option<Aim>, Self::Error> {
         let _ = (t, y, last);
         Ok(None)
     }

@@ -9,7 +9,7 @@ use super::model::{MAX_CONDITION, ReducedModel};
 use super::stick_slip::Phase;
 use super::system::RunSystem;
 use super::variable::Variable;
-use crate::ode::system::{Attempt, Fault, System};
+use crate::ode::system::{Aim, Attempt, Fault, System};
 
 /// A step toward a dead point leaves this part of the remaining time.
 const STEP_LEAVES: f64 = 0.25;
@@ -20,6 +20,10 @@ const NEAR_ENOUGH: f64 = 0.8;
 /// Step back to find how a condition changes, as a part of its inverse square: that is about the
 /// remaining coordinate in its unit.
 const NEAR_PART: f64 = 1.0e-3;
+/// Where the boundary is reached.
+const REACHED: Aim = Aim { width: 0.0, is_by_rounding: false };
+/// Noise of the inertia, in relative tolerances, from which to look for dead points of several drivers.
+const INEXACT: f64 = 1.0e-2;
 /// Steps over a way of less than this many tolerances are narrow.
 const CREEPS: f64 = 16.0;
 /// A step toward a position that friction locks leaves this part of the way, which is known to half of it.
@@ -32,13 +36,13 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         x: f64,
         y: &[f64],
         last: Attempt,
-    ) -> Result<Option<f64>, RunError<O::Error>> {
+    ) -> Result<Option<Aim>, RunError<O::Error>> {
         let Attempt { h, refused, has_left_domain } = last;
         self.locks_ahead = refused.is_some() && (self.locks_ahead || self.equation.is_locked);
         if self.is_about_to_lock(x, y, h)? {
-            return Ok(Some(0.0));
+            return Ok(Some(REACHED));
         }
-        if !has_left_domain {
+        if !has_left_domain && !self.is_inexact() {
             return Ok(None);
         }
         if let (true, Some(refused)) = (self.locks_ahead, refused) {
@@ -48,16 +52,12 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
             return Ok(None);
         }
         let n = self.drivers;
-        self.aim_at_dead_point(&y[..n], &y[n..2 * n])
+        Ok(self.aim_at_dead_point(&y[..n], &y[n..2 * n]))
     }
 
     /// The inverse condition falls like the square root of the remaining coordinates, and so like the
     /// remaining time: the driver turns back at a dead point while the mechanism moves on.
-    fn aim_at_dead_point(
-        &mut self,
-        q: &[f64],
-        speed: &[f64],
-    ) -> Result<Option<f64>, RunError<O::Error>> {
+    fn aim_at_dead_point(&mut self, q: &[f64], speed: &[f64]) -> Option<Aim> {
         let beside = |t: f64| -> Vec<f64> { q.iter().zip(speed).map(|(q, v)| q + t * v).collect() };
         let here = self.equation.model.inverse_condition(q);
         let back = NEAR_PART * here * here / self.fastest(speed);
@@ -65,19 +65,31 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         let falls = (before - here) * (before + here) / back;
         let is_ahead = falls > 0.0 && falls.is_finite();
         if !is_ahead {
-            return Ok(None);
+            return None;
         }
         let remaining = 2.0 * here * here / falls;
         let end = NEAREST / here;
         if end < NEAR_ENOUGH {
-            return Ok(Some(remaining * (1.0 - end.max(STEP_LEAVES))));
+            let width = remaining * (1.0 - end.max(STEP_LEAVES));
+            return Some(Aim { width, is_by_rounding: self.is_by_rounding() });
         }
-        // Three quarters of the coordinates that remain: there the model says what is ahead.
-        match self.equation.set_configuration(&beside(0.75 * 0.5 * remaining)) {
-            Ok(()) => Ok(None),
-            Err(Fault::OutOfDomain) => Ok(Some(0.0)),
-            Err(Fault::Error(error)) => Err(error),
-        }
+        let rejection = self.equation.model.dead_point_beside(q)?;
+        self.equation.rejected = Some((rejection, q.to_vec()));
+        Some(REACHED)
+    }
+
+    /// Whether rounding exceeds the tolerance of a step of about κ⁻¹ in the remaining time: accelerations
+    /// of several drivers, differences of terms that grow with κ, have errors of some u κ³, the step some
+    /// u κ². (Measured: from a quarter of the noise of the inertia on, 64 u κ², it limits the steps.)
+    fn is_by_rounding(&self) -> bool {
+        self.drivers > 1 && 0.25 * self.equation.model.inertia_noise() > self.relative
+    }
+
+    /// Whether the last position has so few digits that several drivers may be about to meet a dead point:
+    /// there rounding, not the domain, may limit the steps.
+    fn is_inexact(&self) -> bool {
+        let noise = self.equation.model.inertia_noise();
+        self.drivers > 1 && noise > INEXACT * self.relative
     }
 
     /// Whether friction locks the machine within the tolerance of its coordinate: asked where it moves by
@@ -113,7 +125,7 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         x: f64,
         y: &[f64],
         most: f64,
-    ) -> Result<Option<f64>, RunError<O::Error>> {
+    ) -> Result<Option<Aim>, RunError<O::Error>> {
         let mut rates = [[0.0; 3]; 2];
         let [own, ahead] = &mut rates;
         match self.rates(x, y, own) {
@@ -143,6 +155,7 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
             *bound = middle;
         }
         let is_on_the_way = high != most && low != 0.0;
-        Ok(is_on_the_way.then(|| (1.0 - LOCK_LEAVES) * low.abs()))
+        let width = (1.0 - LOCK_LEAVES) * low.abs();
+        Ok(is_on_the_way.then_some(Aim { width, is_by_rounding: false }))
     }
 }

@@ -1,6 +1,8 @@
 //! The equation of motion of a machine at one state: J q̈ + ½ J′ q̇² = M (I. M. Matsyuk & E. M.
 //! Shlyakhov, equation 3, differentiated; with several drivers Lagrange's equations).
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::callbacks::Callbacks;
@@ -11,6 +13,7 @@ use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, TableCursor, same_within};
 use crate::dynamics::friction::motion::{Drive, RubbingState};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
+use crate::dynamics::stations::STEP;
 use crate::dynamics::tables::table::{Cell, Table};
 use crate::dynamics::value::Numbers;
 use crate::ode::system::Fault;
@@ -175,8 +178,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         if !self.model.has_stations() {
             return Ok(());
         }
-        // Beyond a dead point there is no position.
-        let mut beyond = to;
+        // Beyond a dead point there is no position, or one of another motion.
+        let mut beyond = self.reached_from(from, to);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (from + beyond);
             if self.model.hold(middle)? {
@@ -185,6 +188,23 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             beyond = middle;
         }
         Ok(())
+    }
+
+    /// How far toward a coordinate, at most a turn, the mechanism moves without a gap: to the first position
+    /// that it cannot reach, in steps as those of the search for stations.
+    fn reached_from(&mut self, from: f64, to: f64) -> f64 {
+        let unit = self.model.unit(0);
+        let way = (to - from).clamp(-TAU * unit, TAU * unit);
+        let steps = (way.abs() / (STEP * unit)).ceil().max(1.0);
+        let mut at = 0.0;
+        while at < steps {
+            at += 1.0;
+            let q = from + way * (at / steps);
+            if self.model.inverse_condition(&[q]).is_nan() {
+                return q;
+            }
+        }
+        from + way
     }
 
     /// The error of a motion that begins where a table over another coordinate has no value, or ends.

@@ -122,6 +122,9 @@ pub(crate) trait ReducedModel {
     /// Whether a dead point is within this part of a radian (or of the size).
     fn is_near_dead_point(&mut self, q: &[f64], within: f64) -> bool;
 
+    /// How the next position is rejected, if a dead point is about as near as the condition says.
+    fn dead_point_beside(&mut self, q: &[f64]) -> Option<Rejection>;
+
     /// Relative rounding error of the inertia at the last position.
     fn inertia_noise(&self) -> f64;
 
@@ -364,6 +367,12 @@ impl ReducedModel for MechanismModel<'_> {
         self.evaluator.solve(q).is_err() || self.has_dead_point_near(q, within)
     }
 
+    fn dead_point_beside(&mut self, q: &[f64]) -> Option<Rejection> {
+        self.evaluator.solve(q).ok()?;
+        let (step, _) = self.evaluator.worst_condition();
+        self.has_dead_point_near(q, f64::INFINITY).then_some(Rejection::DeadPoint { step })
+    }
+
     fn inertia_noise(&self) -> f64 {
         let condition = self.evaluator.total_condition();
         ANALOGUE_PER_CONDITION_SQUARED * condition * condition
@@ -482,6 +491,10 @@ impl ReducedModel for &TabulatedMachine {
 
     fn is_near_dead_point(&mut self, _: &[f64], _: f64) -> bool {
         false
+    }
+
+    fn dead_point_beside(&mut self, _: &[f64]) -> Option<Rejection> {
+        None
     }
 
     fn inertia_noise(&self) -> f64 {

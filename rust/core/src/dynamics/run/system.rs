@@ -10,7 +10,7 @@ use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
 use crate::dynamics::friction::motion::RubbingState;
-use crate::ode::system::{Action, Attempt, Crossing, Fault, System};
+use crate::ode::system::{Action, Aim, Attempt, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
 /// What ended a run early.
@@ -71,12 +71,16 @@ const LEAST_REBOUND: f64 = 1.0e4;
 const AT_REST: f64 = 1.0e-6;
 /// Bounds of the distance (rad, or of the size) within which to look for a dead point: it is a
 /// thousand relative tolerances.
+/// (With several drivers there is no balance of energies that tells a dead point from a motion that passes
+/// near one: then it is no more.)
 const MIN_REACH: f64 = 1.0e-3;
 const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
 const CONDITION_STEP: f64 = 1.0e-6;
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>) -> Self {
+        let drivers = options.q.len();
+        let least_reach = if drivers == 1 { MIN_REACH } else { 0.0 };
         Self {
             equation,
             along: options.along,
@@ -87,10 +91,10 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             phase: Phase::Smooth,
             changes: Vec::new(),
             hardest_hit: 0.0,
-            drivers: options.q.len(),
+            drivers,
             locks_ahead: false,
             energy: None,
-            reach: (1.0e3 * options.relative).clamp(MIN_REACH, MAX_REACH),
+            reach: (1.0e3 * options.relative).clamp(least_reach, MAX_REACH),
             relative: options.relative,
             total: f64::NAN,
             trial_total: f64::NAN,
@@ -380,7 +384,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         x: f64,
         y: &[f64],
         last: Attempt,
-    ) -> Result<Option<f64>, Self::Error> {
+    ) -> Result<Option<Aim>, Self::Error> {
         self.aim_at_boundary(x, y, last)
     }
 
