@@ -8,7 +8,7 @@ use super::options::Options;
 use super::pair::stages::{Refusal, Scale};
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
-use super::system::{Aim, Attempt, System};
+use super::system::{Attempt, System};
 
 /// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a
 /// lock, and a hundred evaluations are a short wait.
@@ -105,8 +105,8 @@ pub(super) struct Run<'a, S> {
     steps_since_refusal: u32,
     /// Where the last step ended that left the domain.
     refused: Option<f64>,
-    /// The next step toward the domain boundary, if one is ahead.
-    to_boundary: Option<Aim>,
+    /// Width of the next step toward the domain boundary, if one is ahead.
+    to_boundary: Option<f64>,
     /// Consecutive restarts at one t.
     restarts_in_place: u32,
     /// Consecutive steps rejected for their drift.
@@ -249,9 +249,8 @@ impl<'a, S: System> Run<'a, S> {
         self.attempted += 1;
         let remaining = to - self.t;
         let mut proposed = self.h.unwrap_or(remaining);
-        if let Some(Aim { width, is_by_rounding }) = self.to_boundary {
-            let most = if is_by_rounding { remaining.abs() } else { proposed.abs() };
-            proposed = self.direction * width.min(most);
+        if let Some(width) = self.to_boundary {
+            proposed = self.direction * width.min(proposed.abs());
         }
         let steps_left = (remaining / (proposed * LAST_STEP_STRETCH)).ceil();
         let last = steps_left <= 1.0;
@@ -261,7 +260,7 @@ impl<'a, S: System> Run<'a, S> {
             let h = if steps_left <= EQUAL_STEPS { remaining / steps_left } else { proposed };
             (h, self.t + h)
         };
-        if self.refusals > MAX_REFUSALS || self.to_boundary.is_some_and(|aim| aim.width == 0.0) {
+        if self.refusals > MAX_REFUSALS || self.to_boundary == Some(0.0) {
             return Ok(Next::End(End::DomainBoundary { t: self.t }));
         }
         if !last && h.abs() < MIN_STEP * spacing(self.t) {
@@ -327,9 +326,7 @@ impl<'a, S: System> Run<'a, S> {
         if stages.tableau.error_needs_end {
             stages.evaluate(self.system, end, t_new, new)?;
         }
-        let is_by_rounding = self.to_boundary.is_some_and(|aim| aim.is_by_rounding);
-        let error = if is_by_rounding { 0.0 } else { stages.error(&self.scale, y, new, h) };
-        let error = error.max(excess);
+        let error = stages.error(&self.scale, y, new, h).max(excess);
         if error > 1.0 {
             return Ok(error);
         }
@@ -337,7 +334,7 @@ impl<'a, S: System> Run<'a, S> {
             stages.evaluate(self.system, end, t_new, new)?;
         }
         let drift = self.system.drift(t_new, &new.as_flattened()[..*n]);
-        if drift > 1.0 && self.drift_retries < MAX_DRIFT_RETRIES && !is_by_rounding {
+        if drift > 1.0 && self.drift_retries < MAX_DRIFT_RETRIES {
             self.drift_retries += 1;
             return Ok(drift);
         }

@@ -52,15 +52,6 @@ pub struct Attempt {
     pub has_left_domain: bool,
 }
 
-/// A step toward the boundary of the domain.
-#[derive(Debug, Clone, Copy)]
-pub struct Aim {
-    /// The greatest width of the step, without its sign; 0 where the boundary is reached.
-    pub width: f64,
-    /// Whether the error of the step is rounding, which a narrower step has, too: then it has this width.
-    pub is_by_rounding: bool,
-}
-
 /// A system of ordinary differential equations y' = f(t, y) with its events.
 pub trait System {
     /// Error of the system's own functions.
@@ -98,8 +89,9 @@ pub trait System {
         Ok(())
     }
 
-    /// The next step toward the boundary of the domain: so wide that the few steps there have widths that
-    /// follow from the state; `None` if no boundary is known ahead. Called after steps that left the domain, and after accepted ones.
+    /// Greatest width, without its sign, of the next step toward the boundary of the domain: the few steps
+    /// there have widths that follow from the state. It is 0 where the boundary is reached, `None` if none
+    /// is known ahead. Called after steps that left the domain, and after accepted ones.
     ///
     /// # Errors
     ///
@@ -109,7 +101,7 @@ pub trait System {
         t: f64,
         y: &[f64],
         last: Attempt,
-    ) -> Result<Option<Aim>, Self::Error> {
+    ) -> Result<Option<f64>, Self::Error> {
         let _ = (t, y, last);
         Ok(None)
     }

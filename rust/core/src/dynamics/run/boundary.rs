@@ -9,7 +9,7 @@ use super::model::{MAX_CONDITION, ReducedModel};
 use super::stick_slip::Phase;
 use super::system::RunSystem;
 use super::variable::Variable;
-use crate::ode::system::{Aim, Attempt, Fault, System};
+use crate::ode::system::{Attempt, Fault, System};
 
 /// A step toward a dead point leaves this part of the remaining time.
 const STEP_LEAVES: f64 = 0.25;
@@ -20,10 +20,6 @@ const NEAR_ENOUGH: f64 = 0.8;
 /// Step back to find how a condition changes, as a part of its inverse square: that is about the
 /// remaining coordinate in its unit.
 const NEAR_PART: f64 = 1.0e-3;
-/// Where the boundary is reached.
-const REACHED: Aim = Aim { width: 0.0, is_by_rounding: false };
-/// Noise of the inertia, in relative tolerances, from which to look for dead points of several drivers.
-const INEXACT: f64 = 1.0e-2;
 /// Steps over a way of less than this many tolerances are narrow.
 const CREEPS: f64 = 16.0;
 /// A step toward a position that friction locks leaves this part of the way, which is known to half of it.
@@ -36,13 +32,13 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         x: f64,
         y: &[f64],
         last: Attempt,
-    ) -> Result<Option<Aim>, RunError<O::Error>> {
+    ) -> Result<Option<f64>, RunError<O::Error>> {
         let Attempt { h, refused, has_left_domain } = last;
         self.locks_ahead = refused.is_some() && (self.locks_ahead || self.equation.is_locked);
         if self.is_about_to_lock(x, y, h)? {
-            return Ok(Some(REACHED));
+            return Ok(Some(0.0));
         }
-        if !has_left_domain && !self.is_inexact() {
+        if !has_left_domain {
             return Ok(None);
         }
         if let (true, Some(refused)) = (self.locks_ahead, refused) {
@@ -57,7 +53,7 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
 
     /// The inverse condition falls like the square root of the remaining coordinates, and so like the
     /// remaining time: the driver turns back at a dead point while the mechanism moves on.
-    fn aim_at_dead_point(&mut self, q: &[f64], speed: &[f64]) -> Option<Aim> {
+    fn aim_at_dead_point(&mut self, q: &[f64], speed: &[f64]) -> Option<f64> {
         let beside = |t: f64| -> Vec<f64> { q.iter().zip(speed).map(|(q, v)| q + t * v).collect() };
         let here = self.equation.model.inverse_condition(q);
         let back = NEAR_PART * here * here / self.fastest(speed);
@@ -71,25 +67,11 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         let end = NEAREST / here;
         if end < NEAR_ENOUGH {
             let width = remaining * (1.0 - end.max(STEP_LEAVES));
-            return Some(Aim { width, is_by_rounding: self.is_by_rounding() });
+            return Some(width);
         }
         let rejection = self.equation.model.dead_point_beside(q)?;
         self.equation.rejected = Some((rejection, q.to_vec()));
-        Some(REACHED)
-    }
-
-    /// Whether rounding exceeds the tolerance of a step of about κ⁻¹ in the remaining time: accelerations
-    /// of several drivers, differences of terms that grow with κ, have errors of some u κ³, the step some
-    /// u κ². (Measured: from a quarter of the noise of the inertia on, 64 u κ², it limits the steps.)
-    fn is_by_rounding(&self) -> bool {
-        self.drivers > 1 && 0.25 * self.equation.model.inertia_noise() > self.relative
-    }
-
-    /// Whether the last position has so few digits that several drivers may be about to meet a dead point:
-    /// there rounding, not the domain, may limit the steps.
-    fn is_inexact(&self) -> bool {
-        let noise = self.equation.model.inertia_noise();
-        self.drivers > 1 && noise > INEXACT * self.relative
+        Some(0.0)
     }
 
     /// Whether friction locks the machine within the tolerance of its coordinate: asked where it moves by
@@ -125,7 +107,7 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         x: f64,
         y: &[f64],
         most: f64,
-    ) -> Result<Option<Aim>, RunError<O::Error>> {
+    ) -> Result<Option<f64>, RunError<O::Error>> {
         let mut rates = [[0.0; 3]; 2];
         let [own, ahead] = &mut rates;
         match self.rates(x, y, own) {
@@ -156,6 +138,6 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         }
         let is_on_the_way = high != most && low != 0.0;
         let width = (1.0 - LOCK_LEAVES) * low.abs();
-        Ok(is_on_the_way.then_some(Aim { width, is_by_rounding: false }))
+        Ok(is_on_the_way.then_some(width))
     }
 }

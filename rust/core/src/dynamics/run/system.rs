@@ -10,7 +10,7 @@ use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
 use crate::dynamics::friction::motion::RubbingState;
-use crate::ode::system::{Action, Aim, Attempt, Crossing, Fault, System};
+use crate::ode::system::{Action, Attempt, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
 /// What ended a run early.
@@ -384,7 +384,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         x: f64,
         y: &[f64],
         last: Attempt,
-    ) -> Result<Option<Aim>, Self::Error> {
+    ) -> Result<Option<f64>, Self::Error> {
         self.aim_at_boundary(x, y, last)
     }
 
