@@ -227,8 +227,8 @@ class Motion:
         link : str
             The link.
         local : array_like
-            (x, y) in the link's frame: at its first joint, x toward the second (the ground's are
-            the drawing's axes); or several, shape (P, 2), stacked along a new first axis.
+            (x, y) in the link's frame: at its first joint, x toward the second (the ground's is
+            that of the drawing); or several, shape (P, 2), stacked along a new first axis.
 
         Returns
         -------

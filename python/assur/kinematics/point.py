@@ -25,7 +25,8 @@ def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
         message = f"local is {local!r}: (x, y) in the frame of {link!r}, or a list of such, m"
         raise InputError(message)
     angle = motion.link(link)
-    origin = motion._reference_point(link)
+    # The ground's frame is the drawing's, whichever joint is listed first.
+    origin = None if link == "ground" else motion._reference_point(link)
     sine, cosine = sin_cos(angle.value)
     # For each point; axes: points, those of the motion, components.
     points = at.reshape(-1, 2)
@@ -42,7 +43,7 @@ def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
     for order in range(motion.order + 1):
         turned = _derivative(arm, rates, order)
         turned = turned.reshape(arm.shape + ((drivers,) * order if drivers > 1 else ()))
-        whole = origin._arrays[order] + turned
+        whole = turned if origin is None else origin._arrays[order] + turned
         whole = whole if at.ndim == 2 else whole[0]
         whole.flags.writeable = False
         arrays.append(whole)

@@ -6,6 +6,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import pytest
 
 import assur
 from assur import examples
@@ -68,3 +69,15 @@ def test_refusals() -> None:
     refused(assur.InputError, "rood", partial(motion.point, "rood", (0.3, 0.1)))
     number: Any = 1.0
     refused(assur.InputError, "point", partial(assur.FourBar, 1.0, 3.0, 2.5, 3.2, point=number))
+
+
+@pytest.mark.parametrize("ground", ["AD", "DA"])
+def test_points_of_the_ground_are_those_of_the_drawing(ground: str) -> None:
+    mechanism = assur.Mechanism(
+        joints={"A": (1, 2), "B": (2, 2), "C": (4, 4), "D": (5, 2)},
+        links={"ground": ground, "crank": "AB", "coupler": "BC", "rocker": "DC"},
+        driver="crank",
+    )
+    point = mechanism.solve([0.1, 0.2]).point("ground", (0.5, 0.25))
+    np.testing.assert_array_equal(point.value, [(0.5, 0.25)] * 2)
+    np.testing.assert_array_equal(point.d2, 0.0)

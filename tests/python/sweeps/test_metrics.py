@@ -178,3 +178,43 @@ def test_combinations_conditions_and_functions() -> None:
     assert (found["turns"][meets] == 1.0).all()
     assert (found["high"][meets] == highest[meets]).all()
     np.testing.assert_allclose(found["quality"][meets], expected[meets], rtol=1e-13)
+
+
+def test_a_link_that_keeps_its_angle_by_slides_is_no_crank() -> None:
+    """Its pin stands still: a dyad between that and the ground reaches at every position or at none."""
+    m = assur.Mechanism(
+        joints={
+            "O": (0, 0),
+            "B": (1, 0),
+            "D": (3, 0),
+            "F": (3.5, 1.5),
+            "G": (1.5, 2.0),
+            "H": (3, -2),
+        },
+        links={
+            "ground": "OD",
+            "crank": "OB",
+            "table": "FD",
+            "block": "H",
+            "k4": "FG",
+            "k5": "GO",
+        },
+        driver="crank",
+        slides={
+            "s1": assur.Slide("table", on="block", angle=2.5),
+            "s2": assur.Slide("block", on="ground", angle=-0.9),
+        },
+    )
+    q = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+    lengths = [1.0, 1.7, 1.9, 2.0, 2.2, 2.5, 3.0]
+    measures = {"full": assur.metric.full_rotation(), "x": assur.metric.greatest("B.x")}
+    found = assur.sweep(m, {"k5.length": lengths}, q, metrics=measures)
+    for index, length in enumerate(lengths):
+        reaches = (
+            m.with_dimensions({"k5.length": length}).solve(q, on_error="nan").status.max() == 0
+        )
+        assert (found.status[index] == 0) == reaches, length
+    assert found.status[-1] == 0
+    assert found["full"][-1] == 1.0
+    np.testing.assert_allclose(found["x"][found.status == 0], 1.0)
+    assert 0 < np.sum(found.status == 0) < len(lengths)

@@ -4,7 +4,7 @@
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
 use crate::plan::dyad::{Dyad, Form};
-use crate::plan::plan::{EdgeSlide, Plan, Step};
+use crate::plan::plan::{EdgeSlide, Orientation, Plan, Step};
 
 /// A dyad that comes this near to flat at an extreme (relative to the sum of all lengths) is left to
 /// the tracer: far above rounding, and far below what a design meets by chance. The same bound holds
@@ -55,7 +55,10 @@ impl CrankDyad {
             Some((edge, [_, to])) if to == ground => Some((edge, true)),
             Some(_) => return None,
         };
-        (plan.edges[crank].class == 0).then_some(Self {
+        let Orientation { class, single_driver, .. } =
+            &plan.orientations[plan.edges[crank].orientation];
+        // A link that keeps its angle by slides is no crank, though it is pinned to the ground.
+        (*class == 0 && single_driver.is_some()).then_some(Self {
             dyad: dyad.index,
             crank,
             backward,
