@@ -667,7 +667,7 @@ class Machine(MachineModel):
             Initial time, s.
         rtol : float
             Relative tolerance per step of the speed; absolute tolerance of the coordinate in rad
-            (slide: times the mechanism's size).
+            (slide: times its greatest length).
         atol : float or (float, float), optional
             Absolute tolerances of coordinate and speed. The default for the speed is rtol / 1000
             times a typical initial speed.

@@ -42,8 +42,8 @@ FACTORS = (1e-4, 1e4)
 # Reactions are solved with pivots, which depend on units: to this part of the largest, times κ².
 FORCE = 1e-12
 CONDITION = 1e4
-# Effort that is missing at a row of a run, as a part of what it is a difference of, and the greatest
-# condition κ at which that is asked: its rounding is 64 u κ².
+# Effort that is missing at a row of a run, as a part of what it is a difference of, and the
+# greatest condition κ at which that is asked: its rounding is 64 u κ².
 BALANCE = 1e-5
 BALANCED_TO = 1e3
 # Beyond this condition errors of steps are rounding, of several drivers u κ³: their number is luck.

@@ -227,7 +227,7 @@ def test_friction_bends_a_rod() -> None:
 
 
 def test_friction_is_of_the_interval_in_which_it_moves() -> None:
-    """Behind a gap the same guide slides the other way; where a run moves its friction opposes it."""
+    """Behind a gap the guide slides the other way; where a run moves its friction opposes it."""
     mechanism = assur.Mechanism(
         joints={"A": (0, 0), "B": (0.6, -0.8), "C": (3.2, -2.4), "D": (4, 0), "E": (7.5, 0)},
         links={

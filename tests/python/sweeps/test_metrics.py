@@ -181,7 +181,7 @@ def test_combinations_conditions_and_functions() -> None:
 
 
 def test_a_link_that_keeps_its_angle_by_slides_is_no_crank() -> None:
-    """Its pin stands still: a dyad between that and the ground reaches at every position or at none."""
+    """Its pin stands still: a dyad on it reaches the ground at every position or at none."""
     m = assur.Mechanism(
         joints={
             "O": (0, 0),
