@@ -67,4 +67,4 @@ pub use integrator::Integrator;
 pub use options::{LEAST_RELATIVE, Method, Options, Output};
 pub use pair::dense::DenseOutput;
 pub use solution::{End, Event, Solution, Statistics};
-pub use system::{Action, Crossing, Fault, Rates, System};
+pub use system::{Action, Attempt, Crossing, Fault, Rates, System};

@@ -14,9 +14,9 @@ use crate::ode::system::{Attempt, Fault, System};
 /// A step toward a dead point leaves this part of the remaining time.
 const STEP_LEAVES: f64 = 0.25;
 /// The least inverse condition at which steps aim, a little inside the positions that are rejected; and
-/// which part of it is near enough.
+/// which part of it is near enough. (With several drivers it says when the motion ends.)
 const NEAREST: f64 = 1.1 / MAX_CONDITION;
-const NEAR_ENOUGH: f64 = 0.8;
+const NEAR_ENOUGH: f64 = 0.9999;
 /// Step back to find how a condition changes, as a part of its inverse square: that is about the
 /// remaining coordinate in its unit.
 const NEAR_PART: f64 = 1.0e-3;

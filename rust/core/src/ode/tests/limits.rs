@@ -66,6 +66,44 @@ fn a_run_ends_at_the_domain_boundary() {
     }
 }
 
+/// y = 1 − (1 − t)² up to t = 1, with steps that leave a quarter of the way until a thousandth is left.
+struct Aiming;
+
+impl System for Aiming {
+    type Error = Infallible;
+
+    fn rates(&mut self, t: f64, y: &[f64], rates: &mut [f64]) -> Fallible {
+        rates[0] = 2.0 * (1.0 - y[0]).max(0.0).sqrt();
+        if t > 1.0 { Err(Fault::OutOfDomain) } else { Ok(()) }
+    }
+
+    fn step_to_boundary(
+        &mut self,
+        t: f64,
+        _: &[f64],
+        last: Attempt,
+    ) -> Result<Option<f64>, Infallible> {
+        let left = 1.0 - t;
+        let width = if left > 1e-3 { 0.75 * left } else { 0.0 };
+        Ok(last.has_left_domain.then_some(width))
+    }
+}
+
+#[test]
+fn a_run_ends_where_its_system_says_that_the_boundary_is_reached() {
+    for method in BOTH {
+        let tolerances = (&[1e-4][..], &[1e-4][..]);
+        let options =
+            Options { relative: tolerances.0, absolute: tolerances.1, ..Options::default() };
+        let end = run(method, &mut Aiming, (0.0, 9.0), &[0.0], &options).unwrap();
+        let End::DomainBoundary { t } = end.end else { panic!("{}", end.end) };
+        assert!(t < 1.0 && 1.0 - t <= 1e-3, "{t}");
+        assert!((end.y[0] - (1.0 - (1.0 - t) * (1.0 - t))).abs() < 1e-3, "{}", end.y[0]);
+        // Bisection alone takes some fifty.
+        assert!(end.statistics.steps + end.statistics.rejected < 20, "{:?}", end.statistics);
+    }
+}
+
 /// A slow component stays on its last number before the boundary; t and the other components would
 /// go on for ever in steps in which it does not change.
 #[test]
