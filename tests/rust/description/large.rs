@@ -23,6 +23,33 @@ fn chain(dyads: usize) -> Description {
     d.driver("crank")
 }
 
+/// Two dyads a rung, both between the two pins of the rung before: each depends on all below it, in
+/// twice as many ways a rung.
+fn ladder(rungs: usize) -> Description {
+    let mut d = Description::new().joint("O", [0.0, 0.0]).joint("A0", [0.5, 0.5]);
+    d = d.joint("B0", [0.9, 0.4]).link("ground", ["O"]).link("crank", ["O", "A0", "B0"]);
+    for k in 1..=rungs {
+        let x = 0.5 + 0.9 * k as f64;
+        let lean = 0.1 * (3.0 * x).sin();
+        for (side, at) in [("A", [x, 0.9 + lean]), ("B", [x + 0.35, lean])] {
+            let pin = format!("{side}{k}");
+            d = d.joint(&pin, at);
+            for from in ["A", "B"] {
+                let joints = [format!("{from}{}", k - 1), pin.clone()];
+                d = d.link(&format!("{from}{pin}"), joints.iter().map(String::as_str));
+            }
+        }
+    }
+    d.driver("crank")
+}
+
+#[test]
+fn dyads_may_depend_on_others_in_many_ways() {
+    // The ways are 2^60 here.
+    let m = Mechanism::new(&ladder(60)).expect("a mechanism");
+    assert_eq!(m.structure().groups.len(), 120);
+}
+
 #[test]
 fn a_chain_has_as_many_dyads_as_were_hung_on_it() {
     for dyads in [1, 10, 500] {

@@ -1,5 +1,7 @@
 //! Compiles the tape of a plan for what a request needs.
 
+use std::collections::HashMap;
+
 use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::plan::{EdgeSlide, Plan, Step};
 use super::tape::{CrankPin, DyadOp, Op, PlaceKind, PlaceOp, Tape};
@@ -80,10 +82,11 @@ impl Tape {
             uses.points[dyad.start] = true;
             uses.points[dyad.end] = true;
         }
+        let pins = CrankPin::all(plan);
         for (step, what) in plan.steps.iter().enumerate().rev() {
             match what {
                 Step::Dyad(dyad) => {
-                    let op = Op::of_dyad(plan, dyad, step, &uses, needs.samples);
+                    let op = Op::of_dyad(plan, dyad, step, &uses, needs.samples, &pins);
                     // Samples read both columns.
                     let [start, end] = if needs.samples { [true; 2] } else { op.columns() };
                     uses.points_bare[dyad.start] |= start;
@@ -163,18 +166,38 @@ impl Tape {
     }
 }
 
+/// A dyad and those before it that it depends on: a bit each, since in a long linkage most dyads
+/// depend on all before them.
+struct Dyads(Vec<u64>);
+
+impl Dyads {
+    fn one(dyad: usize) -> Self {
+        let mut bits = vec![0; dyad / 64 + 1];
+        bits[dyad / 64] = 1 << (dyad % 64);
+        Self(bits)
+    }
+
+    fn add_all(&mut self, earlier: &Self) {
+        self.0.iter_mut().zip(&earlier.0).for_each(|(own, bits)| *own |= bits);
+    }
+
+    fn contains(&self, dyad: usize) -> bool {
+        self.0.get(dyad / 64).is_some_and(|bits| bits >> (dyad % 64) & 1 == 1)
+    }
+}
+
 /// Sets the dyads that every dyad directly depends on.
 fn add_upstream(plan: &Plan, ops: &mut [Op]) {
     let mut of_point: Vec<Vec<usize>> = vec![Vec::new(); plan.points];
     let mut of_class: Vec<Option<usize>> = vec![None; plan.classes];
-    // All dyads before each, itself included.
-    let mut before: Vec<Vec<usize>> = Vec::new();
-    let last = |dyads: &mut Vec<usize>, before: &[Vec<usize>]| {
-        let all = dyads.clone();
-        dyads
-            .retain(|dyad| !all.iter().any(|other| other != dyad && before[*other].contains(dyad)));
+    let mut before: Vec<Dyads> = Vec::new();
+    let last = |dyads: &mut Vec<usize>, before: &[Dyads]| {
         dyads.sort_unstable();
         dyads.dedup();
+        let all = dyads.clone();
+        dyads.retain(|dyad| {
+            !all.iter().any(|other| other != dyad && before[*other].contains(*dyad))
+        });
     };
     for op in ops {
         match op {
@@ -187,10 +210,9 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
                 let carrier = op.carrier.and_then(|o| of_class[plan.orientations[o].class]);
                 op.upstream.extend(carrier);
                 last(&mut op.upstream, &before);
-                let mut all: Vec<usize> =
-                    op.upstream.iter().flat_map(|&dyad| before[dyad].clone()).collect();
-                all.push(op.dyad);
-                before.push(all);
+                let mut own = Dyads::one(op.dyad);
+                op.upstream.iter().for_each(|&dyad| own.add_all(&before[dyad]));
+                before.push(own);
                 if let Step::Dyad(dyad) = &plan.steps[op.step] {
                     for unknown in dyad.unknowns {
                         if let Unknown::Class(class) = unknown {
@@ -243,7 +265,14 @@ fn stands(plan: &Plan, edge: usize) -> bool {
 }
 
 impl Op {
-    fn of_dyad(plan: &Plan, dyad: &Dyad, step: usize, uses: &Uses, samples: bool) -> Self {
+    fn of_dyad(
+        plan: &Plan,
+        dyad: &Dyad,
+        step: usize,
+        uses: &Uses,
+        samples: bool,
+        pins: &HashMap<usize, CrankPin>,
+    ) -> Self {
         let turns = dyad.unknowns.map(|unknown| match unknown {
             Unknown::Class(class) => uses.classes[class],
             Unknown::Slide(_) => false,
@@ -277,7 +306,7 @@ impl Op {
             upstream: Vec::new(),
             keeps,
             is_used: !samples || slides || turns.contains(&true) || keeps.contains(&true),
-            pin: CrankPin::of(plan, dyad),
+            pin: CrankPin::of(plan, dyad, pins),
             on_ground: [dyad.start, dyad.end].map(|point| plan.fixed[point]),
             carrier: dyad.moving_guide(plan).map(|term| plan.edges[term.edge].orientation),
         };
@@ -309,17 +338,27 @@ impl Op {
 }
 
 impl CrankPin {
+    /// The pins of all cranks, by their points.
+    fn all(plan: &Plan) -> HashMap<usize, Self> {
+        let mut pins = HashMap::new();
+        for step in &plan.steps {
+            let &Step::Place { edge, backward } = step else { continue };
+            let place = PlaceOp::new(plan, edge, backward);
+            let PlaceKind::Crank { driver, conj } = place.kind else { continue };
+            if plan.fixed[place.from] {
+                let pin = Self { is_start: true, pivot: place.from, edge, backward, driver, conj };
+                pins.entry(place.to).or_insert(pin);
+            }
+        }
+        pins
+    }
+
     /// The crank's pin, if the dyad connects one to the ground.
-    fn of(plan: &Plan, dyad: &Dyad) -> Option<Self> {
+    fn of(plan: &Plan, dyad: &Dyad, pins: &HashMap<usize, Self>) -> Option<Self> {
         let is_start = plan.fixed[dyad.end];
         let (pin, ground) = if is_start { (dyad.start, dyad.end) } else { (dyad.end, dyad.start) };
-        plan.steps.iter().find_map(|step| {
-            let &Step::Place { edge, backward } = step else { return None };
-            let place = PlaceOp::new(plan, edge, backward);
-            let PlaceKind::Crank { driver, conj } = place.kind else { return None };
-            let connected = place.to == pin && plan.fixed[place.from] && plan.fixed[ground];
-            connected.then_some(Self { is_start, pivot: place.from, edge, backward, driver, conj })
-        })
+        let pin = pins.get(&pin).filter(|_| plan.fixed[ground])?;
+        Some(Self { is_start, ..*pin })
     }
 }
 
