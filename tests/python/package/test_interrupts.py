@@ -157,6 +157,8 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "limits of a chain": lambda n: _chain(n).limits,
     "extremes of a chain": lambda n: partial(_chain(n).extremes, f"rocker{n}"),
     "extremes of accelerations of a chain": lambda n: partial(_chain(n).extremes, f"rocker{n}", 2),
+    "a mechanism of many links": lambda n: partial(_built, _chain_parts(n)),
+    "a group of many links": lambda n: partial(_built, _group_parts(n)),
     "dwells of a chain": lambda n: partial(_chain(n).extremes(f"rocker{n}").dwells, 0.01),
 }
 
@@ -225,8 +227,34 @@ def _chain_parts(dyads: int) -> tuple[Any, Any]:
 
 
 def _chain(dyads: int) -> assur.Mechanism:
-    joints, links = _chain_parts(dyads)
-    return assur.Mechanism(joints, links, driver="crank")
+    return _built(_chain_parts(dyads))
+
+
+def _built(parts: tuple[Any, Any]) -> assur.Mechanism:
+    return assur.Mechanism(*parts, driver="crank")
+
+
+def _group_parts(count: int) -> tuple[Any, Any]:
+    """One group: bodies in a row, each on a leg, the first and the last on one more."""
+    joints = {"O": (0.0, 0.0), "C": (0.6, 0.5)}
+    links: dict[str, list[str]] = {"ground": ["O"], "crank": ["O", "C"]}
+    bodies = max(round(math.sqrt(count)), 3)
+    for k in range(bodies):
+        own = links[f"body{k}"] = [f"H{i}" for i in (k, k + 1) if 0 < i < bodies]
+        if k > 0:
+            joints[f"H{k}"] = (2.0 * k, 3.2 + 0.2 * math.sin(5.0 * k))
+        for i in range(1 + (k == 0) + (k == bodies - 1)):
+            x, lean = 2.0 * k + 0.8 * i, 0.1 * math.sin(3.0 * k + i)
+            pin, foot = f"P{k}{'ab'[i]}", f"G{k}{'ab'[i]}"
+            joints |= {pin: (x + 0.5 + lean, 2.5 + 0.3 * i - lean)}
+            own.append(pin)
+            if k == i == 0:
+                links["leg0"] = ["C", pin]
+            else:
+                joints[foot] = (x + 0.7 + 0.3 * lean, 0.1 + lean)
+                links["ground"].append(foot)
+                links[f"leg{foot}"] = [foot, pin]
+    return joints, links
 
 
 def _angles(count: int) -> Any:

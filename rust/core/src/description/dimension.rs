@@ -8,7 +8,7 @@ use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
 use crate::math::trig::sin_cos;
 
 /// What one dimension measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Dimension {
     /// x of a ground joint in the drawing's frame, m.

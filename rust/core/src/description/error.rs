@@ -4,6 +4,7 @@
 //! do.
 
 use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
@@ -338,6 +339,12 @@ impl Hint for StructureError {
 /// The caller cancelled the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Interrupted;
+
+/// Fails once the caller has set the flag.
+pub(crate) fn check_flag(cancel: Option<&AtomicBool>) -> Result<(), Interrupted> {
+    let stop = cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
+    if stop { Err(Interrupted) } else { Ok(()) }
+}
 
 impl From<Interrupted> for StructureError {
     fn from(_: Interrupted) -> Self {

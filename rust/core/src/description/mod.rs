@@ -213,6 +213,8 @@ pub struct Linkage {
     pub ground: usize,
     /// Signs given by the user, by inner joint or slide.
     pub assembly: Vec<(String, i8)>,
+    /// For every joint its links, in order.
+    pub(crate) links_of_joints: Vec<Vec<usize>>,
 }
 
 impl Linkage {
@@ -247,7 +249,7 @@ impl Linkage {
 
     /// The links, including the ground, that have this joint.
     pub fn links_at(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
-        (0..self.links.len()).filter(move |&l| self.links[l].joints.contains(&joint))
+        self.links_of_joints[joint].iter().copied()
     }
 
     /// Whether a link is a piston or a block: it slides, and has one joint.

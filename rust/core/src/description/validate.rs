@@ -1,6 +1,6 @@
 //! Turns a [`Description`] into a [`Linkage`]: resolves names and rejects mistakes.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::error::{Named, StructureError};
 use super::names::{mistaken_kind, suggest};
@@ -26,6 +26,12 @@ impl Linkage {
             links.iter().enumerate().map(|(i, l)| (l.name.as_str(), i)).collect();
         let ground = *link_index.get("ground").ok_or(StructureError::NoGround)?;
         let slides = resolve_slides(description, &joint_index, &link_index, &links)?;
+        let mut links_of_joints = vec![Vec::new(); joints.len()];
+        for (index, link) in links.iter().enumerate() {
+            for &joint in &link.joints {
+                links_of_joints[joint].push(index);
+            }
+        }
         let mut linkage = Self {
             joints: joints.clone(),
             links: links.clone(),
@@ -33,6 +39,7 @@ impl Linkage {
             drivers: Vec::new(),
             ground,
             assembly: Vec::new(),
+            links_of_joints,
         };
         linkage.check_joints_have_links()?;
         linkage.check_lengths()?;
@@ -181,11 +188,12 @@ fn resolve_links(
     let link_index = link_names.map(|(i, (name, _))| (name.as_str(), i)).collect();
     for (name, members) in &description.links {
         let mut joints = Vec::new();
+        let mut seen = HashSet::new();
         for member in members {
             let joint = resolve(joint_index, Named::Joint, member, &link_index, || {
                 format!("link {name:?}")
             })?;
-            if joints.contains(&joint) {
+            if !seen.insert(joint) {
                 return Err(StructureError::DoubledJoint {
                     link: name.clone(),
                     joint: member.clone(),

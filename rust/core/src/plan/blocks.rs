@@ -1,11 +1,12 @@
 //! Steps from blocks of closure equations.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, HashMap, HashSet, VecDeque};
+use std::sync::atomic::AtomicBool;
 
 use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::group::Group;
 use super::plan::{EdgeSlide, Plan, PlanEdge, Step};
-use crate::description::error::StructureError;
+use crate::description::error::{StructureError, check_flag};
 use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
 use crate::structure::assur_group::{Group as AssurGroup, roman};
@@ -17,8 +18,10 @@ pub(crate) fn add_steps(
     linkage: &Linkage,
     structure: &Structure,
     kept: &[usize],
+    cancel: Option<&AtomicBool>,
 ) -> Result<Vec<bool>, StructureError> {
     let nodes = Nodes::new(plan, linkage, structure, kept);
+    let mut tables = Tables::of(plan, structure);
     let blocks = nodes.pattern.blocks().ok_or_else(|| StructureError::OverConstrained {
         excess: 1,
         links: linkage.links.iter().map(|l| l.name.clone()).collect(),
@@ -31,18 +34,19 @@ pub(crate) fn add_steps(
         }
     }
     for block in &blocks {
+        check_flag(cancel)?;
         let mut edges: Vec<usize> = block.equations.iter().map(|&e| kept[e]).collect();
         let mut unknowns: Vec<Unknown> =
             block.unknowns.iter().filter_map(|&u| nodes.unknown(u)).collect();
         match unknowns.len() {
             0 => {}
             2 => {
-                let dyad = dyad(plan, (linkage, structure), &mut edges, &mut unknowns, &known);
+                let dyad = dyad(plan, linkage, &mut tables, &mut edges, &mut unknowns, &known);
                 plan.steps.push(Step::Dyad(dyad));
             }
             _ => {
                 let links = plan_links(linkage, &plan.edges, &edges);
-                let own = owner(plan, structure, &unknowns);
+                let own = tables.owner(&unknowns);
                 let name = own.map_or_else(
                     || named(linkage, 3, &links),
                     |g| named(linkage, g.class, &g.links),
@@ -107,20 +111,59 @@ fn plan_links(linkage: &Linkage, edges: &[PlanEdge], of: &[usize]) -> Vec<usize>
     links
 }
 
-/// The Assur group that some unknowns belong to: a slide is a pair of one group, an angle is that of links
-/// of the first group in solving order that has it, and known to those after.
-fn owner<'s>(
-    plan: &Plan,
-    structure: &'s Structure,
-    unknowns: &[Unknown],
-) -> Option<&'s AssurGroup> {
-    let groups = &structure.groups;
-    let of_slide = unknowns.iter().find_map(|&unknown| match unknown {
-        Unknown::Slide(slide) => groups.iter().find(|group| group.slides.contains(&slide)),
-        Unknown::Class(_) => None,
-    });
-    let turns = |&link: &usize| unknowns.contains(&Unknown::Class(plan.rotation[link].class));
-    of_slide.or_else(|| groups.iter().find(|group| group.links.iter().any(turns)))
+/// What is looked up for every block.
+struct Tables<'s> {
+    groups: &'s [AssurGroup],
+    /// The first group in solving order that has each slide, and each class.
+    of_slide: HashMap<usize, usize>,
+    of_class: HashMap<usize, usize>,
+    /// The orientations of every class, in order.
+    orientations: Vec<Vec<usize>>,
+    /// Names of the dyads so far, and their number.
+    names: HashSet<String>,
+    dyads: usize,
+}
+
+impl<'s> Tables<'s> {
+    fn of(plan: &Plan, structure: &'s Structure) -> Self {
+        let (mut of_slide, mut of_class) = (HashMap::new(), HashMap::new());
+        for (index, group) in structure.groups.iter().enumerate() {
+            for &slide in &group.slides {
+                of_slide.entry(slide).or_insert(index);
+            }
+            for &link in &group.links {
+                of_class.entry(plan.rotation[link].class).or_insert(index);
+            }
+        }
+        let mut orientations = vec![Vec::new(); plan.classes];
+        for (index, orientation) in plan.orientations.iter().enumerate() {
+            orientations[orientation.class].push(index);
+        }
+        let groups = &structure.groups;
+        Self { groups, of_slide, of_class, orientations, names: HashSet::new(), dyads: 0 }
+    }
+
+    /// The Assur group that some unknowns belong to: a slide is a pair of one group, an angle is that of
+    /// links of the first group in solving order that has it, and known to those after.
+    fn owner(&self, unknowns: &[Unknown]) -> Option<&'s AssurGroup> {
+        let of_slide = unknowns.iter().find_map(|unknown| match unknown {
+            Unknown::Slide(slide) => self.of_slide.get(slide),
+            Unknown::Class(_) => None,
+        });
+        let classes = unknowns.iter().filter_map(|unknown| match unknown {
+            Unknown::Class(class) => self.of_class.get(class),
+            Unknown::Slide(_) => None,
+        });
+        of_slide.or_else(|| classes.min()).map(|&group| &self.groups[group])
+    }
+
+    /// The orientations that turn with an unknown.
+    fn turning(&self, unknown: Unknown) -> Vec<usize> {
+        match unknown {
+            Unknown::Class(class) => self.orientations[class].clone(),
+            Unknown::Slide(_) => Vec::new(),
+        }
+    }
 }
 
 /// Class and links of a group, for messages.
@@ -140,6 +183,7 @@ impl Nodes {
         let mut nodes = Self { pattern: Pattern::default(), unknowns: Vec::new() };
         let mut point = vec![None; plan.points];
         let mut class = vec![None; plan.classes];
+        let keeps = structure.redundant.keeps(linkage);
         for &e in kept {
             for p in [plan.edges[e].edge.from, plan.edges[e].edge.to] {
                 if !plan.fixed[p] && point[p].is_none() {
@@ -149,7 +193,7 @@ impl Nodes {
         }
         for (l, &orientation) in plan.link_orientation.iter().enumerate() {
             let c = plan.orientations[orientation].class;
-            let is_kept = !structure.redundant.links.contains(&l) && l != linkage.ground;
+            let is_kept = keeps[l] && l != linkage.ground;
             if c != 0 && is_kept && class[c].is_none() {
                 class[c] = Some(nodes.add(1, Some(Unknown::Class(c))));
             }
@@ -207,15 +251,18 @@ fn place_points(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
 /// the points).
 fn dyad(
     plan: &mut Plan,
-    (linkage, structure): (&Linkage, &Structure),
+    linkage: &Linkage,
+    tables: &mut Tables<'_>,
     edges: &mut Vec<usize>,
     unknowns: &mut [Unknown],
     known: &[bool],
 ) -> Dyad {
     // Breadth-first paths from the known points; the remaining edge closes the loop.
-    let mut path: Vec<Option<Vec<(usize, bool)>>> =
-        known.iter().map(|&k| k.then(Vec::new)).collect();
-    let mut queue: VecDeque<usize> = (0..known.len()).filter(|&p| known[p]).collect();
+    let ends: BTreeSet<usize> =
+        edges.iter().flat_map(|&edge| plan.edges[edge].ends(false)).collect();
+    let mut queue: VecDeque<usize> = ends.into_iter().filter(|&point| known[point]).collect();
+    let mut path: HashMap<usize, Vec<(usize, bool)>> =
+        queue.iter().map(|&point| (point, Vec::new())).collect();
     let mut closing = None;
     let mut used = vec![false; edges.len()];
     while let Some(here) = queue.pop_front() {
@@ -230,11 +277,11 @@ fn dyad(
                 continue;
             }
             used[i] = true;
-            let mut extended = path[here].clone().unwrap_or_default();
+            let mut extended = path.get(&here).cloned().unwrap_or_default();
             extended.push((edge, backward));
-            match &path[next] {
+            match path.get(&next) {
                 None => {
-                    path[next] = Some(extended);
+                    path.insert(next, extended);
                     queue.push_back(next);
                 }
                 Some(other) => closing = Some((i, extended, other.clone())),
@@ -274,27 +321,26 @@ fn dyad(
             |&l: &usize| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l);
         let moving: Vec<usize> = links.into_iter().filter(moves).collect();
         let names: Vec<&str> = moving.iter().map(|&l| linkage.links[l].name.as_str()).collect();
-        let own = owner(plan, structure, &unknowns);
+        let own = tables.owner(&unknowns);
         let group =
             own.map_or_else(|| named(linkage, 2, &moving), |g| named(linkage, g.class, &g.links));
         (name, names.join("-"), group)
     });
     let sign = sign.map(|(name, links, group)| {
         // Loops through links with driven angles may share their inner joint.
-        let name = if plan.dyad_names.contains(&name) { links.clone() } else { name };
+        let name = if tables.names.contains(&name) { links.clone() } else { name };
+        tables.names.insert(name.clone());
         plan.dyad_names.push(name);
         plan.dyad_links.push(links);
         plan.dyad_groups.push(group);
         plan.dyad_names.len() - 1
     });
-    let orientations = unknowns.map(|unknown| {
-        let with = |o: &usize| unknown == Unknown::Class(plan.orientations[*o].class);
-        (0..plan.orientations.len()).filter(with).collect()
-    });
+    let orientations = unknowns.map(|unknown| tables.turning(unknown));
     let (path, leg) = loop_terms(plan, loop_path, unknowns);
     let others =
         path.iter().copied().filter(|term| !term.in_leg || term.slides.is_some()).collect();
-    let index = plan.dyads().count();
+    let index = tables.dyads;
+    tables.dyads += 1;
     let rrr_classes = match unknowns {
         [Unknown::Class(a), Unknown::Class(b)] if path.iter().all(|term| term.in_leg) => {
             Some([a, b])

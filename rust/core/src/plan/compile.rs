@@ -1,14 +1,17 @@
 //! Compiles a linkage and its structure to a plan.
 
+use std::collections::HashMap;
+use std::sync::atomic::AtomicBool;
+
 use super::blocks::add_steps;
 use super::dyad::{Form, Unknown};
-use super::group::{BinaryLoops, Group};
+use super::group::BinaryLoops;
 use super::leg::LegEdges;
 use super::pair_span::PairSpans;
 use super::plan::{EdgeSlide, LegEdge, Orientation, Plan, PlanEdge, Step};
 use super::redundant;
 use super::tape::Tape;
-use crate::description::error::StructureError;
+use crate::description::error::{StructureError, check_flag};
 use crate::description::{Driver, Linkage};
 use crate::structure::Structure;
 use crate::structure::closure::{Closure, Span, rotations};
@@ -23,14 +26,17 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// Only those that [`Structure::of`] has returned before.
+    /// [`StructureError::Interrupted`] once `cancel` is true; others only if [`Structure::of`] has
+    /// returned them before.
     pub(crate) fn new(
         linkage: &Linkage,
         closure: &Closure,
         structure: &Structure,
+        cancel: Option<&AtomicBool>,
     ) -> Result<Self, StructureError> {
         let (rotation, classes) = rotations(linkage, &structure.redundant, true)?;
         let mut orientations: Vec<Orientation> = Vec::new();
+        let mut index_of = HashMap::new();
         let mut link_orientation = Vec::new();
         for r in &rotation {
             let driven = r.turns.iter().any(|&t| t != 0);
@@ -41,7 +47,8 @@ impl Plan {
             };
             let orientation =
                 Orientation { class: r.class, turns: r.turns.clone(), driven, single_driver };
-            let index = orientations.iter().position(|o| *o == orientation).unwrap_or_else(|| {
+            // Class and multiples decide the rest.
+            let index = *index_of.entry((r.class, &r.turns)).or_insert_with(|| {
                 orientations.push(orientation);
                 orientations.len() - 1
             });
@@ -98,11 +105,12 @@ impl Plan {
             tracing_tape: Tape::default(),
         };
         let kept: Vec<usize> = closure.kept(linkage, &structure.redundant).collect();
-        let placed = add_steps(&mut plan, linkage, structure, &kept)?;
+        let placed = add_steps(&mut plan, linkage, structure, &kept, cancel)?;
         redundant::add_redundant(&mut plan, linkage, closure, structure, placed);
         if plan.redundant_links().next().is_some() {
             plan.pairs = PairSpans::of(linkage, closure);
         }
+        check_flag(cancel)?;
         plan.mark_legs();
         plan.leg_edges = LegEdges::of(plan.dyads());
         plan.may_change = vec![true; plan.signs()];
@@ -142,7 +150,8 @@ impl Plan {
             edge.on_leg = if driven { None } else { on_leg[edge.class] };
         }
         let mut used = vec![false; self.orientations.len()];
-        let mut bars = Vec::new();
+        // Edges that need no orientation: bars, and arms of groups.
+        let mut without = vec![false; self.edges.len()];
         let mut first = 2 * self.dyads().count();
         for step in &mut self.steps {
             let Step::Group(group) = step else { continue };
@@ -165,9 +174,9 @@ impl Plan {
                     let leg = group.first_leg + index;
                     found.push((edge.edge, LegEdge { index: leg, backward: false }));
                 }
-                if edge.is_bar {
-                    bars.push(edge.edge);
-                } else if !self.is_arm(group, index) {
+                let is_arm = self.is_arm(group, index);
+                without[edge.edge] |= edge.is_bar || is_arm;
+                if !edge.is_bar && !is_arm {
                     used[self.edges[edge.edge].orientation] = true;
                 }
             }
@@ -176,11 +185,7 @@ impl Plan {
             self.edges[edge].leg = Some(leg);
         }
         for (index, edge) in self.edges.iter().enumerate() {
-            let is_arm = |group: &Group| {
-                (0..group.edges.len())
-                    .any(|i| group.edges[i].edge == index && self.is_arm(group, i))
-            };
-            if edge.leg.is_none() && !bars.contains(&index) && !self.groups().any(is_arm) {
+            if edge.leg.is_none() && !without[index] {
                 used[edge.orientation] = true;
             }
         }

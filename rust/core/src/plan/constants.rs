@@ -1,5 +1,7 @@
 //! The constant vectors of one design.
 
+use std::collections::HashMap;
+
 use super::binary_links::LoopVectors;
 use super::curvature::curvature;
 use super::dyad_constants::DyadConstants;
@@ -113,7 +115,9 @@ impl DimensionMap {
         closure: &Closure,
         dimensions: &Dimensions,
     ) -> Self {
-        let find = |dimension: Dimension| dimensions.iter().position(|(_, d)| d == dimension);
+        let index_of: HashMap<Dimension, usize> =
+            dimensions.iter().enumerate().map(|(index, (_, d))| (d, index)).collect();
+        let find = |dimension: Dimension| index_of.get(&dimension).copied();
         let on_ground =
             |joint| [find(Dimension::GroundX { joint }), find(Dimension::GroundY { joint })];
         let in_link = |link: usize, joint: usize| match linkage.links[link]

@@ -1,5 +1,6 @@
 //! The compiled mechanism: description, structure, plan, assembly of the drawing.
 
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
@@ -8,7 +9,7 @@ use super::dyad::{Dyad, Form};
 use super::plan::Plan;
 use super::work_spaces::PlanNumber;
 use crate::description::dimension::Dimensions;
-use crate::description::error::{Named, SolveError, StructureError};
+use crate::description::error::{Named, SolveError, StructureError, check_flag};
 use crate::description::names::{mistaken_kind, suggest};
 use crate::description::{Description, Driver, Linkage};
 use crate::math::tolerance::FLAT_SINE;
@@ -76,7 +77,8 @@ impl Mechanism {
         let closure = Closure::of(&linkage);
         let Fitted { linkage, structure, change } = fitted(linkage, &closure, None, cancel)?;
         let adjustment = change.length;
-        let plan = Plan::new(&linkage, &closure, &structure)?;
+        let plan = Plan::new(&linkage, &closure, &structure, cancel)?;
+        check_flag(cancel)?;
         let dimensions = Dimensions::of(&linkage);
         let drawing = dimensions.of_drawing(&linkage);
         let q0: Vec<f64> = linkage.drivers.iter().map(|&d| linkage.drawing_coordinate(d)).collect();
@@ -172,9 +174,8 @@ impl Mechanism {
     /// The slides among them whose values are lengths: their sign is +1 always.
     #[must_use]
     pub fn lengths(&self) -> Vec<&str> {
-        let names = self.plan.dyad_names.iter().enumerate();
-        let lengths = names.filter(|&(sign, _)| self.plan.is_length(sign));
-        lengths.map(|(_, name)| name.as_str()).collect()
+        let dyads = self.plan.dyads().filter(|dyad| dyad.is_length);
+        dyads.filter_map(|dyad| dyad.sign).map(|sign| self.plan.dyad_names[sign].as_str()).collect()
     }
 
     /// Assembly of the drawing: +1 or −1 for every dyad that has two solutions.
@@ -266,8 +267,9 @@ pub(super) fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
 
 /// Assembly signs of the drawing, unless the user gives them by name.
 pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureError> {
+    let known: HashSet<&String> = plan.dyad_names.iter().collect();
     for (name, _) in &linkage.assembly {
-        if !plan.dyad_names.contains(name) {
+        if !known.contains(name) {
             return Err(StructureError::Unknown {
                 kind: Named::Dyad,
                 name: name.clone(),
@@ -276,19 +278,22 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
             });
         }
     }
+    // Of a name given twice the last counts.
+    let given: HashMap<&str, i8> =
+        linkage.assembly.iter().map(|(name, sign)| (name.as_str(), *sign)).collect();
     let mut signs = vec![1; plan.signs()];
     for dyad in plan.dyads() {
         let Some(sign) = dyad.sign else { continue };
         let name = &plan.dyad_names[sign];
-        let named = linkage.assembly.iter().rev().find(|(n, _)| n == name);
+        let named = given.get(name.as_str()).copied();
         let sine = drawn_sine(linkage, plan, dyad);
         signs[sign] = match named {
-            Some((_, -1)) if dyad.is_length => {
+            Some(-1) if dyad.is_length => {
                 let slide = linkage.slides.iter().position(|slide| slide.name == *name);
                 let value = slide.map_or(f64::NAN, |slide| -linkage.drawing_slide(slide).0);
                 return Err(StructureError::NoLength { slide: name.clone(), value });
             }
-            Some((_, chosen)) => *chosen,
+            Some(chosen) => chosen,
             None if sine.abs() >= FLAT_SINE => {
                 if sine > 0.0 {
                     1

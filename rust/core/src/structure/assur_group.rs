@@ -6,10 +6,12 @@
 //! Artobolevsky 1975).
 
 use std::collections::BTreeSet;
+use std::sync::atomic::AtomicBool;
 
 use super::closure::LeftOut;
 use super::contour::minimum_cycle_basis;
 use super::matching::{Block, Pattern};
+use crate::description::error::{Interrupted, check_flag};
 use crate::description::{Driver, Linkage};
 
 /// One Assur group.
@@ -92,6 +94,55 @@ impl<'a> Bodies<'a> {
     }
 }
 
+/// What is on each body without what is left out, in the description's order.
+struct Parts {
+    links: Vec<Vec<usize>>,
+    /// Joints of bodies that move.
+    joints: Vec<Vec<usize>>,
+    /// Slides that are not driven.
+    slides: Vec<Vec<usize>>,
+    /// For every joint the bodies that move, and whether it is fixed.
+    bodies_at: Vec<(BTreeSet<usize>, bool)>,
+}
+
+impl Parts {
+    fn of(bodies: &Bodies<'_>, left_out: &LeftOut) -> Self {
+        let linkage = bodies.linkage;
+        let none = || vec![Vec::new(); linkage.links.len()];
+        let mut parts =
+            Self { links: none(), joints: none(), slides: none(), bodies_at: Vec::new() };
+        let is_kept = left_out.keeps(linkage);
+        for link in (0..linkage.links.len()).filter(|&link| is_kept[link]) {
+            parts.links[bodies.of_link[link]].push(link);
+        }
+        for joint in 0..linkage.joints.len() {
+            let on: Vec<usize> = linkage.links_at(joint).filter(|&link| is_kept[link]).collect();
+            let moves = |link: &usize| !bodies.on_ground(*link);
+            let moving: BTreeSet<usize> =
+                on.iter().copied().filter(moves).map(|link| bodies.of_link[link]).collect();
+            for &body in &moving {
+                parts.joints[body].push(joint);
+            }
+            parts.bodies_at.push((moving, !on.iter().all(moves)));
+        }
+        for (index, slide) in linkage.slides.iter().enumerate() {
+            let is_driven = linkage.drivers.contains(&Driver::Slide(index));
+            if !is_driven && !left_out.has_slide(linkage, index) {
+                let ends = [slide.link, slide.on].map(|link| bodies.of_link[link]);
+                for body in BTreeSet::from(ends) {
+                    parts.slides[body].push(index);
+                }
+            }
+        }
+        parts
+    }
+}
+
+/// All of these lists of some bodies, without repetition and in order.
+fn of_bodies(lists: &[Vec<usize>], bodies: &[usize]) -> BTreeSet<usize> {
+    bodies.iter().flat_map(|&body| &lists[body]).copied().collect()
+}
+
 /// What an unknown of the pattern stands for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Node {
@@ -101,35 +152,35 @@ enum Node {
 
 /// The groups of a linkage without its redundant links. `None` if the pattern of the equations is
 /// not structurally square and regular (the caller has checked their rank).
-#[must_use]
-pub(crate) fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>> {
+///
+/// # Errors
+///
+/// [`Interrupted`] once `cancel` is true.
+pub(crate) fn groups(
+    linkage: &Linkage,
+    left_out: &LeftOut,
+    cancel: Option<&AtomicBool>,
+) -> Result<Option<Vec<Group>>, Interrupted> {
     let bodies = Bodies::new(linkage);
-    let kept: Vec<usize> =
-        (0..linkage.links.len()).filter(|l| !left_out.links.contains(l)).collect();
+    let parts = Parts::of(&bodies, left_out);
     let mut pattern = Pattern::default();
     let mut nodes: Vec<Node> = Vec::new();
     let mut body_node = vec![None; linkage.links.len()];
-    for &l in &kept {
-        if bodies.of_link[l] == l && !bodies.on_ground(l) {
+    for (l, links) in parts.links.iter().enumerate() {
+        if bodies.of_link[l] == l && !bodies.on_ground(l) && links.contains(&l) {
             body_node[l] = Some(pattern.add_unknown(3));
             nodes.push(Node::Body(l));
         }
     }
     let node_of = |l: usize| body_node[bodies.of_link[l]];
-    let mut bodies_at: Vec<(BTreeSet<usize>, bool)> = Vec::new();
     let mut joint_node = vec![None; linkage.joints.len()];
-    for j in 0..linkage.joints.len() {
-        let on: Vec<usize> = linkage.links_at(j).filter(|l| kept.contains(l)).collect();
-        let grounded = on.iter().any(|&l| bodies.on_ground(l));
-        let moving: BTreeSet<usize> =
-            on.iter().filter(|&&l| !bodies.on_ground(l)).map(|&l| bodies.of_link[l]).collect();
+    for (j, (moving, grounded)) in parts.bodies_at.iter().enumerate() {
         if !grounded && !moving.is_empty() {
             joint_node[j] = Some(pattern.add_unknown(2));
             nodes.push(Node::Joint(j));
         }
-        bodies_at.push((moving, grounded));
     }
-    for (j, (moving, _)) in bodies_at.iter().enumerate() {
+    for (j, (moving, _)) in parts.bodies_at.iter().enumerate() {
         for &body in moving {
             pattern.add_equation(2, body_node[body].into_iter().chain(joint_node[j]).collect());
         }
@@ -146,17 +197,18 @@ pub(crate) fn groups(linkage: &Linkage, left_out: &LeftOut) -> Option<Vec<Group>
     for &(a, b) in &bodies.locked_angles {
         pattern.add_equation(1, node_of(a).into_iter().chain(node_of(b)).collect());
     }
-    let blocks = pattern.blocks()?;
+    let Some(blocks) = pattern.blocks() else { return Ok(None) };
     let mut groups = Vec::new();
     let mut solved: BTreeSet<usize> = BTreeSet::from([bodies.of_link[linkage.ground]]);
     for block in &blocks {
+        check_flag(cancel)?;
         let members = Members::of(block, &nodes, &bodies, &solved);
         solved.extend(members.bodies.iter().chain(&members.point_bodies));
         if !members.bodies.is_empty() {
-            groups.push(members.group(&bodies, left_out, &bodies_at, &solved));
+            groups.push(members.group(&bodies, &parts, &solved, cancel)?);
         }
     }
-    Some(groups)
+    Ok(Some(groups))
 }
 
 /// Bodies and joints that one block determines.
@@ -190,30 +242,29 @@ impl Members {
     fn group(
         &self,
         bodies: &Bodies<'_>,
-        left_out: &LeftOut,
-        bodies_at: &[(BTreeSet<usize>, bool)],
+        parts: &Parts,
         solved: &BTreeSet<usize>,
-    ) -> Group {
+        cancel: Option<&AtomicBool>,
+    ) -> Result<Group, Interrupted> {
         let linkage = bodies.linkage;
         // All joints of a point body count as one pair.
         let pair_element = |joint: usize| {
-            let holder = self.point_bodies.iter().position(|p| bodies_at[joint].0.contains(p));
+            let holder =
+                self.point_bodies.iter().position(|p| parts.bodies_at[joint].0.contains(p));
             holder.map_or(joint, |p| linkage.joints.len() + p)
         };
         let mut inner: Vec<(usize, BTreeSet<usize>)> = Vec::new();
         let mut outer: Vec<(usize, char)> = Vec::new();
         let (mut joints, mut slides) = (Vec::new(), Vec::new());
-        for (j, (on, grounded)) in bodies_at.iter().enumerate() {
+        for j in of_bodies(&parts.joints, &self.bodies) {
+            let (on, grounded) = &parts.bodies_at[j];
             let members: Vec<usize> =
                 self.bodies.iter().copied().filter(|b| on.contains(b)).collect();
             let is_inner = self.joints.contains(&j);
             let others = on.iter().any(|b| self.point_bodies.contains(b));
             let solved_before = |b: &usize| solved.contains(b) && !self.bodies.contains(b);
             let is_outer = *grounded || on.iter().any(solved_before);
-            if members.is_empty()
-                || (is_inner && members.len() < 2 && !others)
-                || !(is_inner || is_outer)
-            {
+            if (is_inner && members.len() < 2 && !others) || !(is_inner || is_outer) {
                 continue;
             }
             joints.push(j);
@@ -229,10 +280,8 @@ impl Members {
         }
         let mut inner: Vec<(char, BTreeSet<usize>)> =
             inner.into_iter().map(|(_, s)| ('R', s)).collect();
-        for (s, slide) in linkage.slides.iter().enumerate() {
-            if left_out.has_slide(linkage, s) || linkage.drivers.contains(&Driver::Slide(s)) {
-                continue;
-            }
+        for s in of_bodies(&parts.slides, &self.bodies) {
+            let slide = &linkage.slides[s];
             let (a, b) = (bodies.of_link[slide.link], bodies.of_link[slide.on]);
             match (self.bodies.contains(&a), self.bodies.contains(&b)) {
                 (true, true) => inner.push(('P', BTreeSet::from([a, b]))),
@@ -250,33 +299,33 @@ impl Members {
         let contours: Vec<BTreeSet<usize>> = (inner.iter().map(|(_, set)| set.clone()))
             .chain(locked_pairs.filter(|set| set.iter().all(|b| self.bodies.contains(b))))
             .collect();
-        let mut links: Vec<usize> = (0..linkage.links.len())
-            .filter(|&l| !left_out.links.contains(&l) && self.bodies.contains(&bodies.of_link[l]))
-            .collect();
-        links.sort_unstable();
-        Group {
-            class: self.class(&contours),
+        Ok(Group {
+            class: self.class(&contours, cancel)?,
             order: outer.len(),
             kind: self.kind(&inner, &outer),
-            links,
+            links: of_bodies(&parts.links, &self.bodies).into_iter().collect(),
             joints,
             slides,
-        }
+        })
     }
 
-    fn class(&self, inner: &[BTreeSet<usize>]) -> usize {
+    fn class(
+        &self,
+        inner: &[BTreeSet<usize>],
+        cancel: Option<&AtomicBool>,
+    ) -> Result<usize, Interrupted> {
         if self.bodies.len() <= 2 {
-            return 2;
+            return Ok(2);
         }
         let node = |b: usize| self.bodies.iter().position(|&x| x == b);
         let mut edges = Vec::new();
         for (e, set) in inner.iter().enumerate() {
             edges.extend(set.iter().filter_map(|&b| node(b)).map(|b| (b, self.bodies.len() + e)));
         }
-        let contours = minimum_cycle_basis(self.bodies.len() + inner.len(), &edges);
+        let contours = minimum_cycle_basis(self.bodies.len() + inner.len(), &edges, cancel)?;
         let longest = contours.into_iter().map(|length| length / 2).max().unwrap_or(0);
         // With more than two links, at least one has three pairs: class III or above.
-        longest.max(3)
+        Ok(longest.max(3))
     }
 
     fn kind(

@@ -81,6 +81,15 @@ impl LeftOut {
         self.links.is_empty() && self.slides.is_empty()
     }
 
+    /// Whether each link stays.
+    pub(crate) fn keeps(&self, linkage: &Linkage) -> Vec<bool> {
+        let mut keeps = vec![true; linkage.links.len()];
+        for &link in &self.links {
+            keeps[link] = false;
+        }
+        keeps
+    }
+
     /// Whether a slide, or one of its links, is left out.
     #[must_use]
     pub fn has_slide(&self, linkage: &Linkage, slide: usize) -> bool {
@@ -100,6 +109,8 @@ pub struct Closure {
     pub edges: Vec<Edge>,
     /// Whether a point is fixed to the ground.
     pub fixed: Vec<bool>,
+    /// Whether a point is an end of a guide's edge.
+    guided: Vec<bool>,
 }
 
 /// Index of a joint among the points.
@@ -152,7 +163,12 @@ impl Closure {
             let from = s.origin.map_or(reference[s.on], point_of_joint);
             edges.push(Edge { from, to, link: s.on, span: Span::Guide { slide } });
         }
-        Self { points, reference, edges, fixed }
+        let mut guided = vec![false; points];
+        for edge in edges.iter().filter(|edge| edge.slide().is_some()) {
+            guided[edge.from] = true;
+            guided[edge.to] = true;
+        }
+        Self { points, reference, edges, fixed, guided }
     }
 
     /// Whether the end of an edge is a pair. If not (a coupler point), the edge
@@ -168,9 +184,7 @@ impl Closure {
     /// Whether a joint connects several links or is an end of a guide's edge.
     #[must_use]
     pub fn is_pair(&self, linkage: &Linkage, joint: usize) -> bool {
-        let point = point_of_joint(joint);
-        let mut guides = self.edges.iter().filter(|e| e.slide().is_some());
-        linkage.links_at(joint).nth(1).is_some() || guides.any(|e| e.from == point || e.to == point)
+        linkage.links_at(joint).nth(1).is_some() || self.guided[point_of_joint(joint)]
     }
 
     /// The edges that are not left out.

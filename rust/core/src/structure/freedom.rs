@@ -7,15 +7,13 @@
 //! the null space, Gauss-Newton back onto the closure, and the rank there. A shaky
 //! structure does not move: its mobility is 0.
 
-use std::sync::atomic::Ordering;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::rank;
 use super::rank::Rank;
 use super::skeleton::Skeleton;
 use super::system::{ClosureUnknown, SkeletonPose, System};
-use crate::description::error::Interrupted;
+use crate::description::error::{Interrupted, check_flag};
 use crate::math::tolerance::{NEARLY_DEPENDENT, RANK, REGULAR_CLOSURE, TRUNCATED};
 
 impl Skeleton<'_> {
@@ -53,8 +51,7 @@ impl Skeleton<'_> {
     }
 
     fn check_cancelled(&self) -> Result<(), Interrupted> {
-        let stop = self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed));
-        if stop { Err(Interrupted) } else { Ok(()) }
+        check_flag(self.cancel)
     }
 
     /// Poses displaced from the drawing along its null space in pseudo-random directions, in

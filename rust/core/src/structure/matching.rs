@@ -63,12 +63,13 @@ impl Pattern {
             return None;
         }
         let mut matched_equations: Vec<Vec<usize>> = vec![Vec::new(); self.unknown_size.len()];
+        let mut met = Met::new(self.unknown_size.len());
         for equation in 0..self.unknowns_in.len() {
             for _ in 0..self.equation_size[equation] {
-                let mut seen = vec![false; self.unknown_size.len()];
-                if !self.augment(equation, &mut matched_equations, &mut seen) {
+                if !self.augment(equation, &mut matched_equations, &mut met) {
                     return None;
                 }
+                met.forget();
             }
         }
         let mut matched_unknowns = vec![Vec::new(); self.unknowns_in.len()];
@@ -86,16 +87,19 @@ impl Pattern {
         &self,
         equation: usize,
         matched_equations: &mut [Vec<usize>],
-        seen: &mut [bool],
+        met: &mut Met,
     ) -> bool {
         /// An equation on the path: it tries to match its unknown number `trial`, from which its
-        /// partner number `slot` would have to move.
+        /// partner number `slot` would have to move. `reached`: the first unknown met that can be
+        /// reached from there.
         struct Search {
             equation: usize,
             trial: usize,
             slot: usize,
+            reached: usize,
         }
-        let mut path = vec![Search { equation, trial: 0, slot: 0 }];
+        let start = |equation| Search { equation, trial: 0, slot: 0, reached: usize::MAX };
+        let mut path = vec![start(equation)];
         while let Some(top) = path.last_mut() {
             let Some(&unknown) = self.unknowns_in[top.equation].get(top.trial) else {
                 path.pop();
@@ -105,11 +109,14 @@ impl Pattern {
                 continue;
             };
             if top.slot == 0 {
-                if seen[unknown] {
+                if let Some(number) = met.number[unknown] {
                     top.trial += 1;
+                    if let [.., previous, _] = &mut path[..] {
+                        previous.reached = previous.reached.min(number);
+                    }
                     continue;
                 }
-                seen[unknown] = true;
+                top.reached = met.add(unknown);
                 if matched_equations[unknown].len() < self.unknown_size[unknown] {
                     matched_equations[unknown].push(top.equation);
                     path.pop();
@@ -121,9 +128,15 @@ impl Pattern {
                 }
             }
             if let Some(&equation) = matched_equations[unknown].get(top.slot) {
-                path.push(Search { equation, trial: 0, slot: 0 });
+                path.push(start(equation));
             } else {
+                let reached = top.reached;
                 (top.trial, top.slot) = (top.trial + 1, 0);
+                if met.number[unknown] == Some(reached) {
+                    met.close(reached);
+                } else if let [.., previous, _] = &mut path[..] {
+                    previous.reached = previous.reached.min(reached);
+                }
             }
         }
         false
@@ -154,6 +167,44 @@ impl Pattern {
             }
         }
         tarjan.component
+    }
+}
+
+/// What the search for an augmenting path has met.
+///
+/// Where it comes back from unknowns whose partners lead to no others (a component that is closed, as in
+/// Tarjan's algorithm), no later path gets through them either: it need not try. Without this it would go
+/// back over the whole linkage for each equation.
+struct Met {
+    /// For each unknown its place in `order`; beyond all places once it is closed.
+    number: Vec<Option<usize>>,
+    /// The unknowns met by this search and not closed.
+    order: Vec<usize>,
+}
+
+impl Met {
+    fn new(unknowns: usize) -> Self {
+        Self { number: vec![None; unknowns], order: Vec::new() }
+    }
+
+    fn add(&mut self, unknown: usize) -> usize {
+        self.number[unknown] = Some(self.order.len());
+        self.order.push(unknown);
+        self.order.len() - 1
+    }
+
+    /// Closes the unknowns met from this place on.
+    fn close(&mut self, from: usize) {
+        for unknown in self.order.drain(from..) {
+            self.number[unknown] = Some(usize::MAX);
+        }
+    }
+
+    /// Ends the search.
+    fn forget(&mut self) {
+        for unknown in self.order.drain(..) {
+            self.number[unknown] = None;
+        }
     }
 }
 

@@ -146,7 +146,7 @@ impl Structure {
             let links = skeleton.stressed_names(&system, &rank.stresses);
             return Err(StructureError::OverConstrained { excess, links });
         }
-        let groups = assur_group::groups(linkage, &redundant).ok_or_else(|| {
+        let groups = assur_group::groups(linkage, &redundant, cancel)?.ok_or_else(|| {
             StructureError::OverConstrained {
                 excess: rank.excess,
                 links: linkage.links.iter().map(|link| link.name.clone()).collect(),
