@@ -224,12 +224,14 @@ def _jumps(machine: Machine, knots: list[float], cycle: float) -> list[bool]:
 def _knots(machine: Machine, cycle: float) -> list[float]:
     """Return the coordinates of a cycle at which loads are not smooth, its ends included."""
     found = {0.0, cycle, *stations_between(machine, 0.0, cycle)}
-    for rows, periodic in machine._core.tables:
-        first, period = rows[0], rows[-1] - rows[0]
+    tables = zip(machine._core.tables, machine._core.rows, strict=True)
+    for ((first, last), periodic), rows in tables:
+        period = last - first
         require_whole_periods(period if periodic else None, cycle)
+        own = rows[: MAX_KNOTS + 1].tolist()
         steps = range(math.floor(-first / period) - 1, math.ceil((cycle - first) / period) + 1)
         for shift in steps:
-            found |= {q + shift * period for q in rows}
+            found |= {q + shift * period for q in own}
             if len(found) > MAX_KNOTS:
                 message = f"a table's period of {period:g} rad has too many knots in a cycle"
                 raise InputError(message, value=period)

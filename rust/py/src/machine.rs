@@ -19,7 +19,7 @@ use crate::convert::event::event;
 use crate::convert::friction::PairFriction;
 use crate::convert::load::loads;
 use crate::convert::motor::motors;
-use crate::convert::value::Values;
+use crate::convert::value::{FEW_ROWS, Values};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::mechanism::Mechanism;
@@ -129,6 +129,7 @@ impl Machine {
     /// A machine given by tables of inertia and moment over the angle.
     #[staticmethod]
     fn from_table(
+        py: Python<'_>,
         phi: Flat<'_>,
         moment: Flat<'_>,
         inertia: Flat<'_>,
@@ -138,9 +139,10 @@ impl Machine {
     ) -> PyResult<Self> {
         catch_panic(|| {
             let [phi, moment, inertia] = [phi, moment, inertia].map(|a| a.as_array().to_vec());
-            let tables = TabulatedMachine::reduced(&phi, [&inertia, &moment], spline.0, periodic)
-                .map_err(|error| error_map::table(&error, "", None))?
-                .to_vec();
+            let tables = detach::run(py, phi.len() < FEW_ROWS, |cancel| {
+                TabulatedMachine::reduced(&phi, [&inertia, &moment], spline.0, periodic, cancel)
+            })?;
+            let tables = tables.map_err(|error| error_map::table(&error, "", None))?.into();
             let mut values = Values { tables, ..Values::default() };
             let motors = motors(&[motor], &mut values)?;
             let Values { tables, functions, .. } = values;
@@ -153,11 +155,17 @@ impl Machine {
         self.functions.iter().try_for_each(|function| visit.call(function))
     }
 
-    /// Tables over the coordinate: the coordinates of their rows, and whether they are periodic.
+    /// Tables over the coordinate: where they begin and end, and whether they are periodic.
     #[getter]
-    fn tables(&self) -> Vec<(Vec<f64>, bool)> {
+    fn tables(&self) -> Vec<([f64; 2], bool)> {
         let tables = self.own_tables();
-        tables.iter().map(|table| (table.knots().to_vec(), table.period().is_some())).collect()
+        tables.iter().map(|table| (table.range(), table.period().is_some())).collect()
+    }
+
+    /// The coordinates of the rows of these tables.
+    #[getter]
+    fn rows<'py>(&self, py: Python<'py>) -> Vec<Array<'py>> {
+        self.own_tables().iter().map(|table| PyArray1::from_slice(py, table.knots())).collect()
     }
 
     /// The coordinates at which each of these tables jumps.

@@ -1,12 +1,12 @@
 //! Splines through tables, for laws over time.
 
-use assur::dynamics::{EndCondition, spline};
+use assur::dynamics::{EndCondition, spline_unless};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::convert::value::FEW_ROWS;
 use crate::convert::word::Word;
-use crate::detach::catch_panic;
-use crate::{error_map, reserve};
+use crate::{detach, error_map, reserve};
 
 /// The pieces of a spline: for each its value and derivatives, divided by 1, 1, 2, 6, at its first
 /// knot (flat).
@@ -19,8 +19,9 @@ pub(crate) fn spline_pieces<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (knots, values) = (knots.as_slice()?, values.as_slice()?);
     let _room = reserve::room_for(py, 8 * knots.len())?;
-    let pieces = catch_panic(|| {
-        spline(knots, values, ends.0).map_err(|error| error_map::table(&error, "the table", None))
+    let pieces = detach::run(py, knots.len() < FEW_ROWS, |cancel| {
+        spline_unless(knots, values, ends.0, cancel)
     })?;
-    Ok(PyArray1::from_vec(py, pieces.concat()))
+    let pieces = pieces.map_err(|error| error_map::table(&error, "the table", None))?;
+    Ok(PyArray1::from_vec(py, pieces.into_flattened()))
 }

@@ -181,6 +181,33 @@ def test_a_link_is_cut_at_many_sections_in_parts() -> None:
     assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
 
 
+# Rows of a long table: a few tenths of a second.
+ROWS = 3_000_000
+CURVES: dict[str, Callable[..., Callable[[], object]]] = {
+    "a law": lambda x, y: partial(assur.laws.Tabulated, x, y),
+    "a periodic law": lambda x, y: partial(assur.laws.Tabulated, x, y, "periodic"),
+    "a load": lambda x, y: partial(_loaded, assur.Table(x, y)),
+    "a table that is read": lambda x, y: partial(assur.Table(x, y).at, 1.0),
+    "a machine, not-a-knot": lambda x, y: partial(assur.Machine.from_table, x, y, 2.0),
+    "a machine, natural": lambda x, y: partial(
+        assur.Machine.from_table, x, y, 2.0, spline="natural"
+    ),
+    "a machine, pchip": lambda x, y: partial(assur.Machine.from_table, x, y, 2.0, spline="pchip"),
+    "a flywheel, pchip": lambda x, y: partial(
+        assur.flywheel.from_table, x, y, 2.0, 1e-3, 10.0, spline="pchip"
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_the_curve_of_a_long_table_is_fitted_in_parts(name: str) -> None:
+    x = np.linspace(0.0, math.tau, ROWS)
+    y = np.sin(3.0 * x)
+    y[-1] = y[0]
+    call = CURVES[name](x, y)
+    assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
+
+
 def test_a_call_that_hears_nothing_is_found() -> None:
     """One that frees the lock and one that holds it: what the tests here say of them."""
 
@@ -326,6 +353,10 @@ def _moving(count: int) -> tuple[Any, ...]:
 def _rod() -> assur.Machine:
     bodies = {"coupler": assur.Body(1.0, 0.75, (1.5, 0.0))}
     return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies)
+
+
+def _loaded(table: assur.Table) -> assur.Machine:
+    return assur.Machine(assur.SliderCrank(0.1, 0.4), {}, [assur.Torque("crank", table)])
 
 
 def _machine() -> assur.Machine:

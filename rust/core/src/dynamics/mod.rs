@@ -69,6 +69,6 @@ pub use steady::flywheel_sizing::FluctuationTarget;
 pub use steady::options::SteadyOptions;
 pub use steady::steady::Steady;
 pub use tables::error::TableError;
-pub use tables::spline::{EndCondition, Pieces, spline};
+pub use tables::spline::{EndCondition, Pieces, spline, spline_unless};
 pub use tables::table::Table;
 pub use value::Value;

@@ -8,8 +8,7 @@ use pyo3::prelude::*;
 
 use super::Classes;
 use super::word::Word;
-use crate::detach::{self, catch_panic};
-use crate::{error, error_map, reserve};
+use crate::{detach, error, error_map, reserve};
 
 pub(crate) const MODULE: Classes = Classes("assur.dynamics.table");
 
@@ -107,10 +106,15 @@ impl TableFields<'_> {
 
     fn table(self, periodic: bool) -> PyResult<Table> {
         let [knots, values] = [&self.q, &self.value].map(|column| column.as_array().to_vec());
-        Table::with_jumps(&knots, &values, self.spline.0, periodic)
-            .map_err(|error| error_map::table(&error, "", None))
+        let table = detach::run(self.q.py(), knots.len() < FEW_ROWS, |cancel| {
+            Table::with_jumps_unless(&knots, &values, self.spline.0, periodic, cancel)
+        })?;
+        table.map_err(|error| error_map::table(&error, "", None))
     }
 }
+
+/// Rows of a table up to which its curve takes milliseconds: too short for a signal.
+pub(crate) const FEW_ROWS: usize = 32_768;
 
 /// Numbers of a spline for each knot of its table.
 const SPLINE: usize = 8;
@@ -123,7 +127,7 @@ pub(crate) fn table_values<'py>(
     points: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let _room = reserve::room_for(py, SPLINE * table.q.as_array().len() + points.as_array().len())?;
-    let table = catch_panic(|| table.over_coordinate())?;
+    let table = table.over_coordinate()?;
     let points = reserve::copied(&points)?;
     let values = detach::map(py, points.len(), |i| table.at(points[i]))?;
     Ok(PyArray1::from_vec(py, values))

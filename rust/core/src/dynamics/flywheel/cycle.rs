@@ -17,7 +17,7 @@ const PERIODIC_RTOL: f64 = 1.0e-9;
 const UNDERSHOOT_RTOL: f64 = 1.0e-3;
 
 /// Pieces between two looks at whether the work is cancelled: some hundred microseconds.
-const CANCEL_CHECK_PIECES: usize = 4096;
+pub(crate) const CANCEL_CHECK_PIECES: usize = 4096;
 
 /// Whether the work is cancelled, at one piece in several.
 pub(crate) fn is_cancelled(piece: usize, cancel: &AtomicBool) -> bool {

@@ -1,6 +1,7 @@
 //! Sources of reduced inertia and loads: a mechanism, or tables.
 
 use std::convert::Infallible;
+use std::sync::atomic::AtomicBool;
 
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::flywheel::cycle::{with_seam, without_jumps};
@@ -400,21 +401,21 @@ impl TabulatedMachine {
     ///
     /// # Errors
     ///
-    /// Those of [`Table::with_jumps`], and an inertia that jumps.
+    /// Those of [`Table::with_jumps`], and an inertia that jumps. Once `cancel` is true the tables have no
+    /// curves.
     pub fn reduced(
         phi: &[f64],
         [inertia, moment]: [&[f64]; 2],
         ends: EndCondition,
         periodic: bool,
+        cancel: &AtomicBool,
     ) -> Result<[Table; 2], TableError> {
-        let mut rows = [phi, moment, inertia].map(<[f64]>::to_vec);
-        if periodic {
-            rows = with_seam(phi, moment, inertia);
-        }
-        let [phi, moment, inertia] = &rows;
+        let rows = periodic.then(|| with_seam(phi, moment, inertia));
+        let [phi, moment, inertia] =
+            rows.as_ref().map_or([phi, moment, inertia], |rows| rows.each_ref().map(Vec::as_slice));
         let (own, smooth) = without_jumps(phi, inertia)?;
-        let inertia = Table::new(&own, &smooth, ends, periodic)?;
-        Ok([inertia, Table::with_jumps(phi, moment, ends, periodic)?])
+        let inertia = Table::new_unless(&own, &smooth, ends, periodic, cancel)?;
+        Ok([inertia, Table::with_jumps_unless(phi, moment, ends, periodic, cancel)?])
     }
 
     /// The machine at coordinates; NaN beyond tables that are not periodic.

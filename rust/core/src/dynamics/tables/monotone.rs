@@ -1,5 +1,9 @@
 //! Slopes of cubics that stay between the values at their ends.
 
+use std::sync::atomic::AtomicBool;
+
+use super::spline::collected;
+
 /// Width and rise of the line between two neighbouring knots.
 pub(crate) type Leg = [f64; 2];
 
@@ -9,21 +13,20 @@ pub(crate) type Leg = [f64; 2];
 /// Interpolation, SIAM J. Numer. Anal. 17 (1980) 238; at an inner knot the weighted harmonic mean of
 /// F. N. Fritsch & J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300, at an end the slope of
 /// C. Moler, Numerical Computing with MATLAB (2004), section 3.6.
-pub(crate) fn slopes(legs: &[Leg], beyond: [Option<Leg>; 2]) -> Vec<f64> {
+///
+/// Fewer once `cancel` is true.
+pub(crate) fn slopes(legs: &[Leg], beyond: [Option<Leg>; 2], cancel: &AtomicBool) -> Vec<f64> {
     let [before, behind] = beyond;
-    let all: Vec<Leg> = before.into_iter().chain(legs.iter().copied()).chain(behind).collect();
-    let first = usize::from(before.is_some());
-    (first..=first + legs.len())
-        .map(|knot| {
-            let left = knot.checked_sub(1).map(|i| all[i]);
-            match (left, all.get(knot)) {
-                (Some(left), Some(&right)) => inner(left, right),
-                (None, Some(&own)) => end(own, all.get(1)),
-                (Some(own), None) => end(own, knot.checked_sub(2).map(|i| &all[i])),
-                (None, None) => 0.0,
-            }
-        })
-        .collect()
+    let last = legs.len() - 1;
+    collected(legs.len() + 1, cancel, |knot| {
+        let left = knot.checked_sub(1).map_or(before, |i| Some(legs[i]));
+        match (left, legs.get(knot).copied().or(behind)) {
+            (Some(left), Some(right)) => inner(left, right),
+            (None, Some(own)) => end(own, legs.get(1).copied().or(behind)),
+            (Some(own), None) => end(own, last.checked_sub(1).map_or(before, |i| Some(legs[i]))),
+            (None, None) => 0.0,
+        }
+    })
 }
 
 /// The slope between two legs: zero at an extreme of the data.
@@ -39,8 +42,8 @@ fn inner([h, r]: Leg, [g, s]: Leg) -> f64 {
 }
 
 /// The slope at an end, from the leg there and the next one: that of their parabola, limited.
-fn end([h, r]: Leg, next: Option<&Leg>) -> f64 {
-    let Some(&[g, s]) = next else {
+fn end([h, r]: Leg, next: Option<Leg>) -> f64 {
+    let Some([g, s]) = next else {
         return r;
     };
     let slope = r + h / (h + g) * (r - s);
@@ -56,6 +59,10 @@ fn end([h, r]: Leg, next: Option<&Leg>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn slopes(legs: &[Leg], beyond: [Option<Leg>; 2]) -> Vec<f64> {
+        super::slopes(legs, beyond, &AtomicBool::new(false))
+    }
 
     #[test]
     fn slopes_of_known_data() {

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::error::TableError;
 use super::monotone::{self, Leg};
+use crate::dynamics::flywheel::cycle::{CANCEL_CHECK_PIECES, is_cancelled};
 
 /// Curves through a table: a spline by its end conditions, or another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,7 +35,21 @@ pub type Pieces = Vec<[f64; 4]>;
 ///
 /// Fewer than two knots (periodic: three), or a different number of values.
 pub fn spline(knots: &[f64], values: &[f64], ends: EndCondition) -> Result<Pieces, TableError> {
-    spline_beside(knots, values, ends, [None; 2], &AtomicBool::new(false))
+    spline_unless(knots, values, ends, &AtomicBool::new(false))
+}
+
+/// [`spline`], left unfitted once `cancel` is true: millions of rows take seconds.
+///
+/// # Errors
+///
+/// Those of [`spline`].
+pub fn spline_unless(
+    knots: &[f64],
+    values: &[f64],
+    ends: EndCondition,
+    cancel: &AtomicBool,
+) -> Result<Pieces, TableError> {
+    spline_beside(knots, values, ends, [None; 2], cancel)
 }
 
 /// The curves through the sections of a table, each by itself. Monotone cubics of a `closed` table
@@ -51,15 +66,33 @@ pub(crate) fn fit_sections(
     closed: bool,
     cancel: &AtomicBool,
 ) -> Result<Pieces, TableError> {
-    let mut all = Pieces::with_capacity(knots.len());
+    let mut all = Pieces::new();
     let leg = |row: usize| leg(knots, values, row);
     for (k, section) in sections.iter().enumerate() {
         let before = (closed && k == 0).then(|| leg(knots.len() - 2));
         let behind = (closed && k + 1 == sections.len()).then(|| leg(0));
         let (own, at) = (&knots[section.clone()], &values[section.clone()]);
-        all.append(&mut spline_beside(own, at, ends, [before, behind], cancel)?);
+        let mut pieces = spline_beside(own, at, ends, [before, behind], cancel)?;
+        if sections.len() == 1 {
+            return Ok(pieces);
+        }
+        all.append(&mut pieces);
     }
     Ok(all)
+}
+
+/// So many items; fewer once `cancel` is true.
+pub(super) fn collected<T>(
+    count: usize,
+    cancel: &AtomicBool,
+    mut item: impl FnMut(usize) -> T,
+) -> Vec<T> {
+    let mut items = Vec::with_capacity(count);
+    while items.len() < count && !cancel.load(Ordering::Relaxed) {
+        let from = items.len();
+        items.extend((from..count.min(from + CANCEL_CHECK_PIECES)).map(&mut item));
+    }
+    items
 }
 
 fn leg(knots: &[f64], values: &[f64], row: usize) -> Leg {
@@ -79,79 +112,88 @@ fn spline_beside(
     if n < least || values.len() != n {
         return Err(TableError::TooShort { count: n.min(values.len()), least });
     }
-    let is_cancelled = || cancel.load(Ordering::Relaxed);
-    let unfitted = || Ok(vec![[0.0; 4]; n - 1]);
-    if is_cancelled() {
-        return unfitted();
-    }
-    let legs: Vec<Leg> = (0..n - 1).map(|row| leg(knots, values, row)).collect();
-    let (width, rise): (Vec<f64>, Vec<f64>) = legs.iter().map(|&[h, r]| (h, r)).unzip();
-    if is_cancelled() {
-        return unfitted();
-    }
-    if ends == EndCondition::Linear {
-        return Ok(values.iter().zip(&rise).map(|(&v, &r)| [v, r, 0.0, 0.0]).collect());
-    }
-    let slopes = match ends {
-        EndCondition::Pchip => monotone::slopes(&legs, beyond),
-        _ => slopes(&width, &rise, ends, cancel),
-    };
-    if is_cancelled() {
-        return unfitted();
-    }
-    let piece = |i: usize| {
-        let (h, r) = (width[i], rise[i]);
-        let (a, b) = (slopes[i], slopes[i + 1]);
-        [values[i], a, (3.0 * r - 2.0 * a - b) / h, (a + b - 2.0 * r) / (h * h)]
-    };
-    Ok((0..n - 1).map(piece).collect())
+    let pieces = fitted(n - 1, |row| leg(knots, values, row), values, ends, beyond, cancel);
+    Ok(pieces.unwrap_or_else(|| vec![[0.0; 4]; n - 1]))
 }
 
-/// Slopes at the knots that make second derivatives continuous.
-fn slopes(width: &[f64], rise: &[f64], ends: EndCondition, cancel: &AtomicBool) -> Vec<f64> {
-    let n = width.len() + 1;
-    let last = n - 2;
-    let inner = |i: usize| {
-        let (h, g) = (width[i - 1], width[i]);
-        ([g, 2.0 * (h + g), h], 3.0 * (g * rise[i - 1] + h * rise[i]))
+/// The pieces over so many legs; `None` once `cancel` is true.
+fn fitted(
+    count: usize,
+    leg: impl Fn(usize) -> Leg,
+    values: &[f64],
+    ends: EndCondition,
+    beyond: [Option<Leg>; 2],
+    cancel: &AtomicBool,
+) -> Option<Pieces> {
+    let go_on = || (!cancel.load(Ordering::Relaxed)).then_some(());
+    if ends == EndCondition::Linear {
+        let pieces = collected(count, cancel, |row| [values[row], leg(row)[1], 0.0, 0.0]);
+        return go_on().map(|()| pieces);
+    }
+    let legs = collected(count, cancel, leg);
+    go_on()?;
+    let slopes = match ends {
+        EndCondition::Pchip => monotone::slopes(&legs, beyond, cancel),
+        _ => slopes(&legs, ends, cancel)?,
     };
+    go_on()?;
+    let pieces = collected(count, cancel, |i| {
+        let [h, r] = legs[i];
+        let (a, b) = (slopes[i], slopes[i + 1]);
+        [values[i], a, (3.0 * r - 2.0 * a - b) / h, (a + b - 2.0 * r) / (h * h)]
+    });
+    go_on().map(|()| pieces)
+}
+
+/// A row (before, own, behind) = right-hand side of a tridiagonal system.
+type Row = ([f64; 3], f64);
+
+/// The row of a knot between two legs.
+fn between([h, r]: Leg, [g, s]: Leg) -> Row {
+    ([g, 2.0 * (h + g), h], 3.0 * (g * r + h * s))
+}
+
+/// Slopes at the knots that make second derivatives continuous; `None` once `cancel` is true.
+fn slopes(legs: &[Leg], ends: EndCondition, cancel: &AtomicBool) -> Option<Vec<f64>> {
+    let n = legs.len() + 1;
+    let last = n - 2;
     let ([head, foot], [first, final_]) = match ends {
-        EndCondition::NotAKnot if n == 2 => return vec![rise[0]; 2],
+        EndCondition::NotAKnot if n == 2 => return Some(vec![legs[0][1]; 2]),
         EndCondition::NotAKnot if n == 3 => {
             // Three points: one parabola.
-            let bend = (rise[1] - rise[0]) / (width[0] + width[1]);
-            let at = |i: usize, sign: f64| rise[i] + sign * bend * width[i];
-            return vec![at(0, -1.0), at(0, 1.0), at(1, 1.0)];
+            let bend = (legs[1][1] - legs[0][1]) / (legs[0][0] + legs[1][0]);
+            let at = |[h, r]: Leg, sign: f64| r + sign * bend * h;
+            return Some(vec![at(legs[0], -1.0), at(legs[0], 1.0), at(legs[1], 1.0)]);
         }
         EndCondition::NotAKnot => {
-            let end = |h: f64, g: f64, r: f64, s: f64| {
+            let end = |[h, r]: Leg, [g, s]: Leg| {
                 let whole = h + g;
                 ([g, whole], ((h + 2.0 * whole) * g * r + h * h * s) / whole)
             };
-            let (a, x) = end(width[0], width[1], rise[0], rise[1]);
-            let (b, y) = end(width[last], width[last - 1], rise[last], rise[last - 1]);
+            let (a, x) = end(legs[0], legs[1]);
+            let (b, y) = end(legs[last], legs[last - 1]);
             ([a, b], [x, y])
         }
-        EndCondition::Natural => ([[2.0, 1.0]; 2], [3.0 * rise[0], 3.0 * rise[last]]),
+        EndCondition::Natural => ([[2.0, 1.0]; 2], [3.0 * legs[0][1], 3.0 * legs[last][1]]),
         EndCondition::Clamped => ([[1.0, 0.0]; 2], [0.0; 2]),
-        EndCondition::Periodic => return periodic(width, rise, cancel),
-        EndCondition::Linear | EndCondition::Pchip => return rise.to_vec(),
+        EndCondition::Periodic => return periodic(legs, cancel),
+        EndCondition::Linear | EndCondition::Pchip => return None,
     };
-    let mut rows: Vec<([f64; 3], f64)> = vec![([0.0, head[0], head[1]], first)];
-    rows.extend((1..n - 1).map(inner));
-    rows.push(([foot[1], foot[0], 0.0], final_));
+    let mut rows = collected(n, cancel, |knot| match knot {
+        0 => ([0.0, head[0], head[1]], first),
+        _ if knot == n - 1 => ([foot[1], foot[0], 0.0], final_),
+        _ => between(legs[knot - 1], legs[knot]),
+    });
     tridiagonal(&mut rows, cancel)
 }
 
 /// Slopes of a periodic spline: a tridiagonal system with corners, by Sherman & Morrison.
-fn periodic(width: &[f64], rise: &[f64], cancel: &AtomicBool) -> Vec<f64> {
-    let n = width.len();
-    let row = |i: usize| {
-        let before = (i + n - 1) % n;
-        let (h, g) = (width[before], width[i]);
-        ([g, 2.0 * (h + g), h], 3.0 * (g * rise[before] + h * rise[i]))
-    };
-    let mut rows: Vec<([f64; 3], f64)> = (0..n).map(row).collect();
+fn periodic(legs: &[Leg], cancel: &AtomicBool) -> Option<Vec<f64>> {
+    let n = legs.len();
+    let mut rows = collected(n, cancel, |i| between(legs[(i + n - 1) % n], legs[i]));
+    if rows.len() < n {
+        return None;
+    }
     let mut slopes = if n == 2 {
         // Both neighbours are the same slope.
         let ([a, b, c], x) = rows[0];
@@ -170,37 +212,37 @@ fn periodic(width: &[f64], rise: &[f64], cancel: &AtomicBool) -> Vec<f64> {
         }
         extra[0].1 = pivot;
         extra[n - 1].1 = other;
-        let (y, z) = (tridiagonal(&mut rows, cancel), tridiagonal(&mut extra, cancel));
+        let (y, z) = (tridiagonal(&mut rows, cancel)?, tridiagonal(&mut extra, cancel)?);
         let part = |x: &[f64]| x[0] + corner / pivot * x[n - 1];
         let factor = part(&y) / (1.0 + part(&z));
         y.iter().zip(&z).map(|(y, z)| y - factor * z).collect()
     };
     slopes.push(slopes[0]);
-    slopes
+    Some(slopes)
 }
 
-/// Solves a tridiagonal system of rows (before, own, behind) = right-hand side. It is diagonally
-/// dominant except for the not-a-knot rows, where elimination is still stable (de Boor).
-fn tridiagonal(rows: &mut [([f64; 3], f64)], cancel: &AtomicBool) -> Vec<f64> {
+/// Solves a tridiagonal system; `None` once `cancel` is true. It is diagonally dominant except for the
+/// not-a-knot rows, where elimination is still stable (de Boor).
+fn tridiagonal(rows: &mut [Row], cancel: &AtomicBool) -> Option<Vec<f64>> {
     let mut solution = vec![0.0; rows.len()];
-    if cancel.load(Ordering::Relaxed) {
-        return solution;
-    }
     for i in 1..rows.len() {
+        if is_cancelled(i, cancel) {
+            return None;
+        }
         let ([_, pivot, behind], right) = rows[i - 1];
         let factor = rows[i].0[0] / pivot;
         rows[i].0[1] -= factor * behind;
         rows[i].1 -= factor * right;
     }
-    if cancel.load(Ordering::Relaxed) {
-        return solution;
-    }
     let mut next = 0.0;
-    for (([_, own, behind], right), out) in rows.iter().zip(&mut solution).rev() {
+    for (i, (([_, own, behind], right), out)) in rows.iter().zip(&mut solution).enumerate().rev() {
+        if is_cancelled(i, cancel) {
+            return None;
+        }
         next = (right - behind * next) / own;
         *out = next;
     }
-    solution
+    Some(solution)
 }
 
 #[cfg(test)]

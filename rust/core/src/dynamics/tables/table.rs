@@ -28,7 +28,7 @@ pub(crate) struct Cell {
     start: f64,
 }
 
-/// Nobody cancels the fit of a table.
+/// For callers that cancel nothing.
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Table {
@@ -43,10 +43,25 @@ impl Table {
         ends: EndCondition,
         periodic: bool,
     ) -> Result<Self, TableError> {
+        Self::new_unless(knots, values, ends, periodic, &NEVER)
+    }
+
+    /// [`Table::new`], without a curve once `cancel` is true: millions of rows take seconds.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Table::new`].
+    pub fn new_unless(
+        knots: &[f64],
+        values: &[f64],
+        ends: EndCondition,
+        periodic: bool,
+        cancel: &AtomicBool,
+    ) -> Result<Self, TableError> {
         check_columns(knots, &[("value", values)], periodic, false)?;
         let whole = 0..knots.len();
         let sections = std::slice::from_ref(&whole);
-        let pieces = fit_sections(knots, values, ends, sections, periodic, &NEVER)?;
+        let pieces = fit_sections(knots, values, ends, sections, periodic, cancel)?;
         Ok(Self { knots: knots.to_vec(), pieces, periodic, jumps: Vec::new() })
     }
 
@@ -64,12 +79,27 @@ impl Table {
         ends: EndCondition,
         periodic: bool,
     ) -> Result<Self, TableError> {
+        Self::with_jumps_unless(knots, values, ends, periodic, &NEVER)
+    }
+
+    /// [`Table::with_jumps`], without a curve once `cancel` is true.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Table::with_jumps`].
+    pub fn with_jumps_unless(
+        knots: &[f64],
+        values: &[f64],
+        ends: EndCondition,
+        periodic: bool,
+        cancel: &AtomicBool,
+    ) -> Result<Self, TableError> {
         check_columns(knots, &[("value", values)], periodic, true)?;
         let mut starts: Vec<usize> =
             (1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).collect();
         let jumps: Vec<f64> = starts.iter().map(|&start| knots[start]).collect();
         if jumps.is_empty() {
-            return Self::new(knots, values, ends, periodic);
+            return Self::new_unless(knots, values, ends, periodic, cancel);
         }
         let at_end = jumps.iter().find(|&&at| at == knots[0] || at == knots[knots.len() - 1]);
         if let (Some(&at), false) = (at_end, periodic) {
@@ -89,7 +119,7 @@ impl Table {
             from = start;
         }
         let closed = periodic && at_end.is_none();
-        let pieces = fit_sections(knots, values, ends, &sections, closed, &NEVER)?;
+        let pieces = fit_sections(knots, values, ends, &sections, closed, cancel)?;
         Ok(Self { knots: own, pieces, periodic, jumps })
     }
 
