@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -31,6 +32,9 @@ __all__ = [
 # Excel's own limits.
 MAX_ROWS = 1_048_576
 MAX_SHEET_NAME = 31
+# Numbers written to a Parquet file at once, some hundredths of a second; and rows.
+NUMBERS_AT_ONCE = 1 << 20
+LEAST_ROWS = 1024
 
 
 class Column(NamedTuple):
@@ -95,7 +99,33 @@ def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     if find_spec("pyarrow") is None:  # pragma: no cover
         message = "to_parquet needs pyarrow: pip install assur[parquet]"
         raise ImportError(message)
-    frame(columns).to_parquet(_checked_path(path, "to_parquet"), index=False)
+    path = _checked_path(path, "to_parquet")
+    table = frame(columns)
+    with path.open("wb") as file:
+        try:
+            _in_parts(file, table)
+        except BaseException:
+            # What is written so far would be read as a whole table.
+            file.truncate(0)
+            raise
+
+
+def _in_parts(file: Any, table: Any) -> None:
+    """Write a DataFrame as pandas does, but in parts: between two of them signals are heard."""
+    import pyarrow as pa
+    from pyarrow.parquet import ParquetWriter
+
+    schema = pa.Schema.from_pandas(table, preserve_index=False)
+    # Where pandas reads `attrs` from.
+    attributes = {"PANDAS_ATTRS": json.dumps(table.attrs)} if table.attrs else {}
+    schema = schema.with_metadata({**(schema.metadata or {}), **attributes})
+    # Results hardly repeat: a dictionary of them takes more time and space than they do.
+    repeating = [name for name in table if table[name].dtype.kind != "f"]
+    rows = max(LEAST_ROWS, NUMBERS_AT_ONCE // max(1, table.shape[1]))
+    with ParquetWriter(file, schema, compression="snappy", use_dictionary=repeating) as writer:
+        for row in range(0, len(table), rows):
+            part = table.iloc[row : row + rows]
+            writer.write_batch(pa.RecordBatch.from_pandas(part, schema, preserve_index=False))
 
 
 def _checked_path(path: Any, what: str) -> Path:

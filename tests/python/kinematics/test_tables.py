@@ -13,7 +13,7 @@ import xarray as xr
 from openpyxl import load_workbook
 
 import assur
-from assur import metric
+from assur import _table, metric
 from refusals import refused
 
 if TYPE_CHECKING:
@@ -111,6 +111,42 @@ def test_parquet_keeps_bits_and_units(tmp_path: Path) -> None:
     table, wanted = pd.read_parquet(tmp_path / "motion.parquet"), motion.to_dataframe(omega=30.0)
     pd.testing.assert_frame_equal(table, wanted, check_exact=True)
     assert table.attrs["units"]["bore.v"] == "m/s"
+
+
+def test_parquet_files_are_those_of_pandas(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    monkeypatch.setattr(_table, "NUMBERS_AT_ONCE", 1)
+    monkeypatch.setattr(_table, "LEAST_ROWS", 3)
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    batch = m.with_dimensions({"rocker.length": [2.5, 2.6]})
+    for motion in (engine(), batch.solve(Q), assur.sweep(m, {}, [], on_error="drop")):
+        motion.to_parquet(tmp_path / "own.parquet")
+        motion.to_dataframe().to_parquet(tmp_path / "pandas.parquet", index=False)
+        own, wanted = (parquet.read_table(tmp_path / f"{n}.parquet") for n in ("own", "pandas"))
+        assert own.equals(wanted, check_metadata=True)
+
+
+def test_a_parquet_file_that_is_not_finished_is_empty(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    monkeypatch.setattr(_table, "NUMBERS_AT_ONCE", 1)
+    monkeypatch.setattr(_table, "LEAST_ROWS", 3)
+    parts = []
+
+    class Stopping:
+        @staticmethod
+        def from_pandas(*args: Any, **options: Any) -> Any:
+            parts.append(args)
+            if len(parts) == 2:
+                raise KeyboardInterrupt
+            return own.from_pandas(*args, **options)
+
+    own = pyarrow.RecordBatch
+    monkeypatch.setattr(pyarrow, "RecordBatch", Stopping)
+    with pytest.raises(KeyboardInterrupt):
+        engine().to_parquet(tmp_path / "motion.parquet")
+    assert (tmp_path / "motion.parquet").read_bytes() == b""
 
 
 def test_xarray_has_named_dimensions() -> None:

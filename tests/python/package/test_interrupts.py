@@ -33,6 +33,7 @@ from interruptions import (
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
 
 # On a loaded machine the thread that sends a signal may not run before the work is done.
@@ -205,6 +206,13 @@ def test_the_curve_of_a_long_table_is_fitted_in_parts(name: str) -> None:
     y = np.sin(3.0 * x)
     y[-1] = y[0]
     call = CURVES[name](x, y)
+    assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
+
+
+def test_a_parquet_file_is_written_in_parts(tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(_angles(300_000))
+    call = partial(motion.to_parquet, tmp_path / "motion.parquet")
     assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
 
 
