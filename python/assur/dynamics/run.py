@@ -348,7 +348,7 @@ class Run(Tabular):
             message = f"this run goes along {name}: call at({name}=...)"
             raise InputError(message)
         x = self._clip_to_run(real_array(own, name), name)
-        arrays = self._core.at(x.ravel().tolist())
+        arrays = self._core.at(x.ravel())
         tail = () if self._drivers == 1 else (self._drivers,)
         return State(
             arrays[0].reshape(x.shape)[()],

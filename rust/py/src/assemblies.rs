@@ -4,7 +4,9 @@ use std::sync::atomic::AtomicBool;
 
 use assur::{Assemblies, SolveError};
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
 
+use crate::detach;
 use crate::parallel_map::parallel_map;
 
 /// Positions that pay for another thread.
@@ -24,22 +26,33 @@ pub(crate) struct AssemblyNumbers {
 
 /// The assemblies of a position; numbers of complex ones; paths that found none.
 #[derive(IntoPyObject)]
-pub(crate) struct Found {
-    assemblies: Vec<AssemblyNumbers>,
+pub(crate) struct Found<'py> {
+    assemblies: Bound<'py, PyList>,
     complex_count: Vec<usize>,
     failures: Vec<String>,
     is_complete: bool,
 }
 
-impl From<Assemblies> for Found {
-    fn from(all: Assemblies) -> Self {
+impl<'py> Found<'py> {
+    fn of(py: Python<'py>, all: Assemblies) -> PyResult<Bound<'py, PyDict>> {
         let is_complete = all.is_complete();
-        Self {
-            assemblies: all.found.into_iter().map(AssemblyNumbers::from).collect(),
+        let found = Self {
+            assemblies: detach::listed(py, all.found.into_iter().map(AssemblyNumbers::from))?,
             complex_count: all.complex_counts,
             failures: all.failures.iter().map(ToString::to_string).collect(),
             is_complete,
+        };
+        found.into_pyobject(py)
+    }
+
+    /// The assemblies of many positions: making objects of Python takes longer than finding them.
+    pub(crate) fn of_all(py: Python<'py>, all: Vec<Assemblies>) -> PyResult<Bound<'py, PyList>> {
+        let list = PyList::empty(py);
+        for one in all {
+            list.append(Self::of(py, one)?)?;
+            detach::check_signals(py, list.len())?;
         }
+        Ok(list)
     }
 }
 

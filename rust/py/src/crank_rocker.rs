@@ -3,6 +3,7 @@
 use assur::papers::crank_rocker as core;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 
 use crate::metrics::check_same_length;
 use crate::{detach, error_map, reserve};
@@ -61,11 +62,11 @@ fn designs(lengths: &[Flat<'_>; 4]) -> PyResult<Vec<core::Lengths>> {
 
 /// Grashof types by name.
 #[pyfunction]
-pub(crate) fn crank_rocker_grashof(
-    py: Python<'_>,
-    lengths: [Flat<'_>; 4],
+pub(crate) fn crank_rocker_grashof<'py>(
+    py: Python<'py>,
+    lengths: [Flat<'py>; 4],
     tolerance: f64,
-) -> PyResult<Vec<&'static str>> {
+) -> PyResult<Bound<'py, PyList>> {
     let name = |one: &core::Lengths| match core::grashof(*one, tolerance) {
         core::Grashof::CrankRocker => "crank-rocker",
         core::Grashof::RockerCrank => "rocker-crank",
@@ -75,7 +76,7 @@ pub(crate) fn crank_rocker_grashof(
         core::Grashof::ChangePoint => "change-point",
     };
     let designs = designs(&lengths)?;
-    detach::map(py, designs.len(), |i| name(&designs[i]))
+    detach::listed(py, detach::map(py, designs.len(), |i| name(&designs[i]))?)
 }
 
 /// The three margins of each design, and whether its crank makes full turns.

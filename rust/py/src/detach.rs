@@ -10,11 +10,14 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 
 use crate::{error, reserve};
 
 /// Time between checks for signals.
 pub(crate) const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
+/// Objects of Python made between two checks, some milliseconds.
+const OBJECTS_PER_CHECK: usize = 1024;
 /// Length from which a list takes long enough to check for signals.
 const LONG_LIST: usize = 16_384;
 /// The same for items that take about a tenth of a millisecond each.
@@ -96,6 +99,24 @@ fn map_list<T: Send>(
         }
         results
     })
+}
+
+/// A list of Python; a signal that comes while it is made is raised.
+pub(crate) fn listed<'py, T: IntoPyObject<'py>>(
+    py: Python<'py>,
+    items: impl IntoIterator<Item = T>,
+) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for item in items {
+        list.append(item)?;
+        check_signals(py, list.len())?;
+    }
+    Ok(list)
+}
+
+/// Raises a signal that has come, at one object in many.
+pub(crate) fn check_signals(py: Python<'_>, objects: usize) -> PyResult<()> {
+    if objects.is_multiple_of(OBJECTS_PER_CHECK) { py.check_signals() } else { Ok(()) }
 }
 
 fn run_unguarded<T: Send>(

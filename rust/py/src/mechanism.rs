@@ -12,6 +12,7 @@ use assur::{
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 
 use crate::convert::description::{Driver, Slide};
 use crate::convert::metric::MetricSpec;
@@ -537,14 +538,14 @@ impl Mechanism {
     }
 
     /// Every assembly of designs at positions.
-    fn assemblies(
+    fn assemblies<'py>(
         &self,
-        py: Python<'_>,
-        dimensions: PyReadonlyArray1<'_, f64>,
-        q: PyReadonlyArray1<'_, f64>,
+        py: Python<'py>,
+        dimensions: PyReadonlyArray1<'py, f64>,
+        q: PyReadonlyArray1<'py, f64>,
         per_design: bool,
         threads: Option<usize>,
-    ) -> PyResult<Vec<assemblies::Found>> {
+    ) -> PyResult<Bound<'py, PyList>> {
         let _room = reserve::room_for(py, dimensions.as_array().len() + q.as_array().len())?;
         let (dimensions, q) = (dimensions.as_slice()?.to_vec(), q.as_slice()?.to_vec());
         let (mechanism, dimensions, q) = (&self.inner, &dimensions[..], &q[..]);
@@ -553,7 +554,7 @@ impl Mechanism {
         let is_quick = mechanism.structure().class() <= 2 && mechanism.signs().len() < FEW_SIGNS;
         let small = is_quick && designs * positions < FEW_ASSEMBLIES;
         let found = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
-        Ok(found.map_err(error_map::solve)?.into_iter().map(Into::into).collect())
+        assemblies::Found::of_all(py, found.map_err(error_map::solve)?)
     }
 
     /// Where an assembly of designs exists.

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use assur::dynamics::{Callbacks, Sample, Samples};
-use numpy::PyArray1;
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
 
@@ -171,8 +171,13 @@ impl Run {
 
     /// The same without energies at given times, or coordinates for a run over the coordinate; NaN
     /// outside the run.
-    fn at<'py>(&self, py: Python<'py>, points: Vec<f64>) -> PyResult<Vec<Array<'py>>> {
+    fn at<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Vec<Array<'py>>> {
         let own = &self.0.samples;
+        let points = reserve::copied(&points)?;
         let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
         let _room = reserve::room_for(py, points.len() * (3 * nan.len() + 2))?;
         let nothing = Sample {
