@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -112,9 +113,8 @@ def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
 
 def _in_parts(file: Any, table: Any) -> None:
     """Write a DataFrame as pandas does, but in parts: between two of them signals are heard."""
-    import pyarrow as pa
-    from pyarrow.parquet import ParquetWriter
-
+    pa: Any = import_module("pyarrow")
+    parquet: Any = import_module("pyarrow.parquet")
     schema = pa.Schema.from_pandas(table, preserve_index=False)
     # Where pandas reads `attrs` from.
     attributes = {"PANDAS_ATTRS": json.dumps(table.attrs)} if table.attrs else {}
@@ -122,7 +122,9 @@ def _in_parts(file: Any, table: Any) -> None:
     # Results hardly repeat: a dictionary of them takes more time and space than they do.
     repeating = [name for name in table if table[name].dtype.kind != "f"]
     rows = max(LEAST_ROWS, NUMBERS_AT_ONCE // max(1, table.shape[1]))
-    with ParquetWriter(file, schema, compression="snappy", use_dictionary=repeating) as writer:
+    with parquet.ParquetWriter(
+        file, schema, compression="snappy", use_dictionary=repeating
+    ) as writer:
         for row in range(0, len(table), rows):
             part = table.iloc[row : row + rows]
             writer.write_batch(pa.RecordBatch.from_pandas(part, schema, preserve_index=False))

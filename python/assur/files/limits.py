@@ -12,7 +12,8 @@ MOST_BRACKETS = 16
 MOST_PARTS = 16
 # Letters of a name, a key or a number; messages quote them.
 MOST_LETTERS = 200
-# Joints, links or slides. The search for groups takes time by their square: four seconds.
+# Joints, links or slides: a third of a second to read. One group of so many would take hours, for
+# its contours take time by the fourth power of its links (Ctrl-C stops that).
 MOST_ITEMS = 4000
 # Positions of a range.
 MOST_POSITIONS = 10_000_000

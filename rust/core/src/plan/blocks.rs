@@ -247,22 +247,17 @@ fn place_points(plan: &mut Plan, known: &mut [bool], mut edges: Vec<usize>) {
     }
 }
 
-/// Finds the loop of a block, and removes the edge that closes it from `edges` (the others place
-/// the points).
-fn dyad(
-    plan: &mut Plan,
-    linkage: &Linkage,
-    tables: &mut Tables<'_>,
-    edges: &mut Vec<usize>,
-    unknowns: &mut [Unknown],
-    known: &[bool],
-) -> Dyad {
+/// A path: edges, true for one that is traversed backward.
+type Path = Vec<(usize, bool)>;
+
+/// The edge that closes the loop of a block (its index among the edges), and the paths over it and to its
+/// other end.
+fn closing(plan: &Plan, edges: &[usize], known: &[bool]) -> Option<(usize, Path, Path)> {
     // Breadth-first paths from the known points; the remaining edge closes the loop.
     let ends: BTreeSet<usize> =
         edges.iter().flat_map(|&edge| plan.edges[edge].ends(false)).collect();
     let mut queue: VecDeque<usize> = ends.into_iter().filter(|&point| known[point]).collect();
-    let mut path: HashMap<usize, Vec<(usize, bool)>> =
-        queue.iter().map(|&point| (point, Vec::new())).collect();
+    let mut path: HashMap<usize, Path> = queue.iter().map(|&point| (point, Vec::new())).collect();
     let mut closing = None;
     let mut used = vec![false; edges.len()];
     while let Some(here) = queue.pop_front() {
@@ -288,7 +283,20 @@ fn dyad(
             }
         }
     }
-    let (closing_edge, ahead, back) = closing.unwrap_or_default();
+    closing
+}
+
+/// Finds the loop of a block, and removes the edge that closes it from `edges` (the others place
+/// the points).
+fn dyad(
+    plan: &mut Plan,
+    linkage: &Linkage,
+    tables: &mut Tables<'_>,
+    edges: &mut Vec<usize>,
+    unknowns: &mut [Unknown],
+    known: &[bool],
+) -> Dyad {
+    let (closing_edge, ahead, back) = closing(plan, edges, known).unwrap_or_default();
     // The loop leaves out the common start of the two paths.
     let common = ahead.iter().zip(&back).take_while(|(a, b)| a == b).count();
     let mut loop_path: Vec<(usize, bool)> = ahead[common..].to_vec();

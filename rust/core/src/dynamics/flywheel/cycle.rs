@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::dynamics::tables::error::TableError;
+use crate::dynamics::tables::passes::is_cancelled;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, fit_sections};
 use crate::math::polynomial::{roots, value};
 
@@ -15,14 +16,6 @@ const PERIODIC_RTOL: f64 = 1.0e-9;
 /// greatest inertia: tables have three or four digits, and a spline overshoots beside rows of zero.
 /// With the flywheel added the inertia must still be positive.
 const UNDERSHOOT_RTOL: f64 = 1.0e-3;
-
-/// Pieces between two looks at whether the work is cancelled: some hundred microseconds.
-pub(crate) const CANCEL_CHECK_PIECES: usize = 4096;
-
-/// Whether the work is cancelled, at one piece in several.
-pub(crate) fn is_cancelled(piece: usize, cancel: &AtomicBool) -> bool {
-    piece.is_multiple_of(CANCEL_CHECK_PIECES) && cancel.load(Ordering::Relaxed)
-}
 
 /// An extreme value and its coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -9,8 +9,9 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::cycle::{Cycle, Extreme, is_cancelled, wrap_to_period};
+use super::cycle::{Cycle, Extreme, wrap_to_period};
 use crate::dynamics::tables::error::TableError;
+use crate::dynamics::tables::passes::is_cancelled;
 use crate::math::quadrature::integral;
 use crate::math::root::illinois;
 

@@ -2,5 +2,6 @@
 
 pub(crate) mod error;
 mod monotone;
+pub(crate) mod passes;
 pub(crate) mod spline;
 pub(crate) mod table;

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::spline::collected;
+use super::passes::collected;
 
 /// Width and rise of the line between two neighbouring knots.
 pub(crate) type Leg = [f64; 2];

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::error::TableError;
 use super::monotone::{self, Leg};
-use crate::dynamics::flywheel::cycle::{CANCEL_CHECK_PIECES, is_cancelled};
+use super::passes::{collected, is_cancelled};
 
 /// Curves through a table: a spline by its end conditions, or another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -79,20 +79,6 @@ pub(crate) fn fit_sections(
         all.append(&mut pieces);
     }
     Ok(all)
-}
-
-/// So many items; fewer once `cancel` is true.
-pub(super) fn collected<T>(
-    count: usize,
-    cancel: &AtomicBool,
-    mut item: impl FnMut(usize) -> T,
-) -> Vec<T> {
-    let mut items = Vec::with_capacity(count);
-    while items.len() < count && !cancel.load(Ordering::Relaxed) {
-        let from = items.len();
-        items.extend((from..count.min(from + CANCEL_CHECK_PIECES)).map(&mut item));
-    }
-    items
 }
 
 fn leg(knots: &[f64], values: &[f64], row: usize) -> Leg {
