@@ -17,8 +17,9 @@ use crate::math::vector::Vector;
 const NEAR_END: f64 = 1.0 - 1.0e-9;
 /// Newton's rounds from there: toward a multiple solution each halves the distance.
 const ROUNDS: usize = 40;
-/// The last of them, relative to the solution, if the solution is regular.
-const REGULAR: f64 = 1.0e-12;
+/// The last of them, relative to the solution, if the solution is regular: rounding times its condition,
+/// which random parameters seldom make a million. At a multiple solution rounding leaves its root, 1e-8.
+const REGULAR: f64 = 1.0e-9;
 /// A solution with a first homogeneous coordinate this small is at infinity.
 const AT_INFINITY: f64 = 1.0e-7;
 /// How near (relative to their size) the same solution is found on two ways; others are farther.
@@ -52,7 +53,13 @@ impl Fibre {
         let mut earlier: Vec<Vec<Vec<Vector>>> = Vec::new();
         for _ in 0..TRIALS {
             let found = finite_solutions(&system, forms.half(), &mut random);
-            if earlier.iter().any(|other| agree(&found, other)) {
+            if !are_different(&found) {
+                // A path has passed to another.
+                continue;
+            }
+            // A way may miss a solution, but what another one has found is there.
+            let is_complete = earlier.iter().all(|other| other.len() <= found.len());
+            if is_complete && earlier.iter().any(|other| agree(&found, other)) {
                 return Some(Self { parameters, points: found });
             }
             earlier.push(found);
@@ -128,7 +135,12 @@ fn start(system: &Homotopy, products: &[[Vec<Vector>; 2]], choice: usize) -> Vec
     point
 }
 
-/// Whether two lists hold the same solutions, all of them different.
+/// Whether no solution is in a list twice.
+fn are_different(found: &[Vec<Vector>]) -> bool {
+    found.iter().enumerate().all(|(i, one)| found[..i].iter().all(|other| !is_same(one, other)))
+}
+
+/// Whether two lists of different solutions hold the same ones.
 fn agree(one: &[Vec<Vector>], other: &[Vec<Vector>]) -> bool {
     one.len() == other.len()
         && one.iter().all(|point| other.iter().filter(|other| is_same(point, other)).count() == 1)

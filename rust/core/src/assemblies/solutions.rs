@@ -49,9 +49,10 @@ impl GroupFibres {
         let can_be_followed = forms.half() <= MOST_LOOPS;
         for seed in SEEDS.filter(|_| can_be_followed) {
             let Some(fibre) = Fibre::new(&forms, drawing, seed) else { continue };
-            // Their number is a property of the group.
+            // Their number is a property of the group: the greatest, where two differ.
             let agrees = |other: &Fibre| other.points.len() == fibre.points.len();
-            if let Some(index) = found.iter().position(agrees) {
+            let has_all = found.iter().all(|other| other.points.len() <= fibre.points.len());
+            if let Some(index) = found.iter().position(agrees).filter(|_| has_all) {
                 return Self { forms, fibres: vec![found.swap_remove(index), fibre] };
             }
             found.push(fibre);
