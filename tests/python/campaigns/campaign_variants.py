@@ -111,7 +111,7 @@ class Variants(Findings):
         )
         asked: list[tuple[str, Callable[[], Iterable[str]]]] = [
             ("limits", lambda: queries.same_limits(p)),
-            *(("extremes", partial(queries.same_extremes, p, kind, name, k)) for k in range(3)),
+            *(("extremes", partial(queries.same_extremes, p, kind, name, k)) for k in range(4)),
         ]
         if rng.randrange(CURVES) == 0:
             q = np.atleast_1d(p.one.q0) + rng.uniform(-1, 1)

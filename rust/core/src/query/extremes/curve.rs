@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::beside::Beside;
 use super::known::{ByAngle, Known, NOISE, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
@@ -19,6 +20,8 @@ pub(super) struct Curve<'m> {
     pub evaluator: Evaluator<'m>,
     pub tracked: Tracked,
     pub order: usize,
+    /// What stands for its values beside places where digits are lost.
+    pub beside: Vec<Beside>,
     /// Once it is true, there are no more values.
     pub cancel: Option<&'m AtomicBool>,
 }
@@ -55,13 +58,11 @@ impl Curve<'_> {
     /// does not take part in what folds, may be made of others that do.
     pub(super) fn rounding(&self) -> [f64; 2] {
         let position = self.evaluator.position();
-        let units = position.units;
-        let unit = if let Tracked::Link(_) = self.tracked { &units.angle } else { &units.length };
         // Beside a change point the error of a k-th derivative is one of κ^(k + 1).
         let condition = self.evaluator.total_condition();
         let grown = (0..self.order).fold(condition, |power, _| power * condition);
         let parts = [NOISE, NOISE.max(ANALOGUE_PER_CONDITION_SQUARED * grown)];
-        parts.map(|part| part * position.greatest(self.order) * unit[self.order])
+        parts.map(|part| part * position.greatest(self.order) * self.own_unit(self.order))
     }
 
     /// The derivative at a coordinate.
@@ -69,8 +70,8 @@ impl Curve<'_> {
         self.by_coordinate(q).map(|jet| jet[0])
     }
 
-    /// The derivative with its first two derivatives by the window's angle.
-    pub(super) fn by_angle(&mut self, window: &Window, angle: f64) -> Option<ByAngle> {
+    /// The derivative with its first two derivatives by the window's angle, with the digits it has there.
+    pub(super) fn computed_by_angle(&mut self, window: &Window, angle: f64) -> Option<ByAngle> {
         let [value, rate, bend] = self.by_coordinate(window.at(angle))?;
         let [first, second] = window.rates(angle);
         Some([value, rate * first, bend * first * first + rate * second])
@@ -107,22 +108,28 @@ impl Curve<'_> {
 
     /// The natural size of the derivative, or of its own by the angle.
     fn unit(&self, window: &Window, entry: usize) -> f64 {
+        self.own_unit(self.order + entry) * if entry == 0 { 1.0 } else { window.half }
+    }
+
+    /// The unit of its derivative of an order.
+    pub(super) fn own_unit(&self, order: usize) -> f64 {
         let units = self.evaluator.position().units;
         let all = if let Tracked::Link(_) = self.tracked { &units.angle } else { &units.length };
-        all[self.order + entry] * if entry == 0 { 1.0 } else { window.half }
+        all[order]
     }
 
     /// Values that may be extremes.
     pub(super) fn candidates(&mut self, window: &Window) -> Vec<ValueAt> {
-        let known = self.known_at(window, &window.nodes());
-        if self.order > 0 && known.is_zero() {
+        let mut known = self.known_at(window, &window.nodes());
+        if self.order > 0 && known.is_zero(self.own_unit(self.order)) {
             return vec![ValueAt { value: 0.0, q: window.middle }];
         }
+        let beside = self.settle(window, &mut known);
         let mut values = Vec::new();
         for (&angle, own) in known.nodes.iter().zip(&known.values) {
             values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(angle) }));
         }
-        for q in self.poles_between(window, &known) {
+        for q in self.poles_between(window, &known).map(|angle| window.at(angle)) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q });
             values.push(ValueAt { value: f64::INFINITY, q });
         }
@@ -130,11 +137,10 @@ impl Curve<'_> {
         let poles = window.poles(self.order).map(|pole| if pole == 0 { 0 } else { pole + 1 });
         let roots = self.roots(window, &known, (1, poles), |own| [own[1], own[2]]);
         for root in &roots.isolated {
-            let q = window.at(root.at);
-            values.extend(self.value(q).map(|value| ValueAt { value, q }));
+            let own = self.by_angle(window, root.at);
+            values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(root.at) }));
         }
-        values.extend(self.at_zero_lengths(window));
-        values.extend(self.at_ends(window, &known));
+        values.extend(beside);
         if self.goes_round(window, &known) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q: f64::NAN });
             values.push(ValueAt { value: f64::INFINITY, q: f64::NAN });
@@ -157,30 +163,31 @@ impl Curve<'_> {
 
     /// Stretches over which a linear function of the value is not negative.
     pub(super) fn stretches(&mut self, window: &Window, of: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-        let known = self.known_at(window, &window.nodes());
-        if self.order > 0 && known.is_zero() {
+        let mut known = self.known_at(window, &window.nodes());
+        if self.order > 0 && known.is_zero(self.own_unit(self.order)) {
             return if of(0.0) >= 0.0 { vec![window.ends()] } else { Vec::new() };
         }
+        self.settle(window, &mut known);
         let slope = of(1.0) - of(0.0);
         let poles = window.poles(self.order);
         let roots = self.roots(window, &known, (0, poles), |own| [of(own[0]), slope * own[1]]);
-        let [first, last] = window.ends();
         // Where the value steps, or goes through infinity, it may pass the level without a root.
         let steps = window.zero_lengths.iter().map(|zero| zero.angle).chain(roots.jumps);
         // Not so near to an end of the window that there are no values between.
         let steps = steps.filter(|at| (window.aside..=PI - window.aside).contains(at));
         let inner = roots.isolated.iter().map(|root| root.at).chain(steps);
-        let mut ends: Vec<f64> = inner.map(|at| window.at(at)).collect();
+        let mut ends: Vec<f64> = inner.collect();
         ends.extend(self.poles_between(window, &known));
-        ends.extend([first, last]);
+        ends.extend([0.0, PI]);
         ends.sort_by(f64::total_cmp);
         let mut found: Vec<[f64; 2]> = Vec::new();
         for pair in ends.windows(2) {
             let [from, to] = [pair[0], pair[1]];
-            let inside = WITHIN.iter().find_map(|on| self.value(from + on * (to - from)));
-            if !inside.is_some_and(|value| of(value) >= 0.0) {
+            let inside = |on: &f64| self.by_angle(window, from + on * (to - from));
+            if !WITHIN.iter().find_map(inside).is_some_and(|own| of(own[0]) >= 0.0) {
                 continue;
             }
+            let [from, to] = [from, to].map(|angle| window.at(angle));
             match found.last_mut() {
                 // A value that only touches the level ends nothing.
                 Some(last) if last[1] == from => last[1] = to,

@@ -10,7 +10,7 @@
 //! distance that condition is of one size.
 
 use super::curve::Curve;
-use super::known::{ByAngle, Known};
+use super::known::{ByAngle, Known, cubic};
 use super::window::Window;
 
 /// The greatest ratio of a condition's values in a cell.
@@ -91,12 +91,10 @@ fn vary(samples: [&Node; 3]) -> bool {
 
 /// Whether the value is far from the cubic through the ends.
 fn bends([a, middle, b]: [&Node; 3]) -> bool {
-    let (Some([first, rate, _]), Some([value, ..]), Some([last, later, _])) =
-        (a.value, middle.value, b.value)
-    else {
+    let (Some(first), Some([value, ..]), Some(last)) = (a.value, middle.value, b.value) else {
         return false;
     };
-    let cubic = 0.5 * (first + last) + 0.125 * (b.angle - a.angle) * (rate - later);
-    let size = first.abs().max(value.abs()).max(last.abs());
+    let cubic = cubic((a.angle, first), (b.angle, last));
+    let size = first[0].abs().max(value.abs()).max(last[0].abs());
     (value - cubic).abs() > (GREATEST_BEND * size).max(middle.rounding[1])
 }

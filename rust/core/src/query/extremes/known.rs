@@ -8,8 +8,19 @@ pub(super) const NOISE: f64 = 1.0e-11;
 /// A coordinate stands whose derivative is below this part of its unit.
 const STANDS: f64 = 1.0e-13;
 
+/// How far a smooth value is at most from the cubic through its neighbours, relative to itself.
+const SMOOTH: f64 = 0.1;
+
 /// A coordinate's derivative with its first two derivatives by the window's angle.
 pub(super) type ByAngle = [f64; 3];
+
+/// The value half-way between two nodes of the cubic through them.
+pub(super) fn cubic(
+    (from, [first, rate, _]): (f64, ByAngle),
+    (to, [last, later, _]): (f64, ByAngle),
+) -> f64 {
+    0.5 * (first + last) + 0.125 * (to - from) * (rate - later)
+}
 
 /// Values at the nodes.
 #[derive(Default)]
@@ -30,8 +41,9 @@ impl Known {
         self.rounding.push(rounding);
     }
 
-    /// Whether all values are rounding, and most of them no more than usual.
-    pub(super) fn is_zero(&self) -> bool {
+    /// Whether all values are rounding, and most of them no more than usual. `unit`: the natural size.
+    /// Values that are smooth are none, however great everything else is.
+    pub(super) fn is_zero(&self, unit: f64) -> bool {
         let (mut known, mut usual) = (0, 0);
         for (own, [usually, at_most]) in self.values.iter().zip(&self.rounding) {
             let Some([value, ..]) = own else { continue };
@@ -41,12 +53,47 @@ impl Known {
             known += 1;
             usual += usize::from(value.abs() <= *usually);
         }
-        2 * usual > known
+        2 * usual > known && !self.is_smooth(STANDS * unit)
+    }
+
+    /// Whether most values between nodes are near the cubic through these, and above a size.
+    fn is_smooth(&self, least: f64) -> bool {
+        let smooth = self.between.iter().filter(|(angle, middle)| {
+            let behind = self.nodes.partition_point(|node| node < angle);
+            let ends = [behind.checked_sub(1), Some(behind)];
+            let [Some(a), Some(b)] = ends.map(|node| self.sample(node?)) else { return false };
+            let Some([value, ..]) = *middle else { return false };
+            let apart = (value - cubic(a, b)).abs();
+            value.abs() > least && apart <= SMOOTH * value.abs()
+        });
+        2 * smooth.count() > self.between.len()
+    }
+
+    fn sample(&self, node: usize) -> Option<(f64, ByAngle)> {
+        Some((*self.nodes.get(node)?, (*self.values.get(node)?)?))
     }
 
     /// Adds a value between nodes, behind the others.
     pub(super) fn push_between(&mut self, angle: f64, value: Option<ByAngle>) {
         self.between.push((angle, value));
+    }
+
+    /// All angles with a value.
+    pub(super) fn angles(&self) -> impl Iterator<Item = f64> + '_ {
+        let nodes = self.nodes.iter().zip(&self.values);
+        let nodes = nodes.filter_map(|(&angle, value)| value.map(|_| angle));
+        let between = self.between.iter().filter_map(|&(angle, value)| value.map(|_| angle));
+        nodes.chain(between)
+    }
+
+    /// Another value for an angle that has one.
+    pub(super) fn replace(&mut self, angle: f64, value: Option<ByAngle>) {
+        if let Ok(node) = self.nodes.binary_search_by(|node| node.total_cmp(&angle)) {
+            self.values[node] = value;
+        }
+        if let Ok(index) = self.between.binary_search_by(|(at, _)| at.total_cmp(&angle)) {
+            self.between[index].1 = value;
+        }
     }
 
     /// The value at an angle: the one that is known, or else what `find` gives.

@@ -1,9 +1,11 @@
 //! Extremes of a coordinate of the motion, or of a derivative of it, over all of an assembly's
 //! intervals.
 
+mod beside;
 mod curve;
 mod ends;
 mod graded;
+mod hermite;
 mod known;
 pub(crate) mod tracked;
 mod window;
@@ -120,10 +122,11 @@ impl Mechanism {
             matches!(tracked, Tracked::Link(_)),
             cancel,
         );
-        let mut curve = Curve { evaluator, tracked, order, cancel };
+        let mut curve = Curve { evaluator, tracked, order, beside: Vec::new(), cancel };
         let turns = limits.period.map_or(1.0, f64::from);
         for interval in &limits.intervals {
             let mut window = Window::of(self, &curve.evaluator, interval, turns);
+            curve.beside.clear();
             curve.find_zero_lengths(&mut window);
             visit(&mut curve, &window);
         }

@@ -16,7 +16,7 @@ use crate::query::limits::finder::Interval;
 /// Nodes for each turn (or size), and at least.
 const NODES: f64 = 96.0;
 /// Nearest node to a dead point, as an angle.
-pub(super) const NEAR_END: f64 = 1.0e-3;
+const NEAR_END: f64 = 1.0e-3;
 /// Nearest node (in halves of the window) to an end where a joint is at infinity: there rounding grows as
 /// the inverse square of the distance and more.
 const NEAR_OPEN_END: f64 = 1.0e-4;
@@ -96,6 +96,14 @@ impl Window {
     pub(super) fn distance(&self, angle: f64, place: f64) -> f64 {
         let distance = (angle - place).abs();
         if self.is_period { distance.min((PI - distance).abs()) } else { distance }
+    }
+
+    /// How far (as an angle) it is from a place to the next where the motion is not smooth.
+    pub(super) fn to_next(&self, place: f64) -> f64 {
+        let ends = if self.is_period { [place; 2] } else { [0.0, PI] };
+        let places = self.zero_lengths.iter().map(|zero| zero.angle).chain(ends);
+        let others = places.filter(|&other| other != place);
+        others.map(|other| self.distance(place, other)).fold(PI, f64::min)
     }
 
     /// Angles from end to end, but none where a cylinder is too short.

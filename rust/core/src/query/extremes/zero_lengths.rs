@@ -3,8 +3,9 @@
 
 use std::f64::consts::PI;
 
+use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::ends::{CUT_NODES, hermite_at_zero};
+use super::known::Known;
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Window, ZeroLength};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
@@ -21,7 +22,7 @@ const SAME: f64 = 1.0e-9;
 
 impl Curve<'_> {
     /// Values beside the places where the tracked coordinate is not smooth.
-    pub(super) fn at_zero_lengths(&mut self, window: &Window) -> Vec<ValueAt> {
+    pub(super) fn at_zero_lengths(&mut self, window: &Window, known: &mut Known) -> Vec<ValueAt> {
         let mut values = Vec::new();
         for zero in &window.zero_lengths {
             let q = window.at(zero.angle);
@@ -29,8 +30,14 @@ impl Curve<'_> {
                 values.push(ValueAt { value: 0.0, q });
                 continue;
             }
-            let sides = [-1.0, 1.0].map(|way| self.beside(window, zero.angle, way));
-            values.extend(sides.into_iter().flatten().map(|value| ValueAt { value, q }));
+            let most = window.to_next(zero.angle);
+            for way in [-1.0, 1.0] {
+                let singularity = Singularity::ZeroLength;
+                let samples =
+                    self.samples(window, Side { place: zero.angle, way, most, singularity });
+                let limit = self.limit(window, known, &samples);
+                values.extend(limit.map(|value| ValueAt { value, q }));
+            }
         }
         values
     }
@@ -39,19 +46,9 @@ impl Curve<'_> {
     /// derivatives there; other coordinates are smooth, and pass without notice.
     pub(super) fn find_zero_lengths(&mut self, window: &mut Window) {
         let mut found = self.zero_lengths(window);
-        found.retain(|zero| self.by_angle(window, zero.angle).is_none());
+        found.retain(|zero| self.computed_by_angle(window, zero.angle).is_none());
         window.zero_lengths = found;
         window.aside = ASIDE[self.order];
-    }
-
-    /// The value toward an angle, from below (−1) or above.
-    fn beside(&mut self, window: &Window, angle: f64, way: f64) -> Option<f64> {
-        let mut node = |distance: f64| {
-            let [value, slope, _] = self.by_angle(window, angle + way * distance)?;
-            Some((distance, value, way * slope))
-        };
-        let [first, second, third] = CUT_NODES.map(&mut node);
-        Some(hermite_at_zero(&[first?, second?, third?]))
     }
 
     /// The places where passive cylinders have no length.
