@@ -183,21 +183,25 @@ class InUnits(Findings):
 
     def balanced(self, own: assur.Run) -> None:
         """At the accelerations of a run no effort of the driver is missing."""
-        machine, q = self.machine, own.q
+        machine = self.machine
         if self.drivers > 1 or machine.motor is not None or own.end == "time limit":
             return
         try:
-            found = machine.reactions(own, on_error="nan")
+            driver = machine.reactions(own, on_error="nan").driver
         except assur.InputError:  # friction on redundant links
             return
-        own_part = np.abs(machine.reduced_inertia(q, on_error="nan").value * own.acceleration)
-        size = own_part + np.abs(machine.reduced_moment(q, own.speed, on_error="nan"))
+        # At rest friction needs a sense.
+        moves = np.flatnonzero(own.speed)
+        q, apart = own.q[moves], np.abs(driver[moves])
+        own_part = np.abs(
+            machine.reduced_inertia(q, on_error="nan").value * own.acceleration[moves]
+        )
+        size = own_part + np.abs(machine.reduced_moment(q, own.speed[moves], on_error="nan"))
         condition = self.mechanism.solve(q, order=0, on_error="nan").condition
-        apart = np.abs(found.driver)
         self.report.counts["rows of runs in balance"] += len(q)
         for i in np.flatnonzero((condition < BALANCED_TO) & (apart > BALANCE * size))[:1]:
             text = f"{apart[i]:.3g} of {size[i]:.3g} is missing at q = {q[i]!r}"
-            self.fail("effort of a run", f"{text}, speed {own.speed[i]!r}, row {i}")
+            self.fail("effort of a run", f"{text}, speed {own.speed[moves[i]]!r}, row {moves[i]}")
 
     def steps(self, run: assur.Run, per: Any) -> int:
         """How many steps a run takes until rounding decides their widths."""
