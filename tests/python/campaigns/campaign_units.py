@@ -43,9 +43,11 @@ FACTORS = (1e-4, 1e4)
 FORCE = 1e-12
 CONDITION = 1e4
 # Effort that is missing at a row of a run, as a part of what it is a difference of, and the
-# greatest condition κ at which that is asked: its rounding is 64 u κ².
+# greatest condition κ at which that is asked: its rounding is 64 u κ²; and beside dead points the law
+# of friction may have several solutions, of which acceleration and effort may show different ones.
 BALANCE = 1e-5
 BALANCED_TO = 1e3
+RUBBING_TO = 50.0
 # Beyond this condition errors of steps are rounding, of several drivers u κ³: their number is luck.
 STEPS_TO = 1e3
 
@@ -199,7 +201,8 @@ class InUnits(Findings):
         size = own_part + np.abs(machine.reduced_moment(q, own.speed[moves], on_error="nan"))
         condition = self.mechanism.solve(q, order=0, on_error="nan").condition
         self.report.counts["rows of runs in balance"] += len(q)
-        for i in np.flatnonzero((condition < BALANCED_TO) & (apart > BALANCE * size))[:1]:
+        most = RUBBING_TO if machine.friction else BALANCED_TO
+        for i in np.flatnonzero((condition < most) & (apart > BALANCE * size))[:1]:
             text = f"{apart[i]:.3g} of {size[i]:.3g} is missing at q = {q[i]!r}"
             self.fail("effort of a run", f"{text}, speed {own.speed[moves[i]]!r}, row {moves[i]}")
 
