@@ -209,12 +209,6 @@ def test_the_curve_of_a_long_table_is_fitted_in_parts(name: str) -> None:
     assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
 
 
-def test_assemblies_of_many_designs_are_listed_in_parts() -> None:
-    """Making objects of Python takes longer than finding what they hold."""
-    call = partial(_four_bars(10_000).assemblies, 0.3, threads=1)
-    assert any(longest_silence(call) < SILENT for _ in range(ATTEMPTS))
-
-
 def test_a_parquet_file_is_written_in_parts(tmp_path: Path) -> None:
     pytest.importorskip("pyarrow")
     motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(_angles(300_000))
@@ -241,7 +235,7 @@ def test_a_call_that_hears_nothing_is_found() -> None:
 
 def test_other_threads_of_python_go_on_while_a_mechanism_is_built() -> None:
     """The lock is free: of the work of the build little is done while another thread waits."""
-    worked, longest = longest_standstill(lambda: _chain(1200))
+    worked, longest = longest_standstill(lambda: _chain(6000))
     assert worked > 0.1
     assert longest < worked / 2
 
@@ -362,11 +356,6 @@ def _rubbing(coefficient: float = 0.9) -> assur.Machine:
 def _moving(count: int) -> tuple[Any, ...]:
     """Positions, their speed, acceleration."""
     return _angles(count), 10.0, 0.0
-
-
-def _four_bars(count: int) -> assur.Mechanism:
-    lengths = 2.9 + _angles(count) / 30.0
-    return assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
 
 
 def _rod() -> assur.Machine:
