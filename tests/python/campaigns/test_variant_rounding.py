@@ -41,8 +41,8 @@ def test_a_length_off_by_1e_13_is_seen(part: float, least: float) -> None:
     seen = []
     for seed in range(60):
         rng = random.Random(seed)
-        sides = [rng.uniform(2.0, 3.0) for _ in range(3)]
-        d = described(assur.FourBar(1.0, *sides))
+        coupler, rocker, ground = (rng.uniform(2.0, 3.0) for _ in range(3))
+        d = described(assur.FourBar(1.0, coupler, rocker, ground))
         m = assur.Mechanism(**arguments(d))
         v = variant_of(d, m, rng)
         if not {"redrawn", "framed"} <= set(v.steps):

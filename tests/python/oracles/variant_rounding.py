@@ -36,13 +36,11 @@ def moved_drawings(v: Variant) -> Iterator[tuple[Variant, float]]:
         for name, (x, y) in d.joints.items():
             part = coordinate * 0.5 * math.ulp(max(abs(x), abs(y))) / (STEP * size)
             for place in ((x + STEP * size, y), (x, y + STEP * size)):
-                yield _with(v, joints={**d.joints, name: place}), part
+                moved = replace(d, joints={**d.joints, name: place})
+                yield replace(v, description=moved), part
     if angle:
         for name, slide in d.slides.items():
             part = angle * 0.5 * math.ulp(max(abs(slide.angle), 1.0)) / STEP
             turned = replace(slide, angle=slide.angle + STEP)
-            yield _with(v, slides={**d.slides, name: turned}), part
-
-
-def _with(v: Variant, **change: object) -> Variant:
-    return replace(v, description=replace(v.description, **change))
+            moved = replace(d, slides={**d.slides, name: turned})
+            yield replace(v, description=moved), part

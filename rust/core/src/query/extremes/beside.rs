@@ -6,19 +6,11 @@
 //! infinity. There a polynomial through values from farther away stands for it. How far away, the values
 //! themselves show: near the place digits are lost, far from it a polynomial is off.
 
-use super::curve::Curve;
 use super::hermite::Series;
-use super::known::{ByAngle, Known};
+use super::known::ByAngle;
 use super::window::{Weight, Window};
 
-/// Nodes (as angles from the place) of a polynomial, and multiples of them: from where hardly a digit is
-/// left of third derivatives to where a quarter of the window is between them.
-const NODES: [f64; 3] = [0.004, 0.008, 0.012];
-const FACTORS: [f64; 13] =
-    [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
-/// Places between the nearest nodes (in multiples of these) that show how far rounding reaches.
-const BETWEEN: [f64; 6] = [0.005, 0.006, 0.007, 0.009, 0.010, 0.011];
-/// By how much more than at these few places rounding may reach at others.
+/// By how much more than at the few places between nodes rounding may reach elsewhere.
 const MARGIN: f64 = 2.0;
 
 /// What makes the motion singular at a place.
@@ -43,30 +35,30 @@ pub(super) struct Side {
 
 /// A value on one side of a place.
 #[derive(Debug, Clone, Copy)]
-struct Sample {
-    distance: f64,
-    angle: f64,
-    own: ByAngle,
+pub(super) struct Sample {
+    pub distance: f64,
+    pub angle: f64,
+    pub own: ByAngle,
     /// The size of what it is made of, which rounding is a part of.
-    size: f64,
+    pub size: f64,
 }
 
 /// Values on one side of a place: those between the nearest nodes, and the nodes, set by set.
 pub(super) struct Samples {
-    side: Side,
-    between: Vec<Sample>,
-    sets: Vec<[Sample; 3]>,
+    pub side: Side,
+    pub between: Vec<Sample>,
+    pub sets: Vec<[Sample; 3]>,
 }
 
 /// A polynomial through values, weighted by a pole, on one side of a place.
 pub(super) struct Fit {
-    series: Series,
+    pub series: Series,
     reach: f64,
     /// How far its limit may be off.
     pub error: f64,
     /// The size of what it is made of at its nodes, and the part of that by which rounding is off.
     pub size: f64,
-    noise: f64,
+    pub noise: f64,
 }
 
 impl Fit {
@@ -78,13 +70,13 @@ impl Fit {
 
 /// A polynomial that stands for a derivative on one side of a place, where that has lost more digits.
 pub(super) struct Beside {
-    side: Side,
-    fit: Fit,
+    pub side: Side,
+    pub fit: Fit,
 }
 
 impl Beside {
     /// Distance of an angle from the place, if it reaches there.
-    fn distance(&self, window: &Window, angle: f64) -> Option<f64> {
+    pub(super) fn distance(&self, window: &Window, angle: f64) -> Option<f64> {
         let distance = window.in_period(self.side.way * (angle - self.side.place));
         (0.0..self.fit.reach).contains(&distance).then_some(distance)
     }
@@ -130,88 +122,5 @@ impl Samples {
         // What does not take part in a fold is a function of the square, the distance itself.
         let even = if pole == 0 { through(true) } else { Vec::new() };
         fits(general).chain(fits(even)).min_by(|a, b| a.error.total_cmp(&b.error))
-    }
-}
-
-impl Curve<'_> {
-    /// The derivative with its first two derivatives by the window's angle: as computed, or from the
-    /// polynomial where that has more digits.
-    pub(super) fn by_angle(&mut self, window: &Window, angle: f64) -> Option<ByAngle> {
-        let own = self.computed_by_angle(window, angle)?;
-        let better = self.beside.iter().find_map(|beside| {
-            let distance = beside.distance(window, angle)?;
-            let Beside { side, fit } = beside;
-            let is_better = fit.noise * self.size_of_terms(side.singularity) > fit.error;
-            is_better.then(|| {
-                let [value, slope, bend] = fit.series.at(distance);
-                [value, side.way * slope, bend]
-            })
-        });
-        Some(better.unwrap_or(own))
-    }
-
-    /// The limit on one side of a place where a coordinate is smooth. Beside it values from now on come
-    /// from the polynomial where that has more digits.
-    pub(super) fn limit(
-        &mut self,
-        window: &Window,
-        known: &mut Known,
-        samples: &Samples,
-    ) -> Option<f64> {
-        let beside = Beside { side: samples.side, fit: samples.fit(0)? };
-        let limit = beside.fit.limit();
-        let reaches = |angle: &f64| beside.distance(window, *angle).is_some();
-        let stale: Vec<f64> = known.angles().filter(reaches).collect();
-        self.beside.push(beside);
-        for angle in stale {
-            let value = self.by_angle(window, angle);
-            known.replace(angle, value);
-        }
-        Some(limit)
-    }
-
-    /// Values on one side of a place.
-    pub(super) fn samples(&mut self, window: &Window, side: Side) -> Samples {
-        let mut samples = Samples { side, between: Vec::new(), sets: Vec::new() };
-        for factor in FACTORS {
-            if factor * NODES[2] > side.most {
-                break;
-            }
-            // So near that there are no values, or too far.
-            let Some(nodes) = self.set(window, side, NODES.map(|node| factor * node)) else {
-                continue;
-            };
-            if samples.sets.is_empty() {
-                let between = BETWEEN.map(|node| factor * node);
-                let between = between.map(|distance| self.sample(window, side, distance));
-                samples.between.extend(between.into_iter().flatten());
-            }
-            samples.sets.push(nodes);
-        }
-        samples
-    }
-
-    fn set(&mut self, window: &Window, side: Side, nodes: [f64; 3]) -> Option<[Sample; 3]> {
-        let [first, second, third] = nodes.map(|distance| self.sample(window, side, distance));
-        Some([first?, second?, third?])
-    }
-
-    fn sample(&mut self, window: &Window, side: Side, distance: f64) -> Option<Sample> {
-        let angle = window.in_period(side.place + side.way * distance);
-        let own = self.computed_by_angle(window, angle)?;
-        Some(Sample { distance, angle, own, size: self.size_of_terms(side.singularity) })
-    }
-
-    /// The size of what the derivative is made of at the last position.
-    fn size_of_terms(&self, singularity: Singularity) -> f64 {
-        let size = match singularity {
-            Singularity::Pole => self.evaluator.position().greatest(self.order),
-            // A direction is off by u κ, its k-th derivative by u κ^(k + 1).
-            Singularity::ZeroLength => {
-                let condition = self.evaluator.total_condition();
-                (0..=self.order).fold(1.0, |power, _| power * condition)
-            }
-        };
-        size * self.own_unit(self.order)
     }
 }

@@ -2,6 +2,7 @@
 //! intervals.
 
 mod beside;
+mod continued;
 mod curve;
 mod ends;
 mod graded;
