@@ -45,7 +45,7 @@ def same_limits(p: Pairing) -> Iterator[str]:
     unit, higher = _unit(p), p.one.structure.cls > 2
     if _in_other_interval(p, a) or _runs_far(p, a):
         return
-    around = p.turning[0] and not higher
+    around = p.turning[0] and (not higher or _goes_on(p, a))
     if not _same_ends(_gaps(want, around), _gaps(have, around), unit, around):
         yield f"limits {have.tolist()}, from the other description {want.tolist()}"
         return
@@ -54,6 +54,16 @@ def same_limits(p: Pairing) -> Iterator[str]:
     ]
     if groups[0] != groups[1] and len(a.dead_points) == len(b.dead_points):
         yield f"dead points of {groups[1]}, by the other description of {groups[0]}"
+
+
+def _goes_on(p: Pairing, limits: assur.Limits) -> bool:
+    """Whether every interval is met in other turns, too: the drawing says which are listed."""
+    if not np.isfinite(limits.intervals).all():
+        return False
+    middles = limits.intervals.mean(axis=1)
+    turned = np.concatenate([middles - math.tau, middles + math.tau])
+    motion = p.one.solve(turned, order=0, on_error="nan", threads=1)
+    return bool((np.asarray(motion.status) <= assur.Status.SINGULAR).all())
 
 
 def _in_other_interval(p: Pairing, limits: assur.Limits) -> bool:
