@@ -127,3 +127,14 @@ def test_no_pole_where_values_rise_to_a_limit(seed: int, name: str, order: int) 
     inward = 1.0 if apart[:, 0].min() == apart.min() else -1.0
     there = limit(d, name, order, far.q, inward)
     assert far.value == pytest.approx(there, rel=1e-4)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_a_dwell_beside_a_dead_point_is_one_stretch(order: int) -> None:
+    m = assur.Mechanism(**arguments(random_case(10376).description))
+    [[low, high]] = m.limits().intervals.tolist()
+    found = m.extremes("s0", order=order)
+    for stretches in found.dwells(1e-4 * abs(found.greatest.value)):
+        [[first, last]] = stretches
+        # The value is monotone: it dwells at the ends.
+        assert first == low or last == high
