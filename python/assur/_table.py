@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from importlib import import_module
 from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from assur._arrays import flag, short
+from assur._files import checked_path, writing
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -67,14 +67,14 @@ def write_excel(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     except ImportError as error:  # pragma: no cover
         message = "to_excel needs openpyxl: pip install assur[excel]"
         raise ImportError(message) from error
-    path = _checked_path(path, "to_excel")
+    out = checked_path(path)
     listed = list(columns)
     rows = max((len(column.values) for column in listed), default=0)
     if rows + 2 > MAX_ROWS:
         message = f"to_excel: {rows} rows; a sheet holds {MAX_ROWS - 2}: use to_parquet"
         raise InputError(message)
     # Opened first: what cannot be written is refused before sheets are made.
-    with path.open("wb") as file:
+    with writing(out), out.open("wb") as file:
         _workbook(Workbook(write_only=True), listed).save(file)
 
 
@@ -100,9 +100,9 @@ def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     if find_spec("pyarrow") is None:  # pragma: no cover
         message = "to_parquet needs pyarrow: pip install assur[parquet]"
         raise ImportError(message)
-    path = _checked_path(path, "to_parquet")
+    out = checked_path(path)
     table = frame(columns)
-    with path.open("wb") as file:
+    with writing(out), out.open("wb") as file:
         try:
             _in_parts(file, table)
         except BaseException:
@@ -128,18 +128,6 @@ def _in_parts(file: Any, table: Any) -> None:
         for row in range(0, len(table), rows):
             part = table.iloc[row : row + rows]
             writer.write_batch(pa.RecordBatch.from_pandas(part, schema, preserve_index=False))
-
-
-def _checked_path(path: Any, what: str) -> Path:
-    """Return a path; what is none is refused before a table is made."""
-    try:
-        checked = Path(path)
-    except TypeError:
-        checked = None
-    if checked is None or "\0" in str(checked):
-        message = f"{what}: {short(path)} is not a path of a file"
-        raise InputError(message)
-    return checked
 
 
 def _sheet_name(quantity: str, names: set[str]) -> str:

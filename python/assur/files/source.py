@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from assur._files import reason, shown_path
 from assur.files.errors import FileError, file_name
 from assur.files.lexer import line_and_column
 from assur.files.limits import MOST_BYTES, beyond_limits
@@ -54,14 +55,14 @@ class Source(Tree):
                 raw = file.read(MOST_BYTES + 1)
         except (OSError, ValueError) as error:
             # A ValueError: a path with a NUL.
-            why = getattr(error, "strerror", None) or error
-            message = f"{self.path}: cannot be read: {why}"
+            message = f"{shown_path(self.path)}: cannot be read: {reason(error)}"
             raise FileError(message, path=self.path) from error
         return self._few(raw)
 
     def _few(self, raw: bytes) -> bytes:
         if len(raw) > MOST_BYTES:
-            message = f"{self.path}: is larger than {MOST_BYTES // 2**20} MiB, the limit of a file"
+            limit = f"{MOST_BYTES // 2**20} MiB, the limit of a file"
+            message = f"{shown_path(self.path)}: is larger than {limit}"
             raise FileError(message, path=self.path)
         return raw
 
@@ -101,7 +102,7 @@ class Source(Tree):
 
     def _at(self, line: int, column: int, message: str, key: str | None = None) -> FileError:
         named = f"{key}: " if key else ""
-        message = f"{self.path}:{line}:{column}: {named}{message}"
+        message = f"{shown_path(self.path)}:{line}:{column}: {named}{message}"
         return FileError(message, path=self.path, line=line, column=column, key=key)
 
     def error(

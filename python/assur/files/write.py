@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from assur._arrays import short
+from assur._files import reason, shown_path
 from assur.errors import InputError
 from assur.files.contents import FORMAT, Contents
 from assur.files.errors import FileError, file_name
@@ -62,7 +63,7 @@ def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -
     try:
         Path(name).write_bytes(raw)
     except (OSError, ValueError) as error:
-        message = f"{name}: cannot be written: {getattr(error, 'strerror', None) or error}"
+        message = f"{shown_path(name)}: cannot be written: {reason(error)}"
         raise FileError(message, path=name) from error
 
 

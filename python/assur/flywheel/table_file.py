@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import csv
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from assur._arrays import flag
 from assur._by_value import key_of
+from assur._files import checked_path, shown_path
 from assur._validate import require_rows
 from assur.errors import InputError
 
@@ -92,8 +92,10 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable
     >>> table.phi.round(4), table.moment  # rad, N·m
     (array([0.    , 1.5708, 3.1416, 4.7124, 6.2832]), array([   0.,  100.,    0., -100.,    0.]))
     """
+    file = checked_path(path)
+    path = shown_path(file)
     try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
         kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
         cells = list(csv.reader(line for _, line in kept))
     except (OSError, ValueError, csv.Error) as error:

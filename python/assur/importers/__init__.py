@@ -14,10 +14,12 @@
 from __future__ import annotations
 
 import re
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
+from assur._arrays import short
+from assur._files import checked_path
 from assur._validate import one_of
+from assur.errors import InputError
 from assur.importers import (
     linkage2,
     pmks,
@@ -141,7 +143,10 @@ def detect(path: Any, text: str) -> str | None:
     >>> importers.detect("press.linkage2", ""), importers.detect(None, "Hello")
     ('linkage2', None)
     """
-    ending = PurePath(path or "").suffix.lower()
+    ending = "" if path is None else checked_path(path).suffix.lower()
+    if not isinstance(text, str):
+        message = f"text is {short(text)}: the text of a file is needed"
+        raise InputError(message)
     if ENDINGS.get(ending):
         return ENDINGS[ending]
     start = text.lstrip("\ufeff \t\r\n")

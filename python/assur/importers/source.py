@@ -10,6 +10,7 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur._arrays import short
+from assur._files import reason, shown_path
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -146,8 +147,8 @@ def _read(path: Any) -> tuple[str, str]:
         with file.open("rb") as stream:
             data = stream.read(LARGEST_FILE * 4 + 1)
     except (OSError, TypeError, ValueError) as error:
-        named = str(path) if isinstance(path, str | PurePath) else short(path)
-        message = f"{named[:500]} cannot be read as a file: {_reason(error)}"
+        named = shown_path(path) if isinstance(path, str | PurePath) else short(path)
+        message = f"{named[:500]} cannot be read as a file: {reason(error).lower()}"
         raise InputError(message) from error
     try:
         text = data.decode("utf-8")
@@ -155,8 +156,3 @@ def _read(path: Any) -> tuple[str, str]:
         # Linkage writes the code page of Windows.
         text = data.decode("cp1252", errors="replace")
     return text, file.name
-
-
-def _reason(error: Exception) -> str:
-    strerror = getattr(error, "strerror", None)
-    return str(strerror or error).lower()

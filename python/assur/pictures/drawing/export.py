@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import flag, real_number, short
+from assur._files import checked_path, writing
+from assur._validate import checked_name
 from assur.errors import InputError
 from assur.pictures.axes import nice_length
 from assur.pictures.drawing.layers import layer_names
@@ -15,7 +17,6 @@ from assur.pictures.drawing.names import name_marks
 from assur.pictures.drawing.position import PX, dimensioned, outlines, schematic
 from assur.pictures.drawing.sheet import PAPERS, lay_out
 from assur.pictures.drawing.strokes import strokes
-from assur.pictures.files import checked_path, writing
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.scene.extent import usual_link
 from assur.pictures.scene.slides import Slides
@@ -57,7 +58,7 @@ def write_drawing(
         raise InputError(message)
     links = _checked_links(mechanism, link, q)
     wanted = None if scale is None else _checked_scale(scale)
-    if paper is not None and paper not in PAPERS:
+    if paper is not None and (not isinstance(paper, str) or paper not in PAPERS):
         message = f"paper is {short(paper)}: one of {', '.join(PAPERS)} is needed"
         raise InputError(message)
     flag(show_outlines, "outlines")
@@ -109,12 +110,13 @@ def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:
     if q is not None:
         message = "q is given, and link: a part has no position, leave one of them out"
         raise InputError(message)
-    if link == "all":
-        found = [name for name in mechanism.links if _has_shape(mechanism, name)]
-        return found or list(mechanism.links)
     if not isinstance(link, str):
         message = f'link is {short(link)}: the name of a link is needed, or "all"'
         raise InputError(message)
+    if link == "all":
+        found = [name for name in mechanism.links if _has_shape(mechanism, name)]
+        return found or list(mechanism.links)
+    link = checked_name(link, "link")
     mechanism._core.require("link", link)
     if not _has_shape(mechanism, link):
         message = f"link {link!r} has no joint and no slide: there is nothing to draw"

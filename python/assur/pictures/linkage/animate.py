@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.animation import FFMpegWriter
 
+from assur._files import checked_path, writing
 from assur._validate import checked_names, real_number, whole_number
 from assur.errors import InputError
-from assur.pictures.files import checked_path, writing
 from assur.pictures.linkage.film import Film
 from assur.pictures.style import style_of
 

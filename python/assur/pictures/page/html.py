@@ -10,11 +10,9 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
-import numpy as np
-
-from assur._arrays import flag, real_number, short
+from assur._arrays import flag, real_array, real_number, short
+from assur._files import checked_path, writing
 from assur.errors import AssurError, InputError
-from assur.pictures.files import checked_path, writing
 from assur.pictures.page.bundle import script, stylesheet
 from assur.pictures.page.payload import payload, played_of
 from assur.pictures.page.svg import svg_picture
@@ -182,7 +180,8 @@ def _turn(of: Any, q: Any, duration: float | None) -> Turn:
     if not hasattr(of, "solve"):
         return turn_of_rows(of, duration)
     several = of._driver_count > 1
-    if q is None or (np.ndim(q) == 0 and not several):
+    q = None if q is None else real_array(q, "q")
+    if q is None or (q.ndim == 0 and not several):
         return turn_of(of, q)
     require_one(of)
     return turn_of_rows(of.solve(q, order=0, on_error="nan"), duration)
