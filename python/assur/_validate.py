@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Mapping
+from itertools import islice
 from typing import Any
 
 from assur._arrays import counted, real_array, real_number, short
 from assur.errors import InputError
 
 __all__ = [
+    "checked_entries",
     "checked_index",
     "checked_name",
     "checked_names",
@@ -20,6 +22,7 @@ __all__ = [
     "one_of",
     "real_array",
     "real_number",
+    "refuse_without_speed",
     "require_rows",
     "whole_number",
 ]
@@ -30,6 +33,8 @@ MAX_THREADS = 4096
 MAX_SIGN = 2**53
 # The core counts with 64 bits.
 MAX_COUNT = 2**63 - 1
+# Points of one array, 80 MB of each quantity: more only take memory.
+MAX_POINTS = 10_000_000
 
 
 def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
@@ -38,6 +43,31 @@ def one_of(value: Any, known: tuple[str, ...], what: str) -> str:
         return str(value)
     message = f"{what} is {short(value)}: one of {', '.join(map(repr, known))} is needed"
     raise InputError(message)
+
+
+def checked_entries(value: Any, what: str, most: int) -> list[Any]:
+    """Return one value as a list, or the entries of a sequence, from 1 to `most` of them."""
+    is_one = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
+    try:
+        entries = [value] if is_one else list(islice(value, most + 1))
+    except TypeError:
+        entries = [value]
+    if not 1 <= len(entries) <= most:
+        count = len(entries) if len(entries) <= most else f"more than {most}"
+        message = f"{what} has {count} entries: from 1 to {most} are needed"
+        raise InputError(message)
+    return entries
+
+
+def refuse_without_speed(speed: Any, name: str, **rates: Any) -> None:
+    """Raise InputError for rates that would have no effect, as their speed is not given."""
+    for what, rate in rates.items() if speed is None else ():
+        if real_array(rate, what).any():
+            message = (
+                f"{what} is {short(rate)} and {name} is not given: analogues have no speed; give "
+                f"{name}, too"
+            )
+            raise InputError(message)
 
 
 def require_rows(count: int, least: int, what: str) -> None:

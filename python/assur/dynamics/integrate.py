@@ -13,6 +13,7 @@ from assur import events as known_events
 from assur import flywheel as flywheels
 from assur._arrays import finite_array, real_number
 from assur._validate import one_of
+from assur.dynamics import parts
 from assur.dynamics.no_value import not_covered, table_names
 from assur.dynamics.options import (
     as_list,
@@ -31,6 +32,7 @@ from assur.dynamics.options import (
 )
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
+from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError
 from assur.kinematics.solve import warn_if_degrees
 
@@ -56,6 +58,8 @@ EARLY_ENDS = (
 )
 # Places of a period at which tables are looked at, to name the load of one that does not cover it.
 PLACES = 721
+# How the core begins the error of a motor's table.
+OF_MOTOR = "a motor's table"
 # Events of friction.
 STICK, SLIP = "stick", "slip"
 # Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
@@ -93,7 +97,7 @@ def run(
     if along_q and (end - start[0]) * speeds[0] < 0.0:
         message = f"q_end = {end:g} lies behind q0 = {start[0]:g} at speed0 = {speeds[0]:g}"
         raise InputError(message, value=end)
-    with _naming_tables(machine, np.array(start)):
+    with _naming_tables(machine, np.array(start), speeds):
         core = machine._core.run(
             _dimensions(machine),
             along_q,
@@ -150,7 +154,8 @@ def steady_state(
         raise InputError(message)
     start = _start(machine, q0, "q0")[0]
     # Where the core finds a table that does not cover the period, it says nothing of the load.
-    with _naming_tables(machine, start + np.linspace(0.0, span, PLACES)):
+    places = start + np.linspace(0.0, span, PLACES)
+    with _naming_tables(machine, places, [0.0 if guess is None else guess]):
         core, numbers = machine._core.steady(
             _dimensions(machine),
             start,
@@ -177,17 +182,41 @@ def steady_state(
 
 
 @contextmanager
-def _naming_tables(machine: Machine, places: Float) -> Iterator[None]:
-    """Name the load whose table does not cover one of these places, where the core refuses one."""
+def _naming_tables(machine: Machine, places: Float, speeds: list[float]) -> Iterator[None]:
+    """Name the load or the driver whose table does not cover these, where the core refuses one."""
     try:
         yield
     except InputError as error:
-        if error.kind != "table_ends" or machine.mechanism is None or machine._drivers > 1:
+        if error.kind != "table_ends" or machine.mechanism is None:
+            raise
+        driver = _driver_beyond(machine, speeds)
+        if driver is not None and str(error).startswith(OF_MOTOR):
+            raise _of_driver(driver, error) from None
+        if machine._drivers > 1:
             raise
         named = not_covered(machine, places)
         if named is None:
             raise
         raise named from None
+
+
+def _driver_beyond(machine: Machine, speeds: list[float]) -> str | None:
+    """Return the driver whose motor's table over its speed does not cover the speed of it."""
+    assert machine.mechanism is not None
+    drivers = machine.mechanism._description.drivers
+    motors = parts.motors(machine.motor, len(drivers))
+    for driver, motor, speed in zip(drivers, motors, speeds, strict=True):
+        if isinstance(motor, Table) and not motor.q[0] <= speed * motor.ratio <= motor.q[-1]:
+            return driver if isinstance(driver, str) else driver.link
+    return None
+
+
+def _of_driver(driver: str, error: InputError) -> InputError:
+    """Return the error of a motor's table with the name of the driver."""
+    message = f"driver {driver!r}: {error}"
+    return InputError(
+        message, kind=error.kind, hint=error.hint, driver=driver, q=error.q, value=error.value
+    )
 
 
 def _dimensions(machine: Machine) -> list[float]:

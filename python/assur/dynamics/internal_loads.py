@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import in_range
-from assur._validate import one_of, whole_number
+from assur._validate import MAX_POINTS, one_of, whole_number
 from assur.dynamics.along import DrivenMotion, times
 from assur.dynamics.beam import QUANTITIES
 from assur.dynamics.kinetostatics import broadcast_motion
@@ -182,7 +182,7 @@ def internal_loads(
         raise InputError(message)
     one_design(machine, "internal_loads")
     one_of(on_error, ("raise", "nan"), "on_error")
-    whole_number(n, "n", 2)
+    whole_number(n, "n", 2, MAX_POINTS)
     rod = straight_rod(machine, machine.mechanism, link, along, density)
     *given, shape = broadcast_motion(machine, motion)
     drivers = machine._drivers

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import real_number, short
-from assur._validate import whole_number
+from assur._validate import MAX_POINTS, whole_number
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.equilibria import search_range
 from assur.dynamics.kinetostatics import reactions
@@ -81,7 +81,7 @@ def self_locking(
     if rate * way < 0.0:
         message = f"speed is {rate:g} and sense {way:g}: they must agree"
         raise InputError(message)
-    count = whole_number(n, "n", 2)
+    count = whole_number(n, "n", 2, MAX_POINTS)
     ends, is_turn, _ = search_range(machine, between)
     q = np.linspace(*ends, count + 1)
     bare = type(machine)(mechanism, machine.bodies, machine.loads)

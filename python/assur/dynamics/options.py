@@ -135,7 +135,7 @@ def turn_count(turns: Any) -> int:
 
 def step_count(steps: Any) -> int:
     """Return the largest number of steps."""
-    return whole_number(steps, "max_steps", 1, needed="a whole number above 0 is needed")
+    return whole_number(steps, "max_steps", 1)
 
 
 def checked_seconds(seconds: Any) -> float | None:

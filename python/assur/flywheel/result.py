@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import Float, finite_array, flag
 from assur._table import Column, Tabular, angle_column, design_columns
-from assur._validate import checked_index, one_of, whole_number
+from assur._validate import MAX_POINTS, checked_index, one_of, whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -335,8 +335,7 @@ class Flywheel(Tabular, ABC):
         >>> inertia.round(6), (energy - energy[0]).round(2)  # kg·m², J
         (array([2., 2., 2., 2., 2.]), array([  0., 100., 200., 100.,   0.]))
         """
-        needed = "a whole number of at least 2 is needed"
-        q = np.linspace(*self._turn, whole_number(points, "points", 2, needed=needed))
+        q = np.linspace(*self._turn, whole_number(points, "points", 2, MAX_POINTS))
         inertia = self.reduced_inertia(q)
         start = np.asarray(self.reduced_inertia(self._turn[0]) * np.square(self.speed0) / 2.0)
         return inertia, self.work(q) + start[..., np.newaxis]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from assur._arrays import short
-from assur._validate import real_number, whole_number
+from assur._validate import checked_name, real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.place import size_of
@@ -151,6 +151,7 @@ def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
     if not isinstance(name, str):
         message = f"coordinate {short(name)}: a name is needed"
         raise InputError(message)
+    name = checked_name(name, "coordinate")
     joint, dot, axis = name.rpartition(".")
     if dot:
         if axis not in ("x", "y"):

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import flag, short
-from assur._validate import checked_index, checked_name
+from assur._validate import checked_index, checked_name, real_array, refuse_without_speed
 from assur.errors import InputError
 from assur.kinematics import transmission
 from assur.kinematics.quantity import Analogues
@@ -350,7 +350,7 @@ class Motion:
         array([10., 10.])
         """
         self._require_one_driver("curvature")
-        point = self.joint(joint)
+        point = self.joint(checked_name(joint, "curvature"))
         values = _core.curvature(point.d1.reshape(-1), point.d2.reshape(-1))
         return values.reshape(self.shape)
 
@@ -747,7 +747,14 @@ class Motion:
         """
         from assur.pictures.diagrams.diagram import motion_diagram
 
-        speeds = None if omega is None else (omega, alpha, beta)
+        refuse_without_speed(omega, "omega", alpha=alpha, beta=beta)
+        speeds = None
+        if omega is not None:
+            speeds = (
+                real_array(omega, "omega"),
+                real_array(alpha, "alpha"),
+                real_array(beta, "beta"),
+            )
         return motion_diagram(self, name, ax, speeds, orders, flag(degrees, "degrees"), dark)
 
     def plot(

@@ -85,7 +85,11 @@ def _entries(index: Any, shape: tuple[int, ...]) -> tuple[Any, ...]:
 def _entry(one: Any, size: int, shape: tuple[int, ...]) -> Any:
     if isinstance(one, slice):
         return one
-    array = np.asarray(one)
+    try:
+        array = np.asarray(one)
+    except ValueError as error:  # lists of different lengths
+        message = f"[{short(one)}]: {FORMS}"
+        raise InputError(message) from error
     if array.dtype == np.bool_:
         if array.shape != (size,):
             message = f"a mask of shape {array.shape} for an axis of {size} of the shape {shape}"

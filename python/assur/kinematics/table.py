@@ -9,6 +9,7 @@ import numpy as np
 
 from assur._arrays import flag
 from assur._table import Column, coordinate_columns, design_columns
+from assur._validate import refuse_without_speed
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -48,6 +49,7 @@ def motion_columns(motion: Motion, options: Options) -> list[Column]:
     """Return the columns of a motion's table, rows over designs and positions."""
     flag(options.degrees, "degrees")
     flag(options.moving, "moving")
+    refuse_without_speed(options.omega, "omega", alpha=options.alpha, beta=options.beta)
     columns = _rows(motion, options.degrees)
     taken = {column.name for column in columns}
     for quantity in _quantities(motion, taken):

@@ -24,6 +24,8 @@ PAD = 0.08
 BELOW = 20.0
 TEXT = 9.0
 CURVE, MARK = 2.2, 6.0
+# Ranges of an axis beyond these have no ticks: matplotlib takes their logarithm and their sums.
+LEAST_SHOWN, GREATEST_SHOWN = 1e-300, 1e300
 # Greatest numbers beside an axis, and the least of them, without a power of ten.
 LEAST, MOST = 0.1, 1000.0
 
@@ -141,8 +143,15 @@ def headroom(ax: Any, values: Float, part: float = HEADROOM) -> None:
     if not known.size:
         return
     low, high = float(known.min()), float(known.max())
+    greatest = max(abs(low), abs(high))
+    if greatest and not LEAST_SHOWN <= greatest <= GREATEST_SHOWN:
+        message = (
+            f"the diagram would show values of {greatest:.3g}: from {LEAST_SHOWN:g} to "
+            f"{GREATEST_SHOWN:g} can be drawn"
+        )
+        raise InputError(message, value=greatest)
     span = high - low
-    if span <= 1e-9 * max(abs(low), abs(high)):
+    if span <= 1e-9 * greatest:
         span = abs(high) or 1.0
     ax.set_ylim(low - part * span, high + part * span)
 

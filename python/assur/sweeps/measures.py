@@ -122,7 +122,7 @@ class Measures(Mapping[str, Float]):
             message = f"best({n!r}, {short(by)}): the number comes first: best(10, by={n!r})"
             raise InputError(message)
         wanted = whole_number(n, "n", 1)
-        if by not in self._values:
+        if not isinstance(by, str) or by not in self._values:
             names = ", ".join(map(repr, self._values))
             message = f"by={short(by)}: one of {names} is needed{self._near(by)}"
             raise InputError(message)

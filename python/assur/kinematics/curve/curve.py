@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import counted
 from assur._trig import sin_cos
-from assur._validate import checked_index, whole_number
+from assur._validate import MAX_POINTS, checked_index, whole_number
 from assur.description.words import Status
 from assur.kinematics.curve.defects import defects_of
 from assur.kinematics.curve.parts import ends_of, has_driven_angle
@@ -29,9 +29,6 @@ __all__ = ["CircuitMotion", "ConfigurationCurve"]
 
 # How far (rad, or in sizes) beside dead points, which are known to about as much.
 MARGINS = (1e-13, 1e-12, 1e-11, 1e-10, 1e-9)
-# Of samples; more would fill the memory.
-MAX_SAMPLES = 10_000_000
-NEEDED = "a whole number of at least 2 is needed"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -195,7 +192,7 @@ class ConfigurationCurve:
         array([-1.371564,  0.      ,  1.371564,  0.      , -1.371564])
         """
         (index,) = checked_index(circuit, (len(self.circuits),), "circuit")
-        samples = whole_number(samples, "samples", 2, MAX_SAMPLES, needed=NEEDED)
+        samples = whole_number(samples, "samples", 2, MAX_POINTS)
         parts = []
         for number, direction in self.circuits[index].branches:
             branch = self.branches[number]

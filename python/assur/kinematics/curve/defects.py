@@ -58,7 +58,11 @@ class Defects:
 
 def defects_of(curve: ConfigurationCurve, places: Sequence[tuple[float, Assembly]]) -> Defects:
     """See `ConfigurationCurve.defects`."""
-    pairs: list[Any] = list(places) if hasattr(places, "__iter__") else [places]
+    try:
+        pairs: list[Any] = list(places)
+    except TypeError:
+        # A number, an array without axes, one mechanism.
+        pairs = [places]
     if not all(isinstance(one, tuple | list) and len(one) == 2 for one in pairs):
         message = f"places is {short(places)}: pairs (q, assembly) are needed, as find() gives"
         raise InputError(message)

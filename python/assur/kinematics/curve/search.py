@@ -11,7 +11,7 @@ from assur._validate import whole_number
 from assur.errors import InputError
 from assur.kinematics.curve.branches import Branches
 from assur.kinematics.curve.circuits import circuits_of
-from assur.kinematics.curve.curve import NEEDED, ConfigurationCurve
+from assur.kinematics.curve.curve import ConfigurationCurve
 from assur.kinematics.curve.fan import Fan, around_drawing, look_within_intervals
 from assur.kinematics.curve.folds import Folds
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.parts import Fold
     from assur.kinematics.mechanism import Mechanism
 
+# A fan of so many takes minutes, and 100 MB; its time grows faster than its positions.
+MOST_POSITIONS = 100_000
 # Halvings of the fan where the ends of branches do not explain a change of the count.
 MOST_HALVINGS = 12
 
@@ -30,7 +32,7 @@ def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCu
         message = f"configuration_curve() is for one design, this is a batch {mechanism.shape}"
         raise InputError(message)
     require_one_driver(mechanism, "configuration_curve")
-    positions = whole_number(positions, "positions", 2, needed=NEEDED)
+    positions = whole_number(positions, "positions", 2, MOST_POSITIONS)
     known = Branches(mechanism)
     # The drawing's own circuit may be narrower than the fan.
     known.look_at(float(np.ravel(mechanism.q0)[0]))

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import finite_array, real_number
+from assur._arrays import finite_array, real_number, short
 from assur._trig import sin_cos
+from assur._validate import checked_entries
 from assur.errors import InputError
 from assur.papers.crank_rocker.theory import (
     blocked,
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 # Points of a curve; rockers, of figure 3.
 POINTS, ROCKERS = 721, 60
+# Curves of one diagram; pictures of one figure: more cannot be read.
+MOST_CURVES, MOST_PANELS = 100, 12
 # Length of the arrow of a force, points.
 ARROW = 44.0
 TINT = 0.2
@@ -76,7 +79,12 @@ def plot_zone(
 
     own, length = style_of(dark), real_number(coupler, "coupler")
     # From the shortest rocker that leaves a zone to one as long as the coupler.
-    first = 1.0 + float(np.sum(np.broadcast_to(finite_array(margin, "margin"), (2,)))) / 2.0
+    margins = finite_array(margin, "margin")
+    if margins.shape not in ((), (2,)):
+        message = f"margin is {short(margin)}: a number is needed, or two of them"
+        raise InputError(message)
+    gamma_min = real_number(gamma_min, "gamma_min")
+    first = 1.0 + float(np.sum(np.broadcast_to(margins, (2,)))) / 2.0
     if not length > first:
         message = f"coupler is {coupler!r}: with these margins it must be above {first:.6g}"
         raise InputError(message, value=length)
@@ -118,7 +126,7 @@ def plot_push_and_pull(
     l2: float,
     l3: float,
     l4: float,
-    phi1: Sequence[float] = (1.6, 4.2),
+    phi1: float | Sequence[float] = (1.6, 4.2),
     ax: Any = None,
     *,
     dark: bool = False,
@@ -129,7 +137,7 @@ def plot_push_and_pull(
     ----------
     l1, l2, l3, l4 : float
         Crank, coupler, rocker and ground, m.
-    phi1 : sequence of float
+    phi1 : float or sequence of float
         Crank angles, rad, of a picture each: by default one of pushing and one of pulling.
     ax : sequence of matplotlib axes, optional
         Where to draw, one for each angle; a new figure by default.
@@ -156,7 +164,8 @@ def plot_push_and_pull(
     from assur.pictures.axes import pyplot
     from assur.pictures.style import style_of
 
-    own, angles = style_of(dark), [real_number(one, "phi1") for one in phi1]
+    own, lengths = style_of(dark), _checked_lengths(l1=l1, l2=l2, l3=l3, l4=l4)
+    angles = [real_number(one, "phi1") for one in checked_entries(phi1, "phi1", MOST_PANELS)]
     if ax is None:
         size = (4.6 * len(angles), 3.0)
         room = {"left": 0.01, "right": 0.99, "bottom": 0.0, "top": 0.88, "wspace": 0.02}
@@ -168,12 +177,12 @@ def plot_push_and_pull(
         message = f"ax has {len(panels)} axes: {len(angles)} are needed"
         raise InputError(message)
     for panel, phi in zip(panels, angles, strict=True):
-        mechanism, places = _drawn(phi, (l1, l2, l3, l4))
+        mechanism, places = _drawn(phi, lengths)
         mechanism.plot(ax=panel, dark=dark)
-        found = solve(phi, l1, l2, l3, l4)
+        found = solve(phi, *lengths)
         pushes = bool(found.pushes)
         b, c = places["B"], places["C"]
-        along = (c - b) / l2 * (1.0 if pushes else -1.0)
+        along = (c - b) / lengths[1] * (1.0 if pushes else -1.0)
         panel.annotate(
             "", c, xytext=ARROW * along, textcoords="offset points", gid="force", zorder=7.0,
             arrowprops={
@@ -184,6 +193,12 @@ def plot_push_and_pull(
         verb = "pushes" if pushes else "pulls"
         chart.title(panel, f"The coupler {verb}: γ = {float(found.gamma):.3f} rad", own)
     return panels
+
+
+def _checked_lengths(**lengths: Any) -> tuple[float, float, float, float]:
+    """Return crank, coupler, rocker and ground of one mechanism."""
+    l1, l2, l3, l4 = (real_number(length, name) for name, length in lengths.items())
+    return l1, l2, l3, l4
 
 
 def _drawn(
@@ -311,7 +326,9 @@ def plot_transmission(
     from assur.pictures.style import blend, style_of
 
     own = style_of(dark)
-    grounds = np.atleast_1d(finite_array(l4, "l4")).tolist()
+    grounds = [real_number(one, "l4") for one in checked_entries(l4, "l4", MOST_CURVES)]
+    l1, l2, l3, _ = _checked_lengths(l1=l1, l2=l2, l3=l3, l4=grounds[-1])
+    least = None if gamma_min is None else real_number(gamma_min, "gamma_min")
     axes = chart.chart_axes(ax, own, 2, 1, 2.9)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     x = np.degrees(phi)
@@ -334,11 +351,11 @@ def plot_transmission(
     axes[0].tick_params(labelbottom=False)
     axes[1].set_xlabel("φ₁", color=own.second, fontsize=chart.TEXT)
     axes[1].set_ylim(bottom=0.0)
-    if gamma_min is not None:
+    if least is not None:
         tint = blend(own.error, own.canvas, TINT)
-        axes[1].axhspan(0.0, gamma_min, color=tint, linewidth=0.0, gid="blocked", zorder=0.4)
-        axes[1].axhline(gamma_min, color=own.error, linewidth=1.2, gid="least angle")
-        for low, high in blocked(l1, l2, l3, grounds[-1], gamma_min):
+        axes[1].axhspan(0.0, least, color=tint, linewidth=0.0, gid="blocked", zorder=0.4)
+        axes[1].axhline(least, color=own.error, linewidth=1.2, gid="least angle")
+        for low, high in blocked(l1, l2, l3, grounds[-1], least):
             for turn in (0.0, 360.0):
                 axes[1].axvspan(
                     math.degrees(low) + turn, math.degrees(high) + turn, color=tint,

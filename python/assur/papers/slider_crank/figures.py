@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from assur._arrays import flag, real_number
-from assur._validate import one_of, whole_number
+from assur._validate import checked_entries, one_of, refuse_without_speed, whole_number
 from assur.errors import InputError
 from assur.papers.slider_crank.theory import contour, rod_angle, rod_point, stroke
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 # Points of a curve over a turn.
 POINTS = 721
+# Curves of one diagram; rows or columns of diagrams: more cannot be read.
+MOST_CURVES, MOST_PANELS = 100, 12
 # Points between the dead points, where a relative deviation is defined.
 BETWEEN = 1001
 
@@ -146,7 +148,11 @@ def plot_positions(
     from assur.pictures.style import style_of
 
     own = style_of(dark)
+    phi, crank, rod = (
+        real_number(one, name) for one, name in ((phi, "phi"), (crank, "crank"), (rod, "rod"))
+    )
     place = rod / 2.0 if along is None else real_number(along, "along")
+    across = real_number(across, "across")
     ax = SliderCrank(crank, rod).plot(phi, ax, dark=dark)
     turn = np.linspace(0.0, 2.0 * math.pi, POINTS)
     for name, at in (("A", 0.0), ("B", rod), ("S2", place)):
@@ -280,6 +286,7 @@ def plot_motion(
 
     one_of(quantity, ("stroke", "rod"), "quantity")
     lengths = real_number(crank, "crank"), real_number(rod, "rod")
+    refuse_without_speed(speed, "speed", alpha=alpha)
     speeds = None
     if speed is not None:
         speeds = real_number(speed, "speed"), real_number(alpha, "alpha")
@@ -290,13 +297,17 @@ def plot_motion(
 
 
 def plot_convergence(
-    k: Sequence[float] = (1.5, 3.0, 5.0), count: int = 8, ax: Any = None, *, dark: bool = False
+    k: float | Sequence[float] = (1.5, 3.0, 5.0),
+    count: int = 8,
+    ax: Any = None,
+    *,
+    dark: bool = False,
 ) -> Any:
     """Draw the largest error of the stroke's series over its harmonics, and over its terms.
 
     Parameters
     ----------
-    k : sequence of float
+    k : float or sequence of float
         Ratios rod / crank, above 1.
     count : int
         The greatest number of even harmonics, and of terms.
@@ -328,11 +339,12 @@ def plot_convergence(
     from assur.pictures.style import style_of
 
     own, last = style_of(dark), whole_number(count, "count", 1, 100)
+    ratios = [real_number(one, "k") for one in checked_entries(k, "k", MOST_CURVES)]
     axes = chart.chart_axes(ax, own, 1, 2)
     counts = np.arange(1, last + 1)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     named: list[list[Named]] = [[], []]
-    for i, ratio in enumerate(k):
+    for i, ratio in enumerate(ratios):
         exact = stroke(phi, 1.0, ratio).value
         for which, one in enumerate(axes):
             errors = np.array([_error(phi, ratio, exact, n, last, which) for n in counts.tolist()])
@@ -361,8 +373,8 @@ def _error(phi: Float, k: float, exact: Float, n: int, last: int, by_terms: int)
 
 def plot_deviation(
     lam: float = 1.0 / 3.0,
-    n: Sequence[int] = (1, 2),
-    quantity: Sequence[Literal["stroke", "d1"]] = ("stroke", "d1"),
+    n: int | Sequence[int] = (1, 2),
+    quantity: Literal["stroke", "d1"] | Sequence[Literal["stroke", "d1"]] = ("stroke", "d1"),
     ax: Any = None,
     *,
     dark: bool = False,
@@ -373,9 +385,9 @@ def plot_deviation(
     ----------
     lam : float
         λ = crank / rod, below 1.
-    n : sequence of int
+    n : int or sequence of int
         Numbers of the approximations: a column each.
-    quantity : sequence of {"stroke", "d1"}
+    quantity : {"stroke", "d1"} or sequence of them
         Stroke and velocity analogue: a row each.
     ax : array of matplotlib axes, optional
         Where to draw; a new figure by default.
@@ -409,15 +421,18 @@ def plot_deviation(
     if not 0.0 < ratio < 1.0:
         message = f"lam is {lam!r}: crank over rod must be above 0 and below 1"
         raise InputError(message, value=ratio)
-    for one in quantity:
-        one_of(one, ("stroke", "d1"), "quantity")
-    rows, columns = len(quantity), len(n)
+    known = ("stroke", "d1")
+    quantities = [
+        one_of(one, known, "quantity") for one in checked_entries(quantity, "quantity", MOST_PANELS)
+    ]
+    numbers = [whole_number(one, "n", 1, 1000) for one in checked_entries(n, "n", MOST_PANELS)]
+    rows, columns = len(quantities), len(numbers)
     axes = np.reshape(chart.chart_axes(ax, own, rows, columns, 2.6), (rows, columns))
     phi = np.linspace(0.0, math.pi, BETWEEN)[1:-1]
     notes = []
     for (row, column), panel in np.ndenumerate(axes):
-        order = 0 if quantity[row] == "stroke" else 1
-        which = whole_number(n[column], "n", 1, 1000)
+        order = 0 if quantities[row] == "stroke" else 1
+        which = numbers[column]
 
         def off(x: Float, order: int = order, which: int = which) -> Float:
             near, exact = (

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._validate import whole_number
+from assur._validate import checked_entries, whole_number
 from assur.errors import InputError
 from assur.pictures import chart
 from assur.pictures.diagrams.line_names import Named, name_lines
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from assur.pictures.diagrams.sources import Source
     from assur.pictures.style import Style
 
+# Diagrams of one figure: more are too small to be read.
+MOST_PANELS = 12
 # Of a column of diagrams one is so high, inches.
 LOW = 2.6
 # A curve whose range is so many times that of its middle nine tenths runs to infinity.
@@ -52,7 +54,7 @@ def motion_diagram(
     motion: Motion,
     name: Any,
     ax: Any,
-    speeds: tuple[Any, Any, Any] | None,
+    speeds: tuple[Float, Float, Float] | None,
     orders: Any,
     degrees: bool,
     dark: bool,
@@ -92,10 +94,7 @@ def diagrams(
 def _checked_orders(orders: Any, highest: int) -> list[int]:
     if orders is None:
         return list(range(highest + 1))
-    listed = [orders] if np.ndim(orders) == 0 else list(orders)
-    if not listed:
-        message = "orders is empty: at least one of 0 (value), 1, 2, 3 is needed"
-        raise InputError(message)
+    listed = checked_entries(orders, "orders", MOST_PANELS)
     for order in listed:
         whole_number(order, "orders", 0, 3, needed="0 (value), 1, 2 or 3 is needed")
         if order > highest:

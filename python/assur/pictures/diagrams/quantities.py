@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import short
+from assur._arrays import in_range, short
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -98,10 +98,10 @@ def components(of: Quantity, order: int, values: Float, slopes: Float | None) ->
         Line(AXES[i], values[..., i], None if slopes is None else slopes[..., i]) for i in axes
     ]
     if order and of.axis is None:
-        size = np.sqrt((values * values).sum(axis=-1))
         rate = None
-        if slopes is not None:
-            with np.errstate(invalid="ignore", divide="ignore"):
+        with in_range(f"the square of a derivative of {of.name!r}"), np.errstate(divide="ignore"):
+            size = np.sqrt((values * values).sum(axis=-1))
+            if slopes is not None:
                 rate = (values * slopes).sum(axis=-1) / size
         lines.append(Line("v", size, rate))
     return lines

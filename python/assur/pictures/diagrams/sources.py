@@ -68,11 +68,13 @@ class AlongDriver:
     ----------
     motion : Motion
         Its positions and analogues.
-    speeds : tuple or None
+    speeds : tuple of ndarray or None
         Speed, acceleration and jerk of the driver; None: analogues are shown.
     """
 
-    def __init__(self, motion: Motion, speeds: tuple[Any, Any, Any] | None, degrees: bool) -> None:
+    def __init__(
+        self, motion: Motion, speeds: tuple[Float, Float, Float] | None, degrees: bool
+    ) -> None:
         self.motion, self.degrees, self._speeds = motion, degrees, speeds
         if motion._drivers > 1:
             message = (
@@ -98,7 +100,7 @@ class AlongDriver:
         self.in_degrees = degrees and self.turns
         self.x = np.degrees(motion.q) if self.in_degrees else np.asarray(motion.q)
         self.label = "q" if self.in_degrees else f"q, {'rad' if self.turns else 'm'}"
-        self._steady = speeds is not None and all(np.ndim(one) == 0 for one in speeds)
+        self._steady = speeds is not None and all(one.ndim == 0 for one in speeds)
 
     def place(self, x: float) -> str:
         """Write a place on the abscissa."""

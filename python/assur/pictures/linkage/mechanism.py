@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._validate import one_of
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.position import draw_position
@@ -35,10 +36,7 @@ def mechanism_picture(
             f"plot draws one mechanism, this is a batch {mechanism.shape}: take one with design(i)"
         )
         raise InputError(message)
-    if labels not in LABELS:
-        message = f'labels is {labels!r}: "first" names joints once, "all" everywhere, or "none"'
-        raise InputError(message)
-
+    one_of(labels, LABELS, "labels")
     found = getattr(assembly, "q", None)
     places = (q, found, mechanism._q0_array())
     at = next(place for place in places if place is not None)
