@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import short
-from assur._validate import checked_index, checked_name
+from assur._validate import checked_index, checked_names
 from assur.description.words import Status
 from assur.dynamics.acting import Acting, Positions, acting_on
 from assur.dynamics.loads import Gravity
@@ -115,9 +115,9 @@ def _checked_links(mechanism: Mechanism, links: str | Sequence[str] | None) -> t
     moving = [link for link in mechanism.links if link != "ground"]
     if links is None:
         return tuple(moving)
-    wanted = [links] if isinstance(links, str) else list(links)
+    wanted = checked_names(links, "links")
     for link in wanted:
-        mechanism._core.require("link", checked_name(link, "links"))
+        mechanism._core.require("link", link)
     if not wanted or "ground" in wanted:
         message = f"links is {short(links)}: moving links are needed, some of {', '.join(moving)}"
         raise InputError(message)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import finite_array, short
+from assur._arrays import finite_array, in_range, short
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads import Force, Torque
@@ -76,7 +76,7 @@ def impact(
     one = type(machine)(mechanism, loads=[load])
     path = np.asarray(one.reduced_moment(q, on_error=on_error)).reshape(*shape, n)
     inertia = np.asarray(machine.reduced_inertia(q, on_error).value).reshape(*shape, n, n)
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with in_range("an impact"), np.errstate(divide="ignore"):
         answer = _solved(inertia, path)
         mobility = (path * answer).sum(axis=-1)
         approach = (path * before).sum(axis=-1)
@@ -86,9 +86,9 @@ def impact(
             given = np.where(np.isnan(mobility), np.nan, given)
         else:
             given = _of_positions(finite_array(impulse, "impulse"), "impulse", shape)
-    change = answer * given[..., None]
-    # ½ q̇ᵀ H q̇ before less after, without the difference of two large numbers.
-    lost = -given * (approach + 0.5 * mobility * given)
+        change = answer * given[..., None]
+        # ½ q̇ᵀ H q̇ before less after, without the difference of two large numbers.
+        lost = -given * (approach + 0.5 * mobility * given)
     found = _impulses(machine, one, q, (speed, change.reshape(full)), given, on_error)
     after = (before + change).reshape(full)
     return Impact(after[()], given[()], lost[()], found)

@@ -149,7 +149,7 @@ class Assembly(Mapping[str, int]):
 
     def __getitem__(self, name: str) -> int:
         for key, sign in self._signs:
-            if key == name:
+            if isinstance(name, str) and key == name:
                 return sign
         raise KeyError(name)
 

@@ -80,7 +80,8 @@ class FourBar(Mechanism):
 
 def _coupler_point(point: Any) -> dict[str, npt.ArrayLike]:
     both = real_array(point, "point") if isinstance(point, np.ndarray) else point
-    if not isinstance(both, tuple | list | np.ndarray) or len(both) != 2:
+    is_list = isinstance(both, tuple | list) or getattr(both, "ndim", 0) > 0
+    if not is_list or len(both) != 2:
         message = f"point is {short(point)}: (x, y) in the coupler's frame is needed"
         raise InputError(message)
     x, y = (real_array(one, f"point, {axis}") for one, axis in zip(both, "xy", strict=True))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import short
 from assur.errors import InputError
 from assur.pictures import sizes
 from assur.pictures.numerals import length_text
@@ -36,6 +37,16 @@ def pyplot() -> Any:
         message = 'drawing needs matplotlib: pip install "assur[plot]"'
         raise ImportError(message) from error
     return plt
+
+
+def listed_axes(ax: Any) -> list[Any]:
+    """Return axes given one, as a sequence or as an array of them, in a list."""
+    try:
+        return list(np.atleast_1d(np.asarray(ax, dtype=object)).flat)
+    # Lists of different lengths; one that contains itself.
+    except (ValueError, RuntimeError) as error:
+        message = f"ax is {short(ax)}: matplotlib axes are needed, or a list of them"
+        raise InputError(message) from error
 
 
 def checked_axes(ax: Any) -> Any:
@@ -101,8 +112,10 @@ def canvas(
     `head`: points for text above; `sides`: margins on the left and the right. Axes that have
     something drawn on keep it in sight.
     """
-    low, high = _spread(*extent)
-    greatest = float((high - low).max())
+    # Beyond every number, the width is infinite.
+    with np.errstate(over="ignore", invalid="ignore"):
+        low, high = _spread(*extent)
+        greatest = float((high - low).max())
     if not LEAST_EXTENT < greatest < GREATEST_EXTENT:
         message = (
             f"the picture would be {greatest:.3g} wide: from {LEAST_EXTENT:g} to "

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.axes import checked_axes, pyplot
+from assur.pictures.axes import checked_axes, listed_axes, pyplot
 from assur.pictures.numerals import ten, true_minus
 from assur.pictures.text import printable
 
@@ -47,7 +47,7 @@ def chart_axes(
         )
         figure.get_layout_engine().set(w_pad=PAD, h_pad=PAD)
     else:
-        several = list(np.atleast_1d(np.asarray(ax, dtype=object)).flat)
+        several = listed_axes(ax)
         if len(several) != rows * columns:
             needed = "one is" if rows * columns == 1 else f"{rows * columns} are"
             message = f"ax has {len(several)} axes: {needed} needed"

@@ -80,7 +80,7 @@ ENTRIES: tuple[Callable[[Choices], object], ...] = (
 )
 
 
-def _give_up(_number: int, _frame: FrameType | None) -> None:
+def give_up(_number: int, _frame: FrameType | None) -> None:
     message = f"longer than {LONGEST} s"
     raise HangError(message)
 
@@ -88,7 +88,7 @@ def _give_up(_number: int, _frame: FrameType | None) -> None:
 def one_input(data: bytes) -> None:
     """Run the entry that the bytes name; anything but a result or an AssurError goes through."""
     choices = Choices(data)
-    before = signal.signal(signal.SIGALRM, _give_up)
+    before = signal.signal(signal.SIGALRM, give_up)
     signal.setitimer(signal.ITIMER_REAL, LONGEST)
     try:
         limit = mock.patch.dict(size_flywheel.STEADY_OPTIONS, max_seconds=LONGEST_SEARCH)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import assur
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
@@ -20,14 +22,19 @@ ODD_NUMBERS = (
     0.0,
     -0.0,
     5e-324,
+    1e-320,
     1e-150,
     1e16,
     1e150,
     1e300,
     -1e300,
+    1e308,
     -1.0,
 )
-ODD_STRINGS = ("", " ", "ground", "A", "B", "crank", "1.0", "nan", "a.b", "\ud800", "é", "x" * 300)
+ODD_STRINGS = (
+    *("", " ", "ground", "A", "B", "crank", "1.0", "nan", "a.b", "a\0b"),
+    *("\ud800", "é", "x" * 300, "y" * 3000),
+)
 
 
 class Anything:
@@ -50,7 +57,9 @@ ODD_OBJECTS: tuple[Callable[[], Any], ...] = (
     lambda: True,
     lambda: 0,
     lambda: -1,
+    lambda: 2**62,
     lambda: 2**70,
+    lambda: 10**18,
     lambda: 1j,
     lambda: b"12",
     lambda: bytearray(8),
@@ -67,6 +76,15 @@ ODD_OBJECTS: tuple[Callable[[], Any], ...] = (
     lambda: lambda *_: 1.0,
     lambda: lambda *_: "1",
     lambda: lambda *_: None,
+    lambda: lambda *_: np.nan,
+    lambda: float,
+    lambda: assur.FourBar(1.0, 3.0, 2.5, 3.0),
+    lambda: np.str_("C"),
+    lambda: np.datetime64("2020-01-01"),
+    lambda: ["C", "C"],
+    lambda: ["C", "D"],
+    lambda: {"C": 1, "D": 2},
+    lambda: [1, 2, 3],
     _looped,
     lambda: fractions.Fraction(1, 3),
     lambda: decimal.Decimal("0.1"),
@@ -81,7 +99,9 @@ ODD_OBJECTS: tuple[Callable[[], Any], ...] = (
     lambda: np.zeros(0),
     lambda: np.zeros((0, 2)),
     lambda: np.zeros((2, 0)),
+    lambda: np.zeros((2, 3)),
     lambda: np.ones((2, 3, 1)),
+    lambda: np.zeros((1, 2, 1, 2)),
     lambda: np.arange(6.0)[::-2],
     lambda: np.arange(6.0).astype(">f8"),
     lambda: np.array([1, 2, 3], dtype=np.uint8),

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur import crank_rocker, flywheel, importers, slider_crank
+from assur import crank_rocker, flywheel, importers, pictures, slider_crank
 from refusals import MOTION, M, refused
 
 if TYPE_CHECKING:
@@ -21,6 +21,8 @@ mpl.use("Agg")
 
 HALF = "\ud800"  # half of a surrogate pair: no encoding has it
 RAGGED: Any = [[1.0], [2.0, 3.0]]
+LOOPED: Any = []
+LOOPED.append(LOOPED)
 TABLE: Any = np.zeros((2, 3))
 TURN = np.linspace(0.0, 6.0, 7)
 LENGTHS = (1.0, 4.5, 1.5, 4.8)
@@ -39,6 +41,12 @@ def drawing(**given: Any) -> object:
 
 def curve() -> assur.ConfigurationCurve:
     return M.configuration_curve(8)
+
+
+def workspace() -> assur.Workspace:
+    five = assur.examples.five_bar()
+    (joint,) = set(five.links["left_rod"]) & set(five.links["right_rod"])
+    return five.workspace(joint, positions=4)
 
 
 def measured() -> Any:
@@ -68,6 +76,48 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "its square": (lambda x: MOTION.diagram("C", omega=x), 1e152, "square 'C' greatest number"),
     "places": (lambda x: curve().defects(x), np.array(0.5), "places 0.5 pairs (q, assembly)"),
     "a mechanism for places": (lambda x: curve().defects(x), M, "places pairs (q, assembly)"),
+    "speeds at a position": (
+        lambda x: MOTION.plot("C", vectors="velocity", omega=x),
+        np.ones((2, 3)),
+        "omega shape (2, 3) one speed (3,)",
+    ),
+    "point of a coupler": (
+        lambda x: assur.FourBar(1.0, 3.0, 2.5, 3.0, point=x),
+        np.array(0.5),
+        "point 0.5 (x, y)",
+    ),
+    "width of a link": (lambda x: drawing(width=x), 1e150, "width 1e+150 m 1e+100"),
+    "far turns": (lambda x: M.to_html("never.html", q=x), [1e300] * 3, "1e+300 3.4e+38 page"),
+    "duration": (lambda x: MOTION.to_html("never.html", duration=x), 1e-320, "duration 1e-09"),
+    "impact": (
+        lambda x: MACHINE.impact(assur.Force("B", (-1.0, 0.0)), 0.5, x, restitution=0.3),
+        -1e300,
+        "impact greatest number",
+    ),
+    # What is drawn, and where.
+    "axes": (lambda x: MOTION.diagram("C", ax=x), LOOPED, "ax [[...]] matplotlib axes"),
+    "axes of assemblies": (lambda x: M.assemblies(0.5).plot(ax=x), [None, 1.0], "ax NoneType"),
+    "loci": (lambda x: workspace().plot(loci=x), 1.0, "loci 1.0 singular_loci()"),
+    "other loci": (lambda x: workspace().plot(loci=x), "x", "loci 'x' singular_loci()"),
+    "links": (lambda x: MACHINE.reactions(1.0).plot(links=x), 1.0, "links 1.0 list of names"),
+    "a polygon's links": (lambda x: MACHINE.reactions(1.0).polygon(x), 1.0, "links 1.0 names"),
+    "centres' links": (lambda x: pictures.instant_centres(MOTION, 1, x), 1.0, "links 1.0 names"),
+    "lines": (lambda x: pictures.instant_centres(MOTION, 1, lines=x), TABLE, "lines True False"),
+    "Bresse": (
+        lambda x: pictures.inflection_circle(MOTION, "coupler", 1, bresse=x),
+        TABLE,
+        "bresse array True False",
+    ),
+    "order": (lambda x: pictures.hodograph(MOTION, "C", order=x), TABLE, "order array 1 2"),
+    **{
+        f"motion of {of.__name__}": (partial(of, **{what: name}), 1.0, "motion 1.0 assur.Motion")
+        for of, what, name in (
+            (pictures.centrodes, "link", "coupler"),
+            (pictures.hodograph, "joint", "C"),
+            (pictures.inflection_circle, "link", "coupler"),
+            (pictures.instant_centres, "at", 1),
+        )
+    },
     # The papers' pictures.
     "convergence": (lambda x: slider_crank.plot_convergence(k=x), "y" * 5000, "k real numbers"),
     "no ratio": (lambda x: slider_crank.plot_convergence(k=x), (), "k 0 entries from 1 to"),
@@ -91,6 +141,11 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
         lambda x: crank_rocker.plot_push_and_pull(1.0, x, 1.5, 4.8),
         [4.5, 4.6],
         "l2 [4.5, 4.6] number",
+    ),
+    "crank that hardly turns": (
+        lambda x: crank_rocker.run(1.0, 4.5, 1.5, 4.995, 0.2, speed=x),
+        1e-320,
+        "speed 1e-320 time greatest number",
     ),
     # Paths and texts.
     "path of a text": (lambda x: importers.detect(x, "x"), 1.0, "path 1.0 a path is needed"),

@@ -221,7 +221,7 @@ class Workspace:
         """
         from assur.pictures.maps.loci import workspace_picture
 
-        return workspace_picture(self, loci, ax, dark)
+        return workspace_picture(self, _checked_loci(loci, self.joint), ax, dark)
 
     def contains(self, points: npt.ArrayLike) -> Any:
         """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…).
@@ -264,6 +264,19 @@ class Workspace:
 
     def __repr__(self) -> str:
         return f"<assur.Workspace of {self.joint}, {len(self.boundary)} curves of boundary>"
+
+
+def _checked_loci(loci: Any, joint: str) -> list[SingularLocus]:
+    """Return loci that have the joint of a workspace."""
+    try:
+        listed = list(loci)
+    except TypeError:
+        listed = [loci]
+    for one in listed:
+        if not isinstance(one, SingularLocus) or joint not in one.joints:
+            message = f"loci has {short(one)}: loci of this mechanism's singular_loci() are needed"
+            raise InputError(message)
+    return listed
 
 
 def singular_loci(

@@ -161,7 +161,7 @@ def plot_push_and_pull(
     ['The coupler pushes: γ = 1.477 rad', 'The coupler pulls: γ = 1.334 rad']
     """
     from assur.pictures import chart
-    from assur.pictures.axes import pyplot
+    from assur.pictures.axes import listed_axes, pyplot
     from assur.pictures.style import style_of
 
     own, lengths = style_of(dark), _checked_lengths(l1=l1, l2=l2, l3=l3, l4=l4)
@@ -172,7 +172,7 @@ def plot_push_and_pull(
         _, ax = pyplot().subplots(
             1, len(angles), figsize=size, facecolor=own.canvas, gridspec_kw=room
         )
-    panels = np.atleast_1d(np.asarray(ax, dtype=object))
+    panels = np.array(listed_axes(ax), dtype=object)
     if len(panels) != len(angles):
         message = f"ax has {len(panels)} axes: {len(angles)} are needed"
         raise InputError(message)

@@ -226,6 +226,9 @@ def run(
             f"at most {MAX_TURNS} turns"
         )
         raise InputError(message)
+    if not math.isfinite(math.tau * values["turns"] / values["speed"]):
+        message = f"speed is {speed!r}: the time of {turns!r} turns is beyond the greatest number"
+        raise InputError(message, value=values["speed"])
 
     def ground_at(t: float) -> float:
         what = f"ground at t = {t!r}" if callable(ground) else "ground"

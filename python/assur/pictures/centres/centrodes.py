@@ -11,7 +11,7 @@ from assur._validate import checked_index, checked_name
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.position import NamedPoint, draw_position, free_name
-from assur.pictures.linkage.refine import refined
+from assur.pictures.linkage.refine import checked_motion, refined
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.scene.frames import frames_of
 from assur.pictures.style import style_of
@@ -79,6 +79,7 @@ def centrodes(
     >>> [line.get_gid() for line in axes.lines if "centrode" in (line.get_gid() or "")]
     ['fixed centrode', 'moving centrode']
     """
+    motion = checked_motion(motion)
     motion._require_one_driver("centrodes")
     for name in (link, other):
         motion.mechanism._core.require("link", checked_name(name, "link"))

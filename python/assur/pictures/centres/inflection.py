@@ -8,10 +8,12 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
+from assur._arrays import flag
 from assur._validate import checked_index, checked_name
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.position import NamedPoint, draw_position, free_name
+from assur.pictures.linkage.refine import checked_motion
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.numerals import length_unit, number
 from assur.pictures.style import style_of
@@ -86,6 +88,7 @@ def inflection_circle(
     >>> round(2.0 * circle.radius - float(trammel.dimensions["bar.length"]), 12)
     0.0
     """
+    motion, second = checked_motion(motion), flag(bresse, "bresse")
     motion._require_one_driver("inflection_circle")
     motion.mechanism._core.require("link", checked_name(link, "link"))
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
@@ -99,7 +102,7 @@ def inflection_circle(
     normal = np.array([change[1], -change[0]])
     subject = Subject(one)
     drawn = [(pole + normal / 2.0, diameter / 2.0)]
-    if bresse and ratio:
+    if second and ratio:
         drawn.append((pole + change / (2.0 * ratio), diameter / (2.0 * abs(ratio))))
     points = np.concatenate([pole[None], *(_round(*circle) for circle in drawn)])
     seen = points[subject.sees(points, SIGHT)]

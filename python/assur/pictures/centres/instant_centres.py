@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._validate import checked_index, checked_name
+from assur._arrays import flag
+from assur._validate import checked_index, checked_names
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.centres.marks import CentreMarks
 from assur.pictures.centres.rate_centres import centres_of, kennedy_lines
 from assur.pictures.linkage.position import draw_position
+from assur.pictures.linkage.refine import checked_motion
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.style import style_of
 from assur.pictures.vectors.heading import LINE_HEIGHT, link_numbers, wrapped, write_heading
@@ -78,6 +80,7 @@ def instant_centres(
     >>> sum(artist.get_gid() == "centre ground coupler" for artist in axes.lines)
     1
     """
+    motion = checked_motion(motion)
     motion._require_one_driver("instant_centres")
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
     chosen = _checked_links(one, links)
@@ -100,7 +103,7 @@ def instant_centres(
     on = subject.canvas(ax, style_of(dark), [around], head)
     draw_position(subject, on, subject.frames[0], names=False)
     drawing = CentreMarks(subject, on, numbers, head)
-    if lines if lines is not None else len(chosen) <= FEW:
+    if flag(lines, "lines") if lines is not None else len(chosen) <= FEW:
         for line in kennedy_lines(centres, chosen):
             if frozenset(line[0].links) in seen:
                 drawing.kennedy(line)
@@ -116,12 +119,10 @@ def _checked_links(one: Motion, links: Sequence[str] | None) -> list[str]:
     known = list(one.mechanism.links)
     if links is None:
         return known
-    if isinstance(links, str):
-        links = [links]
-    chosen = [checked_name(link, "links") for link in links]
+    chosen = checked_names(links, "links")
     for link in chosen:
         one.mechanism._core.require("link", link)
     if len(set(chosen)) < 2:
-        message = f"links is {list(links)}: instant centres need two links"
+        message = f"links is {chosen}: instant centres need two links"
         raise InputError(message)
     return [link for link in known if link in chosen]

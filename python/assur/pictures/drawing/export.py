@@ -10,7 +10,7 @@ from assur._arrays import flag, real_number, short
 from assur._files import checked_path, writing
 from assur._validate import checked_name
 from assur.errors import InputError
-from assur.pictures.axes import nice_length
+from assur.pictures.axes import GREATEST_EXTENT, nice_length
 from assur.pictures.drawing.layers import layer_names
 from assur.pictures.drawing.link_part import MM, Workshop, link_drawing
 from assur.pictures.drawing.names import name_marks
@@ -176,6 +176,9 @@ def _length(value: Any, what: str) -> float:
     if not length > 0.0:
         message = f"{what} is {length:g}: a positive length is needed, m"
         raise InputError(message)
+    if length > GREATEST_EXTENT:
+        message = f"{what} is {length:g} m: up to {GREATEST_EXTENT:g} can be drawn"
+        raise InputError(message, value=length)
     return length
 
 

@@ -40,7 +40,7 @@ def outside_polygon(pieces: Float, corners: Float) -> Float:
         ],
         axis=1,
     )
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         at = -depth / speed
     enter = np.where(speed > 0.0, at, -np.inf).max(axis=1)
     leave = np.where(speed < 0.0, at, np.inf).min(axis=1)

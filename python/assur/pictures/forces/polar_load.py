@@ -11,7 +11,7 @@ from matplotlib.patches import Circle
 from matplotlib.text import Text
 
 from assur.errors import InputError
-from assur.pictures.axes import TEXT, canvas, nice_length, plain_figure
+from assur.pictures.axes import TEXT, canvas, listed_axes, nice_length, plain_figure
 from assur.pictures.forces.placed import force_value
 from assur.pictures.forces.polygon import bar_text
 from assur.pictures.numerals import number, true_minus
@@ -68,7 +68,7 @@ def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
             for i in range(len(views))
         ]
     else:
-        axes = list(np.atleast_1d(np.asarray(ax, dtype=object)).flat)
+        axes = listed_axes(ax)
         views = views[-len(axes) :]
         if len(axes) != len(views):
             message = f"ax has {len(axes)} axes: the frame {link!r} has {len(views)}"

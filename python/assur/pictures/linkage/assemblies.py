@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.axes import FOOT, MARGIN, plain_figure
+from assur.pictures.axes import FOOT, MARGIN, checked_axes, listed_axes, plain_figure
 from assur.pictures.chart import TEXT
 from assur.pictures.linkage.artists import Drawn
 from assur.pictures.linkage.position import name_joints
@@ -78,11 +78,11 @@ def _title(index: int, assembly: Assembly, on: Canvas) -> str:
 
 def _axes(count: int, extent: Any, ax: Any, style: Any) -> Any:
     if ax is not None:
-        given = list(np.atleast_1d(np.asarray(ax, dtype=object)).flat)
+        given = listed_axes(ax)
         if len(given) < count:
             message = f"ax has {len(given)} axes, there are {count} assemblies: each needs its own"
             raise InputError(message)
-        return np.array(given[:count], dtype=object)
+        return np.array([checked_axes(one) for one in given[:count]], dtype=object)
     columns = min(count, COLUMNS)
     rows = -(-count // columns)
     span = np.maximum(extent[1] - extent[0], 1e-300)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 # Besides the position drawn; the longest arrow is such a part of the mechanism's size.
 ALONG, LONGEST = 12, 0.22
+# Vectors that are shorter are drawn as none: their scale would overflow.
+LEAST = 1e-290
 
 
 class PathArrows:
@@ -49,12 +51,18 @@ class PathArrows:
         for name in joints:
             point = motion.joint(name)
             values = point.velocity(omega) if order == 1 else point.acceleration(omega, alpha)
+            if values.shape != point.value.shape:
+                message = (
+                    f"omega and alpha give the shape {values.shape[:-1]}: a picture has one speed "
+                    f"at each position {motion.shape}"
+                )
+                raise InputError(message)
             self._points.append(point.value[rows])
             self._vectors.append(values[rows])
         lengths = np.hypot(*np.moveaxis(np.array(self._vectors), -1, 0))
         longest = float(np.nanmax(lengths, initial=0.0))
         # Metres of the picture to a unit.
-        self._scale = LONGEST * size / longest if longest else 0.0
+        self._scale = LONGEST * size / longest if longest > LEAST else 0.0
 
     def tips(self) -> list[Float]:
         """Return where the arrows end, m."""

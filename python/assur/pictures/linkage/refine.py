@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import short
 from assur.errors import InputError
 from assur.pictures.scene.course import course
 
@@ -16,6 +17,15 @@ if TYPE_CHECKING:
 
 # Positions of a curve, at least.
 ROWS = 361
+
+
+def checked_motion(motion: Any) -> Motion:
+    """Return a motion; what is none is refused."""
+    if not hasattr(motion, "_require_one_driver"):
+        message = f"motion is {short(motion)}: an assur.Motion is needed, as solve() gives"
+        raise InputError(message)
+    own: Motion = motion
+    return own
 
 
 def refined(motion: Motion, what: str, order: int, rows: int = ROWS) -> tuple[Motion, int]:

@@ -35,6 +35,8 @@ PANELS = {
            "on-driver": "#0F1419", "dark": "1"},
 }  # fmt: skip
 NOTEBOOK_HEIGHT = 640
+# Durations, s: speeds and accelerations of others would not fit the numbers of a page.
+SHORTEST, LONGEST = 1e-9, 1e9
 
 
 def write_page(
@@ -168,6 +170,9 @@ def _contents(
         if duration <= 0.0:
             message = f"duration is {duration:g} s, it must be positive"
             raise InputError(message)
+        if not SHORTEST <= duration <= LONGEST:
+            message = f"duration is {duration:g} s: from {SHORTEST:g} to {LONGEST:g} s are played"
+            raise InputError(message, value=duration)
     turn = _turn(of, q, duration)
     played = played_of(turn)
     return played, payload(played, "", speed, paths, diagrams)

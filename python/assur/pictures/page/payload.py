@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.errors import InputError
 from assur.pictures.page.selection import checked_diagrams, checked_paths
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.extent import corners, usual_link
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from assur.pictures.page.turn import Turn
     from assur.pictures.scene.parts import Part, Scene, Stroke, Vertex
 
+# Of the float32 that a page has.
+GREATEST_NUMBER = float(np.finfo(np.float32).max)
 ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 ARROW = " → "
 # A page turns once in so many seconds, if no speed is given.
@@ -127,6 +130,10 @@ def link_values(frames: Frames, moving: list[str]) -> Float:
 
 
 def _base64(array: Float) -> str:
+    greatest = float(np.abs(array).max(initial=0.0, where=np.isfinite(array)))
+    if greatest > GREATEST_NUMBER:
+        message = f"the page would have the number {greatest:.3g}: up to {GREATEST_NUMBER:.3g} fit"
+        raise InputError(message, value=greatest)
     return base64.b64encode(array.astype("<f4").tobytes()).decode("ascii")
 
 

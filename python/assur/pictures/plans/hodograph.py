@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from assur._arrays import finite_array
-from assur._validate import checked_name
+from assur._validate import checked_name, whole_number
 from assur.errors import InputError
 from assur.pictures.axes import TEXT, canvas, scale_bar
-from assur.pictures.linkage.refine import refined
+from assur.pictures.linkage.refine import checked_motion, refined
 from assur.pictures.numerals import angle_text, number
 from assur.pictures.style import style_of
 from assur.pictures.text import write_names
@@ -80,10 +80,9 @@ def hodograph(
     >>> bool(np.allclose(np.hypot(*curve.get_data()), 1.0))
     True
     """
+    motion = checked_motion(motion)
     motion.mechanism._core.require("joint", checked_name(joint, "joint"))
-    if order not in (1, 2):
-        message = f"order is {order!r}: 1 for velocities, 2 for accelerations"
-        raise InputError(message)
+    order = whole_number(order, "order", 1, 2, needed="1 for velocities, 2 for accelerations")
     omega, alpha = finite_array(omega, "omega"), finite_array(alpha, "alpha")
     rows, steps = refined(motion, "a hodograph", order)
     point = rows.joint(joint)

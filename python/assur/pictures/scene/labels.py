@@ -164,7 +164,7 @@ def _cut(starts: Float, ends: Float, low: Float, high: Float) -> tuple[Float, Fl
     """
     low, high = 2.0 * low - high, 2.0 * high - low
     way = ends - starts
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         sides = np.stack([(low - starts) / way, (high - starts) / way])
     # Parallel to a side: all of it or nothing.
     inside = (starts >= low) & (starts <= high)
