@@ -303,5 +303,10 @@ def _angle(
     if not 0.0 < limit <= 0.5 * math.pi:
         message = f"{event!r}: a transmission angle is acute: more than 0 and up to π/2 rad"
         raise InputError(message, value=limit)
-    lines, complement = transmission.lines(mechanism, name, event.between)
+    try:
+        lines, complement = transmission.lines(mechanism, name, event.between)
+    except InputError as error:
+        message = f"event TransmissionAngle of {short(name)}: {error}"
+        own = {"kind": error.kind, "hint": error.hint}
+        raise InputError(message, joint=error.joint, link=error.link, **own) from error
     return limit, lines, complement

@@ -554,7 +554,7 @@ def function(
         message = f"function is {short(of_motion)}: a function of a motion is needed"
         raise InputError(message)
     if isinstance(outputs, str):
-        message = f"outputs={outputs!r}: a list of names is needed, [{outputs!r}]"
+        message = f"outputs={short(outputs)}: a list of names is needed, [{short(outputs)}]"
         raise InputError(message)
     try:
         names = None if outputs is None else tuple(outputs)

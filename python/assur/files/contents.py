@@ -125,9 +125,9 @@ class Contents:
         >>> float(contents.result("solve").slide("bore").value)              # m
         4.0
         """
-        if name not in self.wanted:
+        if not isinstance(name, str) or name not in self.wanted:
             known = ", ".join(self.wanted) or "none"
-            message = f"the file does not ask for {name!r}; it asks for: {known}"
+            message = f"the file does not ask for {short(name)}; it asks for: {known}"
             raise InputError(message)
         arguments = dict(self.wanted[name])
         if name not in self._nodes:

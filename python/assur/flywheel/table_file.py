@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import flag
 from assur._by_value import key_of
-from assur._files import checked_path, shown_path
+from assur._files import checked_path, reason, shown_path
 from assur._validate import require_rows
 from assur.errors import InputError
 
@@ -99,7 +99,7 @@ def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable
         kept = [(i, line) for i, line in enumerate(lines, 1) if line.strip() and line[:1] != "#"]
         cells = list(csv.reader(line for _, line in kept))
     except (OSError, ValueError, csv.Error) as error:
-        message = f"{path}: the table cannot be read ({error})"
+        message = f"{path}: the table cannot be read ({reason(error)})"
         raise InputError(message) from error
     columns = [0, 1, 2]
     if cells and _number(cells[0], 0) is None:

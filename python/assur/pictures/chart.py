@@ -52,13 +52,15 @@ def chart_axes(
             needed = "one is" if rows * columns == 1 else f"{rows * columns} are"
             message = f"ax has {len(several)} axes: {needed} needed"
             raise InputError(message)
+        for one in several:
+            checked_axes(one)
         axes = (
             several[0]
             if rows * columns == 1
             else np.array(several).reshape(rows, columns).squeeze()
         )
     for one in np.atleast_1d(axes).flat:
-        if "log" in (checked_axes(one).get_xscale(), one.get_yscale()):
+        if "log" in (one.get_xscale(), one.get_yscale()):
             message = "ax has a logarithmic scale: diagrams have linear ones"
             raise InputError(message)
         _dress(one, style)
@@ -137,6 +139,16 @@ def zero_line(ax: Any, style: Style) -> None:
         ax.axhline(0.0, color=style.second, linewidth=0.9, alpha=0.8, zorder=1.0, gid="zero")
 
 
+def require_shown(greatest: float) -> None:
+    """Refuse values that no axis can have; `greatest` is their greatest size."""
+    if greatest and not LEAST_SHOWN <= greatest <= GREATEST_SHOWN:
+        message = (
+            f"the diagram would show values of {greatest:.3g}: from {LEAST_SHOWN:g} to "
+            f"{GREATEST_SHOWN:g} can be drawn"
+        )
+        raise InputError(message, value=greatest)
+
+
 def headroom(ax: Any, values: Float, part: float = HEADROOM) -> None:
     """Leave room for marks above and below the curve; its middle if it is constant."""
     known = values[np.isfinite(values)]
@@ -144,12 +156,7 @@ def headroom(ax: Any, values: Float, part: float = HEADROOM) -> None:
         return
     low, high = float(known.min()), float(known.max())
     greatest = max(abs(low), abs(high))
-    if greatest and not LEAST_SHOWN <= greatest <= GREATEST_SHOWN:
-        message = (
-            f"the diagram would show values of {greatest:.3g}: from {LEAST_SHOWN:g} to "
-            f"{GREATEST_SHOWN:g} can be drawn"
-        )
-        raise InputError(message, value=greatest)
+    require_shown(greatest)
     span = high - low
     if span <= 1e-9 * greatest:
         span = abs(high) or 1.0

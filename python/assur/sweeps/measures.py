@@ -119,7 +119,9 @@ class Measures(Mapping[str, Float]):
         """
         first: object = n
         if isinstance(first, str):
-            message = f"best({n!r}, {short(by)}): the number comes first: best(10, by={n!r})"
+            message = (
+                f"best({short(n)}, {short(by)}): the number comes first: best(10, by={short(n)})"
+            )
             raise InputError(message)
         wanted = whole_number(n, "n", 1)
         if not isinstance(by, str) or by not in self._values:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._by_value import ByValue
-from assur._validate import real_number
+from assur._validate import real_array, real_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Condition:
             ">": np.greater,
             ">=": np.greater_equal,
         }[self.relation]
-        met: npt.NDArray[np.bool_] = compare(values, self.limit)
+        met: npt.NDArray[np.bool_] = compare(real_array(values, "values", copy=False), self.limit)
         return met
 
 

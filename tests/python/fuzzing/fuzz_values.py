@@ -77,7 +77,6 @@ ODD_OBJECTS: tuple[Callable[[], Any], ...] = (
     lambda: lambda *_: "1",
     lambda: lambda *_: None,
     lambda: lambda *_: np.nan,
-    lambda: float,
     lambda: assur.FourBar(1.0, 3.0, 2.5, 3.0),
     lambda: np.str_("C"),
     lambda: np.datetime64("2020-01-01"),

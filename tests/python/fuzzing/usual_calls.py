@@ -126,7 +126,6 @@ def _of_mechanisms() -> Iterable[tuple[str, Call]]:
     batch = m.with_dimensions({"rocker.length": [2.4, 2.5]})
     yield "Mechanism.__getitem__", call(batch.__getitem__, index=0)
     yield "Limits.__getitem__", call(batch.limits().__getitem__, index=0)
-    yield "Assembly.__getitem__", call(m.assembly.__getitem__, name="C")
     yield from named("Assemblies", m.assemblies(0.5), plot={})
     places = {"places": [(0.5, m.assembly)]}
     yield from named("ConfigurationCurve", curve, defects=places, motion={"samples": 5}, plot={})
@@ -235,11 +234,11 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
     yield from named("Tabular", found, **files_of, to_parquet={"path": "t.parquet"})
     size = {"diameter": 0.1, "width": 0.1}
     yield from named("Bearing", found.bearing("B", on="rod"), plot={}, pressure=size, pv=size)
-    at: dict[str, dict[str, Any]] = {}
-    at |= dict.fromkeys(("reduced_inertia", "reduced_moment", "speed", "time", "work"), {"q": 0.5})
-    at |= dict.fromkeys(("coordinate", "speed_at"), {"t": 0.1})
-    wheel_at = {**at, "energy_mass": {"points": 5}, "explain": {"index": ()}, "plot": {}}
-    yield from named("Flywheel", wheel, **wheel_at)
+    angle, time = {"q": 0.5}, {"t": 0.1}
+    over_q = ("reduced_inertia", "reduced_moment", "speed", "time", "work")
+    yield from named("Flywheel", wheel, **dict.fromkeys(over_q, angle))
+    yield from named("Flywheel", wheel, coordinate=time, speed_at=time)
+    yield from named("Flywheel", wheel, energy_mass={"points": 5}, explain={"index": ()}, plot={})
     yield from named(
         "balance",
         balance,
@@ -262,7 +261,6 @@ def _of_sweeps() -> Iterable[tuple[str, Call]]:
     usual = {"mechanism": m, "dimensions": design, "q": TURN, "metrics": {"a": metric.span("C.x")}}
     yield "sweep", call(assur.sweep, **usual)
     yield "Grid", call(assur.Grid, dimensions=design)
-    yield from named("Grid", assur.Grid(design), __getitem__={"name": "coupler.length"})
     yield from named(
         "Measures",
         found,
@@ -400,12 +398,14 @@ def _of_papers() -> Iterable[tuple[str, Call]]:
     yield from named("JammingRun", phase, plot={"what": "ground"})
     at = {"phi": 0.5, **PRESS, "along": 0.2, "across": 0.0}
     plain = ("contour", "coordinate", "plot_contour", "plot_positions", "rod_angle", "rod_point")
-    ratios = dict.fromkeys(("fourier", "greatest_acceleration", "greatest_speed"), {"k": 3.0})
+    k = {"k": 3.0}
     yield from named("slider_crank", slider_crank, **dict.fromkeys((*plain, "stroke"), at))
     yield from named(
         "slider_crank",
         slider_crank,
-        **ratios,
+        fourier=k,
+        greatest_acceleration=k,
+        greatest_speed=k,
         deviation={"lam": 0.3, "n": 2},
         plot_convergence={"count": 2},
         plot_deviation={},

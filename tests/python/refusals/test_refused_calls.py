@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur import crank_rocker, flywheel, importers, pictures, slider_crank
+from assur import crank_rocker, files, flywheel, importers, pictures, slider_crank
 from refusals import MOTION, M, refused
 
 if TYPE_CHECKING:
@@ -49,6 +49,10 @@ def workspace() -> assur.Workspace:
     return five.workspace(joint, positions=4)
 
 
+def watched(*given: Any) -> assur.Run:
+    return MACHINE.run(0.1, speed0=1.0, events=[assur.events.TransmissionAngle(*given)])
+
+
 def measured() -> Any:
     return assur.sweep(M, {}, TURN, metrics={"swing": assur.metric.span("rocker")})
 
@@ -63,6 +67,12 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "best": (lambda x: measured().best(1, by=x), [], "by=[] 'swing'"),
     "curvature of two": (MOTION.curvature, ["C", "D"], "curvature ['C', 'D'] string"),
     "curvature of one in a list": (MOTION.curvature, ["C"], "curvature ['C'] string"),
+    "event": (lambda x: watched(x, 0.5), "Q", "event TransmissionAngle of 'Q': joint \"A\""),
+    "lines of an event": (
+        lambda x: watched("B", 0.5, x),
+        ("A", "Q"),
+        "event TransmissionAngle of 'B': joint \"Q\"",
+    ),
     # Arrays.
     "page": (lambda x: M.to_html("never.html", q=x), RAGGED, "q [[1.0], [2.0, 3.0]] array"),
     "part of a motion": (lambda x: MOTION[x], RAGGED, "[[1.0], [2.0, 3.0]] slice"),
@@ -118,6 +128,7 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
             (pictures.instant_centres, "at", 1),
         )
     },
+    "values of a condition": ((assur.metric.span("C.x") < 1.0).holds, "x", "values 'x' numbers"),
     # The papers' pictures.
     "convergence": (lambda x: slider_crank.plot_convergence(k=x), "y" * 5000, "k real numbers"),
     "no ratio": (lambda x: slider_crank.plot_convergence(k=x), (), "k 0 entries from 1 to"),
@@ -134,6 +145,27 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     ),
     "length": (lambda x: crank_rocker.plot_transmission(x, 4.5, 1.5, 4.8), [1.0, 2.0], "l1 [1.0"),
     "grounds": (lambda x: crank_rocker.plot_transmission(1.0, 4.5, 1.5, x), [], "l4 0 entries"),
+    "axes of two pictures": (
+        lambda x: crank_rocker.plot_push_and_pull(*LENGTHS, ax=x),
+        [None, 1.0],
+        "ax NoneType",
+    ),
+    "axes of curves": (
+        lambda x: slider_crank.plot_convergence(count=2, ax=x),
+        RAGGED,
+        "ax list matplotlib axes",
+    ),
+    "coupler": (crank_rocker.plot_zone, 1e308, "values 1e+308 to 1e+300"),
+    "result of a file": (
+        files.Contents(M, wanted={"solve": {"deg": [0.0]}}).result,
+        [],
+        "does not ask for [] solve",
+    ),
+    "greatest angle": (
+        lambda x: crank_rocker.plot_transmission(*LENGTHS, gamma_min=x),
+        1e308,
+        "gamma_min 1e+308 angle",
+    ),
     "margin": (lambda x: crank_rocker.plot_zone(margin=x), [], "margin [] a number two"),
     "zone's angle": (lambda x: crank_rocker.plot_zone(gamma_min=x), TABLE, "gamma_min array"),
     "angles": (lambda x: crank_rocker.plot_push_and_pull(*LENGTHS, phi1=x), "x", "phi1 'x'"),

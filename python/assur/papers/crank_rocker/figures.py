@@ -21,6 +21,7 @@ from assur.papers.crank_rocker.theory import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
 
 # Points of a curve; rockers, of figure 3.
@@ -84,10 +85,11 @@ def plot_zone(
         message = f"margin is {short(margin)}: a number is needed, or two of them"
         raise InputError(message)
     gamma_min = real_number(gamma_min, "gamma_min")
-    first = 1.0 + float(np.sum(np.broadcast_to(margins, (2,)))) / 2.0
+    first = 1.0 + float(np.sum(np.broadcast_to(margins / 2.0, (2,))))
     if not length > first:
         message = f"coupler is {coupler!r}: with these margins it must be above {first:.6g}"
         raise InputError(message, value=length)
+    chart.require_shown(length)
     rockers = np.linspace(first, length, ROCKERS)
     axes = chart.chart_axes(ax, own, height=4.2)
     zones = [(0.0, "zone", own.driver, TINT)]
@@ -105,19 +107,19 @@ def plot_zone(
             axes.plot(x, edge, color=colour, linewidth=1.6, gid=f"limit {gid}")
         text = f"γ > {number(angle)} rad" if angle else "the crank turns"
         at = len(x) // 2 if len(zones) == 1 or angle else len(x) - 2
-        middle = float(low[at] + high[at]) / 2.0
+        middle = float(low[at] / 2.0 + high[at] / 2.0)
         if angle or len(zones) == 1:
             notes.append(Note(float(x[at]), middle, text, colour, "zone text", None, centred=True))
     axes.set_xlim(float(rockers[0]), float(rockers[-1]))
-    chart.title(axes, "Ground / crank", own, _zone_sentence(margin, gamma_min))
+    chart.title(axes, "Ground / crank", own, _zone_sentence(margins, gamma_min))
     axes.set_xlabel("rocker / crank", color=own.second, fontsize=chart.TEXT)
     settle(axes)
     write_notes(axes, notes, own)
     return axes
 
 
-def _zone_sentence(margin: Any, gamma_min: float) -> str:
-    text = f"the crank turns; margins {' and '.join(f'{one:g}' for one in np.atleast_1d(margin))}"
+def _zone_sentence(margins: Float, gamma_min: float) -> str:
+    text = f"the crank turns; margins {' and '.join(f'{one:g}' for one in np.atleast_1d(margins))}"
     return f"{text}; dark: friction leaves γ above its least" if gamma_min else text
 
 
@@ -161,7 +163,7 @@ def plot_push_and_pull(
     ['The coupler pushes: γ = 1.477 rad', 'The coupler pulls: γ = 1.334 rad']
     """
     from assur.pictures import chart
-    from assur.pictures.axes import listed_axes, pyplot
+    from assur.pictures.axes import checked_axes, listed_axes, pyplot
     from assur.pictures.style import style_of
 
     own, lengths = style_of(dark), _checked_lengths(l1=l1, l2=l2, l3=l3, l4=l4)
@@ -172,7 +174,7 @@ def plot_push_and_pull(
         _, ax = pyplot().subplots(
             1, len(angles), figsize=size, facecolor=own.canvas, gridspec_kw=room
         )
-    panels = np.array(listed_axes(ax), dtype=object)
+    panels = np.array([checked_axes(one) for one in listed_axes(ax)], dtype=object)
     if len(panels) != len(angles):
         message = f"ax has {len(panels)} axes: {len(angles)} are needed"
         raise InputError(message)
@@ -329,6 +331,7 @@ def plot_transmission(
     grounds = [real_number(one, "l4") for one in checked_entries(l4, "l4", MOST_CURVES)]
     l1, l2, l3, _ = _checked_lengths(l1=l1, l2=l2, l3=l3, l4=grounds[-1])
     least = None if gamma_min is None else real_number(gamma_min, "gamma_min")
+    jams = [] if least is None else blocked(l1, l2, l3, grounds[-1], least)
     axes = chart.chart_axes(ax, own, 2, 1, 2.9)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     x = np.degrees(phi)
@@ -355,7 +358,7 @@ def plot_transmission(
         tint = blend(own.error, own.canvas, TINT)
         axes[1].axhspan(0.0, least, color=tint, linewidth=0.0, gid="blocked", zorder=0.4)
         axes[1].axhline(least, color=own.error, linewidth=1.2, gid="least angle")
-        for low, high in blocked(l1, l2, l3, grounds[-1], least):
+        for low, high in jams:
             for turn in (0.0, 360.0):
                 axes[1].axvspan(
                     math.degrees(low) + turn, math.degrees(high) + turn, color=tint,

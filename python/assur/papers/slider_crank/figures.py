@@ -66,7 +66,7 @@ def plot_contour(
     corners = contour(phi, crank, rod)
     o, a, b, _ = corners
     own = style_of(dark)
-    on = canvas(ax, (corners.min(axis=0), corners.max(axis=0)), own, crank)
+    on = canvas(ax, (corners.min(axis=0), corners.max(axis=0)), own, float(crank))
     lines = []
     for start, end, name, colour in (
         (o, a, "l₁", own.driver),
@@ -453,10 +453,13 @@ def plot_deviation(
         chart.zero_line(panel, own)
         if row == rows - 1:
             panel.set_xlabel("φ", color=own.second, fontsize=chart.TEXT)
-        largest = max(peaks(x, values, again=off), key=lambda peak: abs(peak.y))
-        text = f"{number(largest.y)} at {degrees_text(largest.x, 180.0)}"
-        notes.append(Note(largest.x, largest.y, text, colour, "extreme"))
+        found = peaks(x, values, again=off)
+        # None where they are equal to the last digit.
+        if found:
+            largest = max(found, key=lambda peak: abs(peak.y))
+            text = f"{number(largest.y)} at {degrees_text(largest.x, 180.0)}"
+            notes.append((panel, Note(largest.x, largest.y, text, colour, "extreme")))
     settle(axes.flat[0])
-    for panel, note in zip(axes.flat, notes, strict=True):
+    for panel, note in notes:
         write_notes(panel, [note], own)
     return axes
