@@ -53,8 +53,8 @@ def checked_entries(value: Any, what: str, most: int) -> list[Any]:
     except TypeError:
         entries = [value]
     if not 1 <= len(entries) <= most:
-        count = len(entries) if len(entries) <= most else f"more than {most}"
-        message = f"{what} has {count} entries: from 1 to {most} are needed"
+        found = f"has more than {most} entries" if entries else "is empty"
+        message = f"{what} {found}: from 1 to {most} are needed"
         raise InputError(message)
     return entries
 

@@ -307,6 +307,7 @@ def _angle(
         lines, complement = transmission.lines(mechanism, name, event.between)
     except InputError as error:
         message = f"event TransmissionAngle of {short(name)}: {error}"
-        own = {"kind": error.kind, "hint": error.hint}
-        raise InputError(message, joint=error.joint, link=error.link, **own) from error
+        raise InputError(
+            message, kind=error.kind, hint=error.hint, joint=error.joint, link=error.link
+        ) from error
     return limit, lines, complement

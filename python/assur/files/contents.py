@@ -125,7 +125,8 @@ class Contents:
         >>> float(contents.result("solve").slide("bore").value)              # m
         4.0
         """
-        if not isinstance(name, str) or name not in self.wanted:
+        given: object = name
+        if not isinstance(given, str) or given not in self.wanted:
             known = ", ".join(self.wanted) or "none"
             message = f"the file does not ask for {short(name)}; it asks for: {known}"
             raise InputError(message)

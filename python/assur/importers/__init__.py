@@ -144,7 +144,8 @@ def detect(path: Any, text: str) -> str | None:
     ('linkage2', None)
     """
     ending = "" if path is None else checked_path(path).suffix.lower()
-    if not isinstance(text, str):
+    given: object = text
+    if not isinstance(given, str):
         message = f"text is {short(text)}: the text of a file is needed"
         raise InputError(message)
     if ENDINGS.get(ending):

@@ -148,8 +148,10 @@ class Assembly(Mapping[str, int]):
         return self._complex_count
 
     def __getitem__(self, name: str) -> int:
+        given: object = name
         for key, sign in self._signs:
-            if isinstance(name, str) and key == name:
+            # An array would be compared element by element.
+            if isinstance(given, str) and key == given:
                 return sign
         raise KeyError(name)
 

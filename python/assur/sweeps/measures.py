@@ -124,7 +124,8 @@ class Measures(Mapping[str, Float]):
             )
             raise InputError(message)
         wanted = whole_number(n, "n", 1)
-        if not isinstance(by, str) or by not in self._values:
+        name: object = by
+        if not isinstance(name, str) or name not in self._values:
             names = ", ".join(map(repr, self._values))
             message = f"by={short(by)}: one of {names} is needed{self._near(by)}"
             raise InputError(message)

@@ -290,7 +290,7 @@ def _of_sweeps() -> Iterable[tuple[str, Call]]:
 
 
 def _of_parts() -> Iterable[tuple[str, Call]]:
-    rows = {"q": [0.0, 1.0], "value": [1.0, 1.0]}
+    rows: dict[str, Any] = {"q": [0.0, 1.0], "value": [1.0, 1.0]}
     shaft = {"link": "crank", "torque": 1.0, "stiffness": 1.0, "damping": 1.0}
     ends = {"first": "O", "second": "B", "stiffness": 1.0, "length": 0.1, "damping": 1.0}
     yield from named(
@@ -320,43 +320,50 @@ def _of_parts() -> Iterable[tuple[str, Call]]:
     rises = ("Cycloidal", "Harmonic", "ModifiedSine", "Polynomial345", "Polynomial4567")
     yield from named("laws", laws, **dict.fromkeys((*rises, "Trapezoidal", "Uniform"), rise))
     cycloid = laws.Cycloidal(0.0, 1.0, 1.0)
-    joined = {"t": [0.0, 0.5, 1.0], "value": [0.0, 1.0, 2.0]}
+    joined: dict[str, Any] = {"t": [0.0, 0.5, 1.0], "value": [0.0, 1.0, 2.0]}
     yield from named("laws", laws, Sequence={"laws": [cycloid]}, Tabulated=joined)
-    for law in (cycloid, laws.Sequence([cycloid]), laws.Tabulated(**joined)):
+    for law in (cycloid, laws.Sequence((cycloid,)), laws.Tabulated(**joined)):
         owner = "Rise" if law is cycloid else type(law).__name__
         yield from named(owner, law, at={"t": 0.5})
 
 
-def _used(what: str, event: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that makes something whose arguments are checked where it is used."""
-    if what == "event":
-        m = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), {"crank": assur.Body(inertia=1.0)})
-        use = functools.partial(m.run, 0.1, speed0=1.0)
-        made = lambda **given: use(events=[event(**given)])  # noqa: E731
-    elif what == "driver":
-        made = lambda **given: assur.Mechanism(**{**DRAWN, "driver": event(**given)})  # noqa: E731
-    else:
-        drawn = BOOM if event is assur.Cylinder else SLOT
-        made = lambda **given: assur.Mechanism(**drawn, slides={"lift": event(**given)})  # noqa: E731
-    made.__signature__ = inspect.signature(event)  # type: ignore[attr-defined]
-    return made
+def _used(made: Callable[..., Any], use: Callable[[Any], Any]) -> Callable[..., Any]:
+    """Return a function that makes something and uses it: its arguments are checked then."""
+
+    def function(**given: Any) -> Any:
+        return use(made(**given))
+
+    vars(function)["__signature__"] = inspect.signature(made)
+    return function
+
+
+def _watched(event: Any) -> assur.Run:
+    m = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), {"crank": assur.Body(inertia=1.0)})
+    return m.run(0.1, speed0=1.0, events=[event])
+
+
+def _drawn(drawing: dict[str, Any], **more: Any) -> assur.Mechanism:
+    return assur.Mechanism(**{**drawing, **more})
 
 
 def _of_modules() -> Iterable[tuple[str, Call]]:
     position = events.Position(1.0, direction="rising")
-    for name, needed in {
+    watched: dict[str, dict[str, Any]] = {
         "Rest": {},
         "Position": {"q": 0.1},
         "Speed": {"speed": 0.1},
         "TransmissionAngle": {"name": "C", "limit": 0.1},
         "Crossing": {"function": lambda *_: 1.0},
         "Obstacle": {"at": position, "restitution": 0.5},
-    }.items():
-        yield f"events.{name}", call(_used("event", getattr(events, name)), **needed)
-    yield "Drive", call(_used("driver", assur.Drive), link="crank")
-    yield "Cylinder", call(_used("slide", assur.Cylinder), base="E", end="B")
-    slide = {"link": "block", "on": "lever", "angle": 0.0, "origin": "O"}
-    yield "Slide", call(_used("slide", assur.Slide), **slide)
+    }
+    for name, needed in watched.items():
+        yield f"events.{name}", call(_used(getattr(events, name), _watched), **needed)
+    driven = _used(assur.Drive, lambda one: _drawn(DRAWN, driver=one))
+    lifted = _used(assur.Cylinder, lambda one: _drawn(BOOM, slides={"lift": one}))
+    guided = _used(assur.Slide, lambda one: _drawn(SLOT, slides={"lift": one}))
+    yield "Drive", call(driven, link="crank")
+    yield "Cylinder", call(lifted, base="E", end="B")
+    yield "Slide", call(guided, link="block", on="lever", angle=0.0, origin="O")
     assur.FourBar(1.0, 3.0, 2.5, 3.0).save("saved.toml")
     rows = zip(TURN, MOMENT, strict=True)
     text = "".join(f"{phi},{moment},2\n" for phi, moment in rows)
@@ -397,9 +404,9 @@ def _of_papers() -> Iterable[tuple[str, Call]]:
     phase = crank_rocker.run(1.0, 4.5, 1.5, ground=4.995, gamma_min=0.2)
     yield from named("JammingRun", phase, plot={"what": "ground"})
     at = {"phi": 0.5, **PRESS, "along": 0.2, "across": 0.0}
-    plain = ("contour", "coordinate", "plot_contour", "plot_positions", "rod_angle", "rod_point")
+    lengths = ("contour", "coordinate", "plot_contour", "plot_positions", "rod_angle", "rod_point")
     k = {"k": 3.0}
-    yield from named("slider_crank", slider_crank, **dict.fromkeys((*plain, "stroke"), at))
+    yield from named("slider_crank", slider_crank, **dict.fromkeys((*lengths, "stroke"), at))
     yield from named(
         "slider_crank",
         slider_crank,

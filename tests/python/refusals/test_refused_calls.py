@@ -26,9 +26,10 @@ LOOPED.append(LOOPED)
 TABLE: Any = np.zeros((2, 3))
 TURN = np.linspace(0.0, 6.0, 7)
 LENGTHS = (1.0, 4.5, 1.5, 4.8)
-MACHINE = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=1.0)})
+PRESS = assur.SliderCrank(0.1, 0.4)
+MACHINE = assur.Machine(PRESS, {"crank": assur.Body(inertia=1.0)})
 LOCKED = assur.Machine(
-    MACHINE.mechanism,
+    PRESS,
     {"crank": assur.Body(inertia=1.0)},
     friction={"B": assur.JointFriction(0.1, 0.02)},
 )
@@ -79,7 +80,7 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "speed": (lambda x: MOTION.diagram("C", omega=x), RAGGED, "omega [[1.0], [2.0, 3.0]]"),
     "acceleration": (lambda x: MOTION.diagram("C", omega=1, alpha=x), RAGGED, "alpha [[1.0]"),
     "orders": (lambda x: MOTION.diagram("C", orders=x), RAGGED, "orders [1.0] 0 1, 2 or 3"),
-    "no orders": (lambda x: MOTION.diagram("C", orders=x), [], "orders 0 entries from 1"),
+    "no orders": (lambda x: MOTION.diagram("C", orders=x), [], "orders empty from 1"),
     "many orders": (lambda x: MOTION.diagram("C", orders=x), [0] * 99, "orders more than 12"),
     "a speed too small": (lambda x: MOTION.diagram("C", omega=x), 1e-320, "values from 1e-300"),
     "a speed too great": (lambda x: MOTION.diagram("rocker", omega=x), 1e152, "values to 1e+300"),
@@ -119,19 +120,22 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
         "bresse array True False",
     ),
     "order": (lambda x: pictures.hodograph(MOTION, "C", order=x), TABLE, "order array 1 2"),
-    **{
-        f"motion of {of.__name__}": (partial(of, **{what: name}), 1.0, "motion 1.0 assur.Motion")
-        for of, what, name in (
-            (pictures.centrodes, "link", "coupler"),
-            (pictures.hodograph, "joint", "C"),
-            (pictures.inflection_circle, "link", "coupler"),
-            (pictures.instant_centres, "at", 1),
-        )
-    },
+    "centrodes of what": (
+        lambda x: pictures.centrodes(x, "coupler"),
+        1.0,
+        "motion 1.0 assur.Motion",
+    ),
+    "hodograph of what": (lambda x: pictures.hodograph(x, "C"), 1.0, "motion 1.0 assur.Motion"),
+    "circle of what": (
+        lambda x: pictures.inflection_circle(x, "rod"),
+        1.0,
+        "motion 1.0 assur.Motion",
+    ),
+    "centres of what": (pictures.instant_centres, 1.0, "motion 1.0 assur.Motion is needed"),
     "values of a condition": ((assur.metric.span("C.x") < 1.0).holds, "x", "values 'x' numbers"),
     # The papers' pictures.
     "convergence": (lambda x: slider_crank.plot_convergence(k=x), "y" * 5000, "k real numbers"),
-    "no ratio": (lambda x: slider_crank.plot_convergence(k=x), (), "k 0 entries from 1 to"),
+    "no ratio": (lambda x: slider_crank.plot_convergence(k=x), (), "k empty from 1 to"),
     "deviation": (lambda x: slider_crank.plot_deviation(n=x), "y" * 5000, "n 1 to 1000"),
     "many deviations": (lambda x: slider_crank.plot_deviation(n=x), [1] * 99, "n more than 12"),
     "quantity": (lambda x: slider_crank.plot_deviation(quantity=x), 1.0, "quantity 1.0 'stroke'"),
@@ -144,7 +148,7 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
         "gamma_min 'x' numbers",
     ),
     "length": (lambda x: crank_rocker.plot_transmission(x, 4.5, 1.5, 4.8), [1.0, 2.0], "l1 [1.0"),
-    "grounds": (lambda x: crank_rocker.plot_transmission(1.0, 4.5, 1.5, x), [], "l4 0 entries"),
+    "grounds": (lambda x: crank_rocker.plot_transmission(1.0, 4.5, 1.5, x), [], "l4 empty"),
     "axes of two pictures": (
         lambda x: crank_rocker.plot_push_and_pull(*LENGTHS, ax=x),
         [None, 1.0],
@@ -262,10 +266,11 @@ def test_the_driver_of_a_motor_that_cannot_start_is_named(
 ) -> None:
     table = assur.Table([5.0, 10.0, 20.0], [3.0, 2.0, 1.0])
     five = assur.examples.five_bar()
-    bodies = {link: assur.Body(inertia=1.0) for link in five.driver}
+    names = [str(one) for one in five._description.drivers]
+    bodies = {link: assur.Body(inertia=1.0) for link in names}
     own = [table if motor else None for motor in motors]
     machine = assur.Machine(five, bodies, motor=own)
-    named = dict(zip(("left", "right"), five.driver, strict=True))[name]
+    named = dict(zip(("left", "right"), names, strict=True))[name]
     error = refused(
         assur.InputError,
         f"driver {named!r} motor's table 5 to 20 start within it",
