@@ -874,7 +874,8 @@ class Mechanism:
         Parameters
         ----------
         positions : int
-            Coordinates of the fan about `q0`, over a turn, or over all that a slide can reach.
+            Coordinates of the fan about `q0`, over a turn, or over all that a slide can reach: from
+            2 to 100 000.
 
         Returns
         -------

@@ -579,7 +579,7 @@ class Motion:
         ----------
         omega, alpha : array_like, optional
             Speed and acceleration of the driver, as for `Analogues.velocity`. With them velocities
-            and accelerations stand in place of the analogues.
+            and accelerations stand in place of the analogues; without `omega`, `alpha` must be 0.
         degrees : bool
             Angles in degrees; angular velocities remain rad/s, analogues per rad.
         moving : bool
@@ -716,7 +716,7 @@ class Motion:
             Where to draw, one for each order; a new figure by default.
         omega, alpha, beta : array_like, optional
             Speed, acceleration and jerk of the driver, as for `Analogues.jerk`; without `omega`
-            analogues are drawn.
+            analogues are drawn, and the others must be 0.
         orders : int or sequence of int, optional
             0 the value, 1 velocity, 2 acceleration, 3 jerk; all that the motion has by default.
         degrees : bool
