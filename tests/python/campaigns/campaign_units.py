@@ -43,8 +43,8 @@ FACTORS = (1e-4, 1e4)
 FORCE = 1e-12
 CONDITION = 1e4
 # Effort that is missing at a row of a run, as a part of what it is a difference of, and the
-# greatest condition κ at which that is asked: its rounding is 64 u κ²; and beside dead points the law
-# of friction may have several solutions, of which acceleration and effort may show different ones.
+# greatest condition κ at which that is asked: its rounding is 64 u κ²; and beside dead points the
+# law of friction may have several solutions: the acceleration may be of one, the effort of another.
 BALANCE = 1e-5
 BALANCED_TO = 1e3
 RUBBING_TO = 50.0
