@@ -24,6 +24,8 @@ const NEAR_PART: f64 = 1.0e-3;
 const CREEPS: f64 = 16.0;
 /// A step toward a position that friction locks leaves this part of the way, which is known to half of it.
 const LOCK_LEAVES: f64 = 0.02;
+/// Most halvings of that way: nearer the step itself is halved.
+const LOCK_HALVINGS: u32 = 20;
 
 impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
     /// Width of the next step toward a boundary ahead, 0 if it is reached.
@@ -117,8 +119,11 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         }
         let is_in_time = self.along == Variable::Time;
         let [mut low, mut high] = [0.0, most];
-        // The other way around both are negative.
-        while high.abs() - low.abs() > 0.5 * LOCK_LEAVES * high.abs() {
+        for _ in 0..LOCK_HALVINGS {
+            // The other way around both are negative.
+            if high.abs() - low.abs() <= 0.5 * LOCK_LEAVES * high.abs() {
+                break;
+            }
             // Where friction has no solution, to know it may take 40 ms.
             if self.cancelled() {
                 return Ok(None);
