@@ -213,7 +213,7 @@ class InUnits(Findings):
             self.fail("effort of a run", f"{text}, speed {own.speed[moves[i]]!r}, row {moves[i]}")
 
     def has_balance(self, own: assur.Run, row: int, near: float) -> bool:
-        """Whether effort 0 is at another acceleration: effort is linear in it where nothing else is."""
+        """Whether effort 0 is at another acceleration; elsewhere effort is linear in it."""
         q, speed, a = own.q[row], own.speed[row], own.acceleration[row]
         effort = [self.effort(q, speed, a), self.effort(q, speed, a + SHIFT * abs(a))]
         slope = (effort[1] - effort[0]) / (SHIFT * abs(a))
