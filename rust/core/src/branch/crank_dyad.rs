@@ -57,7 +57,7 @@ impl CrankDyad {
         };
         let Orientation { class, single_driver, .. } =
             &plan.orientations[plan.edges[crank].orientation];
-        // A link that keeps its angle by slides is no crank, though it is pinned to the ground.
+        // A link whose angle slides hold may be pinned to the ground, too, but its pin stands still.
         (*class == 0 && single_driver.is_some()).then_some(Self {
             dyad: dyad.index,
             crank,

@@ -71,8 +71,8 @@ const LEAST_REBOUND: f64 = 1.0e4;
 const AT_REST: f64 = 1.0e-6;
 /// Bounds of the distance (rad, or of the size) within which to look for a dead point: it is a
 /// thousand relative tolerances.
-/// (With several drivers there is no balance of energies that tells a dead point from a motion that passes
-/// near one: then it is no more.)
+/// The lower bound holds for one driver: with several, no balance of energies distinguishes a dead point
+/// from a motion that passes near one.
 const MIN_REACH: f64 = 1.0e-3;
 const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
