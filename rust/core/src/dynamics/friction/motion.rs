@@ -172,12 +172,11 @@ impl<'m> FrictionMotion<'m> {
         }
         let (problem, used) = scene.problem(rubbing, 0);
         let problem = problem.in_forces(self.unit);
-        let all = problem.solve().ok()?;
-        let friction = all.first()?;
+        let friction = problem.first().ok()??;
         let of_friction: f64 = used
             .iter()
             .zip(&problem.pairs)
-            .zip(friction)
+            .zip(&friction)
             .map(|((&used, pair), friction)| {
                 per_friction[used] * (pair.law.unit(self.unit) * friction)
             })

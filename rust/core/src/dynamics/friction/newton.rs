@@ -13,6 +13,9 @@ const STALLED: f64 = 1.0e-4;
 /// Parts of the way: the first step, the shortest one, and the longest.
 const FIRST: f64 = 0.25;
 const SHORTEST: f64 = 1.0e-9;
+/// Steps of the whole way, refused ones among them; kinks take some 60 each. Where forces are so great that
+/// the law drowns in their rounding, it would otherwise go on in the shortest steps.
+const MOST_STEPS: usize = 10_000;
 /// How far a step may be from a sum of parts of both tangents, in parts of the longer one.
 const MOST_CORRECTION: f64 = 0.1;
 /// How far the tangent may turn over a step, in parts of it, unless the step is this part of the friction.
@@ -75,7 +78,10 @@ impl FrictionProblem<'_> {
     pub(super) fn follow(&self, goal: f64) -> (f64, Vec<f64>) {
         let mut friction = vec![0.0; self.pairs.len()];
         let (mut at, mut step) = (0.0, FIRST);
-        while at < goal {
+        for _ in 0..MOST_STEPS {
+            if at >= goal || self.is_cancelled() {
+                break;
+            }
             let next = (at + step).min(goal);
             match self.advance(&friction, at, next) {
                 Some(found) => {

@@ -41,6 +41,24 @@ impl FrictionProblem<'_> {
         Ok(all)
     }
 
+    /// The first of all solutions; the others are looked for only where the law leads to none.
+    pub(crate) fn first(&self) -> Result<Option<Vec<f64>>, TooManyPaths> {
+        if self.pairs.is_empty() {
+            return Ok(Some(Vec::new()));
+        }
+        if self.is_contraction()
+            && let Some(only) = self.only()
+        {
+            return Ok(Some(only));
+        }
+        let (reached, end) = self.follow(1.0);
+        if reached >= 1.0 {
+            return Ok(Some(end));
+        }
+        let all = self.all()?;
+        Ok(all.into_iter().min_by(|a, b| self.loss(a).total_cmp(&self.loss(b))))
+    }
+
     /// By what all coefficients can be multiplied before the solution that began without friction ends,
     /// at most `most`.
     pub(crate) fn safety(&self, most: f64) -> f64 {
@@ -231,6 +249,8 @@ fn is_same(one: &[f64], other: &[f64]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicBool;
+
     use super::*;
     use crate::dynamics::friction::problem::RubbingPair;
 
@@ -273,6 +293,72 @@ mod tests {
         let nothing = FrictionProblem::default();
         assert_eq!(nothing.safety(1e6), 1e6);
         assert_eq!(nothing.solve(), Ok(vec![Vec::new()]));
+    }
+
+    #[test]
+    fn a_path_ends_where_the_law_drowns_in_rounding() {
+        // Beside a singular position: normal forces are 1e8 times greater than the frictions.
+        let guide = |[coefficient, half_length]: [f64; 2], sense, base, slopes: [[f64; 2]; 3]| {
+            let (law, slopes) = (Law::Guide { coefficient, half_length }, slopes.to_vec());
+            RubbingPair { law, sense, rate: 1.0, base, slopes }
+        };
+        let pairs = vec![
+            guide(
+                [0.014_335_723_934_473_008, 0.487_763_657_020_098_2],
+                -1.0,
+                [-18_956_707.311_518_88, -198_053_629.169_717_64],
+                [
+                    [0.160_407_692_097_974_35, 1.675_884_236_651_251],
+                    [0.0; 2],
+                    [-1.012_783_603_581_830_5, -0.952_469_903_379_340_1],
+                ],
+            ),
+            guide(
+                [0.017_311_613_656_474_222, 0.375_769_397_653_465_45],
+                -1.0,
+                [1.190_716_382_995_337_8e16, 136_768_321.862_583_7],
+                [
+                    [-4_827_481.003_133_687, 0.0],
+                    [-16_310_563.301_798_245, 0.0],
+                    [16_363_132.508_705_877, 0.0],
+                ],
+            ),
+            guide(
+                [0.022_002_664_786_105_977, 0.216_759_229_161_221_12],
+                1.0,
+                [-119_689_334.063_893_94, 198_053_629.169_717_64],
+                [
+                    [1.012_783_603_581_830_5, -1.675_884_236_651_251],
+                    [0.0; 2],
+                    [-0.160_407_692_097_974_4, 0.952_469_903_379_340_1],
+                ],
+            ),
+        ];
+        let problem = FrictionProblem { pairs, cancel: None };
+        let safety = problem.safety(1e6);
+        assert!(safety > 1.0 && safety < 1e6, "{safety}");
+        let cancelled = AtomicBool::new(true);
+        let problem = FrictionProblem { cancel: Some(&cancelled), ..problem };
+        assert_eq!(problem.safety(1e6), 0.0);
+    }
+
+    #[test]
+    fn the_first_solution_is_the_first_of_all() {
+        let mut random = Random(11);
+        let mut several = 0;
+        for case in 0..300 {
+            let of = [[3, 0], [2, 1], [0, 2]][case % 3];
+            let problem = problem(&mut random, of, 3.0 + (case % 5) as f64 * 3.0);
+            let (first, all) = (problem.first(), problem.solve());
+            let (Ok(first), Ok(all)) = (first, all) else { panic!("too many paths") };
+            several += usize::from(all.len() > 1);
+            match (first, all.first()) {
+                (None, None) => {}
+                (Some(first), Some(one)) => assert!(is_same(&first, one), "{first:?} {one:?}"),
+                (first, one) => panic!("{first:?} {one:?}"),
+            }
+        }
+        assert!(several > 5, "{several}");
     }
 
     #[test]
