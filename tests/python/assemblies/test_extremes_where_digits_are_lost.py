@@ -14,9 +14,11 @@ import pytest
 
 import assur
 import oracle
+import oracle_guess
 from campaign_cases import random_case
 from higher_models import higher_case
 from mechanism_data import Description, arguments
+from mixed_models import mixed_case
 from variants import Variant, shuffled
 
 if TYPE_CHECKING:
@@ -29,14 +31,10 @@ GOOD = 1e-6
 
 def pose(d: Description, m: assur.Mechanism, q: float) -> Pose:
     """Where the oracle's iteration begins."""
-    here, drawn = (m.solve(at, order=0) for at in (q, m.q0))
-    places = {}
-    for link, joints in d.links.items():
-        if link != "ground":
-            x, y = here.joint(joints[0]).value
-            turn = float(here.link(link).value - drawn.link(link).value)
-            places[link] = (float(x), float(y), turn)
-    return places
+    here = m.solve(q, order=0)
+    joints = {name: here.joint(name).value for name in d.joints}
+    angles = {name: float(here.link(name).value) for name in d.links.keys() - {"ground"}}
+    return oracle_guess.guess_from_joints(d, joints, angles)
 
 
 def limit(d: Description, name: str, order: int, end: float, inward: float) -> float:
@@ -68,6 +66,29 @@ def test_a_slide_on_a_link_that_folds(order: int, good: float) -> None:
         found = other.extremes("s0", order=order)
         values = sorted([found.least.value, found.greatest.value])
         assert values == pytest.approx(sorted(ends), rel=good)
+
+
+def test_errors_that_are_all_the_same_beside_a_dead_point() -> None:
+    d = random_case(4791).description
+    m = assur.Mechanism(**arguments(d))
+    low = m.limits().intervals[0, 0]
+    found = m.extremes("s4", order=3).greatest
+    assert found.q == low
+    assert found.value == pytest.approx(limit(d, "s4", 3, low, 1.0), rel=GOOD)
+
+
+def test_a_greatest_rate_where_slopes_step_over_zero() -> None:
+    """Some 1e-6 rad from a dead point."""
+    d = mixed_case(2271).description
+    m = assur.Mechanism(**arguments(d))
+    low = m.limits().intervals[0, 0]
+    found = m.extremes("L13", order=1).greatest
+    rates = []
+    for q in (found.q, low + 5e-7, low + 8e-7):
+        there = oracle.solve(d, q, pose(d, m, q), 1)
+        rates.append(float(there.links["L13"].tensor(1)))
+    assert found.value == pytest.approx(rates[0], rel=1e-4)
+    assert rates[0] > max(rates[1:])
 
 
 def test_two_dead_points_a_millionth_apart() -> None:

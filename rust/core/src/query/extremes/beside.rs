@@ -12,6 +12,9 @@ use super::window::{Weight, Window};
 
 /// By how much more than at the few places between nodes rounding may reach elsewhere.
 const MARGIN: f64 = 2.0;
+/// How many pairs of the nearest sets show that, too. In one alone errors may be all the same: so near to the
+/// place the motion hardly changes.
+const NEAREST: usize = 2;
 
 /// What makes the motion singular at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,11 +102,16 @@ impl Samples {
         };
         let general = through(false);
         let nearest = general.first()?;
-        let noise = self.between.iter().fold(0.0_f64, |most, sample| {
+        let apart = |sample: &Sample, series: &Series| {
             let (distance, value, _) = weighted(sample);
-            let apart = (value - nearest.at(distance)[0]).abs();
-            most.max(apart / (factor(sample) * sample.size))
-        });
+            (value - series.at(distance)[0]).abs() / (factor(sample) * sample.size)
+        };
+        let within = self.between.iter().map(|sample| apart(sample, nearest));
+        let farther = self.sets.iter().skip(1).zip(&general[1..]);
+        let across = self.sets.iter().zip(farther).take(NEAREST);
+        let across = across.filter(|([.., last], (next, _))| last.distance > next[0].distance);
+        let across = across.map(|([.., last], (_, series))| apart(last, series));
+        let noise = within.chain(across).fold(0.0, f64::max);
         let noise = MARGIN * noise;
         let size = |nodes: &[Sample; 3]| {
             nodes.iter().fold(0.0_f64, |most, node| most.max(factor(node) * node.size))

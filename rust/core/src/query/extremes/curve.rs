@@ -136,9 +136,10 @@ impl Curve<'_> {
         // The derivative by the angle has a pole of one order more.
         let poles = window.poles(self.order).map(|pole| if pole == 0 { 0 } else { pole + 1 });
         let roots = self.roots(window, &known, (1, poles), |own| [own[1], own[2]]);
-        for root in &roots.isolated {
-            let own = self.by_angle(window, root.at);
-            values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(root.at) }));
+        // Where the slope has lost digits it steps over zero.
+        for angle in roots.isolated.iter().map(|root| root.at).chain(roots.jumps) {
+            let own = self.by_angle(window, angle);
+            values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(angle) }));
         }
         values.extend(beside);
         if self.goes_round(window, &known) {
