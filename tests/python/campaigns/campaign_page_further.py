@@ -62,6 +62,10 @@ def of_machines(report: Report) -> Rows:
         ("of these with friction", "with friction"),
         ("runs in other units", "runs in other units"),
         ("runs given up, each evaluation beside a lock being slow", "runs that took too long"),
+        (
+            "of these with numbers of steps that differ as much in nearly the same units",
+            "numbers of steps as different in nearly the same units",
+        ),
         ("forces compared in other units", "forces in other units"),
         ("of these the same bits", "of these the same bits"),
         ("results asked for all that they have", "results asked for all"),
@@ -113,7 +117,8 @@ joints.
 MACHINES = f"""
 - **Units.** Every machine (one in {of_units.RUBBING} with friction) is computed in other units of
   length, time and mass. In even powers of two runs have the same steps and bits, in any others as
-  many steps to {100 * of_units.STEPS:g} %, and the same end.
+  many steps to {100 * of_units.STEPS:g} % (or as they differ in units that hardly differ), and the
+  same end.
 - **All that there is.** Of its results every property and every method without arguments is asked,
   and raises nothing but the library's own errors; a run from rest has reactions; from its file it
   is equal, and its results have the same bits.
