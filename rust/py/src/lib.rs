@@ -34,8 +34,6 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::convert::load::gas_pressures;
-    #[pymodule_export]
     use super::convert::value::table_values;
     #[pymodule_export]
     use super::crank_rocker::{

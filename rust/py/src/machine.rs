@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    DrivenPositions, EndCondition, EquilibriumRange, Extreme, FluctuationTarget, Mean,
-    ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    DrivenPositions, EndCondition, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
+    Point, ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use assur::{FirstFailure, SolveError, Status};
@@ -232,6 +232,26 @@ impl Machine {
             }
             Inner::Tables(_) => Ok(None),
         }
+    }
+
+    /// What its loads do to links, in the order of reactions: the load's index among those that are not
+    /// gravity, the link, the joint of the link where it acts, if it does, and whether with a couple.
+    #[getter]
+    fn load_actions(&self) -> Vec<(usize, &str, Option<&str>, bool)> {
+        let Inner::Mechanism(mechanism, machine) = &self.inner else { return Vec::new() };
+        let core = &mechanism.get().inner;
+        let linkage = core.linkage();
+        let actions =
+            machine.load_actions(core).into_iter().map(|LoadAction { load, link, at, .. }| {
+                let own = &linkage.links[link];
+                let joint = match at {
+                    Some(Point::Joint(joint)) if own.joints.contains(&joint) => Some(joint),
+                    _ => None,
+                };
+                let joint = joint.map(|joint| linkage.joints[joint].name.as_str());
+                (load, own.name.as_str(), joint, at.is_none())
+            });
+        actions.collect()
     }
 
     /// Python functions of the loads.

@@ -53,6 +53,7 @@ pub use load::Load;
 pub use machine::{DrivenPositions, Machine, ReducedTable};
 pub use measure::{Curve, Measure, OneWay, Over};
 pub use motor::{Characteristic, Motor};
+pub use reactions::load_actions::LoadAction;
 pub use reactions::pair_forces::Reaction;
 pub use reactions::request::ReactionRequest;
 pub use run::callbacks::{Callbacks, NoCallbacks};

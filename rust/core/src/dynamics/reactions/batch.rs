@@ -19,6 +19,7 @@ use crate::batch::schedule::Control;
 use crate::batch::worker::{Job, Worker};
 use crate::batch::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
+use crate::dynamics::friction::description::Friction;
 use crate::dynamics::machine::Machine;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
@@ -79,11 +80,14 @@ impl Machine {
             Reaction::Joint { joint, on } => JointForce::new(&plan, &links_at, joint, on),
             _ => JointForce::Free,
         };
+        let balances = !asked.reactions.iter().all(|reaction| reaction.is_given());
+        let friction: &[Friction] = if balances { &self.friction } else { &[] };
         let batch = Batch {
             mechanism,
             machine: self,
+            balances,
             joints: asked.reactions.iter().map(joint_force).collect(),
-            rubbing: Rubbing::of(&plan, &links_at, &self.friction),
+            rubbing: Rubbing::of(&plan, &links_at, friction),
             sources: Sources::new(&plan, &writer.columns),
             plan: &plan,
             asked,

@@ -32,6 +32,8 @@ pub(super) struct Batch<'b> {
     pub plan: &'b ForcePlan,
     pub sources: Sources,
     pub joints: Vec<JointForce>,
+    /// Whether what pairs transmit is asked for, and not only what acts on links from outside.
+    pub balances: bool,
     pub rubbing: Vec<Rubbing>,
     pub asked: &'b ReactionRequest<'b>,
     pub request: &'b Request<'b>,
@@ -77,14 +79,19 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
                     return;
                 }
             }
-            self.scene.start(plan);
-            self.scene.carry_loads(plan);
-            self.scene.pass_moments(plan);
+            if self.batch.balances {
+                self.scene.start(plan);
+                self.scene.carry_loads(plan);
+                self.scene.pass_moments(plan);
+            }
             let lanes = R::LANES.min(count - first);
             if asked.squares {
                 self.add_squares(first, lanes);
             } else {
                 self.write(first, lanes);
+            }
+            if !self.batch.balances {
+                continue;
             }
             for &stress in &plan.self_stresses {
                 self.scene.stress(plan, stress);
@@ -168,6 +175,14 @@ impl<R: Real> Evaluate<'_, '_, R> {
             Reaction::Driver(driver) => one(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
             Reaction::ShakingMoment => one(scene.shaking_moment),
+            Reaction::LoadForce(action) | Reaction::LoadCouple(action) => {
+                scene.load_on(&self.batch.plan.load_actions[action])
+            }
+            Reaction::LoadPlace(action) => {
+                let plan = self.batch.plan;
+                let point = plan.load_actions[action].at;
+                point.map_or(Vector::ZERO, |point| scene.place(plan, point).at)
+            }
         }
     }
 
@@ -247,9 +262,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let size = self.size;
         for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
             let unit = match reaction {
-                Reaction::ShakingForce
-                | Reaction::ShakingMoment
-                | Reaction::JointMoment { .. }
+                _ if reaction.is_given() => continue,
+                Reaction::JointMoment { .. }
                 | Reaction::Friction(_)
                 | Reaction::JointLoss(_)
                 | Reaction::SlideLoss(_)

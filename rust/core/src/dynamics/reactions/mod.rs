@@ -12,6 +12,7 @@ pub(crate) mod columns;
 mod evaluate;
 mod followed;
 pub(crate) mod force_plan;
+pub(crate) mod load_actions;
 pub(crate) mod moments;
 pub(crate) mod pair_forces;
 pub(crate) mod redundant;

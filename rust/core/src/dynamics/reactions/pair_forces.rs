@@ -49,6 +49,13 @@ pub enum Reaction {
     ShakingForce,
     /// Their moment about the origin of the drawing, N·m.
     ShakingMoment,
+    /// Force of a load on a link, N: x and y, by one of the machine's
+    /// [actions](crate::dynamics::Machine::load_actions).
+    LoadForce(usize),
+    /// The place where it acts, m: x and y.
+    LoadPlace(usize),
+    /// Couple of a load on a link, N·m.
+    LoadCouple(usize),
 }
 
 impl Reaction {
@@ -56,9 +63,21 @@ impl Reaction {
     #[must_use]
     pub fn width(self) -> usize {
         match self {
-            Self::Joint { .. } | Self::ShakingForce => 2,
+            Self::Joint { .. } | Self::ShakingForce | Self::LoadForce(_) | Self::LoadPlace(_) => 2,
             _ => 1,
         }
+    }
+
+    /// Whether it follows from the motion alone, whatever the pairs transmit.
+    pub(super) fn is_given(self) -> bool {
+        matches!(
+            self,
+            Self::ShakingForce
+                | Self::ShakingMoment
+                | Self::LoadForce(_)
+                | Self::LoadPlace(_)
+                | Self::LoadCouple(_)
+        )
     }
 }
 

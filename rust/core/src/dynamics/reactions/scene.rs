@@ -30,6 +30,8 @@ pub(crate) struct Scene<R: Real> {
     /// Loads and inertia forces on every link, and their moments about its reference point.
     pub link_force: Vec<Vector<R>>,
     pub link_moment: Vec<R>,
+    /// Force of every load on the first link on which it acts; of a load that turns, its couple as x.
+    pub loads: Vec<Vector<R>>,
     /// Inertia forces of all bodies, and their moment about the origin.
     pub shaking_force: Vector<R>,
     pub shaking_moment: R,
@@ -69,6 +71,7 @@ impl<R: Real> Scene<R> {
             slides: vec![R::ZERO; slides],
             link_force: vec![zero; links],
             link_moment: vec![R::ZERO; links],
+            loads: vec![zero; plan.loads],
             shaking_force: zero,
             shaking_moment: R::ZERO,
             point_load: vec![zero; points],
