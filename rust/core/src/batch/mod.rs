@@ -12,6 +12,7 @@ pub(crate) mod outputs;
 pub(crate) mod plain;
 pub(crate) mod request;
 pub(crate) mod schedule;
+pub(crate) mod scratch;
 pub(crate) mod solve;
 #[cfg(feature = "test-hooks")]
 pub mod test_hooks;

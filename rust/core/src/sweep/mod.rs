@@ -44,7 +44,7 @@ mod metric;
 mod moments;
 mod parts;
 mod request;
-pub(crate) mod scratch;
+
 mod threads;
 mod time_ratio;
 

@@ -3,10 +3,10 @@
 use std::mem::MaybeUninit;
 
 use super::judge::{Batch, Outcome};
-use super::scratch::{Scratch, ScratchRows};
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::designs::{DesignRow, Designs};
 use crate::batch::dispatch::{Entry, ForLevel};
+use crate::batch::scratch::{Scratch, ScratchRows};
 use crate::batch::worker::Worker;
 use crate::batch::writer::RowSlices;
 use crate::description::error::SolveError;

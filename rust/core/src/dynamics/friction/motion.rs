@@ -9,12 +9,12 @@
 //! efforts would have lost its digits beside the loads.
 
 use crate::batch::outputs::{Column, Quantity, columns};
+use crate::dynamics::friction::pairs::Rubbing;
 use crate::dynamics::kinematics::{Point, SolvedPose};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_directions};
 use crate::dynamics::reactions::force_plan::ForcePlan;
-use crate::dynamics::reactions::rubbing::Rubbing;
 use crate::dynamics::reactions::scene::Scene;
 use crate::dynamics::value::Numbers;
 use crate::math::vector::Vector;

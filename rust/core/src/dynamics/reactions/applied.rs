@@ -155,13 +155,13 @@ impl<R: Real> Scene<R> {
 
     /// The force of a load on a link; its couple as x.
     #[inline(always)]
-    pub(super) fn load_on(&self, action: &LoadAction) -> Vector<R> {
+    pub(crate) fn load_on(&self, action: &LoadAction) -> Vector<R> {
         let strength = self.loads[action.load];
         if action.is_reaction { -strength } else { strength }
     }
 
     #[inline(always)]
-    pub(super) fn force_on(
+    pub(crate) fn force_on(
         &mut self,
         plan: &ForcePlan,
         link: usize,
@@ -177,7 +177,7 @@ impl<R: Real> Scene<R> {
     }
 
     #[inline(always)]
-    pub(super) fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
+    pub(crate) fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
         if link != plan.ground {
             self.link_moment[link] += moment;
         }
@@ -193,7 +193,7 @@ impl<R: Real> Scene<R> {
 
     /// Motion of a point of a link: `a = a_ref + (i ε − ω²) r`.
     #[inline(always)]
-    pub(super) fn place(&self, plan: &ForcePlan, point: Point) -> Moving<Vector<R>> {
+    pub(crate) fn place(&self, plan: &ForcePlan, point: Point) -> Moving<Vector<R>> {
         match point {
             Point::Joint(joint) => self.points[point_of_joint(joint)],
             Point::Link { link, at: [x, y] } if link == plan.ground => Moving {

@@ -5,11 +5,11 @@ use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
 use crate::batch::outputs::{Outputs, Quantity};
 use crate::description::Driver;
 use crate::description::frame::Axis;
-use crate::dynamics::friction::description::Friction;
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::Measure;
+use crate::dynamics::pair_friction::Friction;
 use crate::plan::mechanism::Mechanism;
 use crate::structure::closure::{GROUND_POINT, point_of_joint};
 

@@ -22,7 +22,7 @@ pub struct LoadAction {
 impl Machine {
     /// What its loads do to links, load by load: the order of [`Reaction::LoadForce`] and the like.
     ///
-    /// [`Reaction::LoadForce`]: super::pair_forces::Reaction::LoadForce
+    /// [`Reaction::LoadForce`]: crate::dynamics::Reaction::LoadForce
     #[must_use]
     pub fn load_actions(&self, mechanism: &Mechanism) -> Vec<LoadAction> {
         let linkage = mechanism.linkage();

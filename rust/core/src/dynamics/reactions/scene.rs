@@ -1,7 +1,7 @@
 //! The kinematics of a few positions, and the forces on them: one per lane.
 
 use super::force_plan::ForcePlan;
-use super::rubs::Rubs;
+use crate::dynamics::friction::workspace::Rubs;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
@@ -51,8 +51,8 @@ pub(crate) struct Scene<R: Real> {
     /// How many units of length a metre is: groups are solved in that unit, so that pivots do not depend on
     /// metres.
     pub(crate) per_metre: R,
-    pub(super) matrix: Vec<[R; 1]>,
-    pub(super) right: Vec<R>,
+    pub(crate) matrix: Vec<[R; 1]>,
+    pub(crate) right: Vec<R>,
 }
 
 impl<R: Real> Scene<R> {
@@ -89,7 +89,7 @@ impl<R: Real> Scene<R> {
 
     /// Force of a guide on what slides there.
     #[inline(always)]
-    pub(super) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
+    pub(crate) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
         let Some(edge) = plan.guide_edges[slide] else { return R::ZERO };
         -self.guides[slide].cross(self.edge_force[edge])
     }

@@ -1,9 +1,9 @@
 //! The pairs of a machine that rub.
 
-use super::force_plan::ForcePlan;
-use super::pair_forces::JointForce;
-use crate::dynamics::friction::description::Friction;
 use crate::dynamics::friction::problem::Law;
+use crate::dynamics::pair_friction::Friction;
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::pair_forces::JointForce;
 
 /// Two links that rub.
 #[derive(Debug, Clone, PartialEq)]

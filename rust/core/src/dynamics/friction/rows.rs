@@ -2,13 +2,13 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::columns::{Rows, Solved, Sources};
-use super::force_plan::ForcePlan;
+use super::pairs::{Pair, Rubbing};
 use super::rest::{AT_REST, RATE_ROUNDING};
-use super::rubbing::{Pair, Rubbing};
-use super::scene::Scene;
 use crate::dynamics::friction::problem::{FrictionProblem, RubbingPair};
 use crate::dynamics::friction::solutions::TooManyPaths;
+use crate::dynamics::reactions::columns::{Rows, Solved, Sources};
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 
@@ -42,7 +42,7 @@ impl LaneFriction {
 
 /// What is asked of the friction.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Asked<'c> {
+pub(crate) struct Asked<'c> {
     /// Which of its solutions is meant.
     pub solution: usize,
     /// Whether the safety against locking is wanted.
@@ -55,7 +55,7 @@ pub(super) struct Asked<'c> {
 impl<R: Real> Scene<R> {
     /// The speeds of the drivers; where all rest, unit speeds in the given sense.
     #[inline(always)]
-    pub(super) fn ways(&self, sense: &[f64]) -> Vec<R> {
+    pub(crate) fn ways(&self, sense: &[f64]) -> Vec<R> {
         let mut rests = R::Mask::NONE.not();
         for &[speed, _] in &self.drive {
             rests = rests.and(speed.abs().le(R::ZERO));
@@ -122,7 +122,7 @@ impl<R: Real> Scene<R> {
 
     /// Adds the friction of all pairs to the loads; the others are there.
     #[inline(always)]
-    pub(super) fn rub(
+    pub(crate) fn rub(
         &mut self,
         (plan, rubbing): (&ForcePlan, &[Rubbing]),
         asked: Asked<'_>,

@@ -1,14 +1,8 @@
 //! Reactions of many designs at many positions.
 
-use super::applied::Values;
-use super::columns::{Solved, Sources, guide_directions};
 use super::evaluate::{Batch, Evaluate};
 use super::followed::{Drivers, Followed};
-use super::force_plan::ForcePlan;
-use super::pair_forces::{JointForce, Reaction};
-use super::request::ReactionRequest;
-use super::rubbing::Rubbing;
-use super::scene::Scene;
+use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::designs::Designs;
@@ -16,15 +10,21 @@ use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::outputs::{Arrays, Column, Quantity};
 use crate::batch::request::{Coordinates, Request, Shape, check_arrays, product};
 use crate::batch::schedule::Control;
+use crate::batch::scratch::Scratch;
 use crate::batch::worker::{Job, Worker};
 use crate::batch::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
-use crate::dynamics::friction::description::Friction;
+use crate::dynamics::friction::pairs::Rubbing;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::pair_friction::Friction;
+use crate::dynamics::reactions::applied::Values;
+use crate::dynamics::reactions::columns::{Solved, Sources, guide_directions};
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::pair_forces::JointForce;
+use crate::dynamics::reactions::scene::Scene;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
-use crate::sweep::scratch::Scratch;
 
 impl Machine {
     /// Finds the reactions of designs at positions: one array for each, and the statuses. Of

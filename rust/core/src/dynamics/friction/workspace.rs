@@ -32,7 +32,7 @@ pub(crate) struct Rubs<R: Real> {
 impl<R: Real> Rubs<R> {
     /// The power that friction takes in a pair.
     #[inline(always)]
-    pub(super) fn loss(&self, pair: usize) -> R {
+    pub(crate) fn loss(&self, pair: usize) -> R {
         -(self.friction[pair] * self.speeds[pair][0])
     }
 }

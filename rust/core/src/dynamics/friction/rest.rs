@@ -1,16 +1,16 @@
 //! Which pairs rest while others move: how much of a computed relative speed is rounding.
 
-use super::force_plan::{ForceEdge, ForcePlan};
-use super::scene::Scene;
-use super::steps::Transposed;
+use crate::dynamics::reactions::force_plan::{ForceEdge, ForcePlan};
+use crate::dynamics::reactions::scene::Scene;
+use crate::dynamics::reactions::steps::Transposed;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CLOSURE_PER_CONDITION, UNIT_ROUNDOFF};
 
 /// A relative speed below this part of the drivers' is rounding: then a pair does not rub.
-pub(super) const AT_REST: f64 = 1.0e-12;
+pub(crate) const AT_REST: f64 = 1.0e-12;
 /// Rounding of a relative speed in parts of the speeds that add up to it: each is good to some u. At
 /// 8000 positions of pairs whose links move as one body the most that was found is 15 u.
-pub(super) const RATE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
+pub(crate) const RATE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
 
 // Loops: closures would not be compiled with the level's instructions.
 impl<R: Real> Scene<R> {
@@ -20,7 +20,7 @@ impl<R: Real> Scene<R> {
     /// balance it: to first order, an error of a closed path's velocities counts times the force that
     /// closes the path. These forces grow with the condition of every group on which the pair depends.
     #[inline(always)]
-    pub(super) fn rate_rounding(&self) -> R {
+    pub(crate) fn rate_rounding(&self) -> R {
         let mut power = R::ZERO;
         for (force, &error) in self.edge_force.iter().zip(&self.rubs.edge_errors) {
             power += force.size() * error;
@@ -31,7 +31,7 @@ impl<R: Real> Scene<R> {
     /// Finds by how much the velocities along every edge may miss their closed path: rounding of their
     /// own, and that of the position, which misses the path the more the worse its dyad is conditioned.
     #[inline(always)]
-    pub(super) fn find_edge_errors(&mut self, plan: &ForcePlan) {
+    pub(crate) fn find_edge_errors(&mut self, plan: &ForcePlan) {
         let speeds = &self.rubs.point_speeds;
         let mut errors = std::mem::take(&mut self.rubs.edge_errors);
         errors.clear();
