@@ -1,4 +1,5 @@
-//! Coulomb friction in pairs.
+//! Coulomb friction in pairs: its law and all its solutions, at positions of a given motion (`rows`) and in
+//! the equation of motion (`motion`).
 
 mod blocks;
 pub(crate) mod motion;

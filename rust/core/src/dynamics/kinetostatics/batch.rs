@@ -14,7 +14,8 @@ use crate::batch::scratch::Scratch;
 use crate::batch::worker::{Job, Worker};
 use crate::batch::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
-use crate::dynamics::friction::pairs::Rubbing;
+use crate::dynamics::friction::pairs::FrictionPair;
+use crate::dynamics::friction::workspace::FrictionWorkspace;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::pair_friction::Friction;
 use crate::dynamics::reactions::applied::Values;
@@ -87,7 +88,7 @@ impl Machine {
             machine: self,
             balances,
             joints: asked.reactions.iter().map(joint_force).collect(),
-            rubbing: Rubbing::of(&plan, &links_at, friction),
+            friction: FrictionPair::of(&plan, &links_at, friction),
             sources: Sources::new(&plan, &writer.columns),
             plan: &plan,
             asked,
@@ -115,6 +116,7 @@ struct Own<'b, R: Real, const G: usize> {
     designs: Designs,
     scratch: Scratch,
     scene: Scene<R>,
+    friction: FrictionWorkspace<R>,
     tables: Vec<Vec<f64>>,
     followed: Followed,
     squares: Vec<Squares<R>>,
@@ -131,6 +133,7 @@ impl ForLevel for React<'_, '_> {
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
             scene: Scene::new(batch.plan),
+            friction: FrictionWorkspace::default(),
             tables: vec![Vec::new(); batch.machine.tables.len()],
             followed: Followed::default(),
             squares: Vec::new(),
@@ -150,7 +153,7 @@ impl Batch<'_> {
         mut results: RowSlices<'_>,
     ) {
         let Shape { designs: all, positions, drivers } = *self.shape;
-        let Own { worker, designs, scratch, scene, tables, followed, squares } = own;
+        let Own { worker, designs, scratch, scene, friction, tables, followed, squares } = own;
         designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
         // Squares are of all positions.
         let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };
@@ -213,6 +216,7 @@ impl Batch<'_> {
                 },
                 status: &rows.status()[..count],
                 scene,
+                friction,
                 results: &mut results,
                 squares,
                 first: if self.asked.squares { index } else { index * count },

@@ -5,7 +5,6 @@ use std::ops::Add;
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
 use crate::batch::outputs::{Column, Quantity};
-use crate::dynamics::friction::pairs::Pair;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -39,18 +38,6 @@ impl Sources {
             points: plan.points.iter().map(|quantity| quantity.and_then(find)).collect(),
             angles: (0..plan.reference.len()).map(|l| find(Quantity::Angle(l))).collect(),
             slides: (0..plan.slide_links.len()).map(|s| find(Quantity::Slide(s))).collect(),
-        }
-    }
-}
-
-impl Sources {
-    /// The columns of which the rates, one less the other, are the speed at which a pair rubs.
-    pub(crate) fn rubbing(&self, plan: &ForcePlan, pair: &Pair) -> [Option<usize>; 2] {
-        match *pair {
-            Pair::Journal { on, fast, .. } => {
-                [on, fast].map(|link| self.angles[link].filter(|_| link != plan.ground))
-            }
-            Pair::Guide { slide, .. } => [self.slides[slide], None],
         }
     }
 }

@@ -1,7 +1,6 @@
 //! The kinematics of a few positions, and the forces on them: one per lane.
 
 use super::force_plan::ForcePlan;
-use crate::dynamics::friction::workspace::Rubs;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
@@ -47,7 +46,6 @@ pub(crate) struct Scene<R: Real> {
     pub slide_moment: Vec<R>,
     /// Torque or force of every driver.
     pub driver: Vec<R>,
-    pub(crate) rubs: Rubs<R>,
     /// How many units of length a metre is: groups are solved in that unit, so that pivots do not depend on
     /// metres.
     pub(crate) per_metre: R,
@@ -80,7 +78,6 @@ impl<R: Real> Scene<R> {
             edge_force: vec![zero; plan.edges.len()],
             slide_moment: vec![R::ZERO; slides],
             driver: vec![R::ZERO; plan.drivers],
-            rubs: Rubs::default(),
             per_metre: R::ONE,
             matrix: Vec::new(),
             right: Vec::new(),

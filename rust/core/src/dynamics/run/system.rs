@@ -9,7 +9,7 @@ use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
-use crate::dynamics::friction::motion::RubbingState;
+use crate::dynamics::friction::motion::SlidingState;
 use crate::ode::system::{Action, Attempt, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
@@ -311,8 +311,8 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
                         Phase::Stick => f64::NAN,
                         Phase::Slip(sense) => {
                             let speed = speed[0];
-                            let state = RubbingState { speed, sense, is_static: false };
-                            equation.rub(q[0], state).unwrap_or(f64::NAN)
+                            let state = SlidingState { speed, sense, is_static: false };
+                            equation.accelerate_with_friction(q[0], state).unwrap_or(f64::NAN)
                         }
                     },
                     Err(Fault::OutOfDomain) => f64::NAN,
@@ -340,8 +340,8 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 match self.phase {
                     Phase::Smooth => equation.accelerations(q, speed, &mut rates[n..2 * n])?,
                     Phase::Slip(sense) => {
-                        let state = RubbingState { speed: speed[0], sense, is_static: false };
-                        rates[1] = equation.rub(q[0], state)?;
+                        let state = SlidingState { speed: speed[0], sense, is_static: false };
+                        rates[1] = equation.accelerate_with_friction(q[0], state)?;
                     }
                     Phase::Stick => {
                         rates.fill(0.0);
@@ -361,8 +361,8 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 equation.set_configuration(&[x])?;
                 equation.apply_loads(y[1], &[x], &speed)?;
                 if let Phase::Slip(sense) = self.phase {
-                    let state = RubbingState { speed: speed[0], sense, is_static: false };
-                    rates[0] = 2.0 * equation.rub(x, state)?;
+                    let state = SlidingState { speed: speed[0], sense, is_static: false };
+                    rates[0] = 2.0 * equation.accelerate_with_friction(x, state)?;
                     rates[1] = 1.0 / speed[0];
                     rates[2] = equation.power(&speed) / speed[0];
                     return Ok(());
