@@ -1,5 +1,6 @@
 //! One position at q: the poses of all links, their analogues, condition and status.
 
+pub(crate) mod closing;
 pub(crate) mod closures;
 mod conditions;
 pub(crate) mod dyad;

@@ -1,11 +1,11 @@
 //! Work space of the careful path and of the iteration for groups above class II, with the results
 //! that the branch checks.
 
+use super::closing::Closing;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::plan::Plan;
-use crate::state::dyad::intersections::Closing;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {

@@ -1,9 +1,9 @@
 //! The dyad of two slides along fixed guides (PRP, RPP).
 
-use super::intersections::Closing;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
+use crate::state::closing::Closing;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
