@@ -21,7 +21,9 @@ mod reactions;
 mod remedies;
 mod reserve;
 mod run;
+mod short_calls;
 mod slider_crank;
+mod solve;
 mod spline;
 mod sweep;
 #[cfg(feature = "test-hooks")]

@@ -10,8 +10,7 @@ use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
 use crate::convert::word::{Word, Words};
-use crate::mechanism::as_uninitialized;
-use crate::memory::Memory;
+use crate::memory::{Memory, as_uninitialized};
 use crate::{detach, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
