@@ -38,7 +38,7 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) columns: &'a [Column],
     pub(super) space: Box<WorkSpace<R, G>>,
     /// The dimension to differentiate by, with its work space.
-    by: Option<(usize, Sensitivity)>,
+    pub(super) by: Option<(usize, Sensitivity)>,
     care: Care,
     /// Whether the branch serves all positions of the job and has no change points.
     pub(super) is_smooth: bool,
@@ -50,6 +50,23 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     cancel: Option<&'a AtomicBool>,
     pub(super) failures: Option<FailureCounter<'a>>,
     known_signs: Option<&'a KnownSigns>,
+}
+
+/// How a design, or its next block, is solved, and why so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Path {
+    /// Without checks, because signs are constant and all dyads have kernels; no requested angle makes
+    /// whole turns, so that one reference each unwraps it.
+    UncheckedByReference,
+    /// Without checks likewise, but angles are unwrapped to those at the knots of the branch.
+    UncheckedByKnots,
+    /// With checks: signs may change, a dyad has no kernel, or too many blocks were uncertain.
+    Checked,
+    /// One position after another, because tests ask for it, no branch serves all positions of several
+    /// drivers, or one of a block cannot be followed.
+    ByPosition,
+    /// One position after another, with the sensitivities to a dimension that are asked for.
+    Sensitivities,
 }
 
 /// Some positions of one design, and the rows they go to.
@@ -181,54 +198,70 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         job: &mut Job<'_, '_>,
         trace: fn(&mut Self, &Job<'_, '_>, bool) -> Traced,
     ) {
-        let mut traced = trace(self, job, self.by.is_none());
+        let traced = trace(self, job, self.by.is_none());
+        let count = job.q.len() / self.design.mechanism.q0().len();
+        match self.path(traced) {
+            Path::Sensitivities => self.sensitivities(job),
+            Path::ByPosition => self.solve_by_position(job, 0, count),
+            path => self.run_blocks::<L>(job, count, (traced, path), trace),
+        }
+    }
+
+    /// How a traced design is solved, or its first block.
+    #[inline(always)]
+    fn path(&mut self, traced: Traced) -> Path {
         let drivers = self.design.mechanism.q0().len();
-        let count = job.q.len() / drivers;
-        if let Some((index, mut by)) = self.by.take() {
-            self.sensitivities(job, index, &mut by);
-            self.by = Some((index, by));
-            return;
+        if self.by.is_some() {
+            return Path::Sensitivities;
         }
         if self.care != Care::Needed || drivers > 1 && !self.design.serves_all {
-            self.solve_by_position(job, 0, count);
-            return;
+            return Path::ByPosition;
         }
-        self.space.many.groups = count.div_ceil(R::LANES).min(G);
-        if self.design.branch.has_constant_signs() {
-            let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
-            for (lanes, &sign) in self.space.many.pose.signs.iter_mut().zip(signs) {
-                lanes[..self.space.many.groups].fill(R::splat(sign));
-            }
+        // Analogues without checks are for one driver.
+        let has_kernels = drivers == 1 || self.space.many.len == 1;
+        if !(has_kernels && (traced == Traced::Surveyed || self.is_plain())) {
+            return Path::Checked;
         }
+        match traced {
+            Traced::Surveyed => Path::UncheckedByReference,
+            Traced::AtKnots => Path::UncheckedByKnots,
+            Traced::No | Traced::Whole if self.find_references() => Path::UncheckedByKnots,
+            Traced::No | Traced::Whole => Path::UncheckedByReference,
+        }
+    }
+
+    /// Solves the positions in blocks of lanes.
+    #[inline(always)]
+    fn run_blocks<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        count: usize,
+        (mut traced, mut path): (Traced, Path),
+        trace: fn(&mut Self, &Job<'_, '_>, bool) -> Traced,
+    ) {
+        self.load_signs(count);
         self.load_coordinates(job);
-        if traced == Traced::Surveyed && self.space.coordinates.is_far {
+        let has_no_angles = |traced| traced == Traced::Surveyed;
+        if has_no_angles(traced) && (path == Path::Checked || self.space.coordinates.is_far) {
             traced = trace(self, job, false);
+            path = self.path(traced);
         }
-        let surveyed = traced == Traced::Surveyed;
-        // Bare analogues are for one driver.
-        let bare = drivers == 1 || self.space.many.len == 1;
-        let mut doubts = if bare && (surveyed || self.is_plain()) { 0 } else { MAX_DOUBTS };
-        if doubts < MAX_DOUBTS {
+        if path != Path::Checked {
             let design = &self.design;
             let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
             self.space.many.prepare_bare(&cx);
         }
-        let mut prepared = false;
-        let mut located = match traced {
-            Traced::Surveyed => false,
-            Traced::AtKnots => true,
-            _ => doubts == MAX_DOUBTS || self.find_references(),
-        };
-        if located {
+        if path != Path::UncheckedByReference {
             self.locate();
         }
         job.rows.status[job.first..job.first + count].fill(MaybeUninit::new(Status::Ok as u8));
+        let (mut prepared, mut doubts) = (false, 0);
         let size = self.space.coordinates.block * R::LANES;
         for row in (0..count).step_by(size) {
             if self.is_cancelled() {
                 return;
             }
-            if located && self.space.locations.is_empty() {
+            if path != Path::UncheckedByReference && self.space.locations.is_empty() {
                 self.locate();
             }
             let block = (count - row).min(size);
@@ -236,7 +269,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.solve_by_position(job, row, block);
                 continue;
             }
-            if doubts < MAX_DOUBTS && self.solve_bare::<L>(job, row, block, located) {
+            let by_knots = path == Path::UncheckedByKnots;
+            if path != Path::Checked && self.solve_bare::<L>(job, row, block, by_knots) {
                 continue;
             }
             if !prepared {
@@ -246,16 +280,28 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.space.many.prepare(plan, &self.design.constants, self.design.derivatives);
                 prepared = true;
             }
-            if !located {
-                if surveyed {
+            if path == Path::UncheckedByReference {
+                if has_no_angles(traced) {
                     trace(self, job, false);
                 }
                 self.locate();
-                located = true;
             }
             self.solve_block::<L>(job, row, block);
-            doubts =
-                if bare && self.is_plain() { (doubts + 1).min(MAX_DOUBTS) } else { MAX_DOUBTS };
+            doubts += 1;
+            let stays = path == Path::Checked || doubts == MAX_DOUBTS || !self.is_plain();
+            path = if stays { Path::Checked } else { Path::UncheckedByKnots };
+        }
+    }
+
+    /// Loads the signs of the branch if they are constant.
+    #[inline(always)]
+    fn load_signs(&mut self, count: usize) {
+        self.space.many.groups = count.div_ceil(R::LANES).min(G);
+        if self.design.branch.has_constant_signs() {
+            let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
+            for (lanes, &sign) in self.space.many.pose.signs.iter_mut().zip(signs) {
+                lanes[..self.space.many.groups].fill(R::splat(sign));
+            }
         }
     }
 
