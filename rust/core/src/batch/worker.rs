@@ -10,7 +10,7 @@ use super::failure_log::FailureCounter;
 use super::known_signs::KnownSigns;
 use super::outputs::Column;
 use super::request::Request;
-use super::schedule::{Care, Control};
+use super::schedule::{Checks, Control};
 use super::work_space::WorkSpace;
 use super::writer::{RowSlices, Writer};
 use crate::branch::design::Design;
@@ -25,8 +25,8 @@ use crate::state::sensitivity::Sensitivity;
 use crate::state::state::Context;
 use crate::state::status::Status;
 
-/// Doubtful blocks of one design after which the rest takes the careful path directly.
-const MAX_DOUBTS: usize = 2;
+/// Uncertain blocks of one design after which the rest takes the checked path directly.
+const MAX_UNCERTAIN: usize = 2;
 
 /// An empty range.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -39,7 +39,7 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) space: Box<WorkSpace<R, G>>,
     /// The dimension to differentiate by, with its work space.
     pub(super) by: Option<(usize, Sensitivity)>,
-    care: Care,
+    checks: Checks,
     /// Whether the branch serves all positions of the job and has no change points.
     pub(super) is_smooth: bool,
     /// Whether the branch of a driven slide was traced by knots that depend on the requested positions.
@@ -96,7 +96,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let mut design = Design::new(mechanism, request.signs, derivatives)
             .reusing(std::mem::take(&mut space.design));
         design.cancel = control.cancel;
-        if control.care == Care::Needed
+        if control.checks == Checks::Needed
             && let Some(tape) = space.tracing_tape.take()
         {
             design.trace_by(tape);
@@ -108,7 +108,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             design,
             writer,
             columns: &writer.columns,
-            care: control.care,
+            checks: control.checks,
             is_smooth: false,
             depends_on_request: false,
             driven_range: (None, NOWHERE),
@@ -214,12 +214,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if self.by.is_some() {
             return Path::Sensitivities;
         }
-        if self.care != Care::Needed || drivers > 1 && !self.design.serves_all {
+        if self.checks != Checks::Needed || drivers > 1 && !self.design.serves_all {
             return Path::ByPosition;
         }
         // Analogues without checks are for one driver.
         let has_kernels = drivers == 1 || self.space.many.len == 1;
-        if !(has_kernels && (traced == Traced::Surveyed || self.is_plain())) {
+        if !(has_kernels && (traced == Traced::Surveyed || self.needs_no_checks())) {
             return Path::Checked;
         }
         match traced {
@@ -249,13 +249,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if path != Path::Checked {
             let design = &self.design;
             let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
-            self.space.many.prepare_bare(&cx);
+            self.space.many.prepare_unchecked(&cx);
         }
         if path != Path::UncheckedByReference {
             self.locate();
         }
         job.rows.status[job.first..job.first + count].fill(MaybeUninit::new(Status::Ok as u8));
-        let (mut prepared, mut doubts) = (false, 0);
+        let (mut prepared, mut uncertain_blocks) = (false, 0);
         let size = self.space.coordinates.block * R::LANES;
         for row in (0..count).step_by(size) {
             if self.is_cancelled() {
@@ -270,7 +270,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 continue;
             }
             let by_knots = path == Path::UncheckedByKnots;
-            if path != Path::Checked && self.solve_bare::<L>(job, row, block, by_knots) {
+            if path != Path::Checked && self.solve_unchecked::<L>(job, row, block, by_knots) {
                 continue;
             }
             if !prepared {
@@ -286,9 +286,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 }
                 self.locate();
             }
-            self.solve_block::<L>(job, row, block);
-            doubts += 1;
-            let stays = path == Path::Checked || doubts == MAX_DOUBTS || !self.is_plain();
+            self.solve_checked::<L>(job, row, block);
+            uncertain_blocks += 1;
+            let stays = path == Path::Checked
+                || uncertain_blocks == MAX_UNCERTAIN
+                || !self.needs_no_checks();
             path = if stays { Path::Checked } else { Path::UncheckedByKnots };
         }
     }
@@ -305,12 +307,12 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
-    /// Traces the branch. If `plain`, it may only show that the design is plain.
+    /// Traces the branch. If `unchecked`, it may only show that the design needs no checks.
     #[inline(always)]
     pub(super) fn trace<L: Level<Register = R>>(
         &mut self,
         job: &Job<'_, '_>,
-        plain: bool,
+        unchecked: bool,
     ) -> Traced {
         if self.has_known_signs(job.design) {
             self.design.set_constant_signs();
@@ -319,9 +321,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
         let mut traced = Traced::No;
         // The first guess of a group's iteration depends on how its branch was traced.
-        if self.care == Care::Needed || self.design.has_groups() {
-            let plain = plain && self.care == Care::Needed && self.space.tape.is_bounded;
-            let mut references = plain.then_some(&mut self.space.references[..]);
+        if self.checks == Checks::Needed || self.design.has_groups() {
+            let unchecked =
+                unchecked && self.checks == Checks::Needed && self.space.tape.is_bounded;
+            let mut references = unchecked.then_some(&mut self.space.references[..]);
             let (design, classes) = (&mut self.design, &self.writer.classes);
             traced = design.trace_in_closed_form(classes, references.as_deref_mut());
             if traced == Traced::No {
@@ -334,8 +337,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let slides = self.design.mechanism.plan().driven_slide(0).is_some();
         self.depends_on_request = slides && traced == Traced::Whole;
         if traced == Traced::No {
-            match self.care {
-                Care::Always => self.design.trace(job.q),
+            match self.checks {
+                Checks::Always => self.design.trace(job.q),
                 _ => self.design.trace_knot_by_knot(job.q),
             }
         }
@@ -351,7 +354,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Whether only the signs of the branch are needed, and they are known to be constant.
     #[inline(always)]
     fn has_known_signs(&self, design: usize) -> bool {
-        let wanted = self.care == Care::Needed && self.writer.classes.is_empty();
+        let wanted = self.checks == Checks::Needed && self.writer.classes.is_empty();
         wanted && self.known_signs.is_some_and(|known| known.are_constant(design))
     }
 

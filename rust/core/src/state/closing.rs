@@ -7,7 +7,7 @@ use crate::math::stride::Stride;
 /// Whether a dyad closes, and how far it is from flat.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Closing<R: Real> {
-    /// Lanes where it does not close. Without `CAREFUL` some may be missing; their `sine2` is NaN or not
+    /// Lanes where it does not close. Without `CHECKED` some may be missing; their `sine2` is NaN or not
     /// positive.
     pub open: R::Mask,
     /// Lanes where it is flat: the two solutions coincide to rounding.
@@ -15,9 +15,9 @@ pub(crate) struct Closing<R: Real> {
     /// Square of the sine of the angle between the columns of the closure matrix: between the legs
     /// of two binary links.
     pub sine2: R,
-    /// By how much it closes, relative to the scale; negative where it does not (`CAREFUL`).
+    /// By how much it closes, relative to the scale; negative where it does not (`CHECKED`).
     pub margin: R,
-    /// The length that is missing where it does not close; infinite if no length would do (`CAREFUL`).
+    /// The length that is missing where it does not close; infinite if no length would do (`CHECKED`).
     pub gap: R,
     /// For each unknown, the factor of its squared arm in the condition; 0 for a slide.
     pub per_arm2: [R; 2],

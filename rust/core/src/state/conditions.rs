@@ -19,7 +19,7 @@ pub(crate) struct Conditions<R: Real = f64, const G: usize = 1> {
     pub(crate) upstream: Vec<[R; G]>,
     /// The greatest condition in the position.
     pub(crate) greatest: [R; G],
-    /// A lower bound of the inverse of each dyad's condition (on the bare path only).
+    /// A lower bound of the inverse of each dyad's condition (on the unchecked path only).
     pub(crate) bounds: Vec<[R; G]>,
     /// The same for everything that the present dyad depends on.
     pub(crate) bound: [R; G],

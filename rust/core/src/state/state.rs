@@ -76,9 +76,9 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets, in the lane groups in use, what the bare path needs and all positions of a design share.
+    /// Sets, in the lane groups in use, what the unchecked path needs and all positions of a design share.
     #[inline(always)]
-    pub(crate) fn prepare_bare(&mut self, cx: &Context<'_>) {
+    pub(crate) fn prepare_unchecked(&mut self, cx: &Context<'_>) {
         let groups = self.groups.min(G);
         for &point in &cx.tape.fixed {
             let fixed = Vector::splat(cx.constants.fixed[point]);

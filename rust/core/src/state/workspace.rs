@@ -1,4 +1,4 @@
-//! Work space of the careful path and of the iteration for groups above class II, with the results
+//! Work space of the checked path and of the iteration for groups above class II, with the results
 //! that the branch checks.
 
 use super::closing::Closing;
@@ -28,7 +28,7 @@ pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
     pub(crate) first_step: [R; G],
     /// Greatest sum of the changes in the later steps.
     pub(crate) later_steps: [R; G],
-    /// How the dyad that was solved last closes, on the careful path.
+    /// How the dyad that was solved last closes, on the checked path.
     pub(crate) closings: [Closing<R>; G],
 }
 
