@@ -1,6 +1,6 @@
 //! Reactions of many designs at many positions.
 
-use super::evaluate::{Batch, Evaluate};
+use super::evaluate::{Evaluate, ReactionBatch};
 use super::followed::{Drivers, Followed};
 use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
@@ -83,7 +83,7 @@ impl Machine {
         };
         let balances = !asked.reactions.iter().all(|reaction| reaction.is_given());
         let friction: &[Friction] = if balances { &self.friction } else { &[] };
-        let batch = Batch {
+        let batch = ReactionBatch {
             mechanism,
             machine: self,
             balances,
@@ -106,12 +106,12 @@ impl Machine {
 }
 
 struct React<'b, 'r> {
-    batch: &'b Batch<'b>,
+    batch: &'b ReactionBatch<'b>,
     chunks: Chunks<'r>,
 }
 
 /// What one thread works with.
-struct Own<'b, R: Real, const G: usize> {
+struct ThreadState<'b, R: Real, const G: usize> {
     worker: Worker<'b, R, G>,
     designs: Designs,
     scratch: Scratch,
@@ -127,8 +127,9 @@ impl ForLevel for React<'_, '_> {
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
-        let Batch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
-        let own = || Own::<'_, L::Register, G> {
+        let ReactionBatch { mechanism, request, derivatives, writer, columns, control, .. } =
+            *batch;
+        let new_state = || ThreadState::<'_, L::Register, G> {
             worker: Worker::new(mechanism, request, derivatives, writer, control),
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
@@ -138,22 +139,24 @@ impl ForLevel for React<'_, '_> {
             followed: Followed::default(),
             squares: Vec::new(),
         };
-        let work = |own: &mut Own<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
-            batch.chunk::<L, G>(own, chunk, rows);
-        };
-        control.run(self.chunks, own, work, |own| own.worker.finish())
+        let work =
+            |state: &mut ThreadState<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
+                batch.chunk::<L, G>(state, chunk, rows);
+            };
+        control.run(self.chunks, new_state, work, |state| state.worker.finish())
     }
 }
 
-impl Batch<'_> {
+impl ReactionBatch<'_> {
     fn chunk<L: Entry, const G: usize>(
         &self,
-        own: &mut Own<'_, L::Register, G>,
+        state: &mut ThreadState<'_, L::Register, G>,
         chunk: &Chunk,
         mut results: RowSlices<'_>,
     ) {
         let Shape { designs: all, positions, drivers } = *self.shape;
-        let Own { worker, designs, scratch, scene, friction, tables, followed, squares } = own;
+        let ThreadState { worker, designs, scratch, scene, friction, tables, followed, squares } =
+            state;
         designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
         // Squares are of all positions.
         let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };

@@ -27,7 +27,7 @@ use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
 /// What all chunks of a batch share.
-pub(super) struct Batch<'b> {
+pub(super) struct ReactionBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub machine: &'b Machine,
     pub plan: &'b ForcePlan,
@@ -48,7 +48,7 @@ pub(super) struct Batch<'b> {
 
 /// The reactions of one design at some positions.
 pub(super) struct Evaluate<'e, 'r, R: Real> {
-    pub batch: &'e Batch<'e>,
+    pub batch: &'e ReactionBatch<'e>,
     pub guides: Vec<Vector>,
     /// The size of the design, m.
     pub size: f64,
@@ -66,7 +66,7 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let Batch { plan, machine, sources, asked, friction, control, .. } = self.batch;
+        let ReactionBatch { plan, machine, sources, asked, friction, control, .. } = self.batch;
         let count = self.solved.positions;
         self.squares.clear();
         self.squares.resize(asked.reactions.len(), Squares::NONE);
@@ -119,7 +119,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
     fn apply_friction(&mut self, rows: Rows) {
-        let Batch { plan, sources, asked, friction, control, .. } = self.batch;
+        let ReactionBatch { plan, sources, asked, friction, control, .. } = self.batch;
         let size = self.size;
         let ways = self.scene.ways(asked.sense);
         let pairs = (*plan, &friction[..]);
