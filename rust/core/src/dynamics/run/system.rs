@@ -48,8 +48,9 @@ pub(crate) struct RunSystem<'a, S, O> {
     energy: Option<[f64; 2]>,
     /// Within this distance of a dead point a driver at rest may be at it.
     reach: f64,
-    /// The relative tolerance.
-    pub(super) relative: f64,
+    /// The relative tolerance, and that of the first driver's coordinate, rad or m.
+    relative: f64,
+    pub(super) tolerance: f64,
     /// Kinetic and potential energy less work: at the start of a step, and at the end of the last
     /// trial step.
     total: f64,
@@ -78,7 +79,8 @@ const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
 const CONDITION_STEP: f64 = 1.0e-6;
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
-    pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>) -> Self {
+    /// `size`: what the tolerance of the first driver's coordinate is relative to.
+    pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>, size: f64) -> Self {
         let drivers = options.q.len();
         let least_reach = if drivers == 1 { MIN_REACH } else { 0.0 };
         Self {
@@ -96,6 +98,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             energy: None,
             reach: (1.0e3 * options.relative).clamp(least_reach, MAX_REACH),
             relative: options.relative,
+            tolerance: options.relative * size,
             total: f64::NAN,
             trial_total: f64::NAN,
         }
@@ -273,7 +276,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         // How far it goes before it turns back to the obstacle, if it does.
         let way = y[1] * y[1] / (2.0 * rates[1].abs());
         let turns_back = rates[1] * y[1] < 0.0;
-        let least = LEAST_REBOUND * self.relative * self.equation.model.unit(0);
+        let least = LEAST_REBOUND * self.tolerance;
         Ok(if turns_back && way < least { Action::Stop } else { Action::Restart })
     }
 
