@@ -1,9 +1,8 @@
 //! Runs the tape: the operations that a request needs, on one position or a block.
 
-use super::conditions::Conditions;
 use super::kernel::Level;
 use super::kernel::alone::Alone;
-use super::state::{Context, State};
+use super::state::{Conditions, Context, State};
 use super::status::{Fault, Status};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
