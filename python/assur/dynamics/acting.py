@@ -109,7 +109,7 @@ def _slides(at: Positions, link: str) -> Iterator[Acting]:
         if name in drivers:
             force = force + _effort(at, drivers.index(name))[:, np.newaxis] * along
         joints = mechanism.links[slide.link]
-        place = at.motion._reference_point(slide.link).value
+        place = _origin(at, slide.link)
         sign = 1.0 if link == slide.link else -1.0
         joint = joints[0] if joints and link == slide.link else None
         yield Acting("slide", name, place, sign * force, sign * moment, joint)
@@ -133,8 +133,7 @@ def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
             )
             raise InputError(message, link=link)
         sign = 1.0 if link == drive.link else -1.0
-        pivot = at.motion.joint(shared[0]) if shared else at.motion._reference_point(link)
-        place = pivot.value
+        place = at.motion.joint(shared[0]).value if shared else _origin(at, link)
         torque = sign * _effort(at, index)
         joint = shared[0] if shared else None
         yield Acting("drive", drive.link, place, np.zeros(place.shape), torque, joint)
@@ -153,8 +152,15 @@ def _loads(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
                     "depend on it; replace it by two forces"
                 )
                 raise InputError(message, link=link)
-            place = at.motion._reference_point(link).value
+            place = _origin(at, link)
         yield Acting("load", name, place, load.force, load.couple, load.joint)
+
+
+def _origin(at: Positions, link: str) -> Float:
+    """Return the place of a link's first joint, or of the origin of one without joints, (P, 2)."""
+    joints = _mechanism(at).links[link]
+    both = at.motion.joint(joints[0]) if joints else at.motion._reference_point(link)
+    return both.value
 
 
 def _guide(at: Positions, name: str) -> Float:
