@@ -7,10 +7,10 @@ from typing_extensions import Self
 
 from assur.description.words import Drive, Slide
 from assur.dynamics.friction import PairFriction
-from assur.dynamics.loads import Body, Gas, Load, Table
+from assur.dynamics.loads import Body, Load, Table
 from assur.dynamics.machine import Method
 from assur.dynamics.motors import Motor
-from assur.dynamics.reactions import Key
+from assur.dynamics.reaction_key import Key
 from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
@@ -42,7 +42,6 @@ __all__ = [
     "curvature",
     "error_kinds",
     "four_bar_drawing",
-    "gas_pressures",
     "instant_centre",
     "panic_in_chunk",
     "remedies",
@@ -362,6 +361,8 @@ class Machine:
         self, dimensions: list[float], q: list[float]
     ) -> tuple[float, float, float] | None: ...
     @property
+    def load_actions(self) -> list[tuple[int, str, str | None, bool]]: ...
+    @property
     def load_functions(self) -> list[Function]: ...
     def reduce(
         self,
@@ -456,7 +457,6 @@ def crank_rocker_exact_least_gamma(
 ) -> _Float: ...
 def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: ...
 def crank_rocker_run(case: dict[str, Any], ground: Callable[[float], float]) -> _JammingRun: ...
-def gas_pressures(gas: Gas, area: float, values: _Float) -> _Float: ...
 def table_values(table: Table, points: _Float) -> _Float: ...
 def remedies(
     joints: list[tuple[str, float, float]],

@@ -2,51 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from assur import _core, _trig
+from assur import _trig
 from assur.description.words import Drive
-from assur.dynamics.loads import (
-    Damper,
-    Force,
-    Gas,
-    Gravity,
-    Pressure,
-    Spring,
-    Torque,
-    TorsionDamper,
-    TorsionSpring,
-)
-from assur.dynamics.takers import taker
-from assur.dynamics.values import values_at
 from assur.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from assur._arrays import Float
-    from assur.dynamics.loads import Load, PointLike
+    from assur.dynamics.load_forces import LoadForce
     from assur.dynamics.machine import Machine
     from assur.dynamics.reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
-
-# A coordinate slower than this part of the drivers rests, in the core too.
-AT_REST = 1e-12
+Kind: TypeAlias = Literal["joint", "slide", "drive", "load"]
 
 
 class Positions(NamedTuple):
-    """A machine's motion and reactions at P positions: q and speeds (P, n), times (P,)."""
+    """A machine's motion, its reactions and the forces of its loads at P positions."""
 
     machine: Machine
     motion: Motion
     found: Reactions
-    q: Float
-    speed: Float
-    t: Float
+    loads: list[LoadForce]
 
 
 class Acting(NamedTuple):
@@ -54,8 +37,10 @@ class Acting(NamedTuple):
 
     Attributes
     ----------
-    what : str
-        What acts, for messages.
+    kind : {"joint", "slide", "drive", "load"}
+        What acts.
+    name : str
+        The joint or slide, the driven link, the class of the load.
     place : ndarray
         (P, 2), m, in the drawing's axes.
     force : ndarray
@@ -66,11 +51,19 @@ class Acting(NamedTuple):
         The joint where it acts.
     """
 
-    what: str
+    kind: Kind
+    name: str
     place: Float
     force: Float
     couple: Float
     joint: str | None
+
+    @property
+    def what(self) -> str:
+        """What acts, for messages."""
+        if self.kind == "drive":
+            return "the drive"
+        return f"a {self.name}" if self.kind == "load" else f"{self.kind} {self.name!r}"
 
 
 def acting_on(at: Positions, link: str, couples: bool = False) -> Iterator[Acting]:
@@ -89,7 +82,7 @@ def _mechanism(at: Positions) -> Mechanism:
 
 
 def _nothing(at: Positions) -> Float:
-    return np.zeros(at.q.shape[0])
+    return np.zeros(np.shape(at.found.status))
 
 
 def _pins(at: Positions, link: str) -> Iterator[Acting]:
@@ -98,7 +91,7 @@ def _pins(at: Positions, link: str) -> Iterator[Acting]:
         place = at.motion.joint(joint).value
         rubs = joint in at.machine.friction
         couple = at.found.joint_moment(joint, on=link) if rubs else _nothing(at)
-        yield Acting(f"joint {joint!r}", place, force, couple, joint)
+        yield Acting("joint", joint, place, force, couple, joint)
 
 
 def _slides(at: Positions, link: str) -> Iterator[Acting]:
@@ -115,11 +108,11 @@ def _slides(at: Positions, link: str) -> Iterator[Acting]:
             force = force + pair.friction[:, np.newaxis] * along
         if name in drivers:
             force = force + _effort(at, drivers.index(name))[:, np.newaxis] * along
-        sliding = mechanism.links[slide.link]
-        place = _place(at, slide.link, sliding[0] if sliding else (slide.link, (0.0, 0.0)))[0]
+        joints = mechanism.links[slide.link]
+        place = _origin(at, slide.link)
         sign = 1.0 if link == slide.link else -1.0
-        joint = sliding[0] if sliding and link == slide.link else None
-        yield Acting(f"slide {name!r}", place, sign * force, sign * moment, joint)
+        joint = joints[0] if joints and link == slide.link else None
+        yield Acting("slide", name, place, sign * force, sign * moment, joint)
 
 
 def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
@@ -140,178 +133,34 @@ def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
             )
             raise InputError(message, link=link)
         sign = 1.0 if link == drive.link else -1.0
-        pivot = at.motion.joint(shared[0]) if shared else at.motion._reference_point(link)
-        place = pivot.value
+        place = at.motion.joint(shared[0]).value if shared else _origin(at, link)
         torque = sign * _effort(at, index)
         joint = shared[0] if shared else None
-        yield Acting("the drive", place, np.zeros(place.shape), torque, joint)
+        yield Acting("drive", drive.link, place, np.zeros(place.shape), torque, joint)
 
 
 def _loads(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
-    for load in at.machine.loads:
-        yield from load_on(at, load, link, couples)
+    for load in at.loads:
+        if load.link != link:
+            continue
+        name = type(at.machine.loads[load.load]).__name__
+        place = load.place
+        if place is None:
+            if not couples:
+                message = (
+                    f"a {name} acts on {link!r}, at no place that is known: loads inside the link "
+                    "depend on it; replace it by two forces"
+                )
+                raise InputError(message, link=link)
+            place = _origin(at, link)
+        yield Acting("load", name, place, load.force, load.couple, load.joint)
 
 
-def load_on(at: Positions, load: Load, link: str, couples: bool = True) -> Iterator[Acting]:
-    """Yield what one load does to a link; weight is not among it."""
-    if isinstance(load, Gravity):
-        return
-    what = f"a {type(load).__name__}"
-    if isinstance(load, Torque | TorsionSpring | TorsionDamper):
-        if link in (load.link, load.on):
-            yield _torque(at, load, link, couples)
-    elif isinstance(load, Pressure):
-        yield from _pressure(at, load, link)
-    elif isinstance(load, Force):
-        if (load.on or taker(_mechanism(at), load.at)) == link:
-            place, _ = _place(at, link, load.at)
-            force = _force(at, load)
-            yield Acting(what, place, force, _nothing(at), _joint(load.at))
-    else:
-        ends = load.first, load.second
-        for end, other in (ends, ends[::-1]):
-            if taker(_mechanism(at), end) == link:
-                place, force = _pull(at, load, end, other)
-                yield Acting(what, place, force, _nothing(at), _joint(end))
-
-
-def _torque(
-    at: Positions, load: Torque | TorsionSpring | TorsionDamper, link: str, couples: bool
-) -> Acting:
-    """Return a couple on a link, at its origin."""
-    what = f"a {type(load).__name__}"
-    if not couples:
-        message = (
-            f"{what} acts on {link!r}, at no place that is known: loads inside the link "
-            "depend on it; replace it by two forces"
-        )
-        raise InputError(message, link=link)
-    place = at.motion._reference_point(link).value
-    sign = 1.0 if link == load.link else -1.0
-    return Acting(what, place, np.zeros(place.shape), sign * _couple(at, load), None)
-
-
-def _couple(at: Positions, load: Torque | TorsionSpring | TorsionDamper) -> Float:
-    """Return the moment of a load on its first link."""
-    if isinstance(load, Torque):
-        torque = values_at(load.torque, at.q, at.speed, at.t, lambda name: _measure(at, name))
-        return np.asarray(np.where(_acts(at, load, None), torque, 0.0))
-    own, other = at.motion.link(load.link), at.motion.link(load.on)
-    if isinstance(load, TorsionSpring):
-        twist = own.value - other.value - load.angle
-        return np.asarray(-load.stiffness * twist - load.preload)
-    speeds = at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
-    return np.asarray(-load.damping * (own.velocity(speeds) - other.velocity(speeds)))
-
-
-def _joint(point: PointLike) -> str | None:
-    return point if isinstance(point, str) else None
-
-
-def _measure(at: Positions, name: str) -> Float:
-    """Return the value of a slide, or the angle of a link."""
-    motion = at.motion
-    both: Float = (motion.slide if name in _mechanism(at).slides else motion.link)(name).value
-    return both
-
-
-def _acts(at: Positions, load: Force | Pressure | Torque, default: str | None) -> Any:
-    """Return where a load acts: everywhere, or where its coordinate moves in its direction."""
-    if load.while_ is None:
-        return np.True_
-    name, slides = load.over or default, _mechanism(at).slides
-    speeds = at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
-    if name is None:
-        rate = at.speed[:, 0]
-    elif name in slides:
-        rate = at.motion.slide(name).velocity(speeds)
-    else:
-        rate = at.motion.link(name).velocity(speeds)
-    # A rate that is rounding beside the drivers' speeds is no direction.
-    size = _size(_mechanism(at))
-    units = [size if driver in slides else 1.0 for driver in _mechanism(at)._description.drivers]
-    still = AT_REST * (abs(at.speed) / units).sum(axis=-1) * (size if name in slides else 1.0)
-    return rate > still if load.while_ == "forward" else rate < -still
-
-
-def _size(mechanism: Mechanism) -> float:
-    """Return the larger side of the drawing, m."""
-    places = np.array([(x, y) for _, x, y in mechanism._description.joints])
-    size = float(np.ptp(places, axis=0).max())
-    return size if size > 0.0 else 1.0
-
-
-def _pressure(at: Positions, load: Pressure, link: str) -> Iterator[Acting]:
-    """Yield the force of a pressure on the sliding link, or its reaction on the other."""
-    slide = _mechanism(at).slides[load.slide]
-    if link not in (slide.link, slide.on):
-        return
-    area = load.area if load.expands == "forward" else -load.area
-    if isinstance(load.pressure, Gas):
-        value = at.motion.slide(load.slide).value
-        pressure = _core.gas_pressures(load.pressure, area, value)
-    else:
-        pressure = values_at(load.pressure, at.q, at.speed, at.t, lambda name: _measure(at, name))
-    size = np.where(_acts(at, load, load.slide), area * (pressure - load.ambient), 0.0)
-    sliding = _mechanism(at).links[slide.link]
-    place = _place(at, slide.link, sliding[0] if sliding else (slide.link, (0.0, 0.0)))[0]
-    sign = 1.0 if link == slide.link else -1.0
-    joint = sliding[0] if sliding and link == slide.link else None
-    force = sign * size[:, np.newaxis] * _guide(at, load.slide)
-    yield Acting(f"the pressure in {load.slide!r}", place, force, _nothing(at), joint)
-
-
-def _force(at: Positions, load: Force) -> Float:
-    x, y = (
-        np.where(
-            _acts(at, load, None),
-            values_at(value, at.q, at.speed, at.t, lambda name: _measure(at, name)),
-            0.0,
-        )
-        for value in load.force
-    )
-    if load.axes is None:
-        return np.stack([x, y], axis=-1)
-    sine, cosine = _trig.sin_cos(at.motion.link(load.axes).value)
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
-
-
-def _pull(
-    at: Positions, load: Spring | Damper, end: PointLike, other: PointLike
-) -> tuple[Float, Float]:
-    """Return where a spring or damper pulls at its end, and how."""
-    (place, speed), (far, far_speed) = (_place(at, None, one) for one in (end, other))
-    span = far - place
-    length = np.sqrt((span * span).sum(axis=-1))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        unit = span / length[:, np.newaxis]
-    if isinstance(load, Spring):
-        tension = load.stiffness * (length - load.length) + load.preload
-    else:
-        tension = load.damping * (unit * (far_speed - speed)).sum(axis=-1)
-    # Without tension it has no direction at length zero.
-    tension = tension[:, np.newaxis]
-    return place, np.where(tension == 0.0, 0.0, tension * unit)
-
-
-def _place(at: Positions, link: str | None, point: PointLike) -> tuple[Float, Float]:
-    """Return a point's place and velocity, (P, 2) each."""
-    mechanism, speeds = _mechanism(at), at.speed if at.speed.shape[1] > 1 else at.speed[:, 0]
-    if isinstance(point, str):
-        joint = at.motion.joint(point)
-        return joint.value, joint.velocity(speeds)
-    link, (x, y) = point
-    if link == "ground":
-        fixed = np.broadcast_to(np.array([x, y]), (at.q.shape[0], 2))
-        return fixed, np.zeros(fixed.shape)
-    joints = mechanism.links[link]
-    origin = at.motion.joint(joints[0]) if joints else at.motion._reference_point(link)
-    angle = at.motion.link(link)
-    sine, cosine = _trig.sin_cos(angle.value)
-    arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
-    turned = np.stack([-arm[:, 1], arm[:, 0]], axis=-1)
-    velocity = origin.velocity(speeds) + angle.velocity(speeds)[:, np.newaxis] * turned
-    return origin.value + arm, velocity
+def _origin(at: Positions, link: str) -> Float:
+    """Return the place of a link's first joint, or of the origin of one without joints, (P, 2)."""
+    joints = _mechanism(at).links[link]
+    both = at.motion.joint(joints[0]) if joints else at.motion._reference_point(link)
+    return both.value
 
 
 def _guide(at: Positions, name: str) -> Float:
@@ -324,5 +173,5 @@ def _guide(at: Positions, name: str) -> Float:
 
 def _effort(at: Positions, index: int) -> Float:
     effort = np.asarray(at.found.driver)
-    every: Float = effort.reshape(at.q.shape)[:, index]
+    every: Float = effort.reshape(np.size(at.found.status), -1)[:, index]
     return every

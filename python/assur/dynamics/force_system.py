@@ -10,6 +10,7 @@ from assur._arrays import short
 from assur._validate import checked_index, checked_names
 from assur.description.words import Status
 from assur.dynamics.acting import Acting, Positions, acting_on
+from assur.dynamics.load_forces import loads_of
 from assur.dynamics.loads import Gravity
 from assur.dynamics.places import links_at, mass_centre
 from assur.errors import InputError
@@ -93,7 +94,7 @@ def force_system(
 def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Motion]:
     """Return the machine of one design at one position, as a row of one."""
     assert found._source is not None
-    machine, t = found._source
+    machine, _ = found._source
     mechanism = found._mechanism
     drivers = mechanism._driver_count
     if mechanism.shape:
@@ -107,7 +108,8 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     motion = mechanism.solve(row, order=2, on_error="nan")
     held = {key: values[index][np.newaxis] for key, values in found._found.items()}
     part = type(found)(mechanism, (row, *rates), held, found.status[index].reshape(1))
-    at: Any = Positions(machine, motion, part, q, speed, np.reshape(t[index], (1,)))  # type: ignore[arg-type]
+    loads = [one.at(index) for one in loads_of(found)]
+    at: Any = Positions(machine, motion, part, loads)  # type: ignore[arg-type]
     return at, motion[0]
 
 
@@ -132,17 +134,15 @@ def _pairs_and_loads(at: Positions, link: str, chosen: tuple[str, ...]) -> Itera
     mechanism = at.motion.mechanism
     others = links_at(mechanism)
     for acting in acting_on(at, link, couples=True):
-        kind, _, quoted = acting.what.partition(" '")
-        name = quoted.rstrip("'")
-        inner = False
-        if kind == "joint":
+        name = acting.name
+        if acting.kind == "joint":
             inner = _is_inner(others[name], link, chosen)
             yield _placed(acting, "reaction", name, link, inner)
-        elif kind == "slide":
+        elif acting.kind == "slide":
             slide = mechanism.slides[name]
             inner = {slide.link, slide.on} <= set(chosen)
             yield _placed(acting, "reaction", name, link, inner)
-        elif kind == "the drive":
+        elif acting.kind == "drive":
             yield _placed(acting, "drive", link, link, False)
         else:
             yield _placed(acting, "load", acting.joint or link, link, False)

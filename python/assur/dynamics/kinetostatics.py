@@ -15,7 +15,8 @@ from assur.dynamics.along import times
 from assur.dynamics.friction import SlideFriction
 from assur.dynamics.no_value import Moment, without_value
 from assur.dynamics.places import links_at
-from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions
+from assur.dynamics.reaction_key import RESIDUAL, SOLUTIONS, Key
+from assur.dynamics.reactions import Reactions
 from assur.dynamics.reduce import checked_senses, single, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError
@@ -129,9 +130,8 @@ def reactions(
             status[beyond] = Status.NO_VALUE
     found: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
-        two = key.kind in ("joint", "shaking force")
         array.flags.writeable = False
-        found[key] = array.reshape((*shape, 2) if two else shape)
+        found[key] = array.reshape((*shape, 2) if key.has_two_axes else shape)
     if SOLUTIONS in found:
         _require_solved(found)
     full = shape if drivers == 1 else (*shape, drivers)
@@ -140,7 +140,7 @@ def reactions(
     # Not a closure, which could not be pickled.
     again = partial(_again, machine, motion, threads, sense)
     rubs = again if machine.friction and SOLUTIONS in found else None
-    source = machine, times(motion.t, shape)
+    source = machine, again
     return Reactions(
         mechanism, given_motion, found, status.reshape(shape), rubs, source, rests.reshape(shape)
     )
@@ -184,7 +184,8 @@ def _solved_in_senses(
         rows = own.reshape(status.size, -1)
         if key.kind in ("joint loss", "slide loss"):
             rows[(senses.sense != 0.0).reshape(-1)] = 0.0
-        if not key.kind.startswith("shaking"):
+        # Inertia and loads are known whatever the pairs transmit.
+        if not key.kind.startswith(("shaking", "load")):
             rows[senses.rests.reshape(-1)] = np.nan
     return arrays, status, failure
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -14,6 +13,7 @@ from assur.description.structure import Group
 from assur.description.words import Status
 from assur.dynamics import bearing as bearings
 from assur.dynamics.places import links_at
+from assur.dynamics.reaction_key import RESIDUAL, SAFETY, SOLUTIONS, Key
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
 
@@ -28,18 +28,6 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Reactions", "SlideReaction"]
-
-
-@dataclass(frozen=True)
-class Key:
-    """A reaction: its kind, and the indices of the joint or slide and of the link."""
-
-    kind: str
-    index: int = 0
-    on: int = 0
-
-
-SOLUTIONS, SAFETY, RESIDUAL = Key("solutions"), Key("safety"), Key("residual")
 
 
 class SlideReaction(NamedTuple):
@@ -141,14 +129,14 @@ class Reactions(Tabular):
         found: dict[Key, Float],
         status: npt.NDArray[np.uint8],
         again: Callable[[list[Key], int], Reactions] | None = None,
-        source: tuple[MachineModel, Float] | None = None,
+        source: tuple[MachineModel, Callable[[list[Key], int], Reactions]] | None = None,
         at_rest: npt.NDArray[np.bool_] | None = None,
     ) -> None:
         self._mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
         self._found = found
         self._again = again
-        # The machine and the times: with them what acts can be drawn.
+        # The machine, and other reactions of the same motion: with them what acts can be drawn.
         self._source = source
         self.status = status
         rests = np.zeros(status.shape, np.bool_) if at_rest is None else at_rest

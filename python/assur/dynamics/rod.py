@@ -12,6 +12,7 @@ from assur.dynamics.acting import Positions, acting_on
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.beam import Density, PointLoad, solve_beam
 from assur.dynamics.kinetostatics import reactions
+from assur.dynamics.load_forces import loads_of
 from assur.dynamics.loads import Body, Gravity
 from assur.dynamics.places import joint_place, mass_centre
 from assur.errors import InputError
@@ -54,7 +55,7 @@ class Rod(NamedTuple):
         spin, second = angle.velocity(given[1]), angle.acceleration(*given[1:])
         axial = np.stack([(pull * e).sum(axis=1), -spin * spin], axis=-1)
         across = np.stack([(pull * n).sum(axis=1), second], axis=-1)
-        at = Positions(machine, solved, found, motion.q, motion.speed, motion.t)
+        at = Positions(machine, solved, found, loads_of(found))
         loads = [self._on_line(load, a, e, n) for load in acting_on(at, self.link)]
         return solve_beam(self.length, self.density, axial, across, loads)
 

@@ -16,11 +16,6 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
 
 
-def taker(mechanism: Mechanism, point: PointLike) -> str:
-    """Return the link that takes a load at a point, unless the load names another."""
-    return mechanism._core.taker(point)[0] if isinstance(point, str) else point[0]
-
-
 def warn_of_open_takers(
     mechanism: Mechanism, loads: Iterable[Load], friction: Container[str]
 ) -> None:

@@ -11,7 +11,7 @@ from assur._arrays import Float, real_array, real_number, short
 from assur.dynamics.table import Table
 from assur.errors import InputError
 
-__all__ = ["Function", "Value", "checked_value", "function_values", "values_at"]
+__all__ = ["Function", "Value", "checked_value", "function_values"]
 
 # Called with floats (t, q, speed); with several drivers q and speed are tuples.
 Function: TypeAlias = Callable[[float, Any, Any], float]
@@ -57,19 +57,3 @@ def _called(function: Function, t: float, q: Any, speed: Any) -> float:
         message = f"the load {name}(t, q, speed) gave {short(value)} at q = {q}: a number is needed"
         raise InputError(message)
     return float(array)
-
-
-def values_at(
-    value: Value, q: Float, speed: Float, t: Float, measure: Callable[[str], Float]
-) -> Float:
-    """Evaluate a value of a load at rows of coordinates and speeds, at times.
-
-    NaN where a table ends. `measure` gives the values of a slide, or the angles of a link, by name.
-    """
-    rows = q.shape[0]
-    if isinstance(value, Table):
-        at: Float = value.at(q[:, 0] if value.over is None else measure(value.over))
-        return at
-    if callable(value):
-        return function_values([value], q, speed, t)
-    return np.full(rows, value)

@@ -12,7 +12,8 @@ from assur._by_value import ByValue
 from assur._validate import checked_name, one_of, real_number
 from assur.dynamics.along import motion_of
 from assur.dynamics.kinetostatics import reaction_squares, reactions
-from assur.dynamics.reactions import Key, key_of_joint
+from assur.dynamics.reaction_key import Key
+from assur.dynamics.reactions import key_of_joint
 from assur.errors import AssurError, InputError
 from assur.sweeps.terms import OfMachine
 

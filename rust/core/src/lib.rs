@@ -71,7 +71,7 @@ pub use batch::failure_log::{FailureLog, FirstFailure};
 pub use batch::known_signs::KnownSigns;
 pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Series};
-pub use batch::schedule::{Care, Control, available_threads};
+pub use batch::schedule::{Checks, Control, available_threads};
 pub use batch::solve::fill;
 #[cfg(feature = "test-hooks")]
 #[doc(hidden)]

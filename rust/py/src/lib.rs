@@ -21,7 +21,9 @@ mod reactions;
 mod remedies;
 mod reserve;
 mod run;
+mod short_calls;
 mod slider_crank;
+mod solve;
 mod spline;
 mod sweep;
 #[cfg(feature = "test-hooks")]
@@ -33,8 +35,6 @@ use pyo3::prelude::*;
 /// The extension module behind the Python package.
 #[pymodule]
 mod _core {
-    #[pymodule_export]
-    use super::convert::load::gas_pressures;
     #[pymodule_export]
     use super::convert::value::table_values;
     #[pymodule_export]

@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    DrivenPositions, EndCondition, EquilibriumRange, Extreme, FluctuationTarget, Mean,
-    ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    DrivenPositions, EndCondition, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
+    Point, ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use assur::{FirstFailure, SolveError, Status};
@@ -193,13 +193,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        match &self.inner {
-            Inner::Mechanism(mechanism, machine) => {
-                let core = &mechanism.get().inner;
-                detach::run(py, true, |_| machine.stations(core, &dimensions, [start, end]))
-            }
-            Inner::Tables(_) => Ok(Vec::new()),
-        }
+        self.of_mechanism(py, |core, own| own.stations(core, &dimensions, [start, end]))
     }
 
     /// Where pairs with friction reverse between two coordinates.
@@ -210,28 +204,39 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        match &self.inner {
-            Inner::Mechanism(mechanism, machine) => {
-                let core = &mechanism.get().inner;
-                detach::run(py, true, |_| machine.reversals(core, &dimensions, [start, end]))
-            }
-            Inner::Tables(_) => Ok(Vec::new()),
-        }
+        self.of_mechanism(py, |core, own| own.reversals(core, &dimensions, [start, end]))
     }
 
     /// The first table over another coordinate that does not cover a position of a design: its ends, and
     /// the value there.
-    fn uncovered(&self, dimensions: Vec<f64>, q: Vec<f64>) -> PyResult<Option<(f64, f64, f64)>> {
-        match &self.inner {
-            Inner::Mechanism(mechanism, machine) => {
-                let core = &mechanism.get().inner;
-                catch_panic(|| {
-                    let found = machine.uncovered(core, &dimensions, &q);
-                    Ok(found.map(|([from, to], at)| (from, to, at)))
-                })
-            }
-            Inner::Tables(_) => Ok(None),
-        }
+    fn uncovered(
+        &self,
+        py: Python<'_>,
+        dimensions: Vec<f64>,
+        q: Vec<f64>,
+    ) -> PyResult<Option<(f64, f64, f64)>> {
+        let found = self.of_mechanism(py, |core, own| own.uncovered(core, &dimensions, &q))?;
+        Ok(found.map(|([from, to], at)| (from, to, at)))
+    }
+
+    /// What its loads do to links, in the order of reactions: the load's index among those that are not
+    /// gravity, the link, the joint of the link where it acts, if it does, and whether with a couple.
+    #[getter]
+    fn load_actions(&self) -> Vec<(usize, &str, Option<&str>, bool)> {
+        let Inner::Mechanism(mechanism, machine) = &self.inner else { return Vec::new() };
+        let core = &mechanism.get().inner;
+        let linkage = core.linkage();
+        let actions =
+            machine.load_actions(core).into_iter().map(|LoadAction { load, link, at, .. }| {
+                let own = &linkage.links[link];
+                let joint = match at {
+                    Some(Point::Joint(joint)) if own.joints.contains(&joint) => Some(joint),
+                    _ => None,
+                };
+                let joint = joint.map(|joint| linkage.joints[joint].name.as_str());
+                (load, own.name.as_str(), joint, at.is_none())
+            });
+        actions.collect()
     }
 
     /// Python functions of the loads.
@@ -473,6 +478,21 @@ impl Machine {
 }
 
 impl Machine {
+    /// Short work on the mechanism and its loads, without the GIL; nothing of a machine of tables.
+    fn of_mechanism<T: Default + Send>(
+        &self,
+        py: Python<'_>,
+        work: impl Fn(&assur::Mechanism, &assur::dynamics::Machine) -> T + Sync,
+    ) -> PyResult<T> {
+        match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                let core = &mechanism.get().inner;
+                detach::run(py, true, |_| work(core, machine))
+            }
+            Inner::Tables(_) => Ok(T::default()),
+        }
+    }
+
     /// Its tables over the driver's coordinate.
     fn own_tables(&self) -> &[assur::dynamics::Table] {
         match &self.inner {

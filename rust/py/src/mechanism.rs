@@ -1,16 +1,10 @@
 //! The mechanism for Python: names in, arrays out.
 
-use std::mem::MaybeUninit;
 use std::num::NonZeroUsize;
-use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 
-use assur::{
-    Arrays, Column, Control, Coordinates, Description, FailureLog, Named, Outputs, Request,
-    SolveError, Status, fill,
-};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
-use pyo3::exceptions::PyBaseException;
+use assur::{Description, Named, Status};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
@@ -19,61 +13,14 @@ use crate::convert::metric::MetricSpec;
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::known_signs::KnownSigns;
-use crate::memory::Memory;
+use crate::short_calls::{FEW_ASSEMBLIES, FEW_LINKS, FEW_SIGNS, is_small};
+use crate::solve::{Question, Solution};
 use crate::sweep::{self, Found};
 use crate::{assemblies, error, error_map, limits, reserve};
 
-/// Positions below which a call with one driver takes only milliseconds and need not check for
-/// signals. With several drivers each position is followed from the drawing: this many knots.
-const FEW_POSITIONS: usize = 100_000;
-const FEW_KNOTS: f64 = 10_000.0;
-/// Knots per rad or size on that way.
-const KNOTS_PER_UNIT: f64 = 16.0;
-/// Dyads with two solutions below which finding all assemblies need not check for signals.
-const FEW_SIGNS: usize = 12;
-/// Positions whose assemblies take only milliseconds then.
-const FEW_ASSEMBLIES: usize = 100;
-/// Links below which building a mechanism, or one search along its branch, need not check for signals.
-pub(crate) const FEW_LINKS: usize = 64;
-/// Links of the mechanisms for which positions are counted: of longer ones each takes so much longer.
-const LINKS_COUNTED: usize = 4;
-/// Bytes below which a result is one array: making many takes longer than solving.
-const SMALL_RESULT: usize = 64 << 10;
-/// Number of positions that take as long as tracing one branch from the drawing; fewer without groups
-/// above class II, whose knots are solved in lanes.
-const POSITIONS_PER_BRANCH: usize = 1000;
-const POSITIONS_PER_BRANCH_OF_DYADS: usize = 100;
 /// Positions to diagnose between two checks for cancellation; fewer with several drivers.
 const POSITIONS_PER_CHECK: usize = 8192;
 
-/// Whether designs are solved at positions so quickly that no signal need be heard meanwhile.
-pub(crate) fn is_short(mechanism: &assur::Mechanism, designs: usize, positions: usize) -> bool {
-    let per_branch = match mechanism.structure().class() {
-        0..=2 => POSITIONS_PER_BRANCH_OF_DYADS,
-        _ => POSITIONS_PER_BRANCH,
-    };
-    let links = (mechanism.linkage().links.len() / LINKS_COUNTED).max(1);
-    let cost = designs.saturating_mul(positions.saturating_add(per_branch)).saturating_mul(links);
-    mechanism.q0().len() == 1 && cost < FEW_POSITIONS
-}
-
-/// Whether positions of several drivers are so few and so near the drawing that no signal need be
-/// heard meanwhile.
-fn is_near(mechanism: &assur::Mechanism, request: &Request<'_>, designs: usize) -> bool {
-    let (Coordinates::Shared(q) | Coordinates::PerDesign(q)) = request.coordinates;
-    let q0 = mechanism.q0();
-    let size = request.dimensions.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
-    let far = |place: &[f64]| {
-        let apart = place.iter().zip(q0).map(|(q, q0)| (q - q0).abs());
-        // NaN is refused at once.
-        1.0 + KNOTS_PER_UNIT * apart.fold(0.0, f64::max) / size.min(1.0)
-    };
-    designs as f64 * q.chunks(q0.len()).map(far).sum::<f64>() < FEW_KNOTS
-}
-
-/// An array for each column, or one for all of a small result; statuses; the first failure.
-type Solution<'py> =
-    (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
 /// Residuals and conditions.
 type Diagnostics<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
@@ -120,13 +67,6 @@ pub(crate) fn described(
 #[pyclass(frozen, module = "assur._core")]
 pub(crate) struct Mechanism {
     pub(crate) inner: assur::Mechanism,
-}
-
-impl Mechanism {
-    /// Whether one search along its branch takes only milliseconds.
-    fn is_small(&self) -> bool {
-        self.inner.structure().class() <= 2 && self.inner.linkage().links.len() < FEW_LINKS
-    }
 }
 
 #[pymethods]
@@ -217,7 +157,7 @@ impl Mechanism {
         within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
         let asked = (tracked(&coordinate), order);
-        let found = detach::run(py, self.is_small(), |cancel| {
+        let found = detach::run(py, is_small(&self.inner), |cancel| {
             self.inner.extremes(&dimensions, &signs, asked, within, Some(cancel))
         })?;
         let pair = |one: assur::ValueAt| (one.value, one.q);
@@ -235,7 +175,7 @@ impl Mechanism {
         level: (f64, bool),
     ) -> PyResult<Vec<[f64; 2]>> {
         let asked = (tracked(&coordinate), order);
-        let found = detach::run(py, self.is_small(), |cancel| {
+        let found = detach::run(py, is_small(&self.inner), |cancel| {
             self.inner.stretches_beyond(&dimensions, &signs, asked, level, Some(cancel))
         })?;
         found.map_err(error_map::solve)
@@ -381,87 +321,18 @@ impl Mechanism {
         report: Option<Vec<usize>>,
         known_signs: Option<Bound<'py, KnownSigns>>,
     ) -> PyResult<Solution<'py>> {
-        // Both are the package's own arrays, which never change.
-        let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
-        let [joints, links, origins, slides] = outputs;
-        let outputs = Outputs { joints, links, origins, slides };
-        let coordinates =
-            if per_design { Coordinates::PerDesign(q) } else { Coordinates::Shared(q) };
-        let request = Request {
+        let question = Question {
+            mechanism: &self.inner,
             dimensions,
-            coordinates,
+            q,
+            per_design,
             signs: &signs,
             order,
-            outputs: &outputs,
+            outputs,
             by: dimension,
+            known_signs,
         };
-        let shape = || request.shape(&self.inner).map_err(error_map::solve);
-        let [designs, positions] = catch_panic(shape)?;
-        let columns = request.columns(&self.inner);
-        let count = designs.saturating_mul(positions);
-        let (values, status): (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>) =
-            if let Some(buffers) = &buffers {
-                (buffers.getattr("arrays")?.extract()?, buffers.getattr("status")?.extract()?)
-            } else {
-                let mut memory = Memory::for_a_call();
-                let status = memory.array::<u8>(py, count, 1)?;
-                let mut array = |width| memory.array::<f64>(py, count, width);
-                let width = columns.iter().map(|column| column.width).sum::<usize>();
-                let bytes = count.saturating_mul(width).saturating_mul(size_of::<f64>());
-                let values = if bytes < SMALL_RESULT {
-                    vec![array(width)?]
-                } else {
-                    columns.iter().map(|column| array(column.width)).collect::<PyResult<_>>()?
-                };
-                (values, status)
-            };
-        // Two calls cannot write the same arrays at once.
-        let mut borrowed = Vec::new();
-        for array in &values {
-            borrowed.push(array.try_readwrite().map_err(in_use)?);
-        }
-        let mut borrowed_status = status.try_readwrite().map_err(in_use)?;
-        let arrays = Arrays {
-            columns: split(&mut borrowed, &columns, count)?,
-            status: as_uninitialized(&mut borrowed_status)?,
-        };
-        request.check_arrays(&self.inner, &arrays).map_err(error_map::solve)?;
-        let arrays = Mutex::new(Some(arrays));
-        let small =
-            is_short(&self.inner, designs, positions) || is_near(&self.inner, &request, designs);
-        if let Some(buffers) = &buffers {
-            buffers.setattr("complete", false)?;
-        }
-        let log = FailureLog::default();
-        let failures = report.is_some().then_some(&log);
-        let known_signs = known_signs.as_ref().map(|known| &known.get().0);
-        let solved = detach::run(py, small, |cancel| {
-            let cancel = Some(cancel);
-            let control = Control { threads, cancel, failures, known_signs, ..Control::default() };
-            let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
-            arrays.map_or(Err(SolveError::Interrupted), |arrays| {
-                fill(&self.inner, &request, arrays, &control)
-            })
-        });
-        drop(arrays);
-        if let (Some(_), Err(error)) = (&buffers, &solved)
-            && error::is_internal(py, error)
-        {
-            // The user may still hold these arrays: they must not mix two motions.
-            for array in &mut borrowed {
-                array.as_slice_mut()?.fill(f64::NAN);
-            }
-            borrowed_status.as_slice_mut()?.fill(Status::Lost as u8);
-        }
-        solved?.map_err(error_map::solve)?;
-        if let Some(buffers) = &buffers {
-            buffers.setattr("complete", true)?;
-        }
-        drop((borrowed, borrowed_status));
-        let failure = report
-            .zip(log.first())
-            .map(|(shape, first)| error_map::first_failure(&first, &shape, count).into_value(py));
-        Ok((values, status, failure))
+        question.answer(py, threads, buffers, report)
     }
 
     /// Metrics of designs; see `assur.sweep`. `conditions`: metric, relation and limit.
@@ -568,7 +439,7 @@ impl Mechanism {
         let _room = reserve::room_for(py, 2 * dimensions.as_array().len())?;
         let dimensions = dimensions.as_slice()?.to_vec();
         let designs = dimensions.len() / self.inner.dimensions().len().max(1);
-        let small = self.is_small() && designs < FEW_ASSEMBLIES;
+        let small = is_small(&self.inner) && designs < FEW_ASSEMBLIES;
         let found = detach::run(py, small, |cancel| {
             limits::find(&self.inner, &dimensions, &signs, threads, cancel)
         })?;
@@ -606,44 +477,3 @@ pub(crate) const STATUSES: [(&str, Status); 8] = [
     ("BAD_DIMENSION", Status::BadDimension),
     ("BAD_INPUT", Status::BadInput),
 ];
-
-/// The columns in arrays of their own, or one after another in one array.
-fn split<'a>(
-    arrays: &'a mut [PyReadwriteArray1<'_, f64>],
-    columns: &[Column],
-    count: usize,
-) -> PyResult<Vec<&'a mut [MaybeUninit<f64>]>> {
-    let [one] = arrays else {
-        return arrays.iter_mut().map(as_uninitialized).collect();
-    };
-    let mut rest = as_uninitialized(one)?;
-    let mut parts = Vec::with_capacity(columns.len());
-    for column in columns {
-        // What is too short is refused with the sizes of all.
-        let (part, left) = rest.split_at_mut((count * column.width).min(rest.len()));
-        parts.push(part);
-        rest = left;
-    }
-    Ok(parts)
-}
-
-fn in_use(error: numpy::BorrowError) -> PyErr {
-    error::input(&format!("out: another call is writing to its arrays ({error})"), None)
-}
-
-/// The memory of an array borrowed for writing.
-pub(crate) fn as_uninitialized<'a, T: numpy::Element>(
-    array: &'a mut PyReadwriteArray1<'_, T>,
-) -> PyResult<&'a mut [MaybeUninit<T>]> {
-    let data: *mut T = array.data();
-    if !(array.is_c_contiguous() && data.is_aligned()) {
-        let message = "out: its arrays are not contiguous; pass a motion as solve returned it";
-        return Err(error::input(message, None));
-    }
-    #[allow(unsafe_code, reason = "NumPy has no type for uninitialised entries")]
-    // SAFETY: the array is one-dimensional, contiguous and aligned (checked above) and has this
-    // length; the exclusive borrow excludes other calls. `fill` writes every entry, or nobody reads
-    // them: new arrays are dropped, and those of a motion are marked as incomplete.
-    let slice = unsafe { std::slice::from_raw_parts_mut(data.cast(), array.len()) };
-    Ok(slice)
-}

@@ -1,12 +1,15 @@
 //! The memory of results: arrays dropped since the last call are reused by the next. New pages would
 //! take longer than writing the numbers.
 
+use std::mem::MaybeUninit;
 use std::sync::Mutex;
 
-use numpy::{Element, PyArray1, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
+
+use crate::error;
 
 /// Bytes of a cache line. So many extra entries are more than enough to align an array.
 const CACHE_LINE: usize = 64;
@@ -115,4 +118,21 @@ impl Memory {
         let owner = Bound::new(py, owner)?;
         Ok(py.import("numpy")?.call_method1("asarray", (owner,))?.cast_into()?)
     }
+}
+
+/// The memory of an array borrowed for writing.
+pub(crate) fn as_uninitialized<'a, T: Element>(
+    array: &'a mut PyReadwriteArray1<'_, T>,
+) -> PyResult<&'a mut [MaybeUninit<T>]> {
+    let data: *mut T = array.data();
+    if !(array.is_c_contiguous() && data.is_aligned()) {
+        let message = "out: its arrays are not contiguous; pass a motion as solve returned it";
+        return Err(error::input(message, None));
+    }
+    #[allow(unsafe_code, reason = "NumPy has no type for uninitialised entries")]
+    // SAFETY: the array is one-dimensional, contiguous and aligned (checked above) and has this
+    // length; the exclusive borrow excludes other calls. `fill` writes every entry, or nobody reads
+    // them: new arrays are dropped, and those of a motion are marked as incomplete.
+    let slice = unsafe { std::slice::from_raw_parts_mut(data.cast(), array.len()) };
+    Ok(slice)
 }

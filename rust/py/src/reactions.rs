@@ -10,8 +10,7 @@ use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
 use crate::convert::word::{Word, Words};
-use crate::mechanism::as_uninitialized;
-use crate::memory::Memory;
+use crate::memory::{Memory, as_uninitialized};
 use crate::{detach, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
@@ -42,6 +41,9 @@ enum Kind {
     Driver,
     ShakingForce,
     ShakingMoment,
+    LoadForce,
+    LoadPlace,
+    LoadCouple,
 }
 
 impl Words for Kind {
@@ -61,10 +63,13 @@ impl Words for Kind {
         ("driver", Self::Driver),
         ("shaking force", Self::ShakingForce),
         ("shaking moment", Self::ShakingMoment),
+        ("load force", Self::LoadForce),
+        ("load place", Self::LoadPlace),
+        ("load couple", Self::LoadCouple),
     ];
 }
 
-/// A reaction as Python names it: `assur.dynamics.reactions.Key`.
+/// A reaction as Python names it: `assur.dynamics.reaction_key.Key`.
 #[derive(FromPyObject)]
 pub(crate) struct Key {
     kind: Word<Kind>,
@@ -89,6 +94,9 @@ impl Key {
             Kind::Driver => Reaction::Driver(self.index),
             Kind::ShakingForce => Reaction::ShakingForce,
             Kind::ShakingMoment => Reaction::ShakingMoment,
+            Kind::LoadForce => Reaction::LoadForce(self.index),
+            Kind::LoadPlace => Reaction::LoadPlace(self.index),
+            Kind::LoadCouple => Reaction::LoadCouple(self.index),
         }
     }
 }

@@ -4,7 +4,8 @@ use assur::DriverDescription;
 use pyo3::prelude::*;
 
 use crate::convert::description::{Driver, Slide};
-use crate::mechanism::{FEW_LINKS, described};
+use crate::mechanism::described;
+use crate::short_calls::FEW_LINKS;
 use crate::{detach, error_map};
 
 /// A remedy; for Python the dictionary of its fields.

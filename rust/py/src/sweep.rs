@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::convert::metric::{MetricSpec, condition};
 use crate::convert::word::Word;
-use crate::mechanism::is_short;
+use crate::short_calls::is_short;
 use crate::{detach, error_map, reserve};
 
 /// Values of each metric, statuses, and which designs are kept.

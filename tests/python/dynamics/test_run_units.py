@@ -232,3 +232,21 @@ def test_random_machines_in_other_units(seed: int) -> None:
     ):
         other = units.numbers(units.run(machine, mechanism.q0, case.speed0, **options))
         assert differences(own, other) == [], units
+
+
+@pytest.mark.parametrize("length", [0.55, 0.7, 1.3, 1.9])
+def test_a_bouncing_block_comes_to_rest_after_as_many_hits_in_all_units(length: float) -> None:
+    """Where it stays is a number of tolerances, which belong to the greatest length."""
+    way = assur.Mechanism(
+        joints={"O": (0, 0), "B": (0, 2.0), "C": (0.7, 2.0)},
+        links={"ground": "O", "block": "BC"},
+        slides={"way": assur.Slide("block", "ground", math.pi / 2, "O")},
+        driver="way",
+    )
+    machine = Machine(way, {"block": Body(3.0)}, [Gravity()])
+    floor = events.Obstacle(events.Position(0.0, direction="falling"), 0.95)
+    hits = [
+        len(units.run(machine, 2.0, 0.0, t_end=99.0, rtol=1e-6, events=[floor]).events)
+        for units in (Units(), Units(length=length))
+    ]
+    assert hits[0] == hits[1]

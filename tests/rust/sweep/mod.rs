@@ -7,7 +7,7 @@ use assur::sweep::{
     Metric, Moves, Need, Operand, Operation, Part, PlaceOf, Positions, Relation, Shape, Span,
     Sweep, TimeRatio,
 };
-use assur::{Care, Control, Mechanism, Quantity, Simd, SliderCrank, SolveError};
+use assur::{Checks, Control, Mechanism, Quantity, Simd, SliderCrank, SolveError};
 
 use crate::models::linkages;
 
@@ -157,12 +157,12 @@ fn values_do_not_depend_on_the_way() {
     };
     let expected = bits(&Control::default());
     assert!(expected.2.contains(&true) && expected.2.contains(&false));
-    for care in [Care::Needed, Care::Always, Care::KnotByKnot] {
+    for checks in [Checks::Needed, Checks::Always, Checks::KnotByKnot] {
         for simd in [Simd::Portable, Simd::Baseline, Simd::Avx2, Simd::Avx512] {
             for threads in [1, 3] {
                 let threads = std::num::NonZeroUsize::new(threads);
-                let found = bits(&Control { care, simd, threads, ..Control::default() });
-                assert!(found == expected, "{care:?} {simd:?}");
+                let found = bits(&Control { checks, simd, threads, ..Control::default() });
+                assert!(found == expected, "{checks:?} {simd:?}");
             }
         }
     }

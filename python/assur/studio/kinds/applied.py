@@ -6,48 +6,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.dynamics.acting import Positions, load_on
+from assur.dynamics.load_forces import loads_of
 from assur.dynamics.loads import Force
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.dynamics.machine import Machine
     from assur.dynamics.reactions import Reactions
-    from assur.kinematics.mechanism import Mechanism
 
 
-def applied_forces(
-    machine: Machine, mechanism: Mechanism, found: Reactions, q: Float, speed: Any, t: Any = 0.0
-) -> tuple[list[dict[str, Any]], Float]:
+def applied_forces(machine: Machine, found: Reactions) -> tuple[list[dict[str, Any]], Float]:
     """Return which load acts on which link, and place and force, [row][of them][x, y, Fx, Fy]."""
-    motion = mechanism.solve(q, order=1, on_error="nan")
-    count = mechanism._driver_count
-    own = np.asarray(q, dtype=float).reshape(-1, count)
-    rows = own.shape[0]
-    rates = np.broadcast_to(np.asarray(speed, dtype=float).reshape(-1, count), own.shape)
-    at = Positions(
-        machine, motion, found, own, rates, np.broadcast_to(np.asarray(t, dtype=float), (rows,))
-    )
-    # Absurd numbers give infinite forces: so they are shown.
-    with np.errstate(over="ignore", invalid="ignore"):
-        return _acting(at, rows)
-
-
-def _acting(at: Positions, rows: int) -> tuple[list[dict[str, Any]], Float]:
+    rows = np.size(found.status)
     names: list[dict[str, Any]] = []
     columns: list[Float] = []
-    for index, load in enumerate(at.machine.loads):
-        for link in at.motion.mechanism.links:
-            # What pulls at the ground moves nothing.
-            if link == "ground" and not isinstance(load, Force):
-                continue
-            for acting in load_on(at, load, link):
-                if np.any(acting.couple) or not np.any(acting.force):
-                    continue
-                names.append({"load": index, "on": link, "joint": acting.joint})
-                shape = (rows, 2)
-                place = np.broadcast_to(acting.place.reshape(-1, 2), shape)
-                columns.append(
-                    np.concatenate([place, np.broadcast_to(acting.force, shape)], axis=-1)
-                )
+    for one in loads_of(found):
+        # What pulls at the ground moves nothing.
+        is_anchor = one.link == "ground" and not isinstance(machine.loads[one.load], Force)
+        if one.place is None or is_anchor or not np.any(one.force):
+            continue
+        names.append({"load": one.load, "on": one.link, "joint": one.joint})
+        columns.append(np.concatenate([one.place, one.force], axis=-1).reshape(rows, 4))
     return names, np.stack(columns, axis=1) if columns else np.zeros((rows, 0, 4))

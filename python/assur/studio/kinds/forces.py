@@ -43,7 +43,7 @@ def reactions(data: dict[str, Any], session: Session) -> Answer:
         on_error="nan",
     )
     header, arrays = forces_of(mechanism, found)
-    header["applied"], arrays["applied"] = applied_forces(machine, mechanism, found, q, speed)
+    header["applied"], arrays["applied"] = applied_forces(machine, found)
     return Answer(header, {"q": q, **arrays})
 
 

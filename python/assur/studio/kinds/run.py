@@ -62,7 +62,7 @@ def run(data: dict[str, Any], session: Session) -> Answer:
         else:
             found = machine.reactions(q, speed, acceleration, t=t, on_error="nan")
         named, forces = forces_of(mechanism, found)
-        applied, forces["applied"] = applied_forces(machine, mechanism, found, q, speed, t)
+        applied, forces["applied"] = applied_forces(machine, found)
         header["reactions"] = {**named, "applied": applied}
         arrays |= forces
     return Answer({**header, **played.header}, {**played.arrays, **arrays})

@@ -71,10 +71,10 @@ impl ForLevel for Parts<'_, '_> {
         for op in &tape.ops {
             let one = Tape { ops: vec![op.clone()], ..tape.clone() };
             let cx = Context { tape: &one, ..worker.design.context(&derivatives) };
-            let (name, is_bare) = name(op);
+            let (name, is_unchecked) = name(op);
             let Some(name) = name else { continue };
-            if is_bare && tape.is_bounded {
-                bench(name, G * L::Register::LANES, &mut || L::bare(&mut space.many, &cx));
+            if is_unchecked && tape.is_bounded {
+                bench(name, G * L::Register::LANES, &mut || L::unchecked(&mut space.many, &cx));
             } else {
                 bench(name, G * L::Register::LANES, &mut || L::solve(&mut space.many, &cx));
             }
@@ -82,7 +82,7 @@ impl ForLevel for Parts<'_, '_> {
     }
 }
 
-/// What an operation is called, if anything uses it, and whether it has a bare kernel.
+/// What an operation is called, if anything uses it, and whether it has an unchecked kernel.
 fn name(op: &Op) -> (Option<&'static str>, bool) {
     let if_used = |op: &DyadOp, name: [&'static str; 2]| {
         op.is_used.then_some(name[usize::from(op.pin.is_some())])

@@ -8,7 +8,6 @@ use crate::branch::position::BranchPoint;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::Real;
 use crate::query::failure::Failure;
-use crate::state::sensitivity::Sensitivity;
 use crate::state::status::{Rejection, Status};
 
 impl<R: Real, const G: usize> Worker<'_, R, G> {
@@ -77,12 +76,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     /// Sensitivities to a dimension, one position after another.
     #[cold]
     #[inline(never)]
-    pub(super) fn sensitivities(
-        &mut self,
-        job: &mut Job<'_, '_>,
-        index: usize,
-        by: &mut Sensitivity,
-    ) {
+    pub(super) fn sensitivities(&mut self, job: &mut Job<'_, '_>) {
+        let Some((index, mut by)) = self.by.take() else { return };
         let design = &self.design;
         let drivers = design.mechanism.q0().len();
         let cx = design.context(design.derivatives);
@@ -90,7 +85,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let nothing = vec![[0.0]; self.space.lifted.len()];
         for (row, q) in job.q.chunks_exact(drivers).enumerate() {
             if self.is_cancelled() {
-                return;
+                break;
             }
             let q = design.scaled(q);
             let point = design.branch_to(&q);
@@ -110,5 +105,6 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 job.rows.status[at] = MaybeUninit::new(status as u8);
             }
         }
+        self.by = Some((index, by));
     }
 }

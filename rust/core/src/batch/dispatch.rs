@@ -28,7 +28,7 @@ pub(crate) trait Entry: Level {
     fn trace<const G: usize>(
         worker: &mut Worker<'_, Self::Register, G>,
         job: &Job<'_, '_>,
-        plain: bool,
+        unchecked: bool,
     ) -> Traced;
     /// Does a task with the level's instructions.
     fn call(task: &mut impl Task<Self::Register>);
@@ -56,9 +56,9 @@ impl Entry for Portable {
     fn trace<const G: usize>(
         worker: &mut Worker<'_, Self::Register, G>,
         job: &Job<'_, '_>,
-        plain: bool,
+        unchecked: bool,
     ) -> Traced {
-        worker.trace::<Self>(job, plain)
+        worker.trace::<Self>(job, unchecked)
     }
     #[inline(never)]
     fn call(task: &mut impl Task<Self::Register>) {
@@ -92,7 +92,7 @@ macro_rules! entry {
             fn trace<const G: usize>(
                 worker: &mut Worker<'_, Self::Register, G>,
                 job: &Job<'_, '_>,
-                plain: bool,
+                unchecked: bool,
             ) -> Traced {
                 use crate::state::kernel::$module::$level;
                 #[inline(never)]
@@ -100,12 +100,12 @@ macro_rules! entry {
                 fn with<const G: usize>(
                     worker: &mut Worker<'_, <$level as Level>::Register, G>,
                     job: &Job<'_, '_>,
-                    plain: bool,
+                    unchecked: bool,
                 ) -> Traced {
-                    worker.trace::<$level>(job, plain)
+                    worker.trace::<$level>(job, unchecked)
                 }
                 // SAFETY: `at_level` chooses this only if `Simd::best` found these instructions.
-                unsafe { with(worker, job, plain) }
+                unsafe { with(worker, job, unchecked) }
             }
             #[inline(always)]
             #[allow(unsafe_code, reason = "the machine was asked for these instructions")]

@@ -1,7 +1,7 @@
 //! Solves many designs at many positions into arrays, in blocks of lanes and on all cores.
 pub mod bench_hooks;
 mod by_position;
-mod careful;
+mod checked;
 pub(crate) mod chunks;
 mod coordinates;
 pub(crate) mod designs;
@@ -9,12 +9,13 @@ pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod known_signs;
 pub(crate) mod outputs;
-pub(crate) mod plain;
 pub(crate) mod request;
 pub(crate) mod schedule;
+pub(crate) mod scratch;
 pub(crate) mod solve;
 #[cfg(feature = "test-hooks")]
 pub mod test_hooks;
+pub(crate) mod unchecked;
 mod work_space;
 pub(crate) mod worker;
 pub(crate) mod writer;

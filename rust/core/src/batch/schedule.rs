@@ -22,10 +22,10 @@ const TRIAL: Duration = Duration::from_micros(50);
 /// of half as many two would take longer.
 const WORTH_THREADS: Duration = Duration::from_micros(300);
 
-/// Which positions and designs take the careful path. Results are the same with any choice; tests
+/// Which positions and designs take the checked path. Results are the same with any choice; tests
 /// compare the paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Care {
+pub enum Checks {
     /// Those that need it.
     Needed,
     /// Every position, each solved alone.
@@ -34,16 +34,16 @@ pub enum Care {
     KnotByKnot,
 }
 
-impl Care {
+impl Checks {
     /// The choice of the environment variable `ASSUR_CARE`: `always`, `knots`, or anything else for
-    /// [`Care::Needed`]. The variable is read once.
+    /// [`Checks::Needed`]. The variable is read once.
     #[must_use]
     pub fn from_env() -> Self {
-        static FROM_ENV: LazyLock<Care> =
+        static FROM_ENV: LazyLock<Checks> =
             LazyLock::new(|| match std::env::var("ASSUR_CARE").as_deref() {
-                Ok("always") => Care::Always,
-                Ok("knots") => Care::KnotByKnot,
-                _ => Care::Needed,
+                Ok("always") => Checks::Always,
+                Ok("knots") => Checks::KnotByKnot,
+                _ => Checks::Needed,
             });
         *FROM_ENV
     }
@@ -56,8 +56,8 @@ pub struct Control<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Highest level of vector instructions to use.
     pub simd: Simd,
-    /// Which positions take the careful path.
-    pub care: Care,
+    /// Which positions take the checked path.
+    pub checks: Checks,
     /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
     /// Where to record the first position that fails.
@@ -71,7 +71,7 @@ impl Default for Control<'_> {
         Self {
             threads: None,
             simd: Simd::default(),
-            care: Care::from_env(),
+            checks: Checks::from_env(),
             cancel: None,
             failures: None,
             known_signs: None,

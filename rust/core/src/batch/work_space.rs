@@ -40,7 +40,7 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) tracing_tape: Option<Tape>,
     /// Memory of the design, which holds it during a call.
     pub(super) design: DesignMemory,
-    /// Turn reference of each requested class, for plain designs.
+    /// Turn reference of each requested class, for designs solved without checks.
     pub(super) references: Vec<Reference>,
     /// Made for the first design that needs it.
     pub(super) uniform: Option<Box<UniformTracer<R, G>>>,

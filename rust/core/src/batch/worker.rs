@@ -10,7 +10,7 @@ use super::failure_log::FailureCounter;
 use super::known_signs::KnownSigns;
 use super::outputs::Column;
 use super::request::Request;
-use super::schedule::{Care, Control};
+use super::schedule::{Checks, Control};
 use super::work_space::WorkSpace;
 use super::writer::{RowSlices, Writer};
 use crate::branch::design::Design;
@@ -25,8 +25,8 @@ use crate::state::sensitivity::Sensitivity;
 use crate::state::state::Context;
 use crate::state::status::Status;
 
-/// Doubtful blocks of one design after which the rest takes the careful path directly.
-const MAX_DOUBTS: usize = 2;
+/// Uncertain blocks of one design after which the rest takes the checked path directly.
+const MAX_UNCERTAIN: usize = 2;
 
 /// An empty range.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -38,8 +38,8 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) columns: &'a [Column],
     pub(super) space: Box<WorkSpace<R, G>>,
     /// The dimension to differentiate by, with its work space.
-    by: Option<(usize, Sensitivity)>,
-    care: Care,
+    pub(super) by: Option<(usize, Sensitivity)>,
+    checks: Checks,
     /// Whether the branch serves all positions of the job and has no change points.
     pub(super) is_smooth: bool,
     /// Whether the branch of a driven slide was traced by knots that depend on the requested positions.
@@ -50,6 +50,23 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     cancel: Option<&'a AtomicBool>,
     pub(super) failures: Option<FailureCounter<'a>>,
     known_signs: Option<&'a KnownSigns>,
+}
+
+/// How a design, or its next block, is solved, and why so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Path {
+    /// Without checks, because signs are constant and all dyads have kernels; no requested angle makes
+    /// whole turns, so that one reference each unwraps it.
+    UncheckedByReference,
+    /// Without checks likewise, but angles are unwrapped to those at the knots of the branch.
+    UncheckedByKnots,
+    /// With checks: signs may change, a dyad has no kernel, or too many blocks were uncertain.
+    Checked,
+    /// One position after another, because tests ask for it, no branch serves all positions of several
+    /// drivers, or one of a block cannot be followed.
+    ByPosition,
+    /// One position after another, with the sensitivities to a dimension that are asked for.
+    Sensitivities,
 }
 
 /// Some positions of one design, and the rows they go to.
@@ -79,7 +96,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let mut design = Design::new(mechanism, request.signs, derivatives)
             .reusing(std::mem::take(&mut space.design));
         design.cancel = control.cancel;
-        if control.care == Care::Needed
+        if control.checks == Checks::Needed
             && let Some(tape) = space.tracing_tape.take()
         {
             design.trace_by(tape);
@@ -91,7 +108,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             design,
             writer,
             columns: &writer.columns,
-            care: control.care,
+            checks: control.checks,
             is_smooth: false,
             depends_on_request: false,
             driven_range: (None, NOWHERE),
@@ -181,54 +198,70 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         job: &mut Job<'_, '_>,
         trace: fn(&mut Self, &Job<'_, '_>, bool) -> Traced,
     ) {
-        let mut traced = trace(self, job, self.by.is_none());
+        let traced = trace(self, job, self.by.is_none());
+        let count = job.q.len() / self.design.mechanism.q0().len();
+        match self.path(traced) {
+            Path::Sensitivities => self.sensitivities(job),
+            Path::ByPosition => self.solve_by_position(job, 0, count),
+            path => self.run_blocks::<L>(job, count, (traced, path), trace),
+        }
+    }
+
+    /// How a traced design is solved, or its first block.
+    #[inline(always)]
+    fn path(&mut self, traced: Traced) -> Path {
         let drivers = self.design.mechanism.q0().len();
-        let count = job.q.len() / drivers;
-        if let Some((index, mut by)) = self.by.take() {
-            self.sensitivities(job, index, &mut by);
-            self.by = Some((index, by));
-            return;
+        if self.by.is_some() {
+            return Path::Sensitivities;
         }
-        if self.care != Care::Needed || drivers > 1 && !self.design.serves_all {
-            self.solve_by_position(job, 0, count);
-            return;
+        if self.checks != Checks::Needed || drivers > 1 && !self.design.serves_all {
+            return Path::ByPosition;
         }
-        self.space.many.groups = count.div_ceil(R::LANES).min(G);
-        if self.design.branch.has_constant_signs() {
-            let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
-            for (lanes, &sign) in self.space.many.pose.signs.iter_mut().zip(signs) {
-                lanes[..self.space.many.groups].fill(R::splat(sign));
-            }
+        // Analogues without checks are for one driver.
+        let has_kernels = drivers == 1 || self.space.many.len == 1;
+        if !(has_kernels && (traced == Traced::Surveyed || self.needs_no_checks())) {
+            return Path::Checked;
         }
+        match traced {
+            Traced::Surveyed => Path::UncheckedByReference,
+            Traced::AtKnots => Path::UncheckedByKnots,
+            Traced::No | Traced::Whole if self.find_references() => Path::UncheckedByKnots,
+            Traced::No | Traced::Whole => Path::UncheckedByReference,
+        }
+    }
+
+    /// Solves the positions in blocks of lanes.
+    #[inline(always)]
+    fn run_blocks<L: Level<Register = R>>(
+        &mut self,
+        job: &mut Job<'_, '_>,
+        count: usize,
+        (mut traced, mut path): (Traced, Path),
+        trace: fn(&mut Self, &Job<'_, '_>, bool) -> Traced,
+    ) {
+        self.load_signs(count);
         self.load_coordinates(job);
-        if traced == Traced::Surveyed && self.space.coordinates.is_far {
+        let has_no_angles = |traced| traced == Traced::Surveyed;
+        if has_no_angles(traced) && (path == Path::Checked || self.space.coordinates.is_far) {
             traced = trace(self, job, false);
+            path = self.path(traced);
         }
-        let surveyed = traced == Traced::Surveyed;
-        // Bare analogues are for one driver.
-        let bare = drivers == 1 || self.space.many.len == 1;
-        let mut doubts = if bare && (surveyed || self.is_plain()) { 0 } else { MAX_DOUBTS };
-        if doubts < MAX_DOUBTS {
+        if path != Path::Checked {
             let design = &self.design;
             let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
-            self.space.many.prepare_bare(&cx);
+            self.space.many.prepare_unchecked(&cx);
         }
-        let mut prepared = false;
-        let mut located = match traced {
-            Traced::Surveyed => false,
-            Traced::AtKnots => true,
-            _ => doubts == MAX_DOUBTS || self.find_references(),
-        };
-        if located {
+        if path != Path::UncheckedByReference {
             self.locate();
         }
         job.rows.status[job.first..job.first + count].fill(MaybeUninit::new(Status::Ok as u8));
+        let (mut prepared, mut uncertain_blocks) = (false, 0);
         let size = self.space.coordinates.block * R::LANES;
         for row in (0..count).step_by(size) {
             if self.is_cancelled() {
                 return;
             }
-            if located && self.space.locations.is_empty() {
+            if path != Path::UncheckedByReference && self.space.locations.is_empty() {
                 self.locate();
             }
             let block = (count - row).min(size);
@@ -236,7 +269,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.solve_by_position(job, row, block);
                 continue;
             }
-            if doubts < MAX_DOUBTS && self.solve_bare::<L>(job, row, block, located) {
+            let by_knots = path == Path::UncheckedByKnots;
+            if path != Path::Checked && self.solve_unchecked::<L>(job, row, block, by_knots) {
                 continue;
             }
             if !prepared {
@@ -246,25 +280,39 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 self.space.many.prepare(plan, &self.design.constants, self.design.derivatives);
                 prepared = true;
             }
-            if !located {
-                if surveyed {
+            if path == Path::UncheckedByReference {
+                if has_no_angles(traced) {
                     trace(self, job, false);
                 }
                 self.locate();
-                located = true;
             }
-            self.solve_block::<L>(job, row, block);
-            doubts =
-                if bare && self.is_plain() { (doubts + 1).min(MAX_DOUBTS) } else { MAX_DOUBTS };
+            self.solve_checked::<L>(job, row, block);
+            uncertain_blocks += 1;
+            let stays = path == Path::Checked
+                || uncertain_blocks == MAX_UNCERTAIN
+                || !self.needs_no_checks();
+            path = if stays { Path::Checked } else { Path::UncheckedByKnots };
         }
     }
 
-    /// Traces the branch. If `plain`, it may only show that the design is plain.
+    /// Loads the signs of the branch if they are constant.
+    #[inline(always)]
+    fn load_signs(&mut self, count: usize) {
+        self.space.many.groups = count.div_ceil(R::LANES).min(G);
+        if self.design.branch.has_constant_signs() {
+            let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
+            for (lanes, &sign) in self.space.many.pose.signs.iter_mut().zip(signs) {
+                lanes[..self.space.many.groups].fill(R::splat(sign));
+            }
+        }
+    }
+
+    /// Traces the branch. If `unchecked`, it may only show that the design needs no checks.
     #[inline(always)]
     pub(super) fn trace<L: Level<Register = R>>(
         &mut self,
         job: &Job<'_, '_>,
-        plain: bool,
+        unchecked: bool,
     ) -> Traced {
         if self.has_known_signs(job.design) {
             self.design.set_constant_signs();
@@ -273,9 +321,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
         let mut traced = Traced::No;
         // The first guess of a group's iteration depends on how its branch was traced.
-        if self.care == Care::Needed || self.design.has_groups() {
-            let plain = plain && self.care == Care::Needed && self.space.tape.is_bounded;
-            let mut references = plain.then_some(&mut self.space.references[..]);
+        if self.checks == Checks::Needed || self.design.has_groups() {
+            let unchecked =
+                unchecked && self.checks == Checks::Needed && self.space.tape.is_bounded;
+            let mut references = unchecked.then_some(&mut self.space.references[..]);
             let (design, classes) = (&mut self.design, &self.writer.classes);
             traced = design.trace_in_closed_form(classes, references.as_deref_mut());
             if traced == Traced::No {
@@ -288,8 +337,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         let slides = self.design.mechanism.plan().driven_slide(0).is_some();
         self.depends_on_request = slides && traced == Traced::Whole;
         if traced == Traced::No {
-            match self.care {
-                Care::Always => self.design.trace(job.q),
+            match self.checks {
+                Checks::Always => self.design.trace(job.q),
                 _ => self.design.trace_knot_by_knot(job.q),
             }
         }
@@ -305,7 +354,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Whether only the signs of the branch are needed, and they are known to be constant.
     #[inline(always)]
     fn has_known_signs(&self, design: usize) -> bool {
-        let wanted = self.care == Care::Needed && self.writer.classes.is_empty();
+        let wanted = self.checks == Checks::Needed && self.writer.classes.is_empty();
         wanted && self.known_signs.is_some_and(|known| known.are_constant(design))
     }
 

@@ -227,9 +227,9 @@ impl Writer {
         }
     }
 
-    /// The same for a plain design: references give the whole turns of its angles.
+    /// The same for a design solved without checks: references give the whole turns of its angles.
     #[inline(always)]
-    pub(crate) fn write_plain<W: Stride<R>, R: Real, const G: usize>(
+    pub(crate) fn write_unchecked<W: Stride<R>, R: Real, const G: usize>(
         &self,
         rows: &mut RowSlices<'_>,
         range: RowRange,

@@ -108,7 +108,7 @@ impl Branch {
     }
 
     /// Whether the branch is known everywhere and has no change points.
-    pub(crate) fn is_plain(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.covered.is_none() && self.changes.is_empty()
     }
 

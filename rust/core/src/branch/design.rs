@@ -7,8 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::branch::Branch;
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
-use super::crank_dyad::CrankDyad;
-use super::crank_lengths::CrankLengths;
+use super::crank_dyad::{CrankDyad, CrankLengths};
 use super::knot::Taylor2;
 use super::lanes::lane_tracer::LaneTracer;
 use super::lanes::uniform::UniformTracer;

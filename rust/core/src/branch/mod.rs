@@ -7,7 +7,6 @@ pub(crate) mod change_point;
 pub(crate) mod constant_signs;
 mod crank_angles;
 pub(crate) mod crank_dyad;
-mod crank_lengths;
 pub(crate) mod design;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;

@@ -60,7 +60,7 @@ impl Design<'_> {
     /// points.
     pub(crate) fn is_smooth(&self, q: &[f64]) -> bool {
         let branch = &self.branch;
-        branch.is_plain()
+        branch.is_whole()
             || branch.changes.is_empty()
                 && self.q0.len() == 1
                 && q.iter().all(|q| branch.covers(q * self.units.coordinate[0]))
@@ -70,7 +70,7 @@ impl Design<'_> {
     pub(crate) fn has_constant_signs(&self) -> bool {
         let serves_all = self.serves_all || self.has_one_rotary_driver();
         let branch = &self.branch;
-        self.closed_forms && serves_all && branch.is_plain() && branch.has_constant_signs()
+        self.closed_forms && serves_all && branch.is_whole() && branch.has_constant_signs()
     }
 
     /// Makes the branch one without angles, with the drawing's signs everywhere.
@@ -85,7 +85,7 @@ impl Design<'_> {
     }
 
     /// Traces the branch by knots in lanes, with the angles of `classes`, where
-    /// [`Self::trace_in_closed_form`] cannot. If `references` are given and the design is plain, sets
+    /// [`Self::trace_in_closed_form`] cannot. If `references` are given and the design needs no checks, sets
     /// them instead of angles at knots (see [`UniformTracer::survey`]). `range`: values of a driven
     /// slide (m) to trace over.
     #[inline(always)]
@@ -123,11 +123,11 @@ impl Design<'_> {
         let mut turns_fully = grid.is_turn && (with_angles || !self.closed_forms);
         if let Some(references) = references {
             uniform.solve_knots::<L>(&cx, grid, false);
-            uniform.take_care_of_doubts::<L>(&cx);
-            let plain = uniform.survey(&cx, classes, start, references);
+            uniform.check_uncertain::<L>(&cx);
+            let surveyed = uniform.survey(&cx, classes, start, references);
             // A survey solves closer scans in their place.
-            is_solved = plain.is_some();
-            if plain.is_none() && grid.is_turn {
+            is_solved = surveyed.is_some();
+            if surveyed.is_none() && grid.is_turn {
                 let of = (classes, start);
                 let surveyed = tracer.survey::<L, G>(&cx, uniform, of, settled, references, branch);
                 let Some(surveyed) = surveyed else { return Traced::No };
@@ -135,11 +135,11 @@ impl Design<'_> {
                     return surveyed;
                 }
             }
-            if plain == Some(true) {
+            if surveyed == Some(true) {
                 branch.set_constant_signs(start.len(), cx.signs);
                 return Traced::Surveyed;
             }
-            turns_fully &= plain.is_some();
+            turns_fully &= surveyed.is_some();
         }
         if goes_wide {
             uniform.solve_knots::<L>(&cx, Grid::wide_turn(grid.from), with_angles);

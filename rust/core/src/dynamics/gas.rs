@@ -17,12 +17,6 @@ pub struct Gas {
 }
 
 impl Gas {
-    /// Pressure at a value of the slide, Pa; NaN where no volume is left.
-    #[must_use]
-    pub fn pressure_at(&self, value: f64) -> f64 {
-        self.value_and_slope(value)[0]
-    }
-
     /// Pressure at a value of the slide, and its slope; NaN where no volume is left.
     pub(crate) fn value_and_slope(&self, value: f64) -> [f64; 2] {
         let volume = self.volume_at(value);

@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::body::Body;
 use super::followers::{Followed, Followers};
-use super::friction::description::Friction;
 use super::kinematics::SolvedPose;
 use super::load::Load;
 use super::measure::{Measure, Over};
 use super::motor::Motor;
+use super::pair_friction::Friction;
 use super::reduced::Reduced;
 use super::tables::table::Table;
 use super::value::Numbers;

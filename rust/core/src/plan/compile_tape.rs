@@ -19,9 +19,9 @@ pub(crate) struct Needs<'a> {
 
 /// Results that later operations use.
 struct Uses {
-    /// Points used on the careful path and on the bare path.
+    /// Points used with checks and without.
     points: Vec<bool>,
-    points_bare: Vec<bool>,
+    points_unchecked: Vec<bool>,
     orientations: Vec<bool>,
     legs: Vec<bool>,
     /// Points whose conditions are read.
@@ -70,7 +70,7 @@ impl Tape {
         let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
         let mut uses = Uses {
             points: needs.points.to_vec(),
-            points_bare: needs.points.to_vec(),
+            points_unchecked: needs.points.to_vec(),
             orientations: vec![all || general; plan.orientations.len()],
             legs: vec![all || general; plan.legs()],
             conditions: vec![has_redundant; plan.points],
@@ -89,8 +89,8 @@ impl Tape {
                     let op = Op::of_dyad(plan, dyad, step, &uses, needs.samples, &pins);
                     // Samples read both columns.
                     let [start, end] = if needs.samples { [true; 2] } else { op.columns() };
-                    uses.points_bare[dyad.start] |= start;
-                    uses.points_bare[dyad.end] |= end;
+                    uses.points_unchecked[dyad.start] |= start;
+                    uses.points_unchecked[dyad.end] |= end;
                     uses.conditions[dyad.start] = true;
                     uses.conditions[dyad.end] = true;
                     if let Op::MovingGuide(DyadOp { carrier: Some(carrier), .. }) = op {
@@ -109,7 +109,7 @@ impl Tape {
                 Step::Group(group) => {
                     for point in group.loops.iter().flat_map(|l| [l.start, l.end]) {
                         uses.points[point] = true;
-                        uses.points_bare[point] = true;
+                        uses.points_unchecked[point] = true;
                         uses.conditions[point] = true;
                     }
                     ops.push(Op::Group { step });
@@ -126,10 +126,10 @@ impl Tape {
                     }
                     place.is_recorded = uses.conditions[place.to];
                     uses.conditions[place.from] |= place.is_recorded;
-                    place.is_used = all || uses.points_bare[place.to];
+                    place.is_used = all || uses.points_unchecked[place.to];
                     uses.points[place.from] = true;
                     let from_column = !place.from_ground || place.kind == PlaceKind::Along;
-                    uses.points_bare[place.from] |= place.is_used && from_column;
+                    uses.points_unchecked[place.from] |= place.is_used && from_column;
                     match place.kind {
                         PlaceKind::Rigid { .. } | PlaceKind::Along => {
                             uses.orientations[plan.edges[edge].orientation] = true;
@@ -153,7 +153,8 @@ impl Tape {
         let driven = (0..plan.orientations.len())
             .filter(|&o| plan.orientations[o].driven && uses.orientations[o])
             .collect();
-        let fixed = (0..plan.points).filter(|&at| plan.fixed[at] && uses.points_bare[at]).collect();
+        let fixed =
+            (0..plan.points).filter(|&at| plan.fixed[at] && uses.points_unchecked[at]).collect();
         let is_bounded = is_bounded(plan) && !ops.iter().any(|op| matches!(op, Op::Dyad { .. }));
         let is_dyad = |op: &Op| {
             !matches!(
@@ -322,7 +323,7 @@ impl Op {
 }
 
 impl Op {
-    /// Whether the bare path reads the columns of the dyad's start and end; it does not read those of a
+    /// Whether the unchecked path reads the columns of the dyad's start and end; it does not read those of a
     /// crank's pin or of the ground.
     fn columns(&self) -> [bool; 2] {
         match self {

@@ -20,7 +20,6 @@ pub(crate) mod group;
 pub(crate) mod group_loops;
 pub(crate) mod leg;
 pub(crate) mod lengths;
-pub(crate) mod measure_dyads;
 pub(crate) mod mechanism;
 pub(crate) mod named;
 pub(crate) mod pair_span;

@@ -7,12 +7,12 @@ pub(crate) struct Tape {
     pub ops: Vec<Op>,
     /// The operation of every dyad.
     pub dyads: Vec<usize>,
-    /// Ground points that the bare path uses.
+    /// Ground points that the unchecked path uses.
     pub fixed: Vec<usize>,
     /// Driven orientations whose phases some operation uses.
     pub driven: Vec<usize>,
     /// Whether all dyads have kernels and depend only on points with bounded coordinates. Then a
-    /// product of sines bounds the condition, and the bare path may be used.
+    /// product of sines bounds the condition, and the unchecked path may be used.
     pub is_bounded: bool,
 }
 
@@ -114,7 +114,7 @@ pub(crate) struct PlaceOp {
     pub kind: PlaceKind,
     /// Whether it is placed from a point of the ground, whose jet is constant.
     pub from_ground: bool,
-    /// Whether any operation of the bare path uses the point.
+    /// Whether any operation of the unchecked path uses the point.
     pub is_used: bool,
     /// Whether a later operation reads the point's condition.
     pub is_recorded: bool,

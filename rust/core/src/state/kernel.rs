@@ -21,31 +21,31 @@ pub(crate) const BLOCK: usize = 144;
 pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
-    /// How many registers the longer bare kernels take at once.
+    /// How many registers the longer kernels without checks take at once.
     type Stride: Stride<Self::Register>;
     /// See [`State::run`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
-    /// See [`State::run_bare`].
-    fn bare<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
-    /// See [`State::bare_two_legs`].
+    /// See [`State::run_unchecked`].
+    fn unchecked<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
+    /// See [`State::unchecked_two_legs`].
     fn two_legs<const LEN: usize, const G: usize>(
         state: &mut State<Self::Register, G>,
         cx: &Context<'_>,
         op: &DyadOp,
     );
-    /// See [`State::bare_standing_guide`].
+    /// See [`State::unchecked_standing_guide`].
     fn standing_guide<const LEN: usize, const G: usize>(
         state: &mut State<Self::Register, G>,
         cx: &Context<'_>,
         op: &DyadOp,
     );
-    /// See [`State::bare_moving_guide`].
+    /// See [`State::unchecked_moving_guide`].
     fn moving_guide<const LEN: usize, const G: usize>(
         state: &mut State<Self::Register, G>,
         cx: &Context<'_>,
         op: &DyadOp,
     );
-    /// See [`State::bare_turning_guide`].
+    /// See [`State::unchecked_turning_guide`].
     fn turning_guide<const LEN: usize, const G: usize>(
         state: &mut State<Self::Register, G>,
         cx: &Context<'_>,
@@ -123,20 +123,20 @@ macro_rules! level {
                 type Stride = $stride;
                 compiled!($register $(, $features)?; solve [] (state, cx: &Context<'_>)
                     state.run::<$level>(cx, cx.tape));
-                compiled!($register $(, $features)?; bare [] (state, cx: &Context<'_>)
-                    state.run_bare::<$level>(cx, cx.tape));
+                compiled!($register $(, $features)?; unchecked [] (state, cx: &Context<'_>)
+                    state.run_unchecked::<$level>(cx, cx.tape));
                 compiled!($register $(, $features)?;
                     two_legs [LEN] (state, cx: &Context<'_>, op: &DyadOp)
-                    state.bare_two_legs::<$stride, LEN>(cx, op));
+                    state.unchecked_two_legs::<$stride, LEN>(cx, op));
                 compiled!($register $(, $features)?;
                     standing_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
-                    state.bare_standing_guide::<$stride, LEN>(cx, op));
+                    state.unchecked_standing_guide::<$stride, LEN>(cx, op));
                 compiled!($register $(, $features)?;
                     moving_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
-                    state.bare_moving_guide::<LEN>(cx, op));
+                    state.unchecked_moving_guide::<LEN>(cx, op));
                 compiled!($register $(, $features)?;
                     turning_guide [LEN] (state, cx: &Context<'_>, op: &DyadOp)
-                    state.bare_turning_guide::<LEN>(cx, op));
+                    state.unchecked_turning_guide::<LEN>(cx, op));
                 compiled!($register $(, $features)?;
                     standing_guides [] (state, cx: &Context<'_>, op: &DyadOp)
                     state.standing_guides::<false>(cx, op));

@@ -1,16 +1,14 @@
 //! One position at q: the poses of all links, their analogues, condition and status.
 
+pub(crate) mod closing;
 pub(crate) mod closures;
-mod conditions;
 pub(crate) mod dyad;
 pub(crate) mod group;
 pub(crate) mod kernel;
 pub(crate) mod own_condition;
 pub(crate) mod points;
-mod pose;
 pub(crate) mod redundant;
 pub(crate) mod sensitivity;
 pub(crate) mod state;
 pub(crate) mod status;
 pub(crate) mod tape;
-mod workspace;

@@ -3,10 +3,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::conditions::Conditions;
-use super::pose::Pose;
+use super::closing::Closing;
 use super::status::{Fault, Status};
-use super::workspace::Workspace;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
@@ -76,9 +74,9 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets, in the lane groups in use, what the bare path needs and all positions of a design share.
+    /// Sets, in the lane groups in use, what the unchecked path needs and all positions of a design share.
     #[inline(always)]
-    pub(crate) fn prepare_bare(&mut self, cx: &Context<'_>) {
+    pub(crate) fn prepare_unchecked(&mut self, cx: &Context<'_>) {
         let groups = self.groups.min(G);
         for &point in &cx.tape.fixed {
             let fixed = Vector::splat(cx.constants.fixed[point]);
@@ -169,6 +167,148 @@ impl<R: Real, const G: usize> State<R, G> {
         if R::LANES == 1 && open.any() {
             self.fault = Some(fault());
             self.status = Status::Unreachable;
+        }
+    }
+}
+
+/// Coordinates, assembly, and what follows from them.
+#[derive(Debug, Clone)]
+pub(crate) struct Pose<R: Real = f64, const G: usize = 1> {
+    /// Coordinates (rad; slide drivers in units of the scale).
+    pub(crate) q: Vec<[R; G]>,
+    /// Unit vectors at the driven angles.
+    pub(crate) unit: Vec<[Vector<R>; G]>,
+    /// Assembly signs, +1 or −1.
+    pub(crate) signs: Vec<[R; G]>,
+    /// Jets of points, one after another.
+    pub(crate) points: Vec<[Vector<R>; G]>,
+    /// Jets of orientations.
+    pub(crate) orient: Vec<[Vector<R>; G]>,
+    /// Jets of the legs of dyads (two per dyad), then of the edges of groups.
+    pub(crate) legs: Vec<[Vector<R>; G]>,
+    /// Jets of the angles of classes; entry 0, the value, is not used.
+    pub(crate) theta: Vec<[R; G]>,
+    /// Jets of slides.
+    pub(crate) slides: Vec<[R; G]>,
+    /// Rotations of classes.
+    pub(crate) class: Vec<[Vector<R>; G]>,
+    /// Rotation of every orientation by the drivers alone.
+    pub(crate) phase: Vec<[Vector<R>; G]>,
+}
+
+impl<R: Real, const G: usize> Pose<R, G> {
+    fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
+        let (len, slides) = (derivatives.len(), plan.slide_links.len());
+        let mut orient = vec![[Vector::ZERO; G]; plan.orientations.len() * len];
+        for (orientation, jet) in plan.orientations.iter().zip(orient.chunks_exact_mut(len)) {
+            if orientation.class == 0 {
+                jet[0] = [Vector::ONE; G];
+            }
+        }
+        Self {
+            q: vec![[R::ZERO; G]; plan.drivers.len()],
+            unit: vec![[Vector::ONE; G]; plan.drivers.len()],
+            signs: vec![[R::ONE; G]; plan.signs()],
+            points: vec![[Vector::ZERO; G]; plan.points * len],
+            orient,
+            legs: vec![[Vector::ZERO; G]; plan.legs() * len],
+            theta: vec![[R::ZERO; G]; plan.classes * len],
+            slides: vec![[R::ZERO; G]; slides * len],
+            class: vec![[Vector::ONE; G]; plan.classes],
+            phase: vec![[Vector::ONE; G]; plan.orientations.len()],
+        }
+    }
+}
+
+/// Conditions are squared: squares need no roots.
+#[derive(Debug, Clone)]
+pub(crate) struct Conditions<R: Real = f64, const G: usize = 1> {
+    /// Square of the greatest coordinate or arm in the chain to each point, to which its rounding
+    /// error is relative.
+    pub(crate) coordinate_scale2: Vec<[R; G]>,
+    /// Product of the conditions of the dyads and groups that each point depends on.
+    pub(crate) of_point: Vec<[R; G]>,
+    /// The same for each class.
+    pub(crate) of_class: Vec<[R; G]>,
+    /// The same for each slide.
+    pub(crate) of_slide: Vec<[R; G]>,
+    /// Condition of all that each dyad with a sign depends on.
+    pub(crate) upstream: Vec<[R; G]>,
+    /// The greatest condition in the position.
+    pub(crate) greatest: [R; G],
+    /// A lower bound of the inverse of each dyad's condition (on the unchecked path only).
+    pub(crate) bounds: Vec<[R; G]>,
+    /// The same for everything that the present dyad depends on.
+    pub(crate) bound: [R; G],
+    /// By how much each dyad closes (relative to the scale), negative where it does not.
+    pub(crate) margin: Vec<[R; G]>,
+    /// Lanes where a dyad does not close.
+    pub(crate) open: [R::Mask; G],
+    /// Lanes that failed or are singular; the caller solves each again as a single position.
+    pub(crate) needs_scalar: [R::Mask; G],
+}
+
+impl<R: Real, const G: usize> Conditions<R, G> {
+    fn new(plan: &Plan) -> Self {
+        Self {
+            coordinate_scale2: vec![[R::ZERO; G]; plan.points],
+            of_point: vec![[R::ONE; G]; plan.points],
+            of_class: vec![[R::ONE; G]; plan.classes],
+            of_slide: vec![[R::ONE; G]; plan.slide_links.len()],
+            upstream: vec![[R::ONE; G]; plan.signs()],
+            greatest: [R::ONE; G],
+            bounds: vec![[R::ONE; G]; plan.dyads().count()],
+            bound: [R::ONE; G],
+            margin: vec![[R::ZERO; G]; plan.dyads().count()],
+            open: [R::Mask::NONE; G],
+            needs_scalar: [R::Mask::NONE; G],
+        }
+    }
+}
+
+/// Work space of the path with checks and of the iteration for groups above class II, with the results
+/// that the branch checks.
+#[derive(Debug, Clone)]
+pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
+    /// Matrix, inverse and right-hand side of a group above class II.
+    pub(crate) matrix: Vec<[R; G]>,
+    /// Jets of the guides along the edges of a group.
+    pub(crate) guides: Vec<[Vector<R>; G]>,
+    /// Jets of the chords of a group's loops.
+    pub(crate) chords: Vec<[Vector<R>; G]>,
+    /// 1/length of every chord of known length.
+    pub(crate) inv_length: Vec<[R; G]>,
+    /// Whether the caller wants the rotation of each class; used for bars that no step needs.
+    pub(crate) angle_wanted: Vec<bool>,
+    /// Determinant of every group's matrix at the solution (with analogues only).
+    pub(crate) determinants: Vec<[R; G]>,
+    /// Determinant of that matrix in the last Newton round; its sign distinguishes branches.
+    pub(crate) det_sign: Vec<[R; G]>,
+    /// Greatest change of an unknown (rad, or relative to the scale) in the first Newton step of
+    /// any group.
+    pub(crate) first_step: [R; G],
+    /// Greatest sum of the changes in the later steps.
+    pub(crate) later_steps: [R; G],
+    /// How the dyad that was solved last closes, on the checked path.
+    pub(crate) closings: [Closing<R>; G],
+}
+
+impl<R: Real, const G: usize> Workspace<R, G> {
+    fn new(plan: &Plan, derivatives: &DerivativeTables) -> Self {
+        let len = derivatives.len();
+        let edges = plan.groups().map(|group| group.edges.len()).max().unwrap_or(0);
+        let loops = plan.groups().map(|group| group.loops.len()).max().unwrap_or(0);
+        Self {
+            matrix: vec![[R::ZERO; G]; plan.matrix_size()],
+            guides: vec![[Vector::ZERO; G]; edges * len],
+            chords: vec![[Vector::ZERO; G]; loops * len],
+            inv_length: vec![[R::ONE; G]; loops],
+            angle_wanted: vec![true; plan.classes],
+            determinants: vec![[R::ZERO; G]; plan.groups().count()],
+            det_sign: vec![[R::ZERO; G]; plan.groups().count()],
+            first_step: [R::ZERO; G],
+            later_steps: [R::ZERO; G],
+            closings: [Closing::CLOSED; G],
         }
     }
 }

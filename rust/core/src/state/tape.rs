@@ -1,9 +1,8 @@
 //! Runs the tape: the operations that a request needs, on one position or a block.
 
-use super::conditions::Conditions;
 use super::kernel::Level;
 use super::kernel::alone::Alone;
-use super::state::{Context, State};
+use super::state::{Conditions, Context, State};
 use super::status::{Fault, Status};
 use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
@@ -16,11 +15,11 @@ use crate::plan::tape::{DyadOp, Op, Tape};
 const LEAST_BOUND: f64 = (1.0 + 1.0e-6) / (NEAR_SINGULAR_CONDITION * NEAR_SINGULAR_CONDITION);
 
 impl<R: Real, const G: usize> State<R, G> {
-    /// Careful path: computes positions at their `q`, `unit` and `signs`, with conditions, margins and
+    /// Checked path: computes positions at their `q`, `unit` and `signs`, with conditions, margins and
     /// the reason of a failure.
     #[inline(always)]
     pub(crate) fn run<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
-        self.start_careful();
+        self.start_checked();
         self.load_drivers(cx, tape);
         for op in &tape.ops {
             if R::LANES == 1 && self.has_failed() {
@@ -62,24 +61,24 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Bare path, for one driver and a tape that [`is_bounded`](Tape::is_bounded): computes positions
+    /// Unchecked path, for one driver and a tape that [`is_bounded`](Tape::is_bounded): computes positions
     /// with no more about them than [`Conditions::open`] and [`Conditions::bounds`]. If
-    /// [`is_doubtful`](Self::is_doubtful), they must be computed again by [`run`](Self::run);
+    /// [`is_uncertain`](Self::is_uncertain), they must be computed again by [`run`](Self::run);
     /// otherwise they have the same bits.
     #[inline(always)]
-    pub(crate) fn run_bare<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
+    pub(crate) fn run_unchecked<L: Level<Register = R>>(&mut self, cx: &Context<'_>, tape: &Tape) {
         self.conditions.open[..self.groups.min(G)].fill(R::Mask::NONE);
         self.load_drivers(cx, tape);
         match self.len {
-            1 => self.run_bare_of_length::<L, 1>(cx, tape),
-            2 => self.run_bare_of_length::<L, 2>(cx, tape),
-            3 => self.run_bare_of_length::<L, 3>(cx, tape),
-            _ => self.run_bare_of_length::<L, 4>(cx, tape),
+            1 => self.run_unchecked_of_length::<L, 1>(cx, tape),
+            2 => self.run_unchecked_of_length::<L, 2>(cx, tape),
+            3 => self.run_unchecked_of_length::<L, 3>(cx, tape),
+            _ => self.run_unchecked_of_length::<L, 4>(cx, tape),
         }
     }
 
     #[inline(always)]
-    fn run_bare_of_length<L: Level<Register = R>, const LEN: usize>(
+    fn run_unchecked_of_length<L: Level<Register = R>, const LEN: usize>(
         &mut self,
         cx: &Context<'_>,
         tape: &Tape,
@@ -148,30 +147,30 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Whether in some lane a coordinate is not finite, or a dyad may be nearly flat, or open without
     /// being marked as such.
     #[inline(always)]
-    pub(crate) fn is_doubtful(&self) -> bool {
-        let mut doubtful = R::Mask::NONE;
+    pub(crate) fn is_uncertain(&self) -> bool {
+        let mut uncertain = R::Mask::NONE;
         for q in &self.pose.q {
             for g in 0..self.groups.min(G) {
-                doubtful = doubtful.or(q[g].finite().or(self.conditions.open[g]).not());
+                uncertain = uncertain.or(q[g].finite().or(self.conditions.open[g]).not());
             }
         }
-        doubtful.any() || self.has_doubtful_dyads()
+        uncertain.any() || self.has_uncertain_dyads()
     }
 
     /// The same where all coordinates are finite.
     #[inline(always)]
-    pub(crate) fn has_doubtful_dyads(&self) -> bool {
+    pub(crate) fn has_uncertain_dyads(&self) -> bool {
         let groups = self.groups.min(G);
         let Conditions { bounds, open, .. } = &self.conditions;
-        let mut doubtful = R::Mask::NONE;
+        let mut uncertain = R::Mask::NONE;
         for bounds in bounds {
             for g in 0..groups {
-                // NaN must count as doubtful.
+                // NaN must count as uncertain.
                 let far = R::splat(LEAST_BOUND).le(bounds[g]);
-                doubtful = doubtful.or(far.or(open[g]).not());
+                uncertain = uncertain.or(far.or(open[g]).not());
             }
         }
-        doubtful.any()
+        uncertain.any()
     }
 
     /// Whether in some lane a dyad does not close.
@@ -185,7 +184,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn start_careful(&mut self) {
+    fn start_checked(&mut self) {
         self.fault = None;
         self.status = Status::Ok;
         let groups = self.groups.min(G);

@@ -1,16 +1,16 @@
 //! Measures a batch: solves one design after another and keeps the metrics alone.
 
 use super::course::Course;
-use super::judge::{Batch, Probes};
+use super::evaluate_design::{Probes, SweepBatch};
 use super::metric::{Metric, Need};
 use super::request::{Measured, Sweep};
-use super::scratch::Scratch;
 use super::threads::Measure;
 use crate::batch::chunks::Chunks;
 use crate::batch::dispatch;
 use crate::batch::outputs::{Arrays, Column, Outputs, Quantity};
 use crate::batch::request::{Coordinates, Request, Shape};
 use crate::batch::schedule::Control;
+use crate::batch::scratch::Scratch;
 use crate::batch::solve::as_unwritten;
 use crate::batch::writer::Writer;
 use crate::description::error::SolveError;
@@ -80,7 +80,7 @@ impl Mechanism {
         // Chunks of several drivers are small.
         let drivers = if shape.designs < FEW_DESIGNS { 2 } else { shape.drivers };
         let chunks = Chunks::new(arrays, &results, [shape.designs, 1], drivers);
-        let batch = Batch {
+        let batch = SweepBatch {
             mechanism: self,
             sweep,
             request: &request,

@@ -34,8 +34,8 @@ mod combination;
 mod coordinate;
 mod course;
 mod deviation;
+mod evaluate_design;
 mod extremes;
-mod judge;
 mod least_transmission;
 mod line_bounds;
 mod means;
@@ -44,7 +44,7 @@ mod metric;
 mod moments;
 mod parts;
 mod request;
-pub(crate) mod scratch;
+
 mod threads;
 mod time_ratio;
 

@@ -2,11 +2,11 @@
 
 use std::mem::MaybeUninit;
 
-use super::judge::{Batch, Outcome};
-use super::scratch::{Scratch, ScratchRows};
+use super::evaluate_design::{Outcome, SweepBatch};
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::designs::{DesignRow, Designs};
 use crate::batch::dispatch::{Entry, ForLevel};
+use crate::batch::scratch::{Scratch, ScratchRows};
 use crate::batch::worker::Worker;
 use crate::batch::writer::RowSlices;
 use crate::description::error::SolveError;
@@ -23,12 +23,12 @@ const POSITIONS: usize = 65_536;
 
 /// Measures all chunks.
 pub(super) struct Measure<'b, 'r> {
-    pub batch: &'b Batch<'b>,
+    pub batch: &'b SweepBatch<'b>,
     pub chunks: Chunks<'r>,
 }
 
 /// What one thread works with.
-struct Own<'b, R: Real, const G: usize> {
+struct ThreadState<'b, R: Real, const G: usize> {
     solver: Solver<'b, R, G>,
     designs: Designs,
     scratch: Scratch,
@@ -49,28 +49,29 @@ impl ForLevel for Measure<'_, '_> {
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
-        let Batch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
+        let SweepBatch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
         let one = || Worker::new(mechanism, request, derivatives, writer, control);
-        let worker = || Own::<'_, L::Register, G> {
+        let worker = || ThreadState::<'_, L::Register, G> {
             solver: Solver { worker: one(), probe: one(), probed: 0, dropped: 0 },
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
         };
-        let work = |own: &mut Own<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
-            batch.measure_chunk::<L, G>(own, chunk, rows);
-        };
-        control.run(self.chunks, worker, work, |own| {
-            own.solver.worker.finish();
-            own.solver.probe.finish();
+        let work =
+            |state: &mut ThreadState<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
+                batch.measure_chunk::<L, G>(state, chunk, rows);
+            };
+        control.run(self.chunks, worker, work, |state| {
+            state.solver.worker.finish();
+            state.solver.probe.finish();
         })
     }
 }
 
 impl<R: Real, const G: usize> Solver<'_, R, G> {
-    /// Solves and judges a design.
+    /// Solves and evaluates a design.
     fn solve<L: Entry<Register = R>>(
         &mut self,
-        batch: &Batch<'_>,
+        batch: &SweepBatch<'_>,
         (row, design): (DesignRow<'_>, usize),
         rows: &mut ScratchRows<'_>,
         found: &mut [f64],
@@ -81,7 +82,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             return Outcome::Fails(Status::Unreachable as u8);
         }
         if !self.worker.bind(row, &mut rows.job(all, design)) {
-            return batch.judge(rows, (row, q), false, found);
+            return batch.evaluate(rows, (row, q), false, found);
         }
         if step.is_some_and(|step| self.worker.misses_position(step)) {
             return Outcome::Fails(Status::Unreachable as u8);
@@ -92,7 +93,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             self.worker.swap_space(&mut self.probe);
             L::run(&mut self.worker, &mut rows.job(probes, design));
             self.worker.swap_space(&mut self.probe);
-            let outcome = batch.judge(rows, (row, probes), true, found);
+            let outcome = batch.evaluate(rows, (row, probes), true, found);
             let is_dropped = !matches!(outcome, Outcome::Moves(_));
             self.probed += 1;
             self.dropped += usize::from(is_dropped);
@@ -107,19 +108,19 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             }
             L::run(&mut self.worker, &mut rows.part(q, part * POSITIONS, design));
         }
-        batch.judge(rows, (row, q), false, found)
+        batch.evaluate(rows, (row, q), false, found)
     }
 }
 
-impl Batch<'_> {
+impl SweepBatch<'_> {
     /// Measures the designs of a chunk; `results` holds one row a design.
     fn measure_chunk<L: Entry, const G: usize>(
         &self,
-        own: &mut Own<'_, L::Register, G>,
+        state: &mut ThreadState<'_, L::Register, G>,
         chunk: &Chunk,
         mut results: RowSlices<'_>,
     ) {
-        let Own { solver, designs, scratch } = own;
+        let ThreadState { solver, designs, scratch } = state;
         let all = self.shape.designs;
         designs.read(self.mechanism, self.sweep.dimensions, all, chunk.designs.clone());
         let mut rows = scratch.rows();
@@ -133,7 +134,7 @@ impl Batch<'_> {
             let (status, is_kept) = match outcome {
                 Outcome::Moves(status) => (status, true),
                 Outcome::Fails(status) => (status, false),
-                Outcome::Misses => (Status::Ok as u8, false),
+                Outcome::FailsCondition => (Status::Ok as u8, false),
             };
             match outcome {
                 Outcome::Moves(_) => {}
@@ -142,7 +143,7 @@ impl Batch<'_> {
                         *value = metric.of_failed();
                     }
                 }
-                Outcome::Misses => found.fill(f64::NAN),
+                Outcome::FailsCondition => found.fill(f64::NAN),
             }
             found.push(f64::from(u8::from(is_kept)));
             for (column, &value) in results.columns.iter_mut().zip(&found) {

@@ -3,13 +3,11 @@
 
 use assur::Mechanism;
 use assur::dynamics::{Curve, Gas, Load, Measure, Over};
-use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use super::Classes;
 use super::point::{PointLike, link};
 use super::value::Values;
-use crate::detach::catch_panic;
 use crate::error_map;
 
 const MODULE: Classes = Classes("assur.dynamics.loads");
@@ -41,7 +39,7 @@ struct Pressure<'py> {
 }
 
 #[derive(FromPyObject)]
-pub(crate) struct GasFields {
+struct GasFields {
     pressure: f64,
     volume: f64,
     at: f64,
@@ -94,21 +92,6 @@ struct TorsionDamper {
     link: String,
     damping: f64,
     on: String,
-}
-
-/// The pressures of a `Gas` at values of its slide; `area` is negative if its volume falls as they grow.
-#[pyfunction]
-pub(crate) fn gas_pressures<'py>(
-    py: Python<'py>,
-    gas: GasFields,
-    area: f64,
-    values: PyReadonlyArray1<'py, f64>,
-) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    catch_panic(|| {
-        let gas = gas.gas(area);
-        let pressures = values.as_array().iter().map(|&value| gas.pressure_at(value)).collect();
-        Ok(PyArray1::from_vec(py, pressures))
-    })
 }
 
 /// The loads besides gravity, and the sum of the gravitational accelerations.

@@ -26,7 +26,7 @@ pub(in crate::branch) struct ScanView<'l> {
     /// The first knot, and the width of a cell.
     pub from: f64,
     pub cell: f64,
-    /// Cells with a dead point and no other doubt.
+    /// Cells with a dead point and no other uncertainty.
     pub cells: Bits,
     /// Knots that can be reached.
     pub reached: Bits,

@@ -160,7 +160,7 @@ impl GapEnds {
             at.copy_from_slice(&end.beside((scan.from, scan.cell)));
         }
         knots.set_at(&at[..2 * self.ends.len()]);
-        knots.solve_carefully::<L>(cx);
+        knots.solve_checked::<L>(cx);
         self.samples.resize(scan.dyads.len(), [[0.0; POSITIONS]; 3]);
         let of_dyads = cx.plan.dyads().zip(&cx.tape.dyads).zip(&mut self.samples);
         for ((dyad, &op), [squares, rates, flats]) in of_dyads {

@@ -144,11 +144,11 @@ impl LaneTracer {
         knots.set_between((from, width));
         if flat && has(scan.dead_point, scan.next) {
             // Some of these knots are beyond the dead point.
-            knots.solve_carefully::<L>(cx);
+            knots.solve_checked::<L>(cx);
         } else {
             knots.solve::<L>(cx, flat);
             if !classes.is_empty() {
-                knots.take_care_of_doubts::<L>(cx);
+                knots.check_uncertain::<L>(cx);
             }
         }
         self.scans[level + 1].take(cx, knots, classes, settled, (from, width / CELLS))

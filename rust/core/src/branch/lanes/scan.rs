@@ -123,7 +123,7 @@ impl Scan {
         ScanView {
             from: self.from,
             cell: self.cell,
-            cells: self.dead_point & !self.doubtful_cells() & !1,
+            cells: self.dead_point & !self.uncertain_cells() & !1,
             reached: self.reached,
             dyads: &self.dyads,
             angles: &self.angles,
@@ -132,7 +132,7 @@ impl Scan {
     }
 
     /// Cells in which a sign may change, or a gap or an island may hide.
-    pub(in crate::branch) fn doubtful_cells(&self) -> Bits {
+    pub(in crate::branch) fn uncertain_cells(&self) -> Bits {
         self.uncertain | self.curved | self.may_hide_island
     }
 

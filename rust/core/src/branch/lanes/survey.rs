@@ -1,4 +1,4 @@
-//! Survey of a design with gaps: shows that it is plain without recording its angles beside the gaps.
+//! Survey of a design with gaps: shows that it needs no checks without recording its angles beside the gaps.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ const SURVEY_LEVELS: usize = 3;
 const MAX_CLOSER: u32 = 6;
 
 impl LaneTracer {
-    /// Scans the solved knots. Whether a design with gaps is plain: no sign may change, the ends of all
+    /// Scans the solved knots. Whether a design with gaps needs no checks: no sign may change, the ends of all
     /// gaps are confirmed, and no requested angle turns fast. Sets the reference of each class, or if one is
     /// not enough for an angle, those at the knots of `branch`. `None` if one of the knots is singular.
     #[inline(always)]
@@ -83,7 +83,7 @@ impl LaneTracer {
         true
     }
 
-    /// Surveys all cells, with closer scans of those whose knots leave a doubt.
+    /// Surveys all cells, with closer scans of those whose knots leave it uncertain.
     #[inline(always)]
     fn survey_cells<L: Level, const G: usize>(
         &mut self,
@@ -96,10 +96,10 @@ impl LaneTracer {
         let (mut level, mut count) = (0, 0);
         loop {
             let (scan, ends) = (&self.scans[level], &self.ends[level]);
-            let doubtful =
-                scan.doubtful_cells() | scan.fast_cells() | scan.dead_point & !ends.cells();
-            let doubtful = if scan.next < scan.count { doubtful >> scan.next } else { 0 };
-            let knot = (scan.next + doubtful.trailing_zeros() as usize).min(scan.count);
+            let uncertain =
+                scan.uncertain_cells() | scan.fast_cells() | scan.dead_point & !ends.cells();
+            let uncertain = if scan.next < scan.count { uncertain >> scan.next } else { 0 };
+            let knot = (scan.next + uncertain.trailing_zeros() as usize).min(scan.count);
             let view = scan.view();
             let passes = |(class, angle): (usize, &mut SurveyedAngle)| {
                 angle.pass((ends, level == 0), &view, class, scan.next..knot)
@@ -108,7 +108,7 @@ impl LaneTracer {
                 return false;
             }
             if knot < scan.count {
-                if level + 1 == SURVEY_LEVELS || doubtful.count_ones() > MAX_CLOSER - count {
+                if level + 1 == SURVEY_LEVELS || uncertain.count_ones() > MAX_CLOSER - count {
                     return false;
                 }
                 self.scans[level].next = knot;

@@ -34,10 +34,10 @@ const COS_MAX_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) enum Traced {
     /// The design needs the tracer.
     No,
-    /// The design is plain: its signs are the same everywhere, and each requested angle has a
+    /// The design needs no checks: its signs are the same everywhere, and each requested angle has a
     /// reference. Angles at knots are not known.
     Surveyed,
-    /// The design is plain; the branch has a reference of each requested angle for every cell, at the
+    /// The design needs no checks; the branch has a reference of each requested angle for every cell, at the
     /// evenly spaced knot before it.
     AtKnots,
     /// All signs and requested angles are known.
@@ -49,8 +49,8 @@ pub(crate) enum Traced {
 pub(crate) struct UniformTracer<R: Real, const G: usize> {
     /// All knots.
     pub(crate) state: State<R, G>,
-    /// Whether the knots were solved carefully.
-    is_careful: bool,
+    /// Whether the knots were solved with checks.
+    is_checked: bool,
     /// Whether the driver is an angle.
     is_angle: bool,
     /// The knots that were solved last.
@@ -77,7 +77,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let state = State::new(plan, derivatives);
         Self {
             state,
-            is_careful: true,
+            is_checked: true,
             is_angle: plan.driven_slide(0).is_none(),
             grid: Grid::turn(f64::NAN),
             q0: f64::NAN,
@@ -136,26 +136,26 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     }
 
     /// Solves the knots that are set. If `angles` are requested and some knot may be flat or beyond a
-    /// dead point, solves all carefully: angles there are those of the flat dyad. Samples of dyads need
-    /// no care, because they follow from the chords, whether or not the dyads close.
+    /// dead point, solves all with checks: angles there are those of the flat dyad. Samples of dyads need
+    /// no checks, because they follow from the chords, whether or not the dyads close.
     #[inline(always)]
     pub(crate) fn solve<L: Level<Register = R>>(&mut self, cx: &Context<'_>, angles: bool) {
-        self.is_careful = !cx.tape.is_bounded;
-        if !self.is_careful {
-            self.state.prepare_bare(cx);
-            L::bare(&mut self.state, cx);
-            self.is_careful = angles && (self.state.is_doubtful() || self.state.has_open());
+        self.is_checked = !cx.tape.is_bounded;
+        if !self.is_checked {
+            self.state.prepare_unchecked(cx);
+            L::unchecked(&mut self.state, cx);
+            self.is_checked = angles && (self.state.is_uncertain() || self.state.has_open());
         }
-        if self.is_careful {
-            self.solve_carefully::<L>(cx);
+        if self.is_checked {
+            self.solve_checked::<L>(cx);
         }
     }
 
-    /// Solves the knots again, carefully, if some may be flat.
+    /// Solves the knots again, with checks, if some may be flat.
     #[inline(always)]
-    pub(crate) fn take_care_of_doubts<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
-        if !self.is_careful && self.state.is_doubtful() {
-            self.solve_carefully::<L>(cx);
+    pub(crate) fn check_uncertain<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
+        if !self.is_checked && self.state.is_uncertain() {
+            self.solve_checked::<L>(cx);
         }
     }
 
@@ -178,10 +178,10 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
-    /// Solves the knots that are set, carefully.
+    /// Solves the knots that are set, with checks.
     #[inline(always)]
-    pub(crate) fn solve_carefully<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
-        self.is_careful = true;
+    pub(crate) fn solve_checked<L: Level<Register = R>>(&mut self, cx: &Context<'_>) {
+        self.is_checked = true;
         self.state.prepare(cx.plan, cx.constants, cx.derivatives);
         L::solve(&mut self.state, cx);
     }
@@ -190,7 +190,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
     #[inline(always)]
     pub(crate) fn not_closed(&self, group: usize) -> R::Mask {
         let open = self.state.conditions.open[group];
-        if self.is_careful { self.state.conditions.needs_scalar[group].or(open) } else { open }
+        if self.is_checked { self.state.conditions.needs_scalar[group].or(open) } else { open }
     }
 
     /// Traces the turn whose knots have been solved into `branch`; false if the tracer is needed.
@@ -324,9 +324,9 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         !suspect.any()
     }
 
-    /// Shows whether the design is plain without unwrapping its angles knot by knot: every knot can be
+    /// Shows whether the design needs no checks without unwrapping its angles knot by knot: every knot can be
     /// reached, no sign may change between two, and no requested angle turns fast or far. `None` if it
-    /// is not plain; false if only an angle fails. Sets the reference of each class.
+    /// needs checks; false if only an angle fails. Sets the reference of each class.
     #[inline(always)]
     pub(crate) fn survey(
         &mut self,

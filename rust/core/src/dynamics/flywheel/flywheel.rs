@@ -9,7 +9,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::cycle::{Cycle, Extreme, wrap_to_period};
+use super::cycle::{Cycle, Extreme};
+use crate::dynamics::tables::columns::wrap_to_period;
 use crate::dynamics::tables::error::TableError;
 use crate::dynamics::tables::passes::is_cancelled;
 use crate::math::quadrature::integral;

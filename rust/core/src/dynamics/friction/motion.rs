@@ -8,13 +8,14 @@
 //! D₁ is the effort of the inertia forces at α = 1 alone, without loads and speeds: a difference of two
 //! efforts would have lost its digits beside the loads.
 
+use super::pairs::FrictionPair;
+use super::workspace::FrictionWorkspace;
 use crate::batch::outputs::{Column, Quantity, columns};
 use crate::dynamics::kinematics::{Point, SolvedPose};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_directions};
 use crate::dynamics::reactions::force_plan::ForcePlan;
-use crate::dynamics::reactions::rubbing::Rubbing;
 use crate::dynamics::reactions::scene::Scene;
 use crate::dynamics::value::Numbers;
 use crate::math::vector::Vector;
@@ -31,7 +32,7 @@ pub(crate) struct Drive {
 
 /// A state of a machine with one driver.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct RubbingState {
+pub(crate) struct SlidingState {
     pub speed: f64,
     /// +1 or −1: the way in which everything slides, or is about to slide.
     pub sense: f64,
@@ -45,7 +46,7 @@ pub(crate) struct FrictionMotion<'m> {
     /// Its bodies alone, without loads and weight.
     bodies: Machine,
     plan: ForcePlan,
-    rubbing: Vec<Rubbing>,
+    pairs: Vec<FrictionPair>,
     columns: Vec<Column>,
     sources: Sources,
     guides: Vec<Vector>,
@@ -53,6 +54,7 @@ pub(crate) struct FrictionMotion<'m> {
     unit: f64,
     values: Vec<Vec<f64>>,
     scene: Scene<f64>,
+    friction: FrictionWorkspace<f64>,
     /// The way in which every pair slides while the driver moves forward, +1 or −1, or 0 where it rests;
     /// none before a motion begins.
     held: Option<Vec<f64>>,
@@ -82,7 +84,8 @@ impl<'m> FrictionMotion<'m> {
             unit,
             values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
             scene,
-            rubbing: Rubbing::of(&plan, &links_at, &machine.friction),
+            friction: FrictionWorkspace::default(),
+            pairs: FrictionPair::of(&plan, &links_at, &machine.friction),
             bodies: Machine { bodies: machine.bodies.clone(), ..Machine::default() },
             machine,
             columns,
@@ -95,26 +98,25 @@ impl<'m> FrictionMotion<'m> {
     /// is a smooth function, ends included.
     pub(crate) fn hold(&mut self, pose: &SolvedPose<'_>) {
         self.read_values(pose);
-        let Self { plan, rubbing, sources, guides, values, scene, .. } = self;
+        let Self { plan, pairs, sources, guides, values, scene, friction, .. } = self;
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         let forward =
             Solved { columns: &columns, speed: &[1.0], acceleration: &[0.0], positions: 1 };
         scene.read(plan, sources, guides, &forward, ROW);
-        let pairs = (&*plan, &rubbing[..]);
-        scene.read_rubbing(pairs, sources, (&forward, ROW), &[1.0], self.unit);
-        scene.respond(plan, rubbing, |_| ());
-        let rubs = &scene.rubs;
+        let planned = (&*plan, &pairs[..]);
+        friction.read(scene, planned, sources, (&forward, ROW), &[1.0], self.unit);
+        friction.respond(scene, plan, pairs, |_| ());
         let way = |(&[_, way], &still): (&[f64; 2], &f64)| {
             if way.abs() > still { way.signum() } else { 0.0 }
         };
-        self.held = Some(rubs.speeds.iter().zip(&rubs.still).map(way).collect());
+        self.held = Some(friction.speeds.iter().zip(&friction.still).map(way).collect());
     }
 
     /// The acceleration; `None` where friction leaves none. `numbers`: what the loads read.
     pub(crate) fn acceleration(
         &mut self,
         pose: &SolvedPose<'_>,
-        state: RubbingState,
+        state: SlidingState,
         drive: Drive,
         numbers: Numbers<'_>,
     ) -> Option<f64> {
@@ -123,8 +125,9 @@ impl<'m> FrictionMotion<'m> {
         let (tables, over): (Vec<_>, Vec<_>) = (of_one(numbers.tables), of_one(numbers.over));
         let ways: Vec<Vec<f64>> = numbers.ways.iter().map(|&way| vec![way]).collect();
         let external: Vec<f64> = numbers.external.iter().map(|&[value, _]| value).collect();
-        let Self { machine, bodies, plan, rubbing, sources, guides, values, scene, .. } = self;
-        let rubbing = &rubbing[..];
+        let Self { machine, bodies, plan, pairs, sources, guides, values, scene, friction, .. } =
+            self;
+        let pairs = &pairs[..];
         let values_of_loads = Values {
             tables: &tables,
             over: &over,
@@ -136,50 +139,48 @@ impl<'m> FrictionMotion<'m> {
         let moving =
             |speed, acceleration| Solved { columns: &columns, speed, acceleration, positions: 1 };
         scene.read(plan, sources, guides, &moving(&[0.0], &[1.0]), ROW);
-        scene.apply(plan, bodies, Values::default(), ROW);
+        scene.apply_bodies(plan, bodies);
         scene.start(plan);
-        let per_acceleration = scene.pair_reactions(plan, rubbing);
+        let per_acceleration = scene.pair_reactions(plan, pairs);
         let inertia = scene.driver[0] + drive.inertia;
         let speed = [state.speed];
         let still = moving(&speed, &[0.0]);
         scene.read(plan, sources, guides, &still, ROW);
         scene.apply(plan, machine, values_of_loads, ROW);
-        let pairs = (&*plan, rubbing);
-        scene.read_rubbing(pairs, sources, (&still, ROW), &[state.sense], self.unit);
-        scene.rubs.is_static = Some(state.is_static);
-        scene.drag(plan, rubbing);
+        let planned = (&*plan, pairs);
+        friction.read(scene, planned, sources, (&still, ROW), &[state.sense], self.unit);
+        friction.is_static = Some(state.is_static);
+        friction.drag(scene, plan, pairs);
         scene.start(plan);
-        let base = scene.pair_reactions(plan, rubbing);
+        let base = scene.pair_reactions(plan, pairs);
         let effort = scene.driver[0];
         let mut per_friction = Vec::new();
-        scene.respond(plan, rubbing, |scene| per_friction.push(scene.driver[0]));
+        friction.respond(scene, plan, pairs, |scene| per_friction.push(scene.driver[0]));
         // α = (motors − D₀ − D₂ τ)/D₁.
         let free = (drive.effort - effort) / inertia;
-        scene.rubs.base = base
+        friction.base = base
             .iter()
             .zip(&per_acceleration)
             .map(|(&base, &rate)| base + rate.scale(free))
             .collect();
-        for (slopes, effort) in scene.rubs.slopes.iter_mut().zip(&per_friction) {
+        for (slopes, effort) in friction.slopes.iter_mut().zip(&per_friction) {
             for (slope, &rate) in slopes.iter_mut().zip(&per_acceleration) {
                 *slope = *slope - rate.scale(effort / inertia);
             }
         }
         if let Some(held) = &self.held {
             for (pair, &way) in held.iter().enumerate() {
-                scene.rubs.hold(pair, way * state.sense);
+                friction.hold(pair, way * state.sense);
             }
         }
-        let (problem, used) = scene.problem(rubbing, 0);
+        let (problem, used) = friction.problem(scene, pairs, 0);
         let problem = problem.in_forces(self.unit);
-        let friction = problem.first().ok()??;
+        let dry = problem.first().ok()??;
         let of_friction: f64 = used
             .iter()
             .zip(&problem.pairs)
-            .zip(&friction)
-            .map(|((&used, pair), friction)| {
-                per_friction[used] * (pair.law.unit(self.unit) * friction)
-            })
+            .zip(&dry)
+            .map(|((&used, pair), dry)| per_friction[used] * (pair.law.unit(self.unit) * dry))
             .sum();
         Some(free - of_friction / inertia)
     }

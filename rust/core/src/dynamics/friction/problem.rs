@@ -1,4 +1,4 @@
-//! Coulomb friction at one position: what rubs, and how every reaction depends on the friction.
+//! Coulomb friction at one position: what slides, and how every reaction depends on the friction.
 //!
 //! At given speeds and accelerations reactions are linear in the loads, friction among them. So with
 //! the friction τ of all pairs (moments on links at pins, forces along guides) each pair's reaction is
@@ -91,7 +91,7 @@ impl Law {
 
 /// A pair with friction at a position.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct RubbingPair {
+pub(crate) struct SlidingPair {
     pub law: Law,
     /// +1 or −1.
     pub sense: f64,
@@ -103,7 +103,7 @@ pub(crate) struct RubbingPair {
     pub slopes: Vec<[f64; 2]>,
 }
 
-impl RubbingPair {
+impl SlidingPair {
     /// Whether its reaction is known.
     pub(crate) fn is_finite(&self) -> bool {
         let finite = |numbers: &[f64; 2]| numbers.iter().all(|number| number.is_finite());
@@ -114,7 +114,7 @@ impl RubbingPair {
 /// All pairs with friction that slide at a position.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct FrictionProblem<'c> {
-    pub pairs: Vec<RubbingPair>,
+    pub pairs: Vec<SlidingPair>,
     /// When true, nobody wants the solutions any more: some take half a second.
     pub cancel: Option<&'c AtomicBool>,
 }
@@ -147,7 +147,7 @@ impl FrictionProblem<'_> {
 
     /// The reaction of a pair.
     pub(super) fn reaction(&self, pair: usize, friction: &[f64]) -> [f64; 2] {
-        let RubbingPair { base, slopes, .. } = &self.pairs[pair];
+        let SlidingPair { base, slopes, .. } = &self.pairs[pair];
         let mut sum = *base;
         for (slope, &friction) in slopes.iter().zip(friction) {
             sum[0] += slope[0] * friction;

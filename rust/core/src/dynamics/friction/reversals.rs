@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::description::Friction;
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::pair_friction::Friction;
 use crate::dynamics::stations::{nodes_of, within};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::root::all_roots::{Sample, all_roots};

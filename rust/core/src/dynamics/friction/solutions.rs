@@ -252,7 +252,7 @@ mod tests {
     use std::sync::atomic::AtomicBool;
 
     use super::*;
-    use crate::dynamics::friction::problem::RubbingPair;
+    use crate::dynamics::friction::problem::SlidingPair;
 
     /// Numbers from −1 to 1, by the generator of Knuth's MMIX.
     struct Random(u64);
@@ -274,7 +274,7 @@ mod tests {
         feedback: f64,
     ) -> FrictionProblem<'static> {
         let n = journals + guides;
-        let pairs = (0..n).map(|pair| RubbingPair {
+        let pairs = (0..n).map(|pair| SlidingPair {
             law: if pair < journals {
                 Law::Journal { circle: 0.1 + 0.05 * random.next() }
             } else {
@@ -300,7 +300,7 @@ mod tests {
         // Beside a singular position: normal forces are 1e8 times greater than the frictions.
         let guide = |[coefficient, half_length]: [f64; 2], sense, base, slopes: [[f64; 2]; 3]| {
             let (law, slopes) = (Law::Guide { coefficient, half_length }, slopes.to_vec());
-            RubbingPair { law, sense, rate: 1.0, base, slopes }
+            SlidingPair { law, sense, rate: 1.0, base, slopes }
         };
         let pairs = vec![
             guide(

@@ -1,8 +1,8 @@
 //! How much work friction may make at a position.
 
-use super::description::Friction;
 use super::solutions::MAX_PATHS;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::pair_friction::Friction;
 use crate::plan::mechanism::Mechanism;
 
 impl Machine {

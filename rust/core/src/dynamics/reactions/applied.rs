@@ -2,6 +2,7 @@
 
 use super::columns::Rows;
 use super::force_plan::ForcePlan;
+use super::load_actions::LoadAction;
 use super::scene::{Moving, Scene};
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
@@ -62,6 +63,25 @@ impl<R: Real> Scene<R> {
         values: Values<'_>,
         rows: Rows,
     ) {
+        self.apply_bodies(plan, machine);
+        for (index, load) in machine.loads.iter().enumerate() {
+            self.loads[index] = self.strength(plan, load, values, rows);
+        }
+        for action in &plan.load_actions {
+            let strength = self.load_on(action);
+            match action.at {
+                Some(point) => {
+                    let place = self.place(plan, point).at;
+                    self.force_on(plan, action.link, place, strength);
+                }
+                None => self.moment_on(plan, action.link, strength.x),
+            }
+        }
+    }
+
+    /// Sums weights and inertia forces on every link.
+    #[inline(always)]
+    pub(crate) fn apply_bodies(&mut self, plan: &ForcePlan, machine: &Machine) {
         self.link_force.fill(Vector::ZERO);
         self.link_moment.fill(R::ZERO);
         self.shaking_force = Vector::ZERO;
@@ -82,37 +102,27 @@ impl<R: Real> Scene<R> {
             self.shaking_force += inertia_force;
             self.shaking_moment += at.at.cross(inertia_force) + couple;
         }
-        for load in &machine.loads {
-            self.apply_load(plan, load, values, rows);
-        }
     }
 
+    /// The force of a load on the first link on which it acts; of a load that turns, its couple as x.
     #[inline(always)]
-    fn apply_load(&mut self, plan: &ForcePlan, load: &Load, values: Values<'_>, rows: Rows) {
+    fn strength(&self, plan: &ForcePlan, load: &Load, values: Values<'_>, rows: Rows) -> Vector<R> {
         match load {
-            Load::Force { at, force: [x, y], axes, on, one_way } => {
+            Load::Force { force: [x, y], axes, one_way, .. } => {
                 let read = |value: &Value| values.read_acting(*value, *one_way, rows);
                 let force = Vector::new(read(x), read(y));
-                let force = match axes {
+                match axes {
                     Some(link) => self.directions[*link] * force,
                     None => force,
-                };
-                let place = self.place(plan, *at).at;
-                self.force_on(plan, on.unwrap_or_else(|| taker(plan, *at)), place, force);
+                }
             }
             Load::Pressure { slide, area, pressure, ambient, one_way } => {
                 let pressure = values.read::<R>(*pressure, rows) - R::splat(*ambient);
                 let force = values.acting(pressure * R::splat(*area), *one_way, rows);
-                let force = self.guides[*slide].scale(force);
-                let [sliding, carrying] = plan.slide_links[*slide];
-                let place = self.points[plan.reference[sliding]].at;
-                self.force_on(plan, sliding, place, force);
-                self.force_on(plan, carrying, place, -force);
+                self.guides[*slide].scale(force)
             }
-            Load::Torque { link, on, torque, one_way } => {
-                let torque = values.read_acting(*torque, *one_way, rows);
-                self.moment_on(plan, *link, torque);
-                self.moment_on(plan, *on, -torque);
+            Load::Torque { torque, one_way, .. } => {
+                Vector::new(values.read_acting(*torque, *one_way, rows), R::ZERO)
             }
             Load::Spring { ends, stiffness, length, preload } => {
                 let (first, second) = (self.place(plan, ends[0]), self.place(plan, ends[1]));
@@ -122,50 +132,36 @@ impl<R: Real> Scene<R> {
                 // A spring without tension has no direction at zero length.
                 let rests = tension.le(R::ZERO).and(R::ZERO.le(tension));
                 let pull = unit.scale(tension);
-                let pull = Vector::new(
-                    R::select(rests, R::ZERO, pull.x),
-                    R::select(rests, R::ZERO, pull.y),
-                );
-                self.pull(plan, *ends, [first.at, second.at], pull);
+                Vector::new(R::select(rests, R::ZERO, pull.x), R::select(rests, R::ZERO, pull.y))
             }
             Load::Damper { ends, damping } => {
                 let (first, second) = (self.place(plan, ends[0]), self.place(plan, ends[1]));
                 let (unit, _) = polar(second.at - first.at);
                 let rate = unit.dot(second.velocity - first.velocity);
-                let pull = unit.scale(rate * R::splat(*damping));
-                self.pull(plan, *ends, [first.at, second.at], pull);
+                unit.scale(rate * R::splat(*damping))
             }
             Load::TorsionSpring { link, on, stiffness, angle, preload } => {
                 let twist =
                     self.angle(plan, *link).at - self.angle(plan, *on).at - R::splat(*angle);
                 let torque = -(R::splat(*stiffness) * twist + R::splat(*preload));
-                self.moment_on(plan, *link, torque);
-                self.moment_on(plan, *on, -torque);
+                Vector::new(torque, R::ZERO)
             }
             Load::TorsionDamper { link, on, damping } => {
                 let rate = self.angle(plan, *link).velocity - self.angle(plan, *on).velocity;
-                let torque = -(rate * R::splat(*damping));
-                self.moment_on(plan, *link, torque);
-                self.moment_on(plan, *on, -torque);
+                Vector::new(-(rate * R::splat(*damping)), R::ZERO)
             }
         }
     }
 
-    /// Pulls two points together.
+    /// The force of a load on a link; its couple as x.
     #[inline(always)]
-    fn pull(
-        &mut self,
-        plan: &ForcePlan,
-        ends: [Point; 2],
-        places: [Vector<R>; 2],
-        force: Vector<R>,
-    ) {
-        self.force_on(plan, taker(plan, ends[0]), places[0], force);
-        self.force_on(plan, taker(plan, ends[1]), places[1], -force);
+    pub(crate) fn load_on(&self, action: &LoadAction) -> Vector<R> {
+        let strength = self.loads[action.load];
+        if action.is_reaction { -strength } else { strength }
     }
 
     #[inline(always)]
-    pub(super) fn force_on(
+    pub(crate) fn force_on(
         &mut self,
         plan: &ForcePlan,
         link: usize,
@@ -181,7 +177,7 @@ impl<R: Real> Scene<R> {
     }
 
     #[inline(always)]
-    pub(super) fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
+    pub(crate) fn moment_on(&mut self, plan: &ForcePlan, link: usize, moment: R) {
         if link != plan.ground {
             self.link_moment[link] += moment;
         }
@@ -197,7 +193,7 @@ impl<R: Real> Scene<R> {
 
     /// Motion of a point of a link: `a = a_ref + (i ε − ω²) r`.
     #[inline(always)]
-    fn place(&self, plan: &ForcePlan, point: Point) -> Moving<Vector<R>> {
+    pub(crate) fn place(&self, plan: &ForcePlan, point: Point) -> Moving<Vector<R>> {
         match point {
             Point::Joint(joint) => self.points[point_of_joint(joint)],
             Point::Link { link, at: [x, y] } if link == plan.ground => Moving {
@@ -221,14 +217,6 @@ impl<R: Real> Scene<R> {
                 }
             }
         }
-    }
-}
-
-/// The link that takes a load on a point, unless the load names another.
-fn taker(plan: &ForcePlan, point: Point) -> usize {
-    match point {
-        Point::Joint(joint) => plan.taker[joint],
-        Point::Link { link, .. } => link,
     }
 }
 

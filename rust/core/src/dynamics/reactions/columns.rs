@@ -3,7 +3,6 @@
 use std::ops::Add;
 
 use super::force_plan::{Direction, ForcePlan};
-use super::rubbing::Pair;
 use super::scene::{Moving, Scene};
 use crate::batch::outputs::{Column, Quantity};
 use crate::math::lanes::Real;
@@ -14,9 +13,9 @@ use crate::plan::mechanism::Mechanism;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sources {
     /// Of every point: its columns from order 0 on.
-    pub(super) points: Vec<Option<usize>>,
-    pub(super) angles: Vec<Option<usize>>,
-    pub(super) slides: Vec<Option<usize>>,
+    pub(crate) points: Vec<Option<usize>>,
+    pub(crate) angles: Vec<Option<usize>>,
+    pub(crate) slides: Vec<Option<usize>>,
 }
 
 /// The solved columns of some positions of one design, and the motion of its drivers there.
@@ -39,18 +38,6 @@ impl Sources {
             points: plan.points.iter().map(|quantity| quantity.and_then(find)).collect(),
             angles: (0..plan.reference.len()).map(|l| find(Quantity::Angle(l))).collect(),
             slides: (0..plan.slide_links.len()).map(|s| find(Quantity::Slide(s))).collect(),
-        }
-    }
-}
-
-impl Sources {
-    /// The columns of which the rates, one less the other, are the speed at which a pair rubs.
-    pub(super) fn rubbing(&self, plan: &ForcePlan, pair: &Pair) -> [Option<usize>; 2] {
-        match *pair {
-            Pair::Journal { on, fast, .. } => {
-                [on, fast].map(|link| self.angles[link].filter(|_| link != plan.ground))
-            }
-            Pair::Guide { slide, .. } => [self.slides[slide], None],
         }
     }
 }
@@ -91,7 +78,7 @@ impl Rows {
 
     /// The rate of what has these first derivatives, at speeds of the drivers.
     #[inline(always)]
-    pub(super) fn rate<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
+    pub(crate) fn rate<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut rate = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {
             rate += self.read::<R>(derivatives, speeds.len(), driver) * speed;
@@ -101,7 +88,7 @@ impl Rows {
 
     /// The sum of the sizes of what each driver adds to such a rate.
     #[inline(always)]
-    pub(super) fn rate_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
+    pub(crate) fn rate_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut sum = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {
             sum += self.read::<R>(derivatives, speeds.len(), driver).abs() * speed.abs();
@@ -111,7 +98,7 @@ impl Rows {
 
     /// The same of the velocity of a point.
     #[inline(always)]
-    pub(super) fn velocity_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
+    pub(crate) fn velocity_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut sum = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {
             let rate = self.read_pairs::<R>(derivatives, speeds.len(), driver);

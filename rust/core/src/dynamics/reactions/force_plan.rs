@@ -1,14 +1,15 @@
 //! What the reactions of a machine need of its mechanism, compiled once.
 
+use super::load_actions::LoadAction;
 use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
 use crate::batch::outputs::{Outputs, Quantity};
 use crate::description::Driver;
 use crate::description::frame::Axis;
-use crate::dynamics::friction::description::Friction;
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::Measure;
+use crate::dynamics::pair_friction::Friction;
 use crate::plan::mechanism::Mechanism;
 use crate::structure::closure::{GROUND_POINT, point_of_joint};
 
@@ -74,8 +75,10 @@ pub(crate) struct ForcePlan {
     /// Whether accelerations, and velocities, are needed.
     pub has_inertia: bool,
     pub has_speeds: bool,
-    /// For every joint the link that takes a load on it.
-    pub taker: Vec<usize>,
+    /// Number of loads, and what they do to links.
+    pub loads: usize,
+    pub load_actions: Vec<LoadAction>,
+    pub joints: usize,
     /// The driven link of every driver that is an angle.
     pub driven_links: Vec<Option<usize>>,
     /// The driver that is a slide.
@@ -103,7 +106,6 @@ impl ForcePlan {
                 slide: edge.edge.slide(),
             })
             .collect();
-        let taker = (0..linkage.joints.len()).map(|joint| linkage.taker(joint)).collect();
         let direction = (0..linkage.links.len())
             .map(|link| match linkage.axis(link) {
                 Axis::Ground => Direction::Ground,
@@ -138,7 +140,9 @@ impl ForcePlan {
             moments: moment_steps(mechanism),
             has_inertia,
             has_speeds,
-            taker,
+            loads: machine.loads.len(),
+            load_actions: machine.load_actions(mechanism),
+            joints: linkage.joints.len(),
             driven_links: linkage.drivers.iter().map(driven_link).collect(),
             slide_drivers: (0..linkage.slides.len())
                 .map(|s| linkage.drivers.iter().position(|&d| d == Driver::Slide(s)))
@@ -181,29 +185,23 @@ impl ForcePlan {
                 self.need_angle(body.link);
             }
         }
+        let acts_at: Vec<Point> = self.load_actions.iter().filter_map(|action| action.at).collect();
+        for point in acts_at {
+            self.need_mechanical_point(point);
+        }
         for load in &machine.loads {
             match load {
-                Load::Force { at, axes, .. } => {
-                    self.need_mechanical_point(*at);
-                    if let Some(link) = axes {
-                        self.need_direction(*link);
-                    }
-                }
-                Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
-                    for &end in ends {
-                        self.need_mechanical_point(end);
-                    }
-                }
+                Load::Force { axes: Some(link), .. } => self.need_direction(*link),
                 Load::TorsionSpring { link, on, .. } | Load::TorsionDamper { link, on, .. } => {
                     self.need_angle(*link);
                     self.need_angle(*on);
                 }
-                Load::Pressure { slide, .. } => {
-                    let [sliding, carrying] = self.slide_links[*slide];
-                    self.need_point(self.reference[sliding]);
-                    self.need_direction(carrying);
-                }
-                Load::Torque { .. } => {}
+                Load::Pressure { slide, .. } => self.need_direction(self.slide_links[*slide][1]),
+                // The points where they act are all that they read.
+                Load::Force { axes: None, .. }
+                | Load::Spring { .. }
+                | Load::Damper { .. }
+                | Load::Torque { .. } => {}
             }
         }
         let curves = machine.over.iter().map(|over| over.measure);
@@ -236,8 +234,7 @@ impl ForcePlan {
         if point == GROUND_POINT || self.points[point].is_some() {
             return;
         }
-        let joints = self.taker.len();
-        let quantity = if point <= joints {
+        let quantity = if point <= self.joints {
             self.outputs.joints.push(point - 1);
             Quantity::Joint(point - 1)
         } else {

@@ -7,20 +7,12 @@
 //! is statically determinate, the last one first).
 
 pub(crate) mod applied;
-pub(crate) mod batch;
 pub(crate) mod columns;
-mod evaluate;
-mod followed;
 pub(crate) mod force_plan;
+pub(crate) mod load_actions;
 pub(crate) mod moments;
 pub(crate) mod pair_forces;
 pub(crate) mod redundant;
-pub(crate) mod request;
-mod rest;
-mod rub;
-pub(crate) mod rubbing;
-pub(crate) mod rubs;
 pub(crate) mod scene;
-mod squares;
 pub(crate) mod steps;
 pub(crate) mod transposed;

@@ -1,66 +1,10 @@
-//! The reactions that a caller asks for, from the forces in the edges.
+//! Forces at joints, from the forces in the edges.
 
 use super::force_plan::ForcePlan;
 use super::scene::Scene;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::structure::closure::point_of_joint;
-
-/// A reaction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reaction {
-    /// Force on a link from all other links at a joint, N: x and y.
-    Joint {
-        /// The joint.
-        joint: usize,
-        /// The link.
-        on: usize,
-    },
-    /// Force on the sliding link along the guide turned by +90°, N.
-    Normal(usize),
-    /// Moment on the sliding link about its sliding point, N·m.
-    Moment(usize),
-    /// Where on the guide the normal force alone would have that moment: value + moment/normal, m.
-    Along(usize),
-    /// Moment of friction on a link at a joint, N·m.
-    JointMoment {
-        /// The joint.
-        joint: usize,
-        /// The link.
-        on: usize,
-    },
-    /// Force of friction on the sliding link along the guide, N.
-    Friction(usize),
-    /// Power that friction takes at a joint, W.
-    JointLoss(usize),
-    /// Power that friction takes in a slide, W.
-    SlideLoss(usize),
-    /// Number of solutions: 0 where friction locks the machine, −1 where too many pairs depend on one
-    /// another, −2 where redundant links leave the force in one of them undetermined.
-    Solutions,
-    /// By how much the law of friction is missed, in parts of the greatest friction.
-    Residual,
-    /// By what all coefficients of friction can be multiplied before the solution ends to which friction
-    /// leads as it grows from nothing.
-    Safety,
-    /// Torque (N·m) or force (N) of a driver.
-    Driver(usize),
-    /// Inertia forces of all bodies, N: x and y.
-    ShakingForce,
-    /// Their moment about the origin of the drawing, N·m.
-    ShakingMoment,
-}
-
-impl Reaction {
-    /// Numbers per position.
-    #[must_use]
-    pub fn width(self) -> usize {
-        match self {
-            Self::Joint { .. } | Self::ShakingForce => 2,
-            _ => 1,
-        }
-    }
-}
 
 /// How a joint force follows from the forces in edges.
 #[derive(Debug, Clone, PartialEq)]

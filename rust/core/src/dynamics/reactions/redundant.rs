@@ -19,7 +19,7 @@ const VANISHES: f64 = 1e-9;
 impl<R: Real> Scene<R> {
     /// Passes the moment on a link on as a couple of forces at two joints.
     #[inline(always)]
-    pub(super) fn turn_by_joints(
+    pub(crate) fn turn_by_joints(
         &mut self,
         link: usize,
         edges: [Option<usize>; 2],
@@ -39,7 +39,7 @@ impl<R: Real> Scene<R> {
 
     /// Passes the moment on a link on to the other link of a slide.
     #[inline(always)]
-    pub(super) fn turn_by_slide(&mut self, plan: &ForcePlan, link: usize, slide: usize) {
+    pub(crate) fn turn_by_slide(&mut self, plan: &ForcePlan, link: usize, slide: usize) {
         let moment = std::mem::replace(&mut self.moment[link], R::ZERO);
         let [sliding, carrying] = plan.slide_links[slide];
         let (other, on_sliding) =
@@ -50,7 +50,7 @@ impl<R: Real> Scene<R> {
 
     /// Replaces all loads by a self-stress of unit size.
     #[inline(always)]
-    pub(super) fn stress(&mut self, plan: &ForcePlan, stress: SelfStress) {
+    pub(crate) fn stress(&mut self, plan: &ForcePlan, stress: SelfStress) {
         self.link_force.fill(Vector::ZERO);
         self.link_moment.fill(R::ZERO);
         self.start(plan);
@@ -81,7 +81,7 @@ impl<R: Real> Scene<R> {
 
     /// Lanes in which a part of a unit self-stress is no rounding; `size` is its unit.
     #[inline(always)]
-    pub(super) fn is_stressed(value: R, size: R) -> R::Mask {
+    pub(crate) fn is_stressed(value: R, size: R) -> R::Mask {
         (R::splat(VANISHES) * size).lt(value.abs())
     }
 }

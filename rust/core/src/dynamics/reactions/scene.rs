@@ -1,7 +1,6 @@
 //! The kinematics of a few positions, and the forces on them: one per lane.
 
 use super::force_plan::ForcePlan;
-use super::rubs::Rubs;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
@@ -30,6 +29,8 @@ pub(crate) struct Scene<R: Real> {
     /// Loads and inertia forces on every link, and their moments about its reference point.
     pub link_force: Vec<Vector<R>>,
     pub link_moment: Vec<R>,
+    /// Force of every load on the first link on which it acts; of a load that turns, its couple as x.
+    pub loads: Vec<Vector<R>>,
     /// Inertia forces of all bodies, and their moment about the origin.
     pub shaking_force: Vector<R>,
     pub shaking_moment: R,
@@ -45,12 +46,11 @@ pub(crate) struct Scene<R: Real> {
     pub slide_moment: Vec<R>,
     /// Torque or force of every driver.
     pub driver: Vec<R>,
-    pub(crate) rubs: Rubs<R>,
     /// How many units of length a metre is: groups are solved in that unit, so that pivots do not depend on
     /// metres.
     pub(crate) per_metre: R,
-    pub(super) matrix: Vec<[R; 1]>,
-    pub(super) right: Vec<R>,
+    pub(crate) matrix: Vec<[R; 1]>,
+    pub(crate) right: Vec<R>,
 }
 
 impl<R: Real> Scene<R> {
@@ -69,6 +69,7 @@ impl<R: Real> Scene<R> {
             slides: vec![R::ZERO; slides],
             link_force: vec![zero; links],
             link_moment: vec![R::ZERO; links],
+            loads: vec![zero; plan.loads],
             shaking_force: zero,
             shaking_moment: R::ZERO,
             point_load: vec![zero; points],
@@ -77,7 +78,6 @@ impl<R: Real> Scene<R> {
             edge_force: vec![zero; plan.edges.len()],
             slide_moment: vec![R::ZERO; slides],
             driver: vec![R::ZERO; plan.drivers],
-            rubs: Rubs::default(),
             per_metre: R::ONE,
             matrix: Vec::new(),
             right: Vec::new(),
@@ -86,7 +86,7 @@ impl<R: Real> Scene<R> {
 
     /// Force of a guide on what slides there.
     #[inline(always)]
-    pub(super) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
+    pub(crate) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
         let Some(edge) = plan.guide_edges[slide] else { return R::ZERO };
         -self.guides[slide].cross(self.edge_force[edge])
     }

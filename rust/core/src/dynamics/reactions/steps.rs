@@ -42,7 +42,7 @@ pub(crate) enum SelfStress {
 }
 
 /// The steps of a plan in reverse, each transposed.
-pub(super) fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
+pub(crate) fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
     let transposed = |step: &Step| match step {
         // What ends there is a coupler point: loads act on links, so it has none.
         &Step::Place { edge, .. } if !plan.edges[edge].paired => Vec::new(),
@@ -89,7 +89,7 @@ fn of_redundant(redundant: &RedundantLink) -> Vec<Transposed> {
 }
 
 /// The self-stresses of a mechanism: one for each closure equation that is only checked.
-pub(super) fn self_stresses(mechanism: &Mechanism) -> Vec<SelfStress> {
+pub(crate) fn self_stresses(mechanism: &Mechanism) -> Vec<SelfStress> {
     let plan = mechanism.plan();
     plan.redundant_links().flat_map(|redundant| of_part(plan, redundant)).collect()
 }

@@ -57,7 +57,7 @@ impl<R: Real> Scene<R> {
 
     /// Adds a force at the end of an edge to its link and its slide.
     #[inline(always)]
-    pub(super) fn load_edge(&mut self, plan: &ForcePlan, edge: usize, force: Vector<R>) {
+    pub(crate) fn load_edge(&mut self, plan: &ForcePlan, edge: usize, force: Vector<R>) {
         self.edge_force[edge] += force;
         let link = plan.edges[edge].link;
         if link != plan.ground {
@@ -72,7 +72,7 @@ impl<R: Real> Scene<R> {
 
     /// The derivative of a closed path by an unknown.
     #[inline(always)]
-    pub(super) fn column(
+    pub(crate) fn column(
         &self,
         plan: &ForcePlan,
         path: &ClosedPath,

@@ -81,7 +81,7 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
     /// would be rounding.
     fn is_about_to_lock(&mut self, x: f64, y: &[f64], h: f64) -> Result<bool, RunError<O::Error>> {
         let is_in_time = self.along == Variable::Time;
-        let within = self.relative * self.equation.model.unit(0);
+        let within = self.tolerance;
         let way = if is_in_time { y[1] * h } else { h };
         let is_slipping =
             matches!(self.phase, Phase::Slip(_)) && self.equation.model.has_friction();

@@ -10,7 +10,7 @@ use super::error::{RunError, outside_table};
 use super::model::ReducedModel;
 use super::station_cursor::StationCursor;
 use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, TableCursor, same_within};
-use crate::dynamics::friction::motion::{Drive, RubbingState};
+use crate::dynamics::friction::motion::{Drive, SlidingState};
 use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
 use crate::dynamics::stations::STEP;
@@ -403,10 +403,10 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
 
     /// Finds the acceleration and the moment of friction of the only driver at the state whose loads were
     /// applied last.
-    pub(crate) fn rub(
+    pub(crate) fn accelerate_with_friction(
         &mut self,
         q: f64,
-        state: RubbingState,
+        state: SlidingState,
     ) -> Result<f64, EquationFault<O::Error>> {
         self.friction = 0.0;
         if !self.model.has_friction() {
@@ -418,7 +418,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         let drive = Drive { effort: self.drive[0], inertia: rotors + self.flywheel };
         let (tables, external) = (&self.readings[..], &self.external[..]);
         let numbers = Numbers { tables, external, ..Numbers::default() };
-        let found = self.model.rubbing_acceleration(state, drive, numbers);
+        let found = self.model.acceleration_with_friction(state, drive, numbers);
         self.is_locked = found.is_none();
         let Some(acceleration) = found else {
             self.rejected = None;

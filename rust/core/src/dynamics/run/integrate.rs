@@ -105,7 +105,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         }
         _ => {}
     }
-    let mut system = RunSystem::new(equation, options);
+    let mut system = RunSystem::new(equation, options, sizes[0]);
     system.store_initial_energy(options)?;
     if let (&[q], &[speed]) = (options.q, options.speed) {
         system.phase = system.equation.first_phase(options.t, q, speed)?;

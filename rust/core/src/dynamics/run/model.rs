@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use crate::dynamics::angle_between::Angle;
 use crate::dynamics::flywheel::cycle::{with_seam, without_jumps};
 use crate::dynamics::followers::{Followers, Held};
-use crate::dynamics::friction::motion::{Drive, FrictionMotion, RubbingState};
+use crate::dynamics::friction::motion::{Drive, FrictionMotion, SlidingState};
 use crate::dynamics::friction::reversals::{Sliding, reversals};
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::{Machine, ReducedTable};
@@ -52,7 +52,12 @@ pub(crate) trait ReducedModel {
 
     /// The acceleration of the only driver under friction, at the last position; `None` where friction
     /// leaves none.
-    fn rubbing_acceleration(&mut self, _: RubbingState, _: Drive, _: Numbers<'_>) -> Option<f64> {
+    fn acceleration_with_friction(
+        &mut self,
+        _: SlidingState,
+        _: Drive,
+        _: Numbers<'_>,
+    ) -> Option<f64> {
         None
     }
 
@@ -207,10 +212,11 @@ impl<'m> MechanismModel<'m> {
     ) -> Self {
         let lifted = machine.needs_angles();
         let evaluator = Evaluator::new(mechanism, dimensions, derivatives, Queries::Any, lifted);
-        let rubs = !machine.friction.is_empty() && mechanism.q0().len() == 1;
+        let has_friction = !machine.friction.is_empty() && mechanism.q0().len() == 1;
         let unit = evaluator.unit_of_length();
-        let friction = rubs.then(|| FrictionMotion::new(machine, mechanism, dimensions, unit));
-        let reversing = if rubs { Sliding::of(machine, mechanism) } else { Vec::new() };
+        let friction =
+            has_friction.then(|| FrictionMotion::new(machine, mechanism, dimensions, unit));
+        let reversing = if has_friction { Sliding::of(machine, mechanism) } else { Vec::new() };
         let (held, followers) = (Held::default(), Followers::default());
         Self { machine, derivatives, evaluator, held, followers, friction, reversing }
     }
@@ -237,9 +243,9 @@ impl ReducedModel for MechanismModel<'_> {
         self.friction.is_some()
     }
 
-    fn rubbing_acceleration(
+    fn acceleration_with_friction(
         &mut self,
-        state: RubbingState,
+        state: SlidingState,
         drive: Drive,
         numbers: Numbers<'_>,
     ) -> Option<f64> {

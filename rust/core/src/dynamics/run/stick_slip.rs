@@ -5,7 +5,7 @@ use super::callbacks::Callbacks;
 use super::equation::Equation;
 use super::error::RunError;
 use super::model::ReducedModel;
-use crate::dynamics::friction::motion::RubbingState;
+use crate::dynamics::friction::motion::SlidingState;
 use crate::ode::system::Fault;
 
 /// How a machine with friction moves.
@@ -48,8 +48,8 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
                 self.set_configuration(&[q])?;
                 self.apply_loads(t, &[q], &[0.0])?;
             }
-            let state = RubbingState { speed: 0.0, sense, is_static: true };
-            match self.rub(q, state) {
+            let state = SlidingState { speed: 0.0, sense, is_static: true };
+            match self.accelerate_with_friction(q, state) {
                 Ok(acceleration) => *own = acceleration,
                 Err(Fault::OutOfDomain) if self.is_locked => {}
                 Err(fault) => return Err(fault),
@@ -95,11 +95,11 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
             if speed == 0.0 { self.phase_from_rest(t, q)? } else { Phase::Slip(speed.signum()) };
         let Phase::Slip(sense) = phase else { return Ok(phase) };
         self.turn_to(q, sense);
-        let state = RubbingState { speed, sense, is_static: false };
+        let state = SlidingState { speed, sense, is_static: false };
         let begun = self
             .set_configuration(&[q])
             .and_then(|()| self.apply_loads(t, &[q], &[speed]))
-            .and_then(|()| self.rub(q, state));
+            .and_then(|()| self.accelerate_with_friction(q, state));
         match begun {
             Err(Fault::OutOfDomain) if self.is_locked => Err(RunError::Locked { q }),
             Err(Fault::OutOfDomain) => Err(self.no_initial_position(&[q])),

@@ -9,7 +9,7 @@ use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
-use crate::dynamics::friction::motion::RubbingState;
+use crate::dynamics::friction::motion::SlidingState;
 use crate::ode::system::{Action, Attempt, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
@@ -48,8 +48,9 @@ pub(crate) struct RunSystem<'a, S, O> {
     energy: Option<[f64; 2]>,
     /// Within this distance of a dead point a driver at rest may be at it.
     reach: f64,
-    /// The relative tolerance.
-    pub(super) relative: f64,
+    /// The relative tolerance, and that of the first driver's coordinate, rad or m.
+    relative: f64,
+    pub(super) tolerance: f64,
     /// Kinetic and potential energy less work: at the start of a step, and at the end of the last
     /// trial step.
     total: f64,
@@ -78,7 +79,8 @@ const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
 const CONDITION_STEP: f64 = 1.0e-6;
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
-    pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>) -> Self {
+    /// `size`: what the tolerance of the first driver's coordinate is relative to.
+    pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>, size: f64) -> Self {
         let drivers = options.q.len();
         let least_reach = if drivers == 1 { MIN_REACH } else { 0.0 };
         Self {
@@ -96,6 +98,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             energy: None,
             reach: (1.0e3 * options.relative).clamp(least_reach, MAX_REACH),
             relative: options.relative,
+            tolerance: options.relative * size,
             total: f64::NAN,
             trial_total: f64::NAN,
         }
@@ -273,7 +276,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         // How far it goes before it turns back to the obstacle, if it does.
         let way = y[1] * y[1] / (2.0 * rates[1].abs());
         let turns_back = rates[1] * y[1] < 0.0;
-        let least = LEAST_REBOUND * self.relative * self.equation.model.unit(0);
+        let least = LEAST_REBOUND * self.tolerance;
         Ok(if turns_back && way < least { Action::Stop } else { Action::Restart })
     }
 
@@ -311,8 +314,8 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
                         Phase::Stick => f64::NAN,
                         Phase::Slip(sense) => {
                             let speed = speed[0];
-                            let state = RubbingState { speed, sense, is_static: false };
-                            equation.rub(q[0], state).unwrap_or(f64::NAN)
+                            let state = SlidingState { speed, sense, is_static: false };
+                            equation.accelerate_with_friction(q[0], state).unwrap_or(f64::NAN)
                         }
                     },
                     Err(Fault::OutOfDomain) => f64::NAN,
@@ -340,8 +343,8 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 match self.phase {
                     Phase::Smooth => equation.accelerations(q, speed, &mut rates[n..2 * n])?,
                     Phase::Slip(sense) => {
-                        let state = RubbingState { speed: speed[0], sense, is_static: false };
-                        rates[1] = equation.rub(q[0], state)?;
+                        let state = SlidingState { speed: speed[0], sense, is_static: false };
+                        rates[1] = equation.accelerate_with_friction(q[0], state)?;
                     }
                     Phase::Stick => {
                         rates.fill(0.0);
@@ -361,8 +364,8 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
                 equation.set_configuration(&[x])?;
                 equation.apply_loads(y[1], &[x], &speed)?;
                 if let Phase::Slip(sense) = self.phase {
-                    let state = RubbingState { speed: speed[0], sense, is_static: false };
-                    rates[0] = 2.0 * equation.rub(x, state)?;
+                    let state = SlidingState { speed: speed[0], sense, is_static: false };
+                    rates[0] = 2.0 * equation.accelerate_with_friction(x, state)?;
                     rates[1] = 1.0 / speed[0];
                     rates[2] = equation.power(&speed) / speed[0];
                     return Ok(());

@@ -1,5 +1,6 @@
 //! Functions of the driver's coordinate or speed, given by points.
 
+pub(crate) mod columns;
 pub(crate) mod error;
 mod monotone;
 pub(crate) mod passes;

@@ -2,9 +2,9 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::columns::{check_columns, wrap_to_period};
 use super::error::TableError;
 use super::spline::{EndCondition, Pieces, fit_sections};
-use crate::dynamics::flywheel::cycle::{check_columns, wrap_to_period};
 
 /// A table with a curve through its rows.
 #[derive(Debug, Clone, PartialEq)]

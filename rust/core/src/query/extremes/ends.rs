@@ -7,9 +7,10 @@ use super::curve::Curve;
 use super::known::{ByAngle, Known};
 use super::tracked::{Tracked, ValueAt};
 use super::window::Window;
+use crate::math::root::bisection::bisect;
 
 /// Halvings toward a pole, and how many times greater than at the nodes the value is there.
-const HALVINGS: usize = 40;
+const HALVINGS: u32 = 40;
 const POLE: f64 = 1.0e6;
 /// How far (in halves of the window) a slide is followed to see where a value goes, and by what factor
 /// one grows that has no limit.
@@ -68,25 +69,23 @@ impl Curve<'_> {
     fn pole(
         &mut self,
         window: &Window,
-        (mut from, [first, rate, _]): (f64, ByAngle),
-        (mut to, [last, later, _]): (f64, ByAngle),
+        (from, [first, rate, _]): (f64, ByAngle),
+        (to, [last, later, _]): (f64, ByAngle),
     ) -> Option<f64> {
         let way = 1.0_f64.copysign(rate);
         if rate * later <= 0.0 || way * (last - first) >= 0.0 {
             return None;
         }
         let (mut above, mut below) = (first, last);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (from + to);
-            let value = self.value(window.at(middle))?;
-            if way * (value - above) >= 0.0 {
-                (from, above) = (middle, value);
-            } else {
-                (to, below) = (middle, value);
-            }
-        }
+        let grows_on = |angle: f64| {
+            let value = self.value(window.at(angle)).ok_or(())?;
+            let is_before = way * (value - above) >= 0.0;
+            *(if is_before { &mut above } else { &mut below }) = value;
+            Ok::<_, ()>(is_before)
+        };
+        let [before, _] = bisect([from, to], HALVINGS, grows_on).ok()?;
         let size = first.abs().max(last.abs());
-        (above.abs().min(below.abs()) > POLE * size).then_some(from)
+        (above.abs().min(below.abs()) > POLE * size).then_some(before)
     }
 
     /// The value where an interval ends without a fold: infinite if a joint is at infinity there, for

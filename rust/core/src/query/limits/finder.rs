@@ -254,7 +254,7 @@ impl<'m> LimitsFinder<'m> {
         let branch = &self.design.branch;
         match branch.period {
             Some(period) => u32::try_from(whole_part((period / TAU).round())).ok(),
-            None => branch.is_plain().then_some(1),
+            None => branch.is_whole().then_some(1),
         }
     }
 }

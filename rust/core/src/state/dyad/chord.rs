@@ -1,4 +1,4 @@
-//! The chord of a dyad, from its start to its end, on the bare path: between any two points, or with
+//! The chord of a dyad, from its start to its end, on the unchecked path: between any two points, or with
 //! a crank's pin or a ground point at one end, whose jets are computed instead of stored.
 
 use crate::math::lanes::Real;

@@ -1,10 +1,10 @@
 //! Condition and status of a position, from how a dyad closes.
 
-use super::intersections::Closing;
 use crate::math::lanes::{Mask, Real};
 use crate::plan::dyad::{Dyad, Unknown};
 use crate::plan::plan::{EdgeSlide, Plan, Step};
 use crate::plan::tape::DyadOp;
+use crate::state::closing::Closing;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 

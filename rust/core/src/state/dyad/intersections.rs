@@ -1,93 +1,16 @@
 //! Closed forms of dyads: one vector equation with two unknowns, with one square root and at most
 //! one division.
 //!
-//! `CAREFUL` adds margin, gap and exact masks, and gives the values of the flat dyad where a dyad is
+//! `CHECKED` adds margin, gap and exact masks, and gives the values of the flat dyad where a dyad is
 //! flat or open. All other positions have the same bits without it.
 
 use crate::math::lanes::{Mask, Real};
-use crate::math::stride::Stride;
 use crate::math::tolerance::FLAT_CLOSURE;
 use crate::math::vector::Vector;
 use crate::plan::dyad_constants::Sides;
 use crate::plan::leg::Leg;
+use crate::state::closing::Closing;
 use crate::state::status::FLAT2;
-
-/// Whether a dyad closes, and how far it is from flat.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Closing<R: Real> {
-    /// Lanes where it does not close. Without `CAREFUL` some may be missing; their `sine2` is NaN or not
-    /// positive.
-    pub open: R::Mask,
-    /// Lanes where it is flat: the two solutions coincide to rounding.
-    pub flat: R::Mask,
-    /// Square of the sine of the angle between the columns of the closure matrix: between the legs
-    /// of two binary links.
-    pub sine2: R,
-    /// By how much it closes, relative to the scale; negative where it does not (`CAREFUL`).
-    pub margin: R,
-    /// The length that is missing where it does not close; infinite if no length would do (`CAREFUL`).
-    pub gap: R,
-    /// For each unknown, the factor of its squared arm in the condition; 0 for a slide.
-    pub per_arm2: [R; 2],
-}
-
-impl<R: Real> Closing<R> {
-    pub(crate) const CLOSED: Self = Self {
-        open: R::Mask::NONE,
-        flat: R::Mask::NONE,
-        sine2: R::ONE,
-        margin: R::ZERO,
-        gap: R::ZERO,
-        per_arm2: [R::ZERO; 2],
-    };
-
-    /// The part that belongs to the first register.
-    #[inline(always)]
-    pub(super) fn first<F: Real>(&self) -> Closing<F>
-    where
-        R: Stride<F>,
-    {
-        Closing {
-            open: R::first_mask(self.open),
-            flat: R::first_mask(self.flat),
-            sine2: self.sine2.first(),
-            margin: self.margin.first(),
-            gap: self.gap.first(),
-            per_arm2: [self.per_arm2[0].first(), self.per_arm2[1].first()],
-        }
-    }
-
-    /// How a slide closes whose value is a length, between joints at this squared distance. Where they
-    /// coincide the length is 0, and only its direction is not determined: flat. `scale2`: the square of
-    /// their coordinates.
-    #[inline(always)]
-    pub(crate) fn of_length(mut self, distance2: R, across: R, scale2: R) -> Self {
-        let least2 = R::splat(FLAT2) * scale2;
-        let loose = R::ZERO.lt(distance2.max(across.abs())).not();
-        self.open = self.open.and(loose.not());
-        let near = distance2.lt(least2).or(loose);
-        self.flat = self.flat.or(near).and(self.open.not());
-        self.sine2 = R::select(loose, R::ONE, self.sine2);
-        self.per_arm2[0] = R::select(near, R::ONE / least2, self.per_arm2[0]);
-        self.gap = R::select(loose, R::ZERO, self.gap);
-        self
-    }
-
-    /// How two slides with these values close, along lines with this determinant.
-    #[inline(always)]
-    pub(crate) fn of_lines(s: R, t: R, determinant: R) -> Self {
-        let open = s.finite().and(t.finite()).not();
-        let sine2 = determinant * determinant;
-        Self {
-            open,
-            flat: sine2.lt(R::splat(FLAT2)).and(open.not()),
-            sine2,
-            margin: R::ONE,
-            gap: R::splat(f64::INFINITY),
-            ..Self::CLOSED
-        }
-    }
-}
 
 /// `value` where it is positive, else 0; NaN becomes 0.
 #[inline(always)]
@@ -115,7 +38,7 @@ pub(crate) struct TwoCircles<R: Real> {
 impl<R: Real> TwoCircles<R> {
     /// `sign` > 0: `a u₁` points to the left of `k`.
     #[inline(always)]
-    pub(crate) fn solve<const CAREFUL: bool>(
+    pub(crate) fn solve<const CHECKED: bool>(
         [a, b]: [&Leg<R>; 2],
         sides: &Sides<R>,
         k: Vector<R>,
@@ -125,10 +48,10 @@ impl<R: Real> TwoCircles<R> {
         let (outer, inner) = (sides.sum2 - d2, d2 - sides.difference2);
         let [most, least] = [-sides.tolerances[0], -sides.tolerances[1]];
         // Heron: (2 d h)² = ((a+b)² − d²)(d² − (a−b)²), h the height on k.
-        let area2 = if CAREFUL { positive(outer) * positive(inner) } else { outer * inner };
+        let area2 = if CHECKED { positive(outer) * positive(inner) } else { outer * inner };
         let sine2 = area2 * sides.per_sine2;
         let mut open = area2.lt(sides.open_area2);
-        if CAREFUL {
+        if CHECKED {
             // Outer joints coincide, or a leg has no length: any attitude closes.
             let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();
             open = most.le(outer).and(least.le(inner)).not().or(loose);
@@ -140,7 +63,7 @@ impl<R: Real> TwoCircles<R> {
         let mut half = area * inverse;
         let mut across = area2 * signed;
         let mut closing = Closing { open, sine2, ..Closing::CLOSED };
-        if CAREFUL {
+        if CHECKED {
             closing.per_arm2 = [a.inv_norm2, b.inv_norm2];
             let flat = degenerate(area2, sine2);
             let flat_half = R::splat(0.5) / d2;
@@ -183,13 +106,13 @@ impl<R: Real> CircleAndLine<R> {
     /// `sign` > 0: the slide is ahead of the foot of the perpendicular from the circle's centre.
     /// `reach`: an upper bound of |k|.
     #[inline(always)]
-    pub(crate) fn solve<const CAREFUL: bool>(a: &Leg<R>, k: Vector<R>, sign: R, reach: R) -> Self {
+    pub(crate) fn solve<const CHECKED: bool>(a: &Leg<R>, k: Vector<R>, sign: R, reach: R) -> Self {
         let across = k.y;
         let inner = a.norm - across.abs();
         let mut open = inner.lt(R::splat(-FLAT_CLOSURE) * (a.norm + reach));
         let mut chord2 = inner * (a.norm + across.abs());
         let far = across.finite().not();
-        if CAREFUL {
+        if CHECKED {
             let within = R::splat(-FLAT_CLOSURE) * a.norm.max(k.size());
             open = within.le(inner).not().or(R::ZERO.lt(a.norm2).not()).or(far);
             chord2 = positive(inner) * (a.norm + across.abs());
@@ -197,7 +120,7 @@ impl<R: Real> CircleAndLine<R> {
         let chord = chord2.sqrt();
         let sine2 = chord2 * a.inv_norm2;
         let mut closing = Closing { open, sine2, ..Closing::CLOSED };
-        if CAREFUL {
+        if CHECKED {
             closing.per_arm2[0] = a.inv_norm2;
             closing.flat = degenerate(chord2, sine2).and(open.not());
             closing.margin = inner;
@@ -228,7 +151,7 @@ pub(crate) struct Guided<R: Real> {
 impl<R: Real> Guided<R> {
     /// A circle and a line in direction `b`; see [`CircleAndLine::solve`].
     #[inline(always)]
-    pub(crate) fn circle_and_line<const CAREFUL: bool>(
+    pub(crate) fn circle_and_line<const CHECKED: bool>(
         a: &Leg<R>,
         b: Vector<R>,
         k: Vector<R>,
@@ -237,14 +160,14 @@ impl<R: Real> Guided<R> {
     ) -> Self {
         let k = Vector::new(b.dot(k), b.cross(k));
         let CircleAndLine { leg, slide, inverse, closing } =
-            CircleAndLine::solve::<CAREFUL>(a, k, sign, reach);
+            CircleAndLine::solve::<CHECKED>(a, k, sign, reach);
         Self { turned: b * leg, slide, inverse_determinant: -inverse, closing }
     }
 
     /// A guide that turns, `a` from its pivot in direction `b`. `sign` > 0: the slide is above the
     /// value at which it is nearest to the far joint.
     #[inline(always)]
-    pub(crate) fn turning_guide<const CAREFUL: bool>(
+    pub(crate) fn turning_guide<const CHECKED: bool>(
         a: Vector<R>,
         b: Vector<R>,
         k: Vector<R>,
@@ -257,7 +180,7 @@ impl<R: Real> Guided<R> {
         let within = R::splat(-2.0 * FLAT_CLOSURE) * (a.size().max(across.abs()) * across.abs());
         let mut open = inner.lt(within);
         let mut chord2 = inner;
-        if CAREFUL {
+        if CHECKED {
             // The far joint is on the guide's own pivot: every attitude closes.
             open = within.le(inner).not().or(R::ZERO.lt(d2).not());
             chord2 = positive(inner);
@@ -267,7 +190,7 @@ impl<R: Real> Guided<R> {
         let inverse = R::ONE / (d2 * chord);
         let mut per = chord * inverse;
         let mut closing = Closing { open, ..Closing::CLOSED };
-        if CAREFUL {
+        if CHECKED {
             let flat_per = R::ONE / d2;
             let flat = degenerate(chord2, chord2 * flat_per);
             per = R::select(flat, flat_per, per);
@@ -301,15 +224,15 @@ mod tests {
 
     fn two_circles(a: &Leg, b: &Leg, k: Vector, sign: f64) -> TwoCircles<f64> {
         let sides = Sides::of(a, b);
-        let careful = TwoCircles::solve::<true>([a, b], &sides, k, sign);
-        let bare = TwoCircles::solve::<false>([a, b], &sides, k, sign);
-        if !(careful.closing.open || careful.closing.flat) {
+        let checked = TwoCircles::solve::<true>([a, b], &sides, k, sign);
+        let unchecked = TwoCircles::solve::<false>([a, b], &sides, k, sign);
+        if !(checked.closing.open || checked.closing.flat) {
             assert_eq!(
-                (bare.legs, bare.inverse_determinant),
-                (careful.legs, careful.inverse_determinant)
+                (unchecked.legs, unchecked.inverse_determinant),
+                (checked.legs, checked.inverse_determinant)
             );
         }
-        careful
+        checked
     }
 
     #[test]
@@ -361,8 +284,8 @@ mod tests {
             let solved = Guided::circle_and_line::<true>(&a, b, k, sign, 20.0);
             assert!((solved.slide - (10.0 + sign * 4.0)).abs() < TOLERANCE * 10.0);
             assert!((solved.turned + b.scale(solved.slide) - k).norm() < 1e-14);
-            let bare = Guided::circle_and_line::<false>(&a, b, k, sign, 20.0);
-            assert_eq!((bare.turned, bare.slide), (solved.turned, solved.slide));
+            let unchecked = Guided::circle_and_line::<false>(&a, b, k, sign, 20.0);
+            assert_eq!((unchecked.turned, unchecked.slide), (solved.turned, solved.slide));
         }
     }
 
@@ -374,8 +297,8 @@ mod tests {
             let solved = Guided::turning_guide::<true>(a, b, k, sign);
             assert!(((a + b.scale(solved.slide)) * solved.turned - k).norm() < 1e-14);
             assert!((solved.turned.norm() - 1.0).abs() < 1e-14);
-            let bare = Guided::turning_guide::<false>(a, b, k, sign);
-            assert_eq!((bare.turned, bare.slide), (solved.turned, solved.slide));
+            let unchecked = Guided::turning_guide::<false>(a, b, k, sign);
+            assert_eq!((unchecked.turned, unchecked.slide), (solved.turned, solved.slide));
         }
     }
 }

@@ -13,7 +13,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn moving_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes seldom take the careful path: one copy for all orders is enough.
+            // Lanes seldom take the checked path: one copy for all orders is enough.
             self.moving_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });
@@ -22,14 +22,18 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same on the bare path: one driver, and jets of a constant length.
+    /// The same on the unchecked path: one driver, and jets of a constant length.
     #[inline(always)]
-    pub(crate) fn bare_moving_guide<const LEN: usize>(&mut self, cx: &Context<'_>, op: &DyadOp) {
+    pub(crate) fn unchecked_moving_guide<const LEN: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    ) {
         self.moving_of_length::<false>(cx, op, LEN, &one_driver);
     }
 
     #[inline(always)]
-    fn moving_of_length<'t, const CAREFUL: bool>(
+    fn moving_of_length<'t, const CHECKED: bool>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -53,8 +57,8 @@ impl<R: Real, const G: usize> State<R, G> {
         for g in 0..self.groups.min(G) {
             let guide = carrier[0][g] * along;
             let chord = (end[0][g] - start[0][g]) - carrier[0][g] * offset;
-            let solved = Guided::circle_and_line::<CAREFUL>(&a, guide, chord, signs[g], reach);
-            if CAREFUL {
+            let solved = Guided::circle_and_line::<CHECKED>(&a, guide, chord, signs[g], reach);
+            if CHECKED {
                 self.work.closings[g] = solved.closing;
             } else {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
@@ -91,7 +95,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 leg[k][g] = entry(a0, u[k][g], rest);
             }
         }
-        if CAREFUL {
+        if CHECKED {
             self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);

@@ -43,7 +43,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same for a dyad without a kernel, solved carefully.
+    /// The same for a dyad without a kernel, solved with checks.
     #[inline(always)]
     fn sample_solved(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> DyadSample<R> {
         let margin = self.conditions.margin[dyad.index][g];

@@ -1,12 +1,13 @@
 //! Solves a dyad: collects the terms of its loop by unknown, then applies its closed form.
 
-use super::intersections::{Closing, Guided, TwoCircles};
+use super::intersections::{Guided, TwoCircles};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::dyad::{Dyad, Form, LoopTerm, Unknown};
 use crate::plan::dyad_constants::Sides;
 use crate::plan::leg::Leg;
 use crate::plan::plan::EdgeSlide;
+use crate::state::closing::Closing;
 use crate::state::state::{Context, State};
 
 /// The dyad's equation `a u₁ + b u₂ = k`; for a slide the term is the slide times its direction.

@@ -43,9 +43,9 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same on the bare path: one driver, jets of a constant length, only what the tape uses.
+    /// The same on the unchecked path: one driver, jets of a constant length, only what the tape uses.
     #[inline(always)]
-    pub(crate) fn bare_standing_guide<W: Stride<R>, const LEN: usize>(
+    pub(crate) fn unchecked_standing_guide<W: Stride<R>, const LEN: usize>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -59,7 +59,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn guide_by_driver<W: Stride<R>, const CAREFUL: bool, const ENDS: Ends>(
+    fn guide_by_driver<W: Stride<R>, const CHECKED: bool, const ENDS: Ends>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -71,7 +71,7 @@ impl<R: Real, const G: usize> State<R, G> {
         let leg = &mut self.pose.legs[jet(2 * op.dyad)];
         let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
         let turn = &mut self.pose.class[class];
-        let (turns, keeps) = (CAREFUL || op.turns[0], CAREFUL || op.keeps[0]);
+        let (turns, keeps) = (CHECKED || op.turns[0], CHECKED || op.keeps[0]);
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let own = &cx.constants.dyads[op.dyad];
         let a = &cx.constants.legs[op.dyad][0];
@@ -84,8 +84,8 @@ impl<R: Real, const G: usize> State<R, G> {
             let turning = chord.turning::<W, ENDS>(g);
             let k = chord.at::<W, ENDS>(0, g, turning);
             let sign = W::load(signs, g);
-            let solved = CircleAndLine::solve::<CAREFUL>(&a, k, sign, reach);
-            if CAREFUL {
+            let solved = CircleAndLine::solve::<CHECKED>(&a, k, sign, reach);
+            if CHECKED {
                 self.work.closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.conditions.open, g);
@@ -125,13 +125,13 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-        if CAREFUL {
+        if CHECKED {
             self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);
     }
 
-    /// The careful path for any number of drivers.
+    /// The checked path for any number of drivers.
     #[inline(always)]
     fn guide_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;

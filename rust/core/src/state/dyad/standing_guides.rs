@@ -1,16 +1,16 @@
 //! The dyad of two slides along fixed guides (PRP, RPP).
 
-use super::intersections::Closing;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::tape::DyadOp;
+use crate::state::closing::Closing;
 use crate::state::state::{Context, State};
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves the dyad for its slides and their analogues by Cramer's rule: all are linear in the
     /// chord.
     #[inline(always)]
-    pub(crate) fn standing_guides<const CAREFUL: bool>(&mut self, cx: &Context<'_>, op: &DyadOp) {
+    pub(crate) fn standing_guides<const CHECKED: bool>(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;
         let jet = |i: usize| i * len..i * len + len;
         let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
@@ -34,14 +34,14 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         for g in 0..self.groups.min(G) {
-            if CAREFUL {
+            if CHECKED {
                 self.work.closings[g] = Closing::of_lines(s[0][g], t[0][g], R::splat(determinant));
             } else {
                 bounds[g] =
                     if op.may_have_upstream() { self.conditions.bound[g] * sine2 } else { sine2 };
             }
         }
-        if CAREFUL {
+        if CHECKED {
             self.record_closings(cx, op);
         }
     }

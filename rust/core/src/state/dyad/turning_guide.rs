@@ -12,7 +12,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn turning_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes seldom take the careful path: one copy for all orders is enough.
+            // Lanes seldom take the checked path: one copy for all orders is enough.
             self.turning_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });
@@ -26,15 +26,19 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same on the bare path: one driver, and jets of a constant length.
+    /// The same on the unchecked path: one driver, and jets of a constant length.
     #[inline(always)]
-    pub(crate) fn bare_turning_guide<const LEN: usize>(&mut self, cx: &Context<'_>, op: &DyadOp) {
+    pub(crate) fn unchecked_turning_guide<const LEN: usize>(
+        &mut self,
+        cx: &Context<'_>,
+        op: &DyadOp,
+    ) {
         self.turning_of_length::<false>(cx, op, LEN, &one_driver);
     }
 
     /// The rotation's jet takes the slot of the second leg, which this dyad does not have.
     #[inline(always)]
-    fn turning_of_length<'t, const CAREFUL: bool>(
+    fn turning_of_length<'t, const CHECKED: bool>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -58,8 +62,8 @@ impl<R: Real, const G: usize> State<R, G> {
         let bounds = &mut self.conditions.bounds[op.dyad];
         for g in 0..self.groups.min(G) {
             let chord = end[0][g] - start[0][g];
-            let solved = Guided::turning_guide::<CAREFUL>(a, guide, chord, signs[g]);
-            if CAREFUL {
+            let solved = Guided::turning_guide::<CHECKED>(a, guide, chord, signs[g]);
+            if CHECKED {
                 self.work.closings[g] = if op.is_length {
                     let scale2 = &self.conditions.coordinate_scale2;
                     let scale2 = scale2[op.start][g].max(scale2[op.end][g]);
@@ -81,7 +85,7 @@ impl<R: Real, const G: usize> State<R, G> {
             s[0][g] = solved.slide;
             let arm = a + guide.scale(solved.slide);
             let along = guide * unit;
-            if CAREFUL {
+            if CHECKED {
                 leg[0][g] = unit * a;
             }
             for k in 1..len {
@@ -105,12 +109,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 u[k][g] = rate;
                 s[k][g] = -(chord.dot(rest) * inverse);
                 turn[k][g] = unit_rest + unit.left().scale(rate);
-                if CAREFUL {
+                if CHECKED {
                     leg[k][g] = turn[k][g] * a;
                 }
             }
         }
-        if CAREFUL {
+        if CHECKED {
             self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);

@@ -39,9 +39,9 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// The same on the bare path: one driver, jets of a constant length, only what the tape uses.
+    /// The same on the unchecked path: one driver, jets of a constant length, only what the tape uses.
     #[inline(always)]
-    pub(crate) fn bare_two_legs<W: Stride<R>, const LEN: usize>(
+    pub(crate) fn unchecked_two_legs<W: Stride<R>, const LEN: usize>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -56,7 +56,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 
     #[inline(always)]
-    fn legs_by_driver<W: Stride<R>, const CAREFUL: bool, const ENDS: Ends>(
+    fn legs_by_driver<W: Stride<R>, const CHECKED: bool, const ENDS: Ends>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
@@ -71,21 +71,21 @@ impl<R: Real, const G: usize> State<R, G> {
         ) else {
             return;
         };
-        let turns = [CAREFUL || op.turns[0], CAREFUL || op.turns[1]];
-        let keeps = [CAREFUL || op.keeps[0], CAREFUL || op.keeps[1]];
+        let turns = [CHECKED || op.turns[0], CHECKED || op.turns[1]];
+        let keeps = [CHECKED || op.keeps[0], CHECKED || op.keeps[1]];
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
         let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
         let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
         let mut sides = own.sides.on_lanes::<W>();
-        if !CAREFUL {
+        if !CHECKED {
             sides.per_sine2 = W::splat(own.bounding_per_sine2);
         }
         let bounds = &mut self.conditions.bounds[op.dyad];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
             let arm = chord.arm::<W, ENDS>(g);
             let k = chord.at::<W, ENDS>(0, g, arm);
-            let solved = TwoCircles::solve::<CAREFUL>([&a, &b], &sides, k, W::load(signs, g));
-            if CAREFUL {
+            let solved = TwoCircles::solve::<CHECKED>([&a, &b], &sides, k, W::load(signs, g));
+            if CHECKED {
                 self.work.closings[g] = solved.closing.first();
             } else {
                 W::add_to(solved.closing.open, &mut self.conditions.open, g);
@@ -136,13 +136,13 @@ impl<R: Real, const G: usize> State<R, G> {
                 }
             }
         }
-        if CAREFUL {
+        if CHECKED {
             self.record_closings(cx, op);
         }
         self.turn_orientations(cx, op);
     }
 
-    /// The careful path for any number of drivers.
+    /// The checked path for any number of drivers.
     #[inline(always)]
     fn legs_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
         let len = self.len;

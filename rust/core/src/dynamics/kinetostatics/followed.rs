@@ -1,9 +1,9 @@
 //! The curves over other coordinates, and the directions in which these move, at some positions of one
 //! design.
 
-use super::columns::{Solved, Sources};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::{Measure, sign};
+use crate::dynamics::reactions::columns::{Solved, Sources};
 
 /// Values of the loads that follow other coordinates: of each at every position.
 #[derive(Debug, Clone, Default)]

@@ -1,28 +1,29 @@
 //! Which pairs rest while others move: how much of a computed relative speed is rounding.
 
-use super::force_plan::{ForceEdge, ForcePlan};
-use super::scene::Scene;
-use super::steps::Transposed;
+use super::workspace::FrictionWorkspace;
+use crate::dynamics::reactions::force_plan::{ForceEdge, ForcePlan};
+use crate::dynamics::reactions::scene::Scene;
+use crate::dynamics::reactions::steps::Transposed;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CLOSURE_PER_CONDITION, UNIT_ROUNDOFF};
 
-/// A relative speed below this part of the drivers' is rounding: then a pair does not rub.
-pub(super) const AT_REST: f64 = 1.0e-12;
+/// A relative speed below this part of the drivers' is rounding: then a pair rests.
+pub(crate) const AT_REST: f64 = 1.0e-12;
 /// Rounding of a relative speed in parts of the speeds that add up to it: each is good to some u. At
 /// 8000 positions of pairs whose links move as one body the most that was found is 15 u.
-pub(super) const RATE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
+pub(crate) const RATE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
 
 // Loops: closures would not be compiled with the level's instructions.
-impl<R: Real> Scene<R> {
+impl<R: Real> FrictionWorkspace<R> {
     /// By how much rounding may change the relative speed of the pair in which a unit of friction acts.
     ///
     /// The power of that unit is the relative speed, and by virtual power it is that of the forces which
     /// balance it: to first order, an error of a closed path's velocities counts times the force that
     /// closes the path. These forces grow with the condition of every group on which the pair depends.
     #[inline(always)]
-    pub(super) fn rate_rounding(&self) -> R {
+    pub(crate) fn rate_rounding(&self, scene: &Scene<R>) -> R {
         let mut power = R::ZERO;
-        for (force, &error) in self.edge_force.iter().zip(&self.rubs.edge_errors) {
+        for (force, &error) in scene.edge_force.iter().zip(&self.edge_errors) {
             power += force.size() * error;
         }
         power
@@ -31,9 +32,9 @@ impl<R: Real> Scene<R> {
     /// Finds by how much the velocities along every edge may miss their closed path: rounding of their
     /// own, and that of the position, which misses the path the more the worse its dyad is conditioned.
     #[inline(always)]
-    pub(super) fn find_edge_errors(&mut self, plan: &ForcePlan) {
-        let speeds = &self.rubs.point_speeds;
-        let mut errors = std::mem::take(&mut self.rubs.edge_errors);
+    pub(crate) fn find_edge_errors(&mut self, scene: &Scene<R>, plan: &ForcePlan) {
+        let speeds = &self.point_speeds;
+        let mut errors = std::mem::take(&mut self.edge_errors);
         errors.clear();
         for edge in &plan.edges {
             errors.push((speeds[edge.from] + speeds[edge.to]) * R::splat(RATE_ROUNDING));
@@ -44,7 +45,7 @@ impl<R: Real> Scene<R> {
                 // The iteration of a group above class II ends where its paths close to rounding.
                 continue;
             };
-            let (a, b) = (self.column(plan, path, first), self.column(plan, path, second));
+            let (a, b) = (scene.column(plan, path, first), scene.column(plan, path, second));
             let condition = a.norm() * b.norm() / a.cross(b).abs();
             for &(edge, _) in &path.edges {
                 let ForceEdge { from, to, .. } = plan.edges[edge];
@@ -52,6 +53,6 @@ impl<R: Real> Scene<R> {
                     (speeds[from] + speeds[to]) * condition * R::splat(CLOSURE_PER_CONDITION);
             }
         }
-        self.rubs.edge_errors = errors;
+        self.edge_errors = errors;
     }
 }

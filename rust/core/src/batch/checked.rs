@@ -1,4 +1,4 @@
-//! Careful path: blocks with conditions, then single positions.
+//! Checked path: blocks with conditions, then single positions.
 
 use std::mem::MaybeUninit;
 
@@ -48,14 +48,14 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
 
     /// Solves up to `G` registers of positions from `row` on.
     #[inline(always)]
-    pub(super) fn solve_block<L: Level<Register = R>>(
+    pub(super) fn solve_checked<L: Level<Register = R>>(
         &mut self,
         job: &mut Job<'_, '_>,
         row: usize,
         count: usize,
     ) {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES));
-        let mut care = [R::Mask::NONE; G];
+        let mut redo = [R::Mask::NONE; G];
         let branch = &self.design.branch;
         let closed_forms = self.design.closed_forms;
         let constant_signs = branch.has_constant_signs();
@@ -64,14 +64,14 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             let q = self.space.coordinates.q(0, first + group);
             let location = &self.space.locations[first + group];
             if !(even || smooth && closed_forms) {
-                care[group] = self.lanes_to_redo(q, location, !closed_forms);
+                redo[group] = self.lanes_to_redo(q, location, !closed_forms);
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
             for driver in 0..self.space.many.pose.q.len() {
                 let q = self.space.coordinates.q(driver, first + group);
                 self.space.many.pose.q[driver][group] =
-                    R::select(care[group], R::splat(f64::NAN), q);
+                    R::select(redo[group], R::splat(f64::NAN), q);
                 self.space.many.pose.unit[driver][group] =
                     self.space.coordinates.unit(driver, first + group);
             }
@@ -109,9 +109,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
         for group in 0..groups.min(G) {
-            care[group] = care[group].or(self.space.coordinates.q(0, first + group).finite().not());
+            redo[group] = redo[group].or(self.space.coordinates.q(0, first + group).finite().not());
             if closed_forms {
-                open[group] = state.conditions.open[group].and(care[group].not());
+                open[group] = state.conditions.open[group].and(redo[group].not());
                 some_open |= open[group].any();
                 if !(even || self.writer.classes.is_empty()) {
                     // On an island without a knot the angle must be traced.
@@ -119,13 +119,13 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                     let unseen = |i: usize| {
                         !open[group].lane(i) && design.branch.in_untraced_island(location, i)
                     };
-                    care[group] = care[group].or(mask::<R>(unseen));
+                    redo[group] = redo[group].or(mask::<R>(unseen));
                 }
             }
-            care[group] =
-                care[group].or(state.conditions.needs_scalar[group].and(open[group].not()));
-            care[group] = care[group].or(design.branch.same_det_sign(state, group).not());
-            again |= care[group].any();
+            redo[group] =
+                redo[group].or(state.conditions.needs_scalar[group].and(open[group].not()));
+            redo[group] = redo[group].or(design.branch.same_det_sign(state, group).not());
+            again |= redo[group].any();
         }
         let failed = some_open.then_some(&open);
         // Rows that are solved again would be fetched again.
@@ -151,13 +151,13 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                 let (group, lane) = (position / R::LANES, position % R::LANES);
                 if open[group].lane(lane) && !log.count_later(job.index + row + position, 1) {
                     // The first failure needs a description.
-                    care[group] = care[group].or(mask::<R>(|i| i == lane));
+                    redo[group] = redo[group].or(mask::<R>(|i| i == lane));
                     again = true;
                 }
             }
         }
         if again {
-            self.solve_lanes(job, row, count, &care);
+            self.solve_lanes(job, row, count, &redo);
         }
     }
 

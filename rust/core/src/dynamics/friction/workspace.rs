@@ -1,17 +1,17 @@
-//! Work space of friction: how fast pairs rub, how their reactions depend on friction, and the friction
+//! Work space of friction: how fast pairs slide, how their reactions depend on friction, and the friction
 //! found.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
-/// Work space, and the friction found.
+/// How fast pairs with friction slide, how their reactions depend on it, and the friction found.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Rubs<R: Real> {
+pub(crate) struct FrictionWorkspace<R: Real> {
     /// Whether the static law holds; if not said, where all drivers rest.
     pub is_static: Option<bool>,
     /// Speed of every pair, as it is, and as it is or is about to be.
     pub speeds: Vec<[R; 2]>,
-    /// Below these a pair does not rub.
+    /// Below these a pair rests.
     pub still: Vec<R>,
     /// How fast every point moves as it is or is about to be: at most, of all drivers.
     pub point_speeds: Vec<R>,
@@ -21,7 +21,7 @@ pub(crate) struct Rubs<R: Real> {
     pub base: Vec<Vector<R>>,
     pub slopes: Vec<Vec<Vector<R>>>,
     /// Moments or forces of friction, with the viscous part.
-    pub friction: Vec<R>,
+    pub efforts: Vec<R>,
     /// Number of solutions.
     pub solutions: R,
     pub safety: R,
@@ -29,15 +29,15 @@ pub(crate) struct Rubs<R: Real> {
     pub residual: R,
 }
 
-impl<R: Real> Rubs<R> {
+impl<R: Real> FrictionWorkspace<R> {
     /// The power that friction takes in a pair.
     #[inline(always)]
-    pub(super) fn loss(&self, pair: usize) -> R {
-        -(self.friction[pair] * self.speeds[pair][0])
+    pub(crate) fn loss(&self, pair: usize) -> R {
+        -(self.efforts[pair] * self.speeds[pair][0])
     }
 }
 
-impl Rubs<f64> {
+impl FrictionWorkspace<f64> {
     /// Lets a pair slide one way, +1 or −1, whatever its speed; or, with 0, rest.
     pub(crate) fn hold(&mut self, pair: usize, way: f64) {
         let speed = &mut self.speeds[pair][1];

@@ -1,5 +1,5 @@
-//! Plain path: designs without change points whose dyads all have kernels. Blocks are computed bare,
-//! that is without conditions; a block with a doubtful position is left to the careful path.
+//! The path without checks: designs without change points whose dyads all have kernels. Blocks are computed
+//! without conditions; a block with an uncertain position is left to the checked path.
 
 use std::mem::MaybeUninit;
 
@@ -13,9 +13,9 @@ use crate::state::state::Context;
 use crate::state::status::Status;
 
 impl<R: Real, const G: usize> Worker<'_, R, G> {
-    /// Whether the design is plain.
+    /// Whether the design needs no checks: only a bound that shows which positions are uncertain.
     #[inline(always)]
-    pub(super) fn is_plain(&self) -> bool {
+    pub(super) fn needs_no_checks(&self) -> bool {
         let branch = &self.design.branch;
         self.space.tape.is_bounded && self.is_smooth && branch.has_constant_signs()
     }
@@ -42,9 +42,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     }
 
     /// Solves up to `G` registers of positions, whose status is already set to `Ok`. Returns false and
-    /// writes nothing if a position is doubtful.
+    /// writes nothing if a position is uncertain.
     #[inline(always)]
-    pub(super) fn solve_bare<L: Level<Register = R>>(
+    pub(super) fn solve_unchecked<L: Level<Register = R>>(
         &mut self,
         job: &mut Job<'_, '_>,
         row: usize,
@@ -73,10 +73,10 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let range = RowRange { first: job.first + row, count, once: true };
         // The memory arrives while the positions are computed.
         job.rows.prefetch::<R>(self.columns, range);
-        L::bare(&mut self.space.many, &cx);
+        L::unchecked(&mut self.space.many, &cx);
         let state = &self.space.many;
         let is_finite = self.space.coordinates.are_finite;
-        if if is_finite { state.has_doubtful_dyads() } else { state.is_doubtful() } {
+        if if is_finite { state.has_uncertain_dyads() } else { state.is_uncertain() } {
             return false;
         }
         let some_open = self.space.many.has_open();
@@ -95,7 +95,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         } else {
             let references = &self.space.references[..];
             self.writer
-                .write_plain::<L::Stride, R, G>(rows, range, with, state, references, failed);
+                .write_unchecked::<L::Stride, R, G>(rows, range, with, state, references, failed);
         }
         if some_open {
             let status = &mut job.rows.status[range.first..range.first + count];

@@ -1,14 +1,8 @@
 //! Reactions of many designs at many positions.
 
-use super::applied::Values;
-use super::columns::{Solved, Sources, guide_directions};
-use super::evaluate::{Batch, Evaluate};
+use super::evaluate::{Evaluate, ReactionBatch};
 use super::followed::{Drivers, Followed};
-use super::force_plan::ForcePlan;
-use super::pair_forces::{JointForce, Reaction};
-use super::request::ReactionRequest;
-use super::rubbing::Rubbing;
-use super::scene::Scene;
+use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::designs::Designs;
@@ -16,14 +10,22 @@ use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::outputs::{Arrays, Column, Quantity};
 use crate::batch::request::{Coordinates, Request, Shape, check_arrays, product};
 use crate::batch::schedule::Control;
+use crate::batch::scratch::Scratch;
 use crate::batch::worker::{Job, Worker};
 use crate::batch::writer::{RowSlices, Writer};
 use crate::description::error::SolveError;
+use crate::dynamics::friction::pairs::FrictionPair;
+use crate::dynamics::friction::workspace::FrictionWorkspace;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::pair_friction::Friction;
+use crate::dynamics::reactions::applied::Values;
+use crate::dynamics::reactions::columns::{Solved, Sources, guide_directions};
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::pair_forces::JointForce;
+use crate::dynamics::reactions::scene::Scene;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
-use crate::sweep::scratch::Scratch;
 
 impl Machine {
     /// Finds the reactions of designs at positions: one array for each, and the statuses. Of
@@ -79,11 +81,14 @@ impl Machine {
             Reaction::Joint { joint, on } => JointForce::new(&plan, &links_at, joint, on),
             _ => JointForce::Free,
         };
-        let batch = Batch {
+        let balances = !asked.reactions.iter().all(|reaction| reaction.is_given());
+        let friction: &[Friction] = if balances { &self.friction } else { &[] };
+        let batch = ReactionBatch {
             mechanism,
             machine: self,
+            balances,
             joints: asked.reactions.iter().map(joint_force).collect(),
-            rubbing: Rubbing::of(&plan, &links_at, &self.friction),
+            friction: FrictionPair::of(&plan, &links_at, friction),
             sources: Sources::new(&plan, &writer.columns),
             plan: &plan,
             asked,
@@ -101,16 +106,17 @@ impl Machine {
 }
 
 struct React<'b, 'r> {
-    batch: &'b Batch<'b>,
+    batch: &'b ReactionBatch<'b>,
     chunks: Chunks<'r>,
 }
 
 /// What one thread works with.
-struct Own<'b, R: Real, const G: usize> {
+struct ThreadState<'b, R: Real, const G: usize> {
     worker: Worker<'b, R, G>,
     designs: Designs,
     scratch: Scratch,
     scene: Scene<R>,
+    friction: FrictionWorkspace<R>,
     tables: Vec<Vec<f64>>,
     followed: Followed,
     squares: Vec<Squares<R>>,
@@ -121,32 +127,36 @@ impl ForLevel for React<'_, '_> {
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
-        let Batch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
-        let own = || Own::<'_, L::Register, G> {
+        let ReactionBatch { mechanism, request, derivatives, writer, columns, control, .. } =
+            *batch;
+        let new_state = || ThreadState::<'_, L::Register, G> {
             worker: Worker::new(mechanism, request, derivatives, writer, control),
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
             scene: Scene::new(batch.plan),
+            friction: FrictionWorkspace::default(),
             tables: vec![Vec::new(); batch.machine.tables.len()],
             followed: Followed::default(),
             squares: Vec::new(),
         };
-        let work = |own: &mut Own<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
-            batch.chunk::<L, G>(own, chunk, rows);
-        };
-        control.run(self.chunks, own, work, |own| own.worker.finish())
+        let work =
+            |state: &mut ThreadState<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
+                batch.chunk::<L, G>(state, chunk, rows);
+            };
+        control.run(self.chunks, new_state, work, |state| state.worker.finish())
     }
 }
 
-impl Batch<'_> {
+impl ReactionBatch<'_> {
     fn chunk<L: Entry, const G: usize>(
         &self,
-        own: &mut Own<'_, L::Register, G>,
+        state: &mut ThreadState<'_, L::Register, G>,
         chunk: &Chunk,
         mut results: RowSlices<'_>,
     ) {
         let Shape { designs: all, positions, drivers } = *self.shape;
-        let Own { worker, designs, scratch, scene, tables, followed, squares } = own;
+        let ThreadState { worker, designs, scratch, scene, friction, tables, followed, squares } =
+            state;
         designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
         // Squares are of all positions.
         let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };
@@ -209,6 +219,7 @@ impl Batch<'_> {
                 },
                 status: &rows.status()[..count],
                 scene,
+                friction,
                 results: &mut results,
                 squares,
                 first: if self.asked.squares { index } else { index * count },

@@ -2,11 +2,11 @@
 
 use std::num::NonZeroUsize;
 
-use crate::batch::outputs::Column;
-use crate::batch::schedule::{Control, available_threads};
-use crate::batch::solve::as_unwritten;
-use crate::batch::worker::Job;
-use crate::batch::writer::RowSlices;
+use super::outputs::Column;
+use super::schedule::{Control, available_threads};
+use super::solve::as_unwritten;
+use super::worker::Job;
+use super::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::math::room::has_room;
 
@@ -59,7 +59,7 @@ impl<'a> ScratchRows<'a> {
     }
 
     /// The job of solving a design at some of these coordinates, from a row on.
-    pub(super) fn part<'j>(&'j mut self, q: &'j [f64], first: usize, design: usize) -> Job<'j, 'a> {
+    pub(crate) fn part<'j>(&'j mut self, q: &'j [f64], first: usize, design: usize) -> Job<'j, 'a> {
         Job { first, shared: Some(first), ..self.job(q, design) }
     }
 

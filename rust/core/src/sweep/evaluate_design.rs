@@ -5,11 +5,11 @@ use std::sync::Arc;
 use super::course::Course;
 use super::metric::{Metric, Positions};
 use super::request::Sweep;
-use super::scratch::ScratchRows;
 use crate::batch::designs::DesignRow;
 use crate::batch::outputs::Column;
 use crate::batch::request::{Request, Shape};
 use crate::batch::schedule::Control;
+use crate::batch::scratch::ScratchRows;
 use crate::batch::writer::Writer;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::LANES;
@@ -50,7 +50,7 @@ impl Probes {
 }
 
 /// What all chunks of a batch share.
-pub(super) struct Batch<'b> {
+pub(super) struct SweepBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub sweep: &'b Sweep<'b>,
     pub request: &'b Request<'b>,
@@ -73,14 +73,14 @@ pub(super) enum Outcome {
     Moves(u8),
     /// A position has failed, with this status.
     Fails(u8),
-    /// It misses a condition.
-    Misses,
+    /// A condition does not hold.
+    FailsCondition,
 }
 
-impl Batch<'_> {
+impl SweepBatch<'_> {
     /// What becomes of a design, given its positions at `q`, all or the probes alone; and its metrics,
     /// of all.
-    pub(super) fn judge(
+    pub(super) fn evaluate(
         &self,
         rows: &ScratchRows<'_>,
         (row, q): (DesignRow<'_>, &[f64]),
@@ -105,7 +105,7 @@ impl Batch<'_> {
                 found[condition.metric] = value;
                 // A part of the positions may have no probe.
                 if !(condition.holds(value) || are_probes && value.is_nan()) {
-                    return Outcome::Misses;
+                    return Outcome::FailsCondition;
                 }
             }
         }

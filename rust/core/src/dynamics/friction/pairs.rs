@@ -1,30 +1,41 @@
-//! The pairs of a machine that rub.
+//! The pairs of a machine with friction.
 
-use super::force_plan::ForcePlan;
-use super::pair_forces::JointForce;
-use crate::dynamics::friction::description::Friction;
 use crate::dynamics::friction::problem::Law;
+use crate::dynamics::pair_friction::Friction;
+use crate::dynamics::reactions::columns::Sources;
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::pair_forces::JointForce;
 
-/// Two links that rub.
+/// Two links with friction between them.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rubbing {
-    pub pair: Pair,
+pub(crate) struct FrictionPair {
+    pub kind: PairKind,
     pub law: Law,
     /// The law of what is about to move.
     pub static_law: Law,
     pub viscous: f64,
 }
 
-/// Where they rub.
+/// Where they touch.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Pair {
+pub(crate) enum PairKind {
     /// A link on the pin, which is fast in another one.
     Journal { joint: usize, on: usize, fast: usize, force: JointForce },
     /// A link on a guide.
     Guide { slide: usize, sliding: usize, carrying: usize },
 }
 
-impl Rubbing {
+impl FrictionPair {
+    /// The columns of which the rates, one less the other, are the speed at which it slides.
+    pub(crate) fn speed_columns(&self, plan: &ForcePlan, sources: &Sources) -> [Option<usize>; 2] {
+        match self.kind {
+            PairKind::Journal { on, fast, .. } => {
+                [on, fast].map(|link| sources.angles[link].filter(|_| link != plan.ground))
+            }
+            PairKind::Guide { slide, .. } => [sources.slides[slide], None],
+        }
+    }
+
     /// The pairs of a machine's friction.
     pub(crate) fn of(
         plan: &ForcePlan,
@@ -37,7 +48,7 @@ impl Rubbing {
                 Friction::Joint { joint, circle, static_circle, viscous } => {
                     let Some((&fast, others)) = links_at[joint].split_first() else { continue };
                     found.extend(others.iter().map(|&on| Self {
-                        pair: Pair::Journal {
+                        kind: PairKind::Journal {
                             joint,
                             on,
                             fast,
@@ -52,7 +63,7 @@ impl Rubbing {
                     let [sliding, carrying] = plan.slide_links[slide];
                     let half_length = 0.5 * length;
                     found.push(Self {
-                        pair: Pair::Guide { slide, sliding, carrying },
+                        kind: PairKind::Guide { slide, sliding, carrying },
                         law: Law::Guide { coefficient, half_length },
                         static_law: Law::Guide { coefficient: static_coefficient, half_length },
                         viscous,

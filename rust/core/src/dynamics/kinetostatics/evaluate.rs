@@ -4,21 +4,22 @@
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
-use super::applied::Values;
-use super::columns::{Rows, Solved, Sources};
-use super::force_plan::ForcePlan;
-use super::pair_forces::{JointForce, Reaction};
-use super::request::ReactionRequest;
-use super::rub::Asked;
-use super::rubbing::{Pair, Rubbing};
-use super::scene::Scene;
+use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
 use crate::batch::dispatch::Task;
 use crate::batch::outputs::Column;
 use crate::batch::request::{Request, Shape};
 use crate::batch::schedule::Control;
 use crate::batch::writer::{RowSlices, Writer, begins_line, store_pairs, write};
+use crate::dynamics::friction::pairs::{FrictionPair, PairKind};
+use crate::dynamics::friction::rows::Asked;
+use crate::dynamics::friction::workspace::FrictionWorkspace;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::reactions::applied::Values;
+use crate::dynamics::reactions::columns::{Rows, Solved, Sources};
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::pair_forces::JointForce;
+use crate::dynamics::reactions::scene::Scene;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
@@ -26,13 +27,15 @@ use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
 /// What all chunks of a batch share.
-pub(super) struct Batch<'b> {
+pub(super) struct ReactionBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub machine: &'b Machine,
     pub plan: &'b ForcePlan,
     pub sources: Sources,
     pub joints: Vec<JointForce>,
-    pub rubbing: Vec<Rubbing>,
+    /// Whether what pairs transmit is asked for, and not only what acts on links from outside.
+    pub balances: bool,
+    pub friction: Vec<FrictionPair>,
     pub asked: &'b ReactionRequest<'b>,
     pub request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
@@ -45,7 +48,7 @@ pub(super) struct Batch<'b> {
 
 /// The reactions of one design at some positions.
 pub(super) struct Evaluate<'e, 'r, R: Real> {
-    pub batch: &'e Batch<'e>,
+    pub batch: &'e ReactionBatch<'e>,
     pub guides: Vec<Vector>,
     /// The size of the design, m.
     pub size: f64,
@@ -53,6 +56,7 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
     pub values: Values<'e>,
     pub status: &'e [u8],
     pub scene: &'e mut Scene<R>,
+    pub friction: &'e mut FrictionWorkspace<R>,
     pub results: &'e mut RowSlices<'r>,
     pub squares: &'e mut Vec<Squares<R>>,
     /// Row of the first position, or of the design if squares are asked for.
@@ -62,7 +66,7 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let Batch { plan, machine, sources, asked, rubbing, control, .. } = self.batch;
+        let ReactionBatch { plan, machine, sources, asked, friction, control, .. } = self.batch;
         let count = self.solved.positions;
         self.squares.clear();
         self.squares.resize(asked.reactions.len(), Squares::NONE);
@@ -70,21 +74,26 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.guides, &self.solved, rows);
             self.scene.apply(plan, machine, self.values, rows);
-            if !rubbing.is_empty() {
-                self.rub(rows);
+            if !friction.is_empty() {
+                self.apply_friction(rows);
                 // A position that friction locks takes milliseconds, a block of them seconds.
                 if control.is_cancelled() {
                     return;
                 }
             }
-            self.scene.start(plan);
-            self.scene.carry_loads(plan);
-            self.scene.pass_moments(plan);
+            if self.batch.balances {
+                self.scene.start(plan);
+                self.scene.carry_loads(plan);
+                self.scene.pass_moments(plan);
+            }
             let lanes = R::LANES.min(count - first);
             if asked.squares {
                 self.add_squares(first, lanes);
             } else {
                 self.write(first, lanes);
+            }
+            if !self.batch.balances {
+                continue;
             }
             for &stress in &plan.self_stresses {
                 self.scene.stress(plan, stress);
@@ -109,30 +118,30 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
-    fn rub(&mut self, rows: Rows) {
-        let Batch { plan, sources, asked, rubbing, control, .. } = self.batch;
+    fn apply_friction(&mut self, rows: Rows) {
+        let ReactionBatch { plan, sources, asked, friction, control, .. } = self.batch;
         let size = self.size;
         let ways = self.scene.ways(asked.sense);
-        let pairs = (*plan, &rubbing[..]);
-        self.scene.read_rubbing(pairs, sources, (&self.solved, rows), &ways, size);
+        let pairs = (*plan, &friction[..]);
+        self.friction.read(self.scene, pairs, sources, (&self.solved, rows), &ways, size);
         let asked = Asked {
             solution: asked.solution,
             safety: asked.reactions.contains(&Reaction::Safety),
             cancel: control.cancel,
         };
-        self.scene.rub(pairs, asked, size);
+        self.friction.apply(self.scene, pairs, asked, size);
     }
 
     /// The sum over the pairs with friction at a joint or in a slide.
     #[inline(always)]
     fn sum_of_friction(&self, reaction: Reaction) -> Vector<R> {
         let mut sum = R::ZERO;
-        for (index, rubbing) in self.batch.rubbing.iter().enumerate() {
-            match share(&rubbing.pair, reaction) {
+        for (index, pair) in self.batch.friction.iter().enumerate() {
+            match share(&pair.kind, reaction) {
                 Some(Share::Friction(sign)) => {
-                    sum += self.scene.rubs.friction[index] * R::splat(sign);
+                    sum += self.friction.efforts[index] * R::splat(sign);
                 }
-                Some(Share::Loss) => sum += self.scene.rubs.loss(index),
+                Some(Share::Loss) => sum += self.friction.loss(index),
                 None => {}
             }
         }
@@ -161,13 +170,21 @@ impl<R: Real> Evaluate<'_, '_, R> {
             | Reaction::JointLoss(_)
             | Reaction::Friction(_)
             | Reaction::SlideLoss(_) => self.sum_of_friction(reaction),
-            Reaction::Solutions if self.batch.rubbing.is_empty() => one(R::ONE),
-            Reaction::Solutions => one(scene.rubs.solutions),
-            Reaction::Safety => one(scene.rubs.safety),
-            Reaction::Residual => one(scene.rubs.residual),
+            Reaction::Solutions if self.batch.friction.is_empty() => one(R::ONE),
+            Reaction::Solutions => one(self.friction.solutions),
+            Reaction::Safety => one(self.friction.safety),
+            Reaction::Residual => one(self.friction.residual),
             Reaction::Driver(driver) => one(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
             Reaction::ShakingMoment => one(scene.shaking_moment),
+            Reaction::LoadForce(action) | Reaction::LoadCouple(action) => {
+                scene.load_on(&self.batch.plan.load_actions[action])
+            }
+            Reaction::LoadPlace(action) => {
+                let plan = self.batch.plan;
+                let point = plan.load_actions[action].at;
+                point.map_or(Vector::ZERO, |point| scene.place(plan, point).at)
+            }
         }
     }
 
@@ -247,9 +264,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let size = self.size;
         for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
             let unit = match reaction {
-                Reaction::ShakingForce
-                | Reaction::ShakingMoment
-                | Reaction::JointMoment { .. }
+                _ if reaction.is_given() => continue,
+                Reaction::JointMoment { .. }
                 | Reaction::Friction(_)
                 | Reaction::JointLoss(_)
                 | Reaction::SlideLoss(_)
@@ -310,21 +326,22 @@ enum Share {
     Loss,
 }
 
-fn share(pair: &Pair, reaction: Reaction) -> Option<Share> {
+fn share(pair: &PairKind, reaction: Reaction) -> Option<Share> {
     match (reaction, pair) {
-        (Reaction::JointMoment { joint, on }, &Pair::Journal { joint: at, on: own, fast, .. })
-            if at == joint =>
-        {
+        (
+            Reaction::JointMoment { joint, on },
+            &PairKind::Journal { joint: at, on: own, fast, .. },
+        ) if at == joint => {
             let against = (fast == on).then_some(Share::Friction(-1.0));
             (own == on).then_some(Share::Friction(1.0)).or(against)
         }
-        (Reaction::JointLoss(joint), Pair::Journal { joint: at, .. }) if *at == joint => {
+        (Reaction::JointLoss(joint), PairKind::Journal { joint: at, .. }) if *at == joint => {
             Some(Share::Loss)
         }
-        (Reaction::Friction(slide), Pair::Guide { slide: own, .. }) if *own == slide => {
+        (Reaction::Friction(slide), PairKind::Guide { slide: own, .. }) if *own == slide => {
             Some(Share::Friction(1.0))
         }
-        (Reaction::SlideLoss(slide), Pair::Guide { slide: own, .. }) if *own == slide => {
+        (Reaction::SlideLoss(slide), PairKind::Guide { slide: own, .. }) if *own == slide => {
             Some(Share::Loss)
         }
         _ => None,
