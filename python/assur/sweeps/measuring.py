@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_name, real_array
-from assur.description.words import Status
+from assur.description.words import Status, has_analogues
 from assur.errors import InputError
 from assur.kinematics.solve import solve
 from assur.sweeps.encode import encoded
@@ -122,7 +122,7 @@ class Measuring:
             of.update(self._called(some, indices))
         values = {name: metric.value(of.__getitem__) for name, metric in self.metrics.items()}
         # A position that is singular has no analogues: its status says so.
-        is_defined = status < Status.SINGULAR
+        is_defined = has_analogues(status)
         without = np.zeros_like(kept)
         for condition in self.late:
             measured = condition.metric.value(of.__getitem__)
