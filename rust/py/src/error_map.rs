@@ -140,6 +140,7 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
         E::BadDimension { name, value, .. } => {
             (Class::Dimension, Fields { dimension: Some(name), value: Some(*value), ..none() })
         }
+        E::NoAxis { joint, .. } => (Class::Input, Fields { joint: Some(joint), ..none() }),
         E::CoordinateTooFar { q } => (Class::Input, Fields { q: Some(q), ..none() }),
         E::Redundant { kind, name } | E::Unknown { kind, name, .. } => {
             (Class::Input, named(*kind, name))

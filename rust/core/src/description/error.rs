@@ -432,6 +432,12 @@ pub enum SolveError {
     /// An unknown name.
     #[error("there is no {kind} {name:?}")]
     Unknown { kind: Named, name: String, hint: Option<String> },
+    /// A joint has two coordinates.
+    #[error(
+        "coordinate {name:?}{}: \"{joint}.x\" or \"{joint}.y\" is needed",
+        if *is_joint { " is a joint" } else { "" }
+    )]
+    NoAxis { name: String, joint: String, is_joint: bool },
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),
