@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._search import bisected
 from assur.description.words import has_analogues
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
@@ -146,10 +147,7 @@ def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
         known = float(way)
     if known == reach:
         return reach
-    for _ in range(HALVINGS):
-        middle = (known + beyond) / 2.0
-        known, beyond = (middle, beyond) if holds(middle) else (known, middle)
-    return known
+    return float(bisected(holds, known, beyond, HALVINGS)[0])
 
 
 def reach_of(limits: Limits) -> dict[str, Any]:
