@@ -18,7 +18,7 @@ from assur.flywheel.sizing import Task
 from assur.kinematics.assembly import AssemblyNumbers, FoundAssemblies
 from assur.kinematics.held import Buffers
 from assur.kinematics.limits import FoundLimits
-from assur.sweeps.specs import Spec
+from assur.sweeps.terms import Metric
 
 __all__ = [
     "Flywheels",
@@ -200,6 +200,7 @@ class Mechanism:
     def groups(self) -> list[_Group]: ...
     def dimension(self, name: str) -> int: ...
     def require(self, kind: str, name: str) -> int: ...
+    def check_coordinate(self, name: str) -> None: ...
     def taker(self, joint: str) -> tuple[str, bool]: ...
     def check_dimensions(self, values: list[float]) -> None: ...
     def solve(
@@ -221,11 +222,11 @@ class Mechanism:
         dimensions: _Float,
         q: _Float,
         signs: list[int],
-        metrics: list[Spec],
+        metrics: list[Metric],
         conditions: list[tuple[int, str, float]],
         threads: int | None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]: ...
-    def refusal_of_metric(self, q: _Float, metric: Spec) -> str | None: ...
+    def refusal_of_metric(self, q: _Float, metric: Metric) -> str | None: ...
     def diagnostics(
         self,
         dimensions: _Float,
@@ -261,7 +262,7 @@ class Mechanism:
         self,
         dimensions: list[float],
         signs: list[int],
-        coordinate: tuple[str, int, int],
+        coordinate: str,
         order: int,
         within: float | None = None,
     ) -> list[tuple[float, float]] | None: ...
@@ -269,7 +270,7 @@ class Mechanism:
         self,
         dimensions: list[float],
         signs: list[int],
-        coordinate: tuple[str, int, int],
+        coordinate: str,
         order: int,
         level: tuple[float, bool],
     ) -> list[list[float]]: ...

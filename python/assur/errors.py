@@ -32,6 +32,9 @@ class AssurError(Exception):
         What to do about it, the end of the message.
     joint, link, slide, driver, dimension : str or None
         Name of the first item concerned, if any.
+    names : tuple of str
+        Every joint, link, slide, driver and dimension that the message names before its hint, in
+        that order.
     group : str or None
         The Assur group concerned: a dyad by its inner joint or slide, a higher group by class and
         links.
@@ -67,6 +70,7 @@ class AssurError(Exception):
         slide: str | None = None,
         driver: str | None = None,
         dimension: str | None = None,
+        names: tuple[str, ...] = (),
         group: str | None = None,
         design: tuple[int, ...] | None = None,
         q: float | tuple[float, ...] | None = None,
@@ -81,11 +85,32 @@ class AssurError(Exception):
         self.slide = slide
         self.driver = driver
         self.dimension = dimension
+        self._names = names
         self.group = group
         self.design = design
         self.q = q
         self.t = t
         self.value = value
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Every joint, link, slide, driver and dimension that the message names, in its order.
+
+        Examples
+        --------
+        >>> import assur
+        >>> try:
+        ...     assur.Mechanism(
+        ...         joints={"A": (0, 0), "B": (1, 0), "C": (0, 1)},
+        ...         links={"ground": "AC", "crank": "AB", "rod": "BC"},
+        ...         driver="crank",
+        ...     )
+        ... except assur.StructureError as error:
+        ...     print(error.names)
+        ('crank', 'rod')
+        """
+        own = (self.joint, self.link, self.slide, self.driver, self.dimension)
+        return tuple(dict.fromkeys(self._names or (name for name in own if name is not None)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (type(self), self.args, self.__dict__)

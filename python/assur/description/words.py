@@ -5,8 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
 
 __all__ = ["Cylinder", "Drive", "Slide", "Status"]
+
+Flags: TypeAlias = npt.NDArray[np.bool_]
 
 
 class Status(IntEnum):
@@ -56,6 +62,16 @@ class Status(IntEnum):
     Of reactions: a load has none, as where its table ends. Of a design in a sweep: one of the
     metrics; `Measures.explain` says which and why.
     """
+
+
+def is_reached(status: npt.ArrayLike) -> Flags:
+    """Return whether positions exist, with analogues or without."""
+    return np.asarray(status) < Status.UNREACHABLE
+
+
+def has_analogues(status: npt.ArrayLike) -> Flags:
+    """Return whether positions have analogues, and what is made of them."""
+    return np.asarray(status) < Status.SINGULAR
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur._search import bisected
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -205,9 +207,5 @@ def _halve(slope: Float, a: Float, b: Float) -> Float:
     """Return the root between a and b of polynomials that are monotone there; a without one."""
     at_a = _value(slope, a)
     found = (at_a * np.sign(_value(slope, b))) < 0.0
-    low, high = a, b
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        same = (_value(slope, middle) > 0.0) == (at_a > 0.0)
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    low, high = bisected(lambda t: (_value(slope, t) > 0.0) == (at_a > 0.0), a, b, HALVINGS)
     return np.where(found, 0.5 * (low + high), a)

@@ -8,7 +8,7 @@ import numpy as np
 
 from assur._arrays import short
 from assur._validate import checked_index, checked_names
-from assur.description.words import Status
+from assur.description.words import Status, has_analogues
 from assur.dynamics.acting import Acting, Positions, acting_on
 from assur.dynamics.load_forces import loads_of
 from assur.dynamics.loads import Gravity
@@ -74,7 +74,7 @@ def force_system(
     positions, motion = _positions(found, index)
     mechanism = motion.mechanism
     chosen = _checked_links(mechanism, links)
-    if found.status[index] > Status.NEAR_SINGULAR:
+    if not has_analogues(found.status[index]):
         why = motion.explain()
         if found.status[index] == Status.NO_VALUE:
             why = "a load or an inertia force is not finite"

@@ -10,7 +10,7 @@ import numpy as np
 
 from assur._arrays import real_array, short
 from assur._validate import checked_threads, one_of
-from assur.description.words import Status
+from assur.description.words import Status, has_analogues
 from assur.dynamics.along import times
 from assur.dynamics.friction import SlideFriction
 from assur.dynamics.no_value import Moment, without_value
@@ -290,7 +290,7 @@ def without_forces(
 ) -> npt.NDArray[np.intp]:
     """Return the positions that are solved, but whose forces are not finite."""
     finite = np.isfinite(drives).all(axis=-1)
-    return np.flatnonzero(~finite & (status <= Status.NEAR_SINGULAR) & ~is_locked)
+    return np.flatnonzero(~finite & has_analogues(status) & ~is_locked)
 
 
 def broadcast_motion(

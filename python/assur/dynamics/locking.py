@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import real_number, short
+from assur._search import bisected
 from assur._validate import MAX_POINTS, whole_number
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.equilibria import search_range
@@ -111,12 +112,8 @@ def _intervals(of: Callable[[Float], npt.NDArray[np.bool_]], q: Float, is_turn: 
         q = np.concatenate([q[first:-1], q[: first + 1] + math.tau])
         holds = np.concatenate([holds[first:-1], holds[: first + 1]])
     changes = np.flatnonzero(holds[1:] != holds[:-1])
-    low, high = q[changes], q[changes + 1]
     before = holds[changes]
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        same = of(middle) == before if middle.size else before
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    low, high = bisected(lambda at: of(at) == before, q[changes], q[changes + 1], HALVINGS)
     # The end at which it holds.
     edges = np.where(before, low, high).tolist()
     if holds[0]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur._search import narrowed
 from assur.dynamics.along import DrivenMotion
 from assur.errors import InputError
 
@@ -85,21 +86,20 @@ def _refined(
     rod: Rod, rates: tuple[float, float, float], asked: tuple[str, str], low: Float, high: Float
 ) -> list[tuple[float, Peak]]:
     """Return the peaks between positions: the best of a few in between, again and again."""
-    first = np.abs(high - low)
-    rows = np.arange(low.size)
-    part = np.arange(TRIED + 2) / (TRIED + 1.0)
-    while True:
-        q = low[:, np.newaxis] + part * (high - low)[:, np.newaxis]
+    last: tuple[Float, ...] = ()
+
+    def height(q: Float) -> Float:
+        nonlocal last
         flat = q.reshape(-1, 1)
         v, a, t = (np.full(flat.shape, one) for one in rates)
         with np.errstate(over="ignore", invalid="ignore"):
             beam = rod.solve(DrivenMotion(flat, v, a, t[:, 0]), "nan")
-            measure, value, x = (one.reshape(q.shape) for one in _measured(beam, *asked))
-        best = np.argmax(measure, axis=1)
-        if (np.abs(high - low) <= CLOSEST * first).all():
-            chosen = (part[rows, best].tolist() for part in (measure, value, x, q))
-            return [(m, Peak(*found)) for m, *found in zip(*chosen, strict=True)]
-        low, high = q[rows, np.maximum(best - 1, 0)], q[rows, np.minimum(best + 1, TRIED + 1)]
+            last = tuple(one.reshape(q.shape) for one in _measured(beam, *asked))
+        return last[0]
+
+    q, best = narrowed(height, low, high, TRIED + 2, CLOSEST)
+    chosen = (one[np.arange(low.size), best].tolist() for one in (*last, q))
+    return [(m, Peak(*found)) for m, *found in zip(*chosen, strict=True)]
 
 
 def _measured(beam: Beam, quantity: str, of: str) -> tuple[Float, Float, Float]:

@@ -14,8 +14,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._extreme import Extreme
+from assur._search import bisected
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from assur._arrays import Float
 
 __all__ = ["Pieces"]
@@ -121,14 +124,14 @@ def _roots_within(a: Float, b: Float, c: Float, d: Float) -> list[Float]:
     def value(t: Float) -> Float:
         return a + t * (b + t * (c + t * d))
 
-    cuts = [zero]
-    for low, high in pairwise(ends):
-        near, far = low, high
-        sign = np.sign(value(low))
-        changes = sign * np.sign(value(high)) < 0.0
-        for _ in range(HALVINGS if changes.any() else 0):
-            middle = 0.5 * (near + far)
-            same = np.sign(value(middle)) == sign
-            near, far = np.where(same, middle, near), np.where(same, far, middle)
-        cuts.append(np.where(changes, far, high))
-    return [*cuts, one]
+    return [zero, *(_root(value, low, high) for low, high in pairwise(ends)), one]
+
+
+def _root(value: Callable[[Float], Float], low: Float, high: Float) -> Float:
+    """Return where functions that are monotone from low to high change their sign, or high."""
+    sign = np.sign(value(low))
+    changes = sign * np.sign(value(high)) < 0.0
+    if not changes.any():
+        return high
+    _, far = bisected(lambda t: np.sign(value(t)) == sign, low, high, HALVINGS)
+    return np.where(changes, far, high)

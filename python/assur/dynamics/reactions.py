@@ -10,7 +10,7 @@ from assur._summary import summary
 from assur._table import Column, Tabular, coordinate_columns, design_columns
 from assur._validate import checked_name
 from assur.description.structure import Group
-from assur.description.words import Status
+from assur.description.words import has_analogues
 from assur.dynamics import bearing as bearings
 from assur.dynamics.places import links_at
 from assur.dynamics.reaction_key import RESIDUAL, SAFETY, SOLUTIONS, Key
@@ -203,7 +203,7 @@ class Reactions(Tabular):
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
-        solved = (self.status <= Status.NEAR_SINGULAR) & ~self.at_rest
+        solved = has_analogues(self.status) & ~self.at_rest
         joints, links = self._mechanism._joint_names, list(self._mechanism.links)
         slides = list(self._mechanism.slides)
         names = []

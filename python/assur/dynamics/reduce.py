@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from assur._arrays import Float, finite_array, real_array, short
 from assur._validate import one_of
-from assur.description.words import Status
+from assur.description.words import has_analogues
 from assur.dynamics.no_value import EXTEND, Moment, without_value
 from assur.dynamics.values import function_values
 from assur.errors import InputError
@@ -67,7 +67,9 @@ def reduce(
         _require_within_table(machine, flat, status)
     inertia, rates, moment, potential = arrays
     if speed is not None and on_error == "raise":
-        missing = np.flatnonzero(~np.isfinite(moment).reshape(-1, n).any(axis=1) & (status < 2))
+        missing = np.flatnonzero(
+            ~np.isfinite(moment).reshape(-1, n).any(axis=1) & has_analogues(status)
+        )
         if missing.size:
             row = int(missing[0])
             if machine.mechanism is None:
@@ -138,7 +140,7 @@ def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineMode
 
 
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
-    beyond = np.flatnonzero(status > Status.NEAR_SINGULAR)
+    beyond = np.flatnonzero(~has_analogues(status))
     if machine.mechanism is None and beyond.size:
         raise _beyond_table(float(q[beyond[0]]), machine._core.tables[0][0])
 

@@ -1,14 +1,16 @@
-"""Values as TOML that reads back with the same bits, laid out as one would by hand."""
+"""A tree as TOML that reads back with the same bits, written as one would by hand."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
 WIDTH = 88
+# A section whose tables are sections too; elsewhere a table in a table is on one line.
+NESTED = "drawn"
 
 
 def key_text(name: str) -> str:
@@ -55,6 +57,25 @@ def pair_text(key: str, value: Any) -> str:
     return f"{key} = {value_text(value)}"
 
 
-def table_text(header: str, entries: Iterable[tuple[str, Any]]) -> str:
-    """Return a section; keys are as they are to be written."""
-    return "\n".join(["", header, *(pair_text(key, value) for key, value in entries)])
+def tree_text(tree: Mapping[str, Any], head: tuple[str, ...]) -> str:
+    """Return the text of a file: the keys of its head, then a section for each other table."""
+    lines = [pair_text(key, tree[key]) for key in head if key in tree]
+    for name in (name for name in tree if name not in head):
+        if isinstance(tree[name], list):
+            for table in tree[name]:
+                lines += _section(f"[{name}]", table)
+        else:
+            lines += _section(name, tree[name])
+    return "\n".join([*lines, ""])
+
+
+def _section(name: str, table: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the lines of a table; a name with dots is a key with dots."""
+    yield from ("", f"[{name}]")
+    inner = ("dimensions", NESTED) if name.endswith(NESTED) else ()
+    for key, value in table.items():
+        if key not in inner:
+            yield pair_text(".".join(map(key_text, key.split("."))), value)
+    for key in inner:
+        if key in table:
+            yield from _section(f"{name}.{key}", table[key])

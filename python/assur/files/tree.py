@@ -5,7 +5,6 @@ A file adds where each key is (`Source`); what arrives otherwise, as JSON, has k
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
 from assur.files.errors import FileError
@@ -16,8 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Tree", "shown"]
 
-# How messages of the package begin; in a file the key says it.
-SUBJECT = re.compile(r'(?:joint|link|slide|cylinder|driver|dimension) (["\'])(.+?)\1:? ')
+# What messages of the package begin with; in a file the key says it.
+SUBJECTS = ("joint", "link", "slide", "cylinder", "driver", "dimension")
 
 
 class Tree:
@@ -43,10 +42,15 @@ class Tree:
     def error_of(self, path: KeyPath, cause: AssurError) -> FileError:
         """Return an error of the package as that of a key."""
         message = str(cause)
-        subject = SUBJECT.match(message)
-        if subject is not None and path and subject[2] == path[-1]:
-            message = message[subject.end() :]
-        return self.error(path, message, cause)
+        name = path[-1] if path else None
+        starts = [
+            f"{noun} {quote}{name}{quote}{colon} "
+            for noun in SUBJECTS
+            for quote in ('"', "'")
+            for colon in ("", ":")
+        ]
+        start = next(filter(message.startswith, starts), "")
+        return self.error(path, message.removeprefix(start), cause)
 
 
 def with_fields(error: FileError, cause: AssurError | None, fields: dict[str, Any]) -> FileError:

@@ -1,4 +1,4 @@
-"""Write mechanisms and machines to files."""
+"""Write mechanisms and machines: as a tree of plain values, and that to files."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from assur.errors import InputError
 from assur.files.contents import FORMAT, Contents
 from assur.files.errors import FileError, file_name
 from assur.files.limits import MOST_BYTES, MOST_ITEMS
-from assur.files.toml import pair_text
-from assur.files.write_machine import machine_sections, wanted_sections
-from assur.files.write_mechanism import driver_value, mechanism_sections
+from assur.files.toml import tree_text
+from assur.files.write_machine import machine_tree, wanted_tree
+from assur.files.write_mechanism import driver_value, mechanism_tree
 from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from assur.dynamics.model import MachineModel
 
 __all__ = ["save"]
+
+# Keys of a file that stand before its sections.
+HEAD = ("format", "driver", "input_speed")
 
 
 def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -> None:
@@ -69,12 +72,17 @@ def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -
 
 def text_of(what: Any) -> str:
     """Return the text of a file."""
+    return tree_text(tree_of(what), HEAD)
+
+
+def tree_of(what: Any) -> dict[str, Any]:
+    """Return tables, lists and values of a file; dimensions have dotted names."""
     wanted: Any = {}
     speed = None
     if isinstance(what, Contents):
         speed, wanted = what.input_speed, what.wanted
         what = what.machine or what.mechanism
-    sections = []
+    machine: dict[str, Any] = {}
     if not isinstance(what, Mechanism):
         if not hasattr(what, "bodies"):
             message = f"{short(what)} is not a Mechanism, Machine or Contents"
@@ -82,15 +90,14 @@ def text_of(what: Any) -> str:
         if what.mechanism is None:
             message = "a machine of a table cannot be saved: keep its table in a file of its own"
             raise InputError(message)
-        sections = machine_sections(what)
+        machine = machine_tree(what)
         what = what.mechanism
     own = what._description
     for name, count in zip(("joints", "links", "slides"), map(len, own[:3]), strict=True):
         if count > MOST_ITEMS:
             message = f"the mechanism has {count} {name}: a file may have {MOST_ITEMS}"
             raise InputError(message)
-    head = f"format = {FORMAT}\n{pair_text('driver', driver_value(what))}"
+    tree = {"format": FORMAT, "driver": driver_value(what)}
     if speed is not None:
-        head += f"\n{pair_text('input_speed', speed)}"
-    body = [*mechanism_sections(what), *sections, *wanted_sections(wanted)]
-    return "\n".join([head, *body, ""])
+        tree["input_speed"] = list(speed) if isinstance(speed, tuple) else speed
+    return {**tree, **mechanism_tree(what), **machine, **wanted_tree(wanted)}

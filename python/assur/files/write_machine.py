@@ -1,4 +1,4 @@
-"""The machine of a file, and the results that it asks for, as text."""
+"""The machine of a file, and the results that it asks for, as trees."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from assur.files.limits import MOST_ITEMS
 from assur.files.parts import PARTS, ROWS
 from assur.files.ranges import Range
 from assur.files.read_machine import NO_MOTOR
-from assur.files.toml import key_text, table_text
 from assur.files.wanted import RANGE, WANTED
 
 if TYPE_CHECKING:
@@ -25,25 +24,23 @@ if TYPE_CHECKING:
     from assur.dynamics.motors import Motor
 
 
-def machine_sections(machine: MachineModel) -> list[str]:
-    """Return the sections of a machine."""
-    bodies = [(key_text(link), part(b, f"bodies[{link!r}]")) for link, b in machine.bodies.items()]
-    sections = [table_text("[bodies]", bodies)]
+def machine_tree(machine: MachineModel) -> dict[str, Any]:
+    """Return the tables of a machine."""
+    bodies = {link: part(body, f"bodies[{link!r}]") for link, body in machine.bodies.items()}
+    tree: dict[str, Any] = {"bodies": bodies}
     if len(machine.loads) > MOST_ITEMS:
         message = f"the machine has {len(machine.loads)} loads: a file may have {MOST_ITEMS}"
         raise InputError(message)
-    for i, load in enumerate(machine.loads):
-        sections.append(table_text("[[loads]]", _typed(load, f"loads[{i}]").items()))
+    if machine.loads:
+        tree["loads"] = [_typed(load, f"loads[{i}]") for i, load in enumerate(machine.loads)]
     if isinstance(machine.motor, tuple):
-        for i, motor in enumerate(machine.motor):
-            sections.append(table_text("[[motor]]", _motor(motor, f"motor[{i}]").items()))
+        tree["motor"] = [_motor(motor, f"motor[{i}]") for i, motor in enumerate(machine.motor)]
     elif machine.motor is not None:
-        sections.append(table_text("[motor]", _motor(machine.motor, "motor").items()))
+        tree["motor"] = _motor(machine.motor, "motor")
     if machine.friction:
         pairs = machine.friction.items()
-        friction = [(key_text(name), part(one, f"friction[{name!r}]")) for name, one in pairs]
-        sections.append(table_text("[friction]", friction))
-    return sections
+        tree["friction"] = {name: part(one, f"friction[{name!r}]") for name, one in pairs}
+    return tree
 
 
 def _motor(motor: Motor | None, what: str) -> dict[str, Any]:
@@ -90,17 +87,16 @@ def _value(value: Any, what: str) -> Any:
     return value
 
 
-def wanted_sections(wanted: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """Return the sections of results that a file asks for."""
-    sections = []
+def wanted_tree(wanted: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the tables of results that a file asks for."""
+    tree = {}
     for name, arguments in wanted.items():
         unknown = [key for key in arguments if key not in WANTED[name]]
         if unknown:
             message = f"wanted: a file has no {unknown[0]!r} of {name!r}"
             raise InputError(message)
-        entries = [(key, _argument(value, f"{name}: {key}")) for key, value in arguments.items()]
-        sections.append(table_text(f"[{name}]", entries))
-    return sections
+        tree[name] = {key: _argument(one, f"{name}: {key}") for key, one in arguments.items()}
+    return tree
 
 
 def _argument(value: Any, what: str) -> Any:

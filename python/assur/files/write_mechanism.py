@@ -1,4 +1,4 @@
-"""The mechanism of a file, as text: the drawing, and what differs from it."""
+"""The mechanism of a file, as a tree: the drawing, and what differs from it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from assur.description import encode
 from assur.description.words import Cylinder, Drive
 from assur.errors import InputError
 from assur.files.limits import MOST_PARTS
-from assur.files.toml import key_text, table_text
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -34,26 +33,26 @@ def _one_driver(driver: DriverLike) -> Any:
     return driver
 
 
-def mechanism_sections(mechanism: Mechanism) -> list[str]:
-    """Return the sections of a mechanism."""
+def mechanism_tree(mechanism: Mechanism) -> dict[str, Any]:
+    """Return the tables of a mechanism."""
     own = mechanism._description
     links, slides = with_cylinders(own)
-    sections = [
-        table_text("[joints]", [(key_text(name), (x, y)) for name, x, y in own.joints]),
-        table_text("[links]", [(key_text(name), on) for name, on in links]),
-    ]
+    tree: dict[str, Any] = {
+        "joints": {name: [x, y] for name, x, y in own.joints},
+        "links": {name: list(on) for name, on in links},
+    }
     if slides:
-        sections.append(table_text("[slides]", [(key_text(n), s) for n, s in slides]))
+        tree["slides"] = dict(slides)
     if own.assembly:
-        sections.append(table_text("[assembly]", [(key_text(n), s) for n, s in own.assembly]))
+        tree["assembly"] = dict(own.assembly)
     # The core of a mechanism that is drawn elsewhere has the drawing of that place.
     core = mechanism._core if mechanism._place is None else encode.core_of(own)
     drawing = np.array(core.drawing)
     if mechanism.shape or mechanism._values.tobytes() != drawing.tobytes():
-        sections.append(_dimensions("[dimensions]", mechanism))
+        tree["dimensions"] = _dimensions(mechanism)
     if mechanism._place is not None:
-        sections += _drawn("drawn", mechanism, mechanism._place)
-    return sections
+        tree["drawn"] = _drawn(mechanism, mechanism._place)
+    return tree
 
 
 def with_cylinders(
@@ -107,7 +106,7 @@ def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _dimensions(header: str, mechanism: Mechanism) -> str:
+def _dimensions(mechanism: Mechanism) -> dict[str, Any]:
     """Return all dimensions; of a batch, lists of those that differ."""
     names, values = mechanism._core.dimension_names, mechanism._values
     if values.size == 0 and names:
@@ -116,8 +115,7 @@ def _dimensions(header: str, mechanism: Mechanism) -> str:
     own = [_same_or_all(one) for one in values]
     if mechanism.shape and not any(isinstance(one, list) for one in own):
         own = values.tolist()
-    dotted = (".".join(map(key_text, name.split("."))) for name in names)
-    return table_text(header, zip(dotted, own, strict=True))
+    return dict(zip(names, own, strict=True))
 
 
 def _same_or_all(values: Float) -> Any:
@@ -127,9 +125,9 @@ def _same_or_all(values: Float) -> Any:
     return float(first) if is_one else values.tolist()
 
 
-def _drawn(name: str, mechanism: Mechanism, place: Place) -> list[str]:
+def _drawn(mechanism: Mechanism, place: Place, depth: int = 1) -> dict[str, Any]:
     """Return where an assembly was found, by the names of joints, links and slides."""
-    if name.count(".") + 2 >= MOST_PARTS:
+    if depth + 1 >= MOST_PARTS:
         message = "too many assemblies, each found from the one before: with_assembly() once, of "
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
@@ -148,13 +146,12 @@ def _drawn(name: str, mechanism: Mechanism, place: Place) -> list[str]:
         "signs": signs,
         "class_angles": numbers["class_angles"],
         "slides": dict(zip(own.slides, numbers["slides"], strict=True)),
-        "joints": dict(zip(own._joint_names, numbers["joints"], strict=True)),
+        "joints": dict(zip(own._joint_names, map(list, numbers["joints"]), strict=True)),
         "angles": dict(zip(own.links, numbers["angles"], strict=True)),
     }
-    given = [(k, v) for k, v in entries.items() if v or k in ("q", "joints", "angles")]
-    sections = [table_text(f"[{name}]", given)]
+    tree = {k: v for k, v in entries.items() if v or k in ("q", "joints", "angles")}
     if own._values.tobytes() != mechanism._values.tobytes():
-        sections.append(_dimensions(f"[{name}.dimensions]", own))
+        tree["dimensions"] = _dimensions(own)
     if own._place is not None:
-        sections += _drawn(f"{name}.drawn", own, own._place)
-    return sections
+        tree["drawn"] = _drawn(own, own._place, depth + 1)
+    return tree

@@ -78,9 +78,7 @@ class Extremes:
     time_ratio: float | None
     # The design in its assembly, the coordinate and its order, turns after which the motion closes:
     # for `dwells`.
-    _of: tuple[Mechanism, list[int], tuple[str, int, int], int, int | None] = field(
-        repr=False, compare=False
-    )
+    _of: tuple[Mechanism, list[int], str, int, int | None] = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
         ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.least, self.greatest))
@@ -122,11 +120,11 @@ class Extremes:
         if size < finest:
             message = f"tolerance is {size!r}: rounding decides below {finest:.3g}"
             raise InputError(message, value=size)
-        mechanism, signs, tracked, order, turns = self._of
+        mechanism, signs, name, order, turns = self._of
         ends = ((self.least.value + size, False), (self.greatest.value - size, True))
         values = mechanism._values.tolist()
         least, greatest = (
-            mechanism._core.stretches_beyond(values, signs, tracked, order, end)
+            mechanism._core.stretches_beyond(values, signs, name, order, end)
             if math.isfinite(end[0])
             else []
             for end in ends
@@ -146,23 +144,14 @@ def _near(stretches: list[list[float]], place: float, period: float | None) -> l
     return sorted(found)
 
 
-def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
-    """Return what a coordinate is of, its index and component: "B.x", "rocker", "bore"."""
+def checked_coordinate(mechanism: Mechanism, name: Any) -> str:
+    """Return the name of a coordinate: "B.x", "rocker", "bore"."""
     if not isinstance(name, str):
         message = f"coordinate {short(name)}: a name is needed"
         raise InputError(message)
-    name = checked_name(name, "coordinate")
-    joint, dot, axis = name.rpartition(".")
-    if dot:
-        if axis not in ("x", "y"):
-            message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
-            raise InputError(message)
-        return ("joint", mechanism._core.require("joint", joint), "xy".index(axis))
-    if name in mechanism._joint_names:
-        message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
-        raise InputError(message, joint=name)
-    kind = "slide" if name in mechanism.slides else "link"
-    return (kind, mechanism._core.require(kind, name), 0)
+    known = checked_name(name, "coordinate")
+    mechanism._core.check_coordinate(known)
+    return known
 
 
 def extremes(
@@ -179,23 +168,23 @@ def extremes(
         message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"
         raise InputError(message)
     order = whole_number(order, "order", 0, 3, needed="0, 1, 2 or 3 is needed")
-    tracked = coordinate(mechanism, name)
+    name = checked_coordinate(mechanism, name)
     if isinstance(assembly, Assembly):
         drawn = drawn_in(mechanism, assembly)
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
     values = mechanism._values.tolist()
-    found = mechanism._core.extremes(values, signs, tracked, order)
+    found = mechanism._core.extremes(values, signs, name, order)
     if found is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
     least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
     limits = mechanism.limits(assembly)
     ratio = None
-    unit = 1.0 if tracked[0] == "link" else size_of(mechanism)
+    unit = 1.0 if name in mechanism.links else size_of(mechanism)
     moves = greatest.value - least.value > STANDS * unit
     if order == 0 and moves and limits.period == 1 and math.isfinite(greatest.q - least.q):
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, tracked, order, limits.period))
+    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, limits.period))

@@ -19,7 +19,7 @@ from assur.description import encode
 from assur.description.words import Slide
 from assur.errors import AssurWarning, InputError, StructureError
 from assur.kinematics.assembly import Assembly, Place
-from assur.kinematics.extremes import coordinate
+from assur.kinematics.extremes import checked_coordinate
 from assur.kinematics.place import place_of, place_vector, size_of
 from assur.kinematics.pose import Pose, bare_core
 
@@ -89,12 +89,12 @@ def _driven_by(
     """Return the design driven by a coordinate, and the driver's coordinate of the value."""
     own = mechanism._description
     if mechanism._driver_count == 1 and "." not in name:
-        coordinate(mechanism, name)
+        checked_coordinate(mechanism, name)
         description = own._replace(drivers=encode.drivers(name), assembly=())
         return _redriven(mechanism, description, name), float(wanted[0])
     if mechanism._driver_count == 1:
         joint, _, axes = name.rpartition(".")
-        coordinate(mechanism, name)
+        checked_coordinate(mechanism, name)
     else:
         joint, axes = name, "xy"
         mechanism._core.require("joint", joint)

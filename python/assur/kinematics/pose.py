@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur import _core
-from assur.description.words import Status
+from assur.description.words import is_reached
 from assur.errors import InputError, StructureError
 from assur.kinematics.assembly import Place
 
@@ -83,7 +83,7 @@ def with_signs(mechanism: Mechanism, place: Place, signs: list[int]) -> Mechanis
     core = own._core.drawn_in(values, q, numbers)
     found = Place(own, place.q, numbers)
     motion = own._drawn_at(found, core).solve(q[0] if len(q) == 1 else q, order=0, on_error="nan")
-    if motion.status < Status.UNREACHABLE:
+    if is_reached(motion.status):
         # The joints of the place move with the signs.
         joints = [motion.joint(name).value.tolist() for name in own._joint_names]
         numbers["joints"] = [(x, y) for x, y in joints]

@@ -24,15 +24,14 @@ class JointLine(NamedTuple):
     end: str
 
 
-class LinkLine(NamedTuple):
-    """The guide of a slide, at this angle in its link's frame, rad (an array for a batch)."""
+class GuideLine(NamedTuple):
+    """The guide of a slide, on a link."""
 
     link: str
-    angle: Any
     slide: str
 
 
-Line: TypeAlias = JointLine | LinkLine
+Line: TypeAlias = JointLine | GuideLine
 
 
 def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
@@ -69,11 +68,6 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
     return [JointLine(name, _other_joint(mechanism, link, name)) for link in meeting], False
 
 
-def _guide(mechanism: Mechanism, slide: str) -> LinkLine:
-    angle = mechanism.dimensions.get(f"{slide}.angle", 0.0)
-    return LinkLine(mechanism.slides[slide].on, angle, slide)
-
-
 def _acute(motion: Motion, a: Float, b: Float) -> Float:
     shape = (*motion.shape, 2)
     flat = [np.ascontiguousarray(np.broadcast_to(x, shape)).reshape(-1) for x in (a, b)]
@@ -86,7 +80,7 @@ def _direction(motion: Motion, line: Line) -> Float:
     if isinstance(line, JointLine):
         along: Float = motion.joint(line.end).value - motion.joint(line.start).value
         return along
-    own = np.asarray(line.angle)
+    own = np.asarray(mechanism.dimensions.get(f"{line.slide}.angle", 0.0))
     if motion.shape[len(mechanism.shape) :]:
         own = own[..., np.newaxis]
     direction = motion.link(line.link).value + own
@@ -133,12 +127,12 @@ def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
         raise InputError(message, slide=name)
     at = joints[0]
     if slide.on != "ground":
-        return [JointLine(at, _pivot(mechanism, slide.on)), _guide(mechanism, name)]
+        return [JointLine(at, _pivot(mechanism, slide.on)), GuideLine(slide.on, name)]
     pushing = [k for k, on in mechanism.links.items() if at in on and k != slide.link]
     if len(pushing) != 1:
         message = f"slide {name!r}: {len(pushing)} links push joint {at!r}: pass between="
         raise InputError(message, slide=name, joint=at)
-    return [JointLine(at, _other_joint(mechanism, pushing[0], at)), _guide(mechanism, name)]
+    return [JointLine(at, _other_joint(mechanism, pushing[0], at)), GuideLine(slide.on, name)]
 
 
 def _pivot(mechanism: Mechanism, link: str) -> str:

@@ -10,7 +10,7 @@ from assur import _core
 from assur._arrays import real_number, short, two_numbers
 from assur._trig import sin_cos
 from assur.description import encode
-from assur.description.words import Status
+from assur.description.words import has_analogues
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
 from assur.mechanisms.named import from_drawing
@@ -237,7 +237,7 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     drawn = _drawn({n: (at[n].real, at[n].imag) for n in JOINTS})
     sized = drawn.with_dimensions(dimensions)
     found = sized.solve(sized.q0, order=0, on_error="nan")
-    if found.status > Status.NEAR_SINGULAR:
+    if not has_analogues(found.status):
         apart = abs(at["8"] + leg("6-8", first["7-8"] + angle["7-8-6"]) - at["6"])
         message = (
             f"these starting angles lead to no assembly with the crank at {first['1-2']!r} "

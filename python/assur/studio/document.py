@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 from assur.files.contents import FORMAT, Contents, contents_of
 from assur.files.node import Node
-from assur.files.parser import loads
 from assur.files.read_machine import SECTIONS
 from assur.files.tree import Tree
-from assur.files.write import text_of
+from assur.files.write import text_of, tree_of
 from assur.studio.limits import MOST_JOINTS, MOST_LINKS
 
 if TYPE_CHECKING:
@@ -99,11 +98,8 @@ def checked(data: Any) -> Node:
 
 def document_of(what: Mechanism | Machine | Contents) -> dict[str, Any]:
     """Return the document of a mechanism, a machine, or of what a file holds."""
-    data = loads(text_of(what))
-    document: dict[str, Any] = {key: data[key] for key in KEYS if key in data}
-    if "dimensions" in document:
-        document["dimensions"] = dict(flat(document["dimensions"]))
-    return document
+    data = tree_of(what)
+    return {key: data[key] for key in KEYS if key in data}
 
 
 def toml_of(data: Any) -> str:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from assur._arrays import flag, short
 from assur._validate import one_of, whole_number
-from assur.description.words import Status
+from assur.description.words import Status, is_reached
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class Measures(Mapping[str, Float]):
     @property
     def missed(self) -> npt.NDArray[np.intp]:
         """Indices (of designs in C order) of those that miss a condition of ``where=``."""
-        rest = (self.status < Status.UNREACHABLE).reshape(-1)
+        rest = is_reached(self.status).reshape(-1)
         rest[self.kept] = False
         return np.flatnonzero(rest)
 

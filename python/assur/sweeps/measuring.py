@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -10,14 +11,14 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_name, real_array
-from assur.description.words import Status
+from assur.description.words import Status, has_analogues
 from assur.errors import InputError
+from assur.kinematics import transmission
 from assur.kinematics.solve import solve
-from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
-from assur.sweeps.terms import Condition, Function, Leaf, Metric, OfMachine
+from assur.sweeps.terms import Combination, Condition, Function, Leaf, Metric, OfMachine
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -79,7 +80,13 @@ class Measuring:
         ]
         early = [c for c in conditions if c not in self.late]
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
-        self.encoded = [encoded(metric, mechanism, self.q.reshape(-1)) for metric in asked]
+        for one in self.leaves:
+            located = _with_lines(one, mechanism)
+            refusal = mechanism._core.refusal_of_metric(self.q.reshape(-1), located)
+            if refusal is not None:
+                message = f"{one!r}: {refusal}"
+                raise InputError(message)
+        self.asked = [_with_lines(metric, mechanism) for metric in asked]
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
 
     def run(self, designs: Designs, report: Report, engine: Any = None) -> Measures:
@@ -112,7 +119,7 @@ class Measuring:
             some._values.reshape(-1),
             self.q.reshape(-1),
             some._signs,
-            self.encoded,
+            self.asked,
             self.early,
             self.threads,
         )
@@ -122,7 +129,7 @@ class Measuring:
             of.update(self._called(some, indices))
         values = {name: metric.value(of.__getitem__) for name, metric in self.metrics.items()}
         # A position that is singular has no analogues: its status says so.
-        is_defined = status < Status.SINGULAR
+        is_defined = has_analogues(status)
         without = np.zeros_like(kept)
         for condition in self.late:
             measured = condition.metric.value(of.__getitem__)
@@ -182,6 +189,21 @@ class Measuring:
         wanted = function.order, function.outputs, None
         motion = solve(batch, self.q, *wanted, "nan", self.threads, None)
         return real_array(function.function(motion), f"the values of {function!r}")
+
+
+def _with_lines(metric: Metric, mechanism: Mechanism) -> Metric:
+    """Return a metric whose transmission angles have the lines between which they are."""
+    if isinstance(metric, Combination):
+        left, right = (
+            _with_lines(side, mechanism) if isinstance(side, Metric) else side
+            for side in (metric.left, metric.right)
+        )
+        return replace(metric, left=left, right=right)
+    if isinstance(metric, Leaf) and metric.kind == "least_transmission":
+        assert metric.of is not None
+        pair, complement = transmission.lines(mechanism, metric.of, *metric.options)
+        return replace(metric, options=(*pair, complement))
+    return metric
 
 
 def _check(metric: OfMachine, machine: Machine | None) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from assur.description.words import Status
+from assur.description.words import is_reached
 from assur.kinematics import solve as solver
 from assur.kinematics.held import Buffers, Results
 from assur.kinematics.motion import Motion
@@ -53,7 +53,7 @@ class Solving:
         """Whether each design of a batch moves over all of its positions."""
         some, q = task
         status = solver.solve(some, q, 0, (), None, "nan", self.threads, None).status
-        moves = (status < Status.UNREACHABLE).reshape(some.shape[0], -1)
+        moves = is_reached(status).reshape(some.shape[0], -1)
         every: npt.NDArray[np.bool_] = np.logical_and.reduce(moves, axis=-1)
         return every
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.description.words import Status
+from assur.description.words import Status, is_reached
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def explained(found: Measures, index: npt.NDArray[np.intp]) -> str | None:
     if status == Status.NO_VALUE:
         return measuring.without_value(design)
     motion = design.solve(measuring.q, order=0, outputs=[], on_error="nan")
-    failed = np.flatnonzero(motion.status >= Status.UNREACHABLE)
+    failed = np.flatnonzero(~is_reached(motion.status))
     if not failed.size:
         return Status(status).name
     wanted = np.flatnonzero(motion.status == status)

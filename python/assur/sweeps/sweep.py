@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from assur._validate import checked_order, checked_threads, one_of, real_array
-from assur.description.words import Status
+from assur.description.words import has_analogues
 from assur.dynamics.machine import Machine
 from assur.errors import InputError
 from assur.kinematics import solve as solver
@@ -221,7 +221,7 @@ def _motions(
     else:
         motion = solving.solve((every, course.whole), out)
         report(designs.count)
-    if on_error == "raise" and (motion.status >= Status.SINGULAR).any():
+    if on_error == "raise" and not has_analogues(motion.status).all():
         # It raises what it finds first, and counts the others.
         solver.solve(every, q, solving.order, (), None, "raise", solving.threads, None)
     return motion

@@ -79,7 +79,7 @@ pub use batch::test_hooks;
 pub use description::class_iv::ClassIv;
 pub use description::dimension::{Dimension, Dimensions};
 pub use description::error::{
-    DriverFault, Hint, Named, Overconstraint, SolveError, StructureError,
+    DriverFault, Hint, Item, Named, Overconstraint, SolveError, StructureError,
 };
 pub use description::four_bar::{FourBar, FourBarMode};
 pub use description::frame::Axis;

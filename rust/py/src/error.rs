@@ -11,6 +11,8 @@ pub(crate) struct Fields<'a> {
     pub slide: Option<&'a str>,
     pub driver: Option<&'a str>,
     pub dimension: Option<&'a str>,
+    /// All names in the message; if it is empty, those above.
+    pub names: Vec<&'a str>,
     pub group: Option<&'a str>,
     /// Index of the design in a batch.
     pub design: Option<Vec<usize>>,
@@ -63,6 +65,7 @@ pub(crate) fn exception(
             keywords.set_item("slide", fields.slide)?;
             keywords.set_item("driver", fields.driver)?;
             keywords.set_item("dimension", fields.dimension)?;
+            keywords.set_item("names", PyTuple::new(py, &fields.names)?)?;
             keywords.set_item("group", fields.group)?;
             keywords.set_item("t", fields.t)?;
             keywords.set_item("value", fields.value)?;

@@ -108,6 +108,7 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
         }
         _ => none(),
     };
+    let fields = Fields { names: error.names(), ..fields };
     raised(&error, Class::Structure, (&error).into(), &fields)
 }
 
@@ -139,6 +140,7 @@ pub(crate) fn solve(error: SolveError) -> PyErr {
         E::BadDimension { name, value, .. } => {
             (Class::Dimension, Fields { dimension: Some(name), value: Some(*value), ..none() })
         }
+        E::NoAxis { joint, .. } => (Class::Input, Fields { joint: Some(joint), ..none() }),
         E::CoordinateTooFar { q } => (Class::Input, Fields { q: Some(q), ..none() }),
         E::Redundant { kind, name } | E::Unknown { kind, name, .. } => {
             (Class::Input, named(*kind, name))
@@ -165,7 +167,8 @@ fn of_failure(failure: &Failure) -> (Class, &'static str, Fields<'_>) {
             (Class::Position, Fields { q: q.q, value: Some(*gap), ..named(*kind, name) })
         }
         Reason::ParallelGuides { slides } => {
-            (Class::Position, Fields { slide: first(slides), ..q })
+            let names = slides.iter().map(String::as_str).collect();
+            (Class::Position, Fields { slide: first(slides), names, ..q })
         }
         Reason::ZeroLength { slide } => (Class::Position, Fields { slide: Some(slide), ..q }),
         Reason::NegativeLength { slide, length } => {

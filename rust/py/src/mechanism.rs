@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use crate::convert::description::{Driver, Slide};
-use crate::convert::metric::MetricSpec;
+use crate::convert::metric::metric_of;
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::known_signs::KnownSigns;
@@ -37,14 +37,6 @@ pub(crate) struct GroupFields {
     links: Vec<String>,
     joints: Vec<String>,
     slides: Vec<String>,
-}
-
-fn tracked((kind, index, component): &(String, usize, usize)) -> assur::Tracked {
-    match kind.as_str() {
-        "joint" => assur::Tracked::Joint(*index, *component),
-        "link" => assur::Tracked::Link(*index),
-        _ => assur::Tracked::Slide(*index),
-    }
 }
 
 pub(crate) fn described(
@@ -152,11 +144,11 @@ impl Mechanism {
         py: Python<'_>,
         dimensions: Vec<f64>,
         signs: Vec<i8>,
-        coordinate: (String, usize, usize),
+        coordinate: &str,
         order: usize,
         within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
-        let asked = (tracked(&coordinate), order);
+        let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
         let found = detach::run(py, is_small(&self.inner), |cancel| {
             self.inner.extremes(&dimensions, &signs, asked, within, Some(cancel))
         })?;
@@ -170,11 +162,11 @@ impl Mechanism {
         py: Python<'_>,
         dimensions: Vec<f64>,
         signs: Vec<i8>,
-        coordinate: (String, usize, usize),
+        coordinate: &str,
         order: usize,
         level: (f64, bool),
     ) -> PyResult<Vec<[f64; 2]>> {
-        let asked = (tracked(&coordinate), order);
+        let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
         let found = detach::run(py, is_small(&self.inner), |cancel| {
             self.inner.stretches_beyond(&dimensions, &signs, asked, level, Some(cancel))
         })?;
@@ -278,6 +270,11 @@ impl Mechanism {
         catch_panic(|| index().map_err(error_map::solve))
     }
 
+    /// Raises `InputError` if a name is not that of a coordinate.
+    fn check_coordinate(&self, name: &str) -> PyResult<()> {
+        catch_panic(|| self.inner.coordinate(name).map(drop).map_err(error_map::solve))
+    }
+
     /// The link that takes a load at a joint, and whether another could as well: several links have the
     /// joint, and none of them is the only block. Raises `InputError` if the name is unknown.
     fn taker(&self, joint: &str) -> PyResult<(String, bool)> {
@@ -343,7 +340,7 @@ impl Mechanism {
         dimensions: PyReadonlyArray1<'py, f64>,
         q: PyReadonlyArray1<'py, f64>,
         signs: Vec<i8>,
-        metrics: Vec<MetricSpec>,
+        metrics: Vec<Bound<'py, PyAny>>,
         conditions: Vec<(usize, Word<assur::sweep::Relation>, f64)>,
         threads: Option<NonZeroUsize>,
     ) -> PyResult<Found<'py>> {
@@ -354,10 +351,10 @@ impl Mechanism {
     fn refusal_of_metric(
         &self,
         q: PyReadonlyArray1<'_, f64>,
-        metric: MetricSpec,
+        metric: Bound<'_, PyAny>,
     ) -> PyResult<Option<String>> {
         let q = q.as_slice()?;
-        catch_panic(|| Ok(metric.0.check(&self.inner.course(q)).err()))
+        catch_panic(|| Ok(metric_of(&self.inner, &metric)?.check(&self.inner.course(q)).err()))
     }
 
     /// Residual and condition of every position.

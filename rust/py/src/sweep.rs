@@ -7,7 +7,7 @@ use assur::{Control, Mechanism};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::convert::metric::{MetricSpec, condition};
+use crate::convert::metric::{condition, metric_of};
 use crate::convert::word::Word;
 use crate::short_calls::is_short;
 use crate::{detach, error_map, reserve};
@@ -22,13 +22,15 @@ pub(crate) fn measure<'py>(
     mechanism: &Mechanism,
     (dimensions, q): (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>),
     signs: &[i8],
-    metrics: &[MetricSpec],
+    metrics: &[Bound<'py, PyAny>],
     conditions: Vec<(usize, Word<Relation>, f64)>,
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Found<'py>> {
     let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
     let conditions: Vec<_> = conditions.into_iter().map(condition).collect();
-    let metrics: Vec<&dyn Metric> = metrics.iter().map(|spec| &*spec.0 as &dyn Metric).collect();
+    let metrics =
+        metrics.iter().map(|one| metric_of(mechanism, one)).collect::<PyResult<Vec<_>>>()?;
+    let metrics: Vec<&dyn Metric> = metrics.iter().map(|one| &**one as &dyn Metric).collect();
     let sweep = Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions };
     let designs = dimensions.len() / mechanism.dimensions().len().max(1);
     let small = is_short(mechanism, designs, q.len());

@@ -13,9 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
+from assur.files import toml
 from assur.files.parser import loads
 from assur.files.toml import value_text
-from assur.files.write import text_of
+from assur.files.write import text_of, tree_of
+from assur.studio.document import document_of, flat
+from file_machines import whole_machines
 from machines import five_bar, four_bar
 from named_drawings import CLASS_II, HIGHER
 
@@ -86,6 +89,25 @@ def test_an_assembly_found_from_another(tmp_path: Path) -> None:
         assert_same_motion(mechanism, again(mechanism, tmp_path / "m.toml"))
     batch = second.with_dimensions({n: [x, x * 1.001] for n, x in sized.items()})
     again(batch, tmp_path / "m.toml")
+
+
+def test_a_tree_is_what_its_text_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    """JSON of the studio is that tree: no text is made of it and parsed again."""
+    loom = next(m for m in (make() for make in HIGHER.values()) if len(m.assemblies(m.q0)) > 1)
+    first = loom.with_assembly(loom.assemblies(loom.q0)[-1])
+    second = first.with_assembly(first.assemblies(float(first.q0) + 0.01)[0])
+    length = next(name for name in loom.dimensions if name.endswith("length"))
+    sized = second.with_dimensions({length: [1.0, 1.001]})
+    for what in (*whole_machines().values(), first, second, sized):
+        tree, read = tree_of(what), loads(text_of(what))
+        inner: Any = read
+        while inner:
+            if "dimensions" in inner:
+                inner["dimensions"] = dict(flat(inner["dimensions"]))
+            inner = inner.get("drawn")
+        assert repr(tree) == repr(read)
+    monkeypatch.setattr(toml, "value_text", None)
+    assert document_of(first)["drawn"]["q"] == [first.q0]
 
 
 def test_an_endless_chain_of_assemblies_is_refused(tmp_path: Path) -> None:

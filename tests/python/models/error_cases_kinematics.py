@@ -224,6 +224,7 @@ REQUEST: dict[str, Case] = {
     "redundant": Case(
         InputError, lambda: LOCO.solve(0.3).sensitivity("rod.length"), {"link": "third"}
     ),
+    "no_axis": Case(InputError, lambda: M.extremes("B.z"), {"joint": "B"}),
     "coordinate_too_far": Case(InputError, lambda: M.assemblies(1e9), {"q": 1e9}),
     "unknown": Case(
         InputError,

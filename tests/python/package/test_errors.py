@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 KINDS = [(origin, kind) for origin, cases in CASES.items() for kind in cases]
 # Braces of Python stay: assembly={"C": +1}.
 LEFTOVERS = re.compile(r"(?<!=)\{|\bSome\(|\bOk\(|None|\bnan\b|  | [,;:.]|[,;:]{2}|\.\.|;$|:$")
+QUOTED = re.compile(r'"([^"]+)"')
 REST_OF_BATCH = re.compile(r" \(and \d+ more of \d+; on_error='nan' keeps the others\)$")
 
 
@@ -61,6 +62,20 @@ def test_the_message_ends_with_the_hint_and_has_no_leftovers(origin: str, kind: 
     if error.hint is not None:
         assert error.hint
         assert message.endswith(f"; {error.hint}")
+
+
+@pytest.mark.parametrize("kind", [kind for origin, kind in KINDS if origin == "structure"])
+def test_names_are_all_names_that_the_message_quotes(kind: str) -> None:
+    error = raised("structure", kind)
+    quoted = QUOTED.findall(str(error).removesuffix(error.hint or ""))
+    assert error.names == tuple(dict.fromkeys(quoted))
+
+
+def test_names_of_a_position_and_of_an_argument() -> None:
+    assert raised("position", "parallel_guides").names == ("s1", "s2")
+    assert raised("position", "not_closed").names == ("C",)
+    assert raised("position", "signs_do_not_return").names == ()
+    assert raised("request", "bad_dimension").names == ("coupler.length",)
 
 
 @pytest.mark.parametrize(("origin", "kind"), KINDS)

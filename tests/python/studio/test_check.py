@@ -28,6 +28,14 @@ def test_states_on_the_way() -> None:
     assert done["structure"]["groups"][0]["kind"] == "RRR"
 
 
+def test_names_in_advice_are_not_concerned() -> None:
+    """The message gives ["A", "B"] as a pattern, whatever joints there are."""
+    guide = {"link": "rocker", "on": "ground", "along": ["A"]}
+    reply = ask("check", document={**FOUR_BAR, "slides": {"s": guide}})
+    assert 'needs two joints, ["A", "B"]' in reply["message"]
+    assert reply["concerned"] == {"joints": [], "links": [], "slides": []}
+
+
 def test_candidates_are_tried() -> None:
     reply = ask("check", document=WITHOUT_DRIVER)
     assert reply["candidates"] == ["crank", "rocker"]

@@ -49,6 +49,22 @@ def test_of_metrics(arguments: dict[str, Any], message: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "kind"),
+    [("C", "no_axis"), ("C.z", "no_axis"), ("lever", "unknown"), ("X.y", "unknown")],
+)
+def test_a_name_is_refused_as_in_extremes(name: str, kind: str) -> None:
+    """In a combination or a condition too: the core knows names."""
+    with pytest.raises(assur.InputError) as wanted:
+        four_bar().extremes(name)
+    for asked in (metric.span(name), 1.0 - metric.rms(name, over=(0.0, 1.0)) / SWING):
+        for metrics, where in (({"a": asked}, []), (ASKED, [asked > 0.0])):
+            with pytest.raises(assur.InputError) as caught:
+                assur.sweep(four_bar(), {}, Q, metrics=metrics, where=where)
+            assert str(caught.value) == str(wanted.value)
+            assert caught.value.kind == wanted.value.kind == kind
+
+
+@pytest.mark.parametrize(
     ("make", "message"),
     [
         (

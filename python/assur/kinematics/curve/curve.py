@@ -10,7 +10,7 @@ import numpy as np
 from assur._arrays import counted
 from assur._trig import sin_cos
 from assur._validate import MAX_POINTS, checked_index, whole_number
-from assur.description.words import Status
+from assur.description.words import is_reached
 from assur.kinematics.curve.defects import defects_of
 from assur.kinematics.curve.parts import ends_of, has_driven_angle
 from assur.kinematics.place import size_of
@@ -214,7 +214,7 @@ def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motio
         beside = margin * max([unit, *finite])
         inside = np.clip(q, branch.low + beside, branch.high - beside)
         motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
-        if motion.status[0] < Status.UNREACHABLE and motion.status[-1] < Status.UNREACHABLE:
+        if is_reached(motion.status[[0, -1]]).all():
             break
     return motion
 

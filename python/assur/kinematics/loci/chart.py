@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.description.words import Drive
+from assur.description.words import Drive, has_analogues
 from assur.errors import AssurError
 from assur.kinematics.assembly import Place
 from assur.kinematics.pose import Pose, bare_core
@@ -127,7 +127,7 @@ class Chart:
         if np.abs(where - self.start).max() > REACH:
             return None
         motion = self._mechanism.solve([*(where * self.unit), *self._held], on_error="nan")
-        if int(motion.status) > 1:
+        if not has_analogues(motion.status):
             return None
         own, surface = self._mechanism, self._surface
         angles = {name: motion.link(name) for name in own.links}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._search import bisected
 from assur.pictures import chart
 from assur.pictures.diagrams.line_names import Named, name_lines
 from assur.pictures.diagrams.notes import Note, write_notes
@@ -94,19 +95,14 @@ def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own:
 
 def areas(flywheel: Flywheel, q: Float) -> list[tuple[float, float, float]]:
     """Return where the motor has a surplus or a deficit: start, end, energy of each, J."""
-    surplus = np.asarray(flywheel._surplus(q))
-    sign = np.sign(surplus)
-    ends = [float(q[0])]
-    for i in np.flatnonzero(sign[:-1] * sign[1:] < 0.0).tolist():
-        low, high = float(q[i]), float(q[i + 1])
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2.0
-            if float(flywheel._surplus(np.array(middle))) * sign[i] > 0.0:
-                low = middle
-            else:
-                high = middle
-        ends.append((low + high) / 2.0)
-    ends.append(float(q[-1]))
+    sign = np.sign(np.asarray(flywheel._surplus(q)))
+    at = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
+
+    def has_sign(middle: Float) -> Any:
+        return np.asarray(flywheel._surplus(middle)) * sign[at] > 0.0
+
+    low, high = bisected(has_sign, q[at], q[at + 1], HALVINGS)
+    ends = [float(q[0]), *((low + high) / 2.0).tolist(), float(q[-1])]
     work = np.asarray(flywheel.work(np.array(ends)))
     return [
         (first, last, float(gain))

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur._search import narrowed
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -15,8 +17,9 @@ if TYPE_CHECKING:
 FLAT = 1e-9
 # Of many hills of a curve the highest are searched.
 HILLS = 4
-# A search solves so often, at so many places between two samples.
-ROUNDS, PLACES = 4, 17
+# A search tries so many places between two samples, then again about the best of them, until these
+# are so much closer: four times.
+PLACES, CLOSEST = 17, 1 / 500
 # Interpolation is believed where it gains so much over the sample, relative to the range.
 GAIN = 1e-6
 
@@ -103,15 +106,17 @@ def _solved(
     best: tuple[float, float],
     sign: float,
 ) -> tuple[float, float]:
-    low, high = between
-    for _ in range(ROUNDS):
-        places = np.linspace(low, high, PLACES)
-        values = again(places)
+    def height(places: Float) -> Float:
+        nonlocal best
+        values = again(places[0])
         heights = np.where(np.isfinite(values), sign * values, -np.inf)
         i = int(np.argmax(heights))
         if heights[i] > sign * best[1]:
-            best = float(places[i]), float(values[i])
-        low, high = float(places[max(i - 1, 0)]), float(places[min(i + 1, PLACES - 1)])
+            best = float(places[0, i]), float(values[i])
+        return heights[np.newaxis]
+
+    low, high = np.array(between)[:, np.newaxis]
+    narrowed(height, low, high, PLACES, CLOSEST)
     return best
 
 

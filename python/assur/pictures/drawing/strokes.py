@@ -28,9 +28,8 @@ def strokes(subject: Subject, motion: Motion) -> dict[str, Stroke]:
     values, q = mechanism._values.tolist(), float(motion.q)
     found = {}
     for name in mechanism.slides:
-        tracked = ("slide", mechanism._core.require("slide", name), 0)
         try:
-            ends = mechanism._core.extremes(values, signs, tracked, 0, q)
+            ends = mechanism._core.extremes(values, signs, name, 0, q)
         except AssurError:
             # Not every assembly of a higher group can be followed to its ends.
             continue

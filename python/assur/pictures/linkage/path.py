@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from assur._validate import checked_index, checked_names
+from assur.description.words import is_reached
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.path_arrows import PathArrows
@@ -88,10 +89,10 @@ def _row(motion: Motion, at: int | None) -> int:
     """Return the position drawn: the first that exists, if none is chosen."""
     if at is not None:
         (row,) = checked_index(at, motion.shape, "at")
-        if motion.status[row] > 2:
+        if not is_reached(motion.status[row]):
             raise InputError(motion.explain(row))
         return row
-    reached = np.flatnonzero(motion.status < 3)
+    reached = np.flatnonzero(is_reached(motion.status))
     if not reached.size:
         raise InputError(f"there is no position to draw: {motion.explain(0)}")
     return int(reached[0])

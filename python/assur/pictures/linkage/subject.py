@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import flag
+from assur.description.words import is_reached
 from assur.pictures.axes import MARGIN, WIDTH, Canvas, canvas
 from assur.pictures.linkage.structural_formula import LINE, formula_lines
 from assur.pictures.scene.build import scene_of
@@ -59,7 +60,7 @@ class Subject:
         self.frames = at.values[0]
         whole = course(self.mechanism, self.assembly)
         drawing = np.array(list(self.mechanism.joints.values()))
-        drawn = np.isfinite(drawing).all() and (whole.status < 3).any()
+        drawn = np.isfinite(drawing).all() and is_reached(whole.status).any()
         course_frames = frames_of(whole) if drawn else at
         self.whole: Frames = nearby(course_frames, at, drawing) if drawn else at
         known = int(course_frames.is_known.sum()) + int(at.is_known.sum())

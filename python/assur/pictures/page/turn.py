@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from assur._arrays import real_number
+from assur.description.words import is_reached
 from assur.errors import InputError
 from assur.pictures.scene.course import TURN, free_stroke, interval_at
 from assur.pictures.scene.frames import FAR, Frames, frames_of
@@ -227,7 +228,7 @@ def _linear(
     mechanism: Mechanism, low: float, high: float, rows: int, order: int = 2
 ) -> Frames | None:
     motion = mechanism.solve(np.linspace(low, high, rows), order=order, on_error="nan")
-    return frames_of(motion) if bool((motion.status < 3).all()) else None
+    return frames_of(motion) if bool(is_reached(motion.status).all()) else None
 
 
 def _nearby(

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from assur.description.words import is_reached
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -42,7 +44,7 @@ def course(
     if turns:
         q = float(q0) + np.linspace(0.0, TURN, rows)
         motion = mechanism.solve(q, order=order, assembly=assembly, on_error="nan")
-        if np.isfinite(motion.q).all() and not (motion.status > 2).any():
+        if np.isfinite(motion.q).all() and is_reached(motion.status).all():
             return motion
     q = _reachable(mechanism, assembly, float(q0), rows, turns)
     return mechanism.solve(q, order=order, assembly=assembly, on_error="nan")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.description.words import Status
+from assur.description.words import has_analogues
 from assur.errors import AssurError
 from assur.kinematics.assembly import SAME, Assembly
 from assur.kinematics.place import size_of
@@ -69,7 +69,7 @@ def _neighbours(mechanism: Mechanism, q: Any) -> list[tuple[Assembly, dict[str, 
     listed = []
     for own in (Assembly(signs), *map(Assembly, flipped)):
         motion = mechanism.solve(q, order=0, assembly=own, on_error="nan")
-        if motion.status < Status.SINGULAR:
+        if has_analogues(motion.status):
             joints = {name: motion.joint(name).value.tolist() for name in mechanism.joints}
             listed.append((own, joints))
     return listed

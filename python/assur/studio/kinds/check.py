@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
 from assur.errors import AssurError, StructureError
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
 
 # Links that are tried as drivers, if none is named.
 MOST_CANDIDATES = 12
-QUOTED = re.compile(r'"([^"]+)"')
 # How many drivers, in words.
 COUNTS = ("No", "One", "Two", "Three", "Four", "Five", "Six")
 
@@ -95,10 +93,9 @@ def _refused(own: dict[str, Any], error: AssurError) -> Answer:
     """Return what a linkage lacks, or has too much of, in the words of the studio."""
     cause = error.__cause__ if isinstance(error.__cause__, AssurError) else error
     text, kind = str(cause), error.kind
-    named = QUOTED.findall(text.removesuffix(cause.hint or ""))
     known = {key: own.get(key) for key in ("joints", "links", "slides")}
     concerned = {
-        key: [n for n in dict.fromkeys(named) if isinstance(entries, dict) and n in entries]
+        key: [n for n in cause.names if isinstance(entries, dict) and n in entries]
         for key, entries in known.items()
     }
     links = listed(concerned["links"])

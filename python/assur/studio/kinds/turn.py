@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.description.words import Status
+from assur._search import bisected
+from assur.description.words import has_analogues
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
 from assur.pictures.page.payload import payload, played_of
@@ -136,7 +137,7 @@ def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
     def holds(way: float) -> bool:
         at = q.copy()
         at[axis] += way
-        return bool(mechanism.solve(at, order=0, on_error="nan").status < Status.SINGULAR)
+        return bool(has_analogues(mechanism.solve(at, order=0, on_error="nan").status))
 
     known, beyond = 0.0, reach
     for way in np.linspace(0.0, reach, STEPS + 1)[1:]:
@@ -146,10 +147,7 @@ def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
         known = float(way)
     if known == reach:
         return reach
-    for _ in range(HALVINGS):
-        middle = (known + beyond) / 2.0
-        known, beyond = (middle, beyond) if holds(middle) else (known, middle)
-    return known
+    return float(bisected(holds, known, beyond, HALVINGS)[0])
 
 
 def reach_of(limits: Limits) -> dict[str, Any]:

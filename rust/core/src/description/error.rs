@@ -24,6 +24,30 @@ pub enum Named {
     Dyad,
 }
 
+/// The part of a description that names another.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Item {
+    /// A link or a slide, by its name.
+    Named(Named, String),
+    /// A driver by a name alone.
+    Driver,
+    /// A driver that is the angle between two links.
+    Drive,
+    /// The assembly.
+    Assembly,
+}
+
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named(kind, name) => write!(f, "{kind} {name:?}"),
+            Self::Driver => f.write_str("driver"),
+            Self::Drive => f.write_str("Drive"),
+            Self::Assembly => f.write_str("assembly"),
+        }
+    }
+}
+
 /// What to do about an error.
 pub trait Hint: fmt::Display {
     /// Advice, if there is something to do.
@@ -171,7 +195,7 @@ pub enum StructureError {
     DoubledJoint { link: String, joint: String },
     /// An unknown name.
     #[error("{item} names the {kind} {name:?}, which does not exist")]
-    Unknown { kind: Named, name: String, item: String, hint: Option<String> },
+    Unknown { kind: Named, name: String, item: Item, hint: Option<String> },
     /// A coordinate or angle is NaN or infinite.
     #[error("{what} of {kind} {name:?} is {}: a finite number is needed", number(*value))]
     NotFinite { kind: Named, name: String, what: &'static str, value: f64 },
@@ -192,7 +216,7 @@ pub enum StructureError {
     NoGround,
     /// A slide or driver relates a link to itself.
     #[error("{item} relates link {link:?} to itself")]
-    SameLink { item: String, link: String },
+    SameLink { item: Item, link: String },
     /// The named origin is not a joint of the link that carries the guide.
     #[error(
         "slide {slide:?} has origin {joint:?}, which is not a joint of link {link:?} that carries the guide"
@@ -408,6 +432,12 @@ pub enum SolveError {
     /// An unknown name.
     #[error("there is no {kind} {name:?}")]
     Unknown { kind: Named, name: String, hint: Option<String> },
+    /// A joint has two coordinates.
+    #[error(
+        "coordinate {name:?}{}: \"{joint}.x\" or \"{joint}.y\" is needed",
+        if *is_joint { " is a joint" } else { "" }
+    )]
+    NoAxis { name: String, joint: String, is_joint: bool },
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),

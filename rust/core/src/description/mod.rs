@@ -7,6 +7,7 @@
 pub(crate) mod class_iv;
 pub(crate) mod dimension;
 pub(crate) mod error;
+mod error_names;
 pub(crate) mod four_bar;
 pub(crate) mod frame;
 pub(crate) mod names;

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::error::{Named, StructureError};
+use super::error::{Item, Named, StructureError};
 use super::names::{mistaken_kind, suggest};
 use super::{Description, Driver, DriverDescription, Joint, Link, Linkage, Slide};
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH, ZERO_LENGTH};
@@ -166,7 +166,7 @@ fn resolve(
     kind: Named,
     name: &str,
     others: &HashMap<&str, usize>,
-    context: impl FnOnce() -> String,
+    item: impl FnOnce() -> Item,
 ) -> Result<usize, StructureError> {
     let other_kind = if kind == Named::Joint { Named::Link } else { Named::Joint };
     let is_other = others.contains_key(name);
@@ -174,7 +174,7 @@ fn resolve(
     index.get(name).copied().ok_or_else(|| StructureError::Unknown {
         kind,
         name: name.into(),
-        item: context(),
+        item: item(),
         hint: mistaken.or_else(|| suggest(name, index.keys().copied())),
     })
 }
@@ -191,7 +191,7 @@ fn resolve_links(
         let mut seen = HashSet::new();
         for member in members {
             let joint = resolve(joint_index, Named::Joint, member, &link_index, || {
-                format!("link {name:?}")
+                Item::Named(Named::Link, name.clone())
             })?;
             if !seen.insert(joint) {
                 return Err(StructureError::DoubledJoint {
@@ -214,17 +214,17 @@ fn resolve_slides(
 ) -> Result<Vec<Slide>, StructureError> {
     let mut slides = Vec::new();
     for s in &description.slides {
-        let context = || format!("slide {:?}", s.name);
+        let item = || Item::Named(Named::Slide, s.name.clone());
         check_range(s.angle, Named::Slide, &s.name, "angle")?;
-        let link = resolve(link_index, Named::Link, &s.link, joint_index, context)?;
-        let on = resolve(link_index, Named::Link, &s.on, joint_index, context)?;
+        let link = resolve(link_index, Named::Link, &s.link, joint_index, item)?;
+        let on = resolve(link_index, Named::Link, &s.on, joint_index, item)?;
         if link == on {
-            return Err(StructureError::SameLink { item: context(), link: s.link.clone() });
+            return Err(StructureError::SameLink { item: item(), link: s.link.clone() });
         }
         let origin = match &s.origin {
             None => None,
             Some(name) => {
-                let joint = resolve(joint_index, Named::Joint, name, link_index, context)?;
+                let joint = resolve(joint_index, Named::Joint, name, link_index, item)?;
                 if !links[on].joints.contains(&joint) {
                     return Err(StructureError::OriginNotOnLink {
                         slide: s.name.clone(),
@@ -269,7 +269,7 @@ fn resolve_drivers(
                     return Err(StructureError::Unknown {
                         kind: Named::Link,
                         name: name.clone(),
-                        item: "driver".into(),
+                        item: Item::Driver,
                         hint: joint_index
                             .contains_key(name.as_str())
                             .then(|| mistaken_kind(name, Named::Link, Named::Joint))
@@ -281,11 +281,11 @@ fn resolve_drivers(
                 }
             }
             DriverDescription::Relative { link, relative_to } => {
-                let context = || "Drive".to_string();
-                let a = resolve(&link_index, Named::Link, link, &joint_index, context)?;
-                let b = resolve(&link_index, Named::Link, relative_to, &joint_index, context)?;
+                let item = || Item::Drive;
+                let a = resolve(&link_index, Named::Link, link, &joint_index, item)?;
+                let b = resolve(&link_index, Named::Link, relative_to, &joint_index, item)?;
                 if a == b {
-                    return Err(StructureError::SameLink { item: context(), link: link.clone() });
+                    return Err(StructureError::SameLink { item: item(), link: link.clone() });
                 }
                 Driver::Angle { link: a, relative_to: b }
             }

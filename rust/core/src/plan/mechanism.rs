@@ -9,7 +9,7 @@ use super::dyad::{Dyad, Form};
 use super::plan::Plan;
 use super::work_spaces::PlanNumber;
 use crate::description::dimension::Dimensions;
-use crate::description::error::{Named, SolveError, StructureError, check_flag};
+use crate::description::error::{Item, Named, SolveError, StructureError, check_flag};
 use crate::description::names::{mistaken_kind, suggest};
 use crate::description::{Description, Driver, Linkage};
 use crate::math::tolerance::FLAT_SINE;
@@ -273,7 +273,7 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
             return Err(StructureError::Unknown {
                 kind: Named::Dyad,
                 name: name.clone(),
-                item: "assembly".into(),
+                item: Item::Assembly,
                 hint: suggest(name, plan.dyad_names.iter().map(String::as_str)),
             });
         }

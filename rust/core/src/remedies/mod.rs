@@ -22,7 +22,7 @@ use std::sync::atomic::AtomicBool;
 
 use self::search::Search;
 use self::sketch::Sketch;
-use crate::description::error::{Interrupted, StructureError};
+use crate::description::error::{Interrupted, Item, StructureError};
 use crate::description::{Description, DriverDescription};
 use crate::plan::mechanism::Mechanism;
 
@@ -96,8 +96,9 @@ fn repair(
         | E::AlmostFits { .. }
         | E::SlidesOnly { .. } => stuck::free(search, sketch, error),
         E::Mobility { .. } => loose::bind(search, sketch, error),
-        E::CannotDrive { .. } | E::GroundDriven { .. } => driving::replace(search, sketch, error),
-        E::Unknown { item, .. } if item == "driver" => driving::replace(search, sketch, error),
+        E::CannotDrive { .. } | E::GroundDriven { .. } | E::Unknown { item: Item::Driver, .. } => {
+            driving::replace(search, sketch, error)
+        }
         E::DoubledDriver { driver } => driving::give_once(search, sketch, driver),
         error => unfinished::finish(search, sketch, error),
     }

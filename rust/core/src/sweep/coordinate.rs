@@ -2,6 +2,7 @@
 
 use super::metric::{Need, Positions};
 use crate::batch::outputs::Quantity;
+use crate::query::extremes::tracked::Tracked;
 
 /// A coordinate, or a derivative of it by the driver's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,5 +44,15 @@ impl Coordinate {
         let first = self.component.min(stride - 1);
         let all = positions.values.first().copied().unwrap_or(&[]);
         all.iter().skip(first).step_by(stride).copied()
+    }
+}
+
+impl From<Tracked> for Coordinate {
+    fn from(of: Tracked) -> Self {
+        match of {
+            Tracked::Joint(index, component) => Self::joint(index, component),
+            Tracked::Link(index) => Self::link(index),
+            Tracked::Slide(index) => Self::slide(index),
+        }
     }
 }

@@ -1,75 +1,28 @@
-//! Metrics and conditions of sweeps.
+//! Metrics and conditions of sweeps: what `assur.metric` makes, with the names of a mechanism.
 
 use std::f64::consts::TAU;
 
 use assur::sweep::{
-    self, Condition, Extreme, LeastTransmission, Mean, Metric, Moves, Operand, Operation, PlaceOf,
-    Relation, RootMeanSquare, Shape, Span, TimeRatio,
+    Combination, Condition, Deviation, Extreme, LeastTransmission, Line, Mean, Metric, Moves,
+    Operand, Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
 };
+use assur::{Driver, Mechanism};
 use pyo3::prelude::*;
 
 use super::Classes;
 use super::word::{Word, Words};
+use crate::error_map;
 
-const MODULE: Classes = Classes("assur.sweeps.specs");
+const MODULE: Classes = Classes("assur.sweeps.terms");
 
 type Own = Box<dyn Metric + Send>;
 
-/// A metric of any class.
-pub(crate) struct MetricSpec(pub Own);
-
-/// What a coordinate belongs to.
+/// What is measured.
 #[derive(Clone, Copy)]
-enum Owner {
-    Joint,
-    Link,
-    Slide,
-}
-
-impl Words for Owner {
-    const WHAT: &'static str = "kind";
-    const KNOWN: &'static [(&'static str, Self)] =
-        &[("joint", Self::Joint), ("link", Self::Link), ("slide", Self::Slide)];
-}
-
-#[derive(FromPyObject)]
-struct Coordinate {
-    kind: Word<Owner>,
-    index: usize,
-    component: usize,
-    order: usize,
-}
-
-impl From<Coordinate> for sweep::Coordinate {
-    fn from(of: Coordinate) -> Self {
-        let value = match of.kind.0 {
-            Owner::Joint => Self::joint(of.index, of.component),
-            Owner::Link => Self::link(of.index),
-            Owner::Slide => Self::slide(of.index),
-        };
-        value.derivative(of.order)
-    }
-}
-
-/// `JointLine` or `GuideLine`: the fields tell which.
-#[derive(FromPyObject)]
-enum Line {
-    Joints { start: usize, end: usize },
-    Guide { link: usize, angle: Option<usize> },
-}
-
-impl From<Line> for sweep::Line {
-    fn from(line: Line) -> Self {
-        match line {
-            Line::Joints { start, end } => Self::Joints([start, end]),
-            Line::Guide { link, angle } => Self::Guide(link, angle),
-        }
-    }
-}
-
-/// What is measured of one coordinate.
-#[derive(Clone, Copy)]
-enum Measure {
+enum Kind {
+    Moves,
+    LeastTransmission,
+    Deviation,
     Span,
     Least,
     Greatest,
@@ -80,9 +33,12 @@ enum Measure {
     TimeRatio,
 }
 
-impl Words for Measure {
-    const WHAT: &'static str = "measure";
+impl Words for Kind {
+    const WHAT: &'static str = "kind";
     const KNOWN: &'static [(&'static str, Self)] = &[
+        ("moves", Self::Moves),
+        ("least_transmission", Self::LeastTransmission),
+        ("deviation", Self::Deviation),
         ("span", Self::Span),
         ("least", Self::Least),
         ("greatest", Self::Greatest),
@@ -95,104 +51,89 @@ impl Words for Measure {
 }
 
 #[derive(FromPyObject)]
-struct Scalar {
-    measure: Word<Measure>,
-    coordinate: Coordinate,
+struct Leaf<'py> {
+    kind: Word<Kind>,
+    of: Option<String>,
+    order: usize,
+    options: Bound<'py, PyAny>,
+    over: Option<(f64, f64)>,
 }
 
-impl Scalar {
-    fn metric(self) -> Own {
-        let of = self.coordinate.into();
-        match self.measure.0 {
-            Measure::Span => Box::new(Span(of)),
-            Measure::Least => Box::new(Extreme::Least(of)),
-            Measure::Greatest => Box::new(Extreme::Greatest(of)),
-            Measure::PlaceOfLeast => Box::new(PlaceOf(Extreme::Least(of))),
-            Measure::PlaceOfGreatest => Box::new(PlaceOf(Extreme::Greatest(of))),
-            Measure::Mean => Box::new(Mean(of)),
-            Measure::RootMeanSquare => Box::new(RootMeanSquare(of)),
-            Measure::TimeRatio => Box::new(TimeRatio(of)),
-        }
-    }
-}
-
-#[derive(FromPyObject)]
-struct LeastTransmissionOf {
-    lines: [Line; 2],
-    complement: bool,
-}
-
-#[derive(FromPyObject)]
-struct Deviation {
-    joint: usize,
-    shape: Word<Shape>,
-    part: f64,
-    is_relative: bool,
-}
-
-#[derive(FromPyObject)]
-struct Part {
-    metric: MetricSpec,
-    start: f64,
-    end: f64,
-    is_of_turn: bool,
-}
-
-#[derive(FromPyObject)]
-struct Combination {
-    operation: Word<Operation>,
-    left: Side,
-    right: Side,
-}
-
-#[derive(FromPyObject)]
-enum Side {
-    #[pyo3(transparent)]
-    Number(f64),
-    #[pyo3(transparent)]
-    Metric(MetricSpec),
-}
-
-impl From<Side> for Operand {
-    fn from(side: Side) -> Self {
-        match side {
-            Side::Number(number) => Self::Number(number),
-            Side::Metric(MetricSpec(metric)) => Self::Metric(metric),
-        }
-    }
-}
-
-impl<'py> FromPyObject<'_, 'py> for MetricSpec {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let is = |class| MODULE.is(&object, class);
-        let metric: Own = if is("Moves")? {
-            Box::new(Moves)
-        } else if is("Scalar")? {
-            object.extract::<Scalar>()?.metric()
-        } else if is("LeastTransmission")? {
-            let LeastTransmissionOf { lines, complement } = object.extract()?;
-            Box::new(LeastTransmission { lines: lines.map(Into::into), complement })
-        } else if is("Deviation")? {
-            let Deviation { joint, shape: Word(shape), part, is_relative } = object.extract()?;
-            Box::new(sweep::Deviation { joint, shape, part, is_relative })
-        } else if is("Part")? {
-            let Part { metric: MetricSpec(metric), start, end, is_of_turn } = object.extract()?;
-            Box::new(sweep::Part {
-                metric,
-                from: start,
-                to: end,
-                period: is_of_turn.then_some(TAU),
-            })
-        } else if is("Combination")? {
-            let Combination { operation: Word(operation), left, right } = object.extract()?;
-            Box::new(sweep::Combination { operation, left: left.into(), right: right.into() })
-        } else {
-            return Err(MODULE.unknown(&object));
+impl Leaf<'_> {
+    fn metric(self, mechanism: &Mechanism) -> PyResult<Own> {
+        let name = self.of.unwrap_or_default();
+        let coordinate = || -> PyResult<assur::sweep::Coordinate> {
+            let of = mechanism.coordinate(&name).map_err(error_map::solve)?;
+            Ok(assur::sweep::Coordinate::from(of).derivative(self.order))
         };
-        Ok(Self(metric))
+        let metric: Own = match self.kind.0 {
+            Kind::Moves => Box::new(Moves),
+            Kind::LeastTransmission => {
+                let (first, second, complement): (LineOf, LineOf, bool) = self.options.extract()?;
+                let lines = [first.line(mechanism)?, second.line(mechanism)?];
+                Box::new(LeastTransmission { lines, complement })
+            }
+            Kind::Deviation => {
+                let joint = mechanism.joint(&name).map_err(error_map::solve)?;
+                let (Word(shape), part, is_relative): (Word<Shape>, f64, bool) =
+                    self.options.extract()?;
+                Box::new(Deviation { joint, shape, part, is_relative })
+            }
+            Kind::Span => Box::new(Span(coordinate()?)),
+            Kind::Least => Box::new(Extreme::Least(coordinate()?)),
+            Kind::Greatest => Box::new(Extreme::Greatest(coordinate()?)),
+            Kind::PlaceOfLeast => Box::new(PlaceOf(Extreme::Least(coordinate()?))),
+            Kind::PlaceOfGreatest => Box::new(PlaceOf(Extreme::Greatest(coordinate()?))),
+            Kind::Mean => Box::new(Mean(coordinate()?)),
+            Kind::RootMeanSquare => Box::new(RootMeanSquare(coordinate()?)),
+            Kind::TimeRatio => Box::new(TimeRatio(coordinate()?)),
+        };
+        let Some((from, to)) = self.over else { return Ok(metric) };
+        let is_slide = matches!(mechanism.linkage().drivers.first(), Some(Driver::Slide(_)));
+        Ok(Box::new(Part { metric, from, to, period: (!is_slide).then_some(TAU) }))
     }
+}
+
+/// `JointLine` or `GuideLine` of `assur.kinematics.transmission`: the fields tell which.
+#[derive(FromPyObject)]
+enum LineOf {
+    Joints { start: String, end: String },
+    Guide { link: String, slide: String },
+}
+
+impl LineOf {
+    fn line(self, mechanism: &Mechanism) -> PyResult<Line> {
+        let line = match self {
+            Self::Joints { start, end } => mechanism
+                .joint(&start)
+                .and_then(|start| Ok(Line::Joints([start, mechanism.joint(&end)?]))),
+            Self::Guide { link, slide } => {
+                let angle = format!("{slide}.angle");
+                let angle = mechanism.dimensions().iter().position(|(name, _)| name == angle);
+                mechanism.link(&link).map(|link| Line::Guide(link, angle))
+            }
+        };
+        line.map_err(error_map::solve)
+    }
+}
+
+/// A metric of any class, for a mechanism.
+pub(crate) fn metric_of(mechanism: &Mechanism, metric: &Bound<'_, PyAny>) -> PyResult<Own> {
+    if MODULE.is(metric, "Leaf")? {
+        return metric.extract::<Leaf<'_>>()?.metric(mechanism);
+    }
+    if !MODULE.is(metric, "Combination")? {
+        return Err(MODULE.unknown(metric));
+    }
+    let side = |name| -> PyResult<Operand> {
+        let side = metric.getattr(name)?;
+        match side.extract::<f64>() {
+            Ok(number) => Ok(Operand::Number(number)),
+            Err(_) => metric_of(mechanism, &side).map(Operand::Metric),
+        }
+    };
+    let Word(operation) = metric.getattr("sign")?.extract()?;
+    Ok(Box::new(Combination { operation, left: side("left")?, right: side("right")? }))
 }
 
 /// A condition: metric, relation and limit.
