@@ -351,7 +351,7 @@ def test_what_was_not_saved_comes_back(browser: Browser, file: Path) -> None:
 def test_a_new_window_goes_on_with_what_was_drawn(browser: Browser) -> None:
     with window(browser) as one:
         one.open(FOUR_BAR, "mine")
-        one.page.wait_for_timeout(600)
+        one.wait_until_kept()
         second = one.another()
         one.wait_until("window.assurStudio.model.title === 'mine'", second)
         assert second.evaluate("window.assurStudio.model.document") == FOUR_BAR
