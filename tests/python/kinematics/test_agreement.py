@@ -10,7 +10,6 @@ is thrown away.
 from __future__ import annotations
 
 import math
-import os
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,13 +27,14 @@ from agreement import Q
 from agreement_law import along, check_law, solve, whole_turns
 from assur import Status
 from mechanism_data import Description, arguments
+from samples import IS_CAMPAIGN
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
 moves = st.tuples(st.floats(0.05, 3.0), st.floats(0.05, 3.0))
-ALL_ORDERS = os.environ.get("HYPOTHESIS_PROFILE") == "slow"  # at every q, else at one of four
+ALL_ORDERS = IS_CAMPAIGN  # at every q, else at one of four
 
 
 def check_beyond(
