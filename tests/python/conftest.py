@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from lesson_page import LessonPage
 
-settings.register_profile("fast", deadline=None, derandomize=True, max_examples=30)
+settings.register_profile("fast", deadline=None, derandomize=True, max_examples=100)
 settings.register_profile(
     "slow",
     deadline=None,
