@@ -143,7 +143,7 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 		$(PY) -W ignore tests/python/campaigns/campaign_assemblies.py
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/test_friction_random.py \
-	  tests/python/dynamics/test_reactions_oracle.py tests/python/dynamics/test_internal_loads_random.py \
+	  tests/python/dynamics/test_reactions_oracle.py \
 	  tests/python/kinematics/test_agreement.py tests/python/kinematics/test_invariance.py \
 	  tests/python/kinematics/test_angles_across_gaps.py tests/python/net/test_partial_requests.py \
 	  tests/python/description/test_random_remedies.py tests/python/studio/test_edits.py \
