@@ -20,8 +20,8 @@ DEV_STAMP := $(VENV)/.dev-stamp
 EXTENSION := $(VENV)/.extension-stamp
 SOURCES   := $(shell find rust/core rust/py Cargo.toml $(wildcard Cargo.lock) pyproject.toml -not -name '.*')
 
-# How `make test` runs Rust and Python side by side: each line's output comes whole, when it has
-# ended. Everything else runs one step after another.
+# How `make test` and `make check` run steps side by side: each line's output comes whole, when it
+# has ended. Everything else runs one step after another.
 CORES        := $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 SIDE_BY_SIDE := --no-print-directory -j$(CORES) TRACKS=1 \
   $(if $(filter output-sync,$(.FEATURES)),--output-sync=line)
@@ -35,8 +35,11 @@ export PYO3_PYTHON := $(abspath $(PY))
 export PROPTEST_RNG_SEED ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help run check test rust-test python-test python-lint pytest docs gallery wheel bench campaign fuzz clean \
-  rust-tools lint-tools
+# On every core, each file on one: what its tests share is made once.
+PYTEST := $(PY) -m pytest -q -n auto --dist loadfile
+
+.PHONY: help run check test rust-test rust-lint python-test python-lint lint types quick-tests pytest docs gallery \
+  wheel bench campaign fuzz clean rust-tools lint-tools
 .DEFAULT_GOAL := help
 
 help:
@@ -56,20 +59,30 @@ help:
 run: rust-tools $(EXTENSION)
 	@$(PY) examples/first_run.py
 
-# What fails most often, in under a minute once everything is built.
+# What fails most often, in half a minute once everything is built.
 check: lint-tools $(EXTENSION) $(DEV_STAMP)
+	@$(MAKE) $(SIDE_BY_SIDE) types quick-tests rust-lint lint
+
+rust-lint: lint-tools
 	cargo fmt --all --check
 	$(PY) tools/check_order
 	cargo clippy $(LOCKED) --workspace -- -D warnings
+
+lint: $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
-	$(PY) -m mypy
 	$(PY) tools/error_page --check
 	$(PY) tools/examples_page --check
-	$(PY) -m pytest -q -n auto tests/python/net/test_digests.py tests/python/description \
-	  tests/python/papers tests/python/package/test_readme.py \
+
+types: $(EXTENSION) $(DEV_STAMP)
+	$(PY) -m mypy
+
+# Results at one level of vector instructions; `make test` compares them at all.
+quick-tests: $(EXTENSION) $(DEV_STAMP)
+	$(PYTEST) -k "not (baseline or avx2 or avx512)" tests/python/net/test_digests.py \
+	  tests/python/description tests/python/papers tests/python/package/test_readme.py \
 	  tests/python/package/test_examples_in_docstrings.py
 
 # On one core for minutes each, where they end, the release build of the extension and the builds of
@@ -92,18 +105,11 @@ rust-test: lint-tools $(RUN_STAMP)
 
 python-test: python-lint pytest
 
-python-lint: rust-tools $(EXTENSION) $(DEV_STAMP)
-	$(PY) -m ruff check
-	$(PY) -m ruff format --check
-	$(VENV)/bin/lint-imports --no-logo --no-cache
-	$(VENV)/bin/zizmor --offline --quiet .github
-	$(PY) -m mypy
+python-lint: lint types
 	$(PY) -m mypy.stubtest --mypy-config-file pyproject.toml assur._core
-	$(PY) tools/error_page --check
-	$(PY) tools/examples_page --check
 
 pytest: rust-tools $(EXTENSION) $(DEV_STAMP)
-	$(PY) -m pytest -q -n auto
+	$(PYTEST)
 
 # Warnings are errors: of broken links and of names without a page, too.
 docs: gallery
@@ -120,7 +126,7 @@ wheel: rust-tools $(RUN_STAMP)
 	@$(PY) -m pip install --quiet --group wheel
 	rm -f dist/assur-*.whl
 	$(PY) -m maturin build --release --out dist $(LOCKED)
-	$(PY) tools/check_wheel dist -n auto
+	$(PY) tools/check_wheel dist -n auto --dist loadfile
 
 bench: rust-tools $(EXTENSION)
 	@$(PY) -m pip install --quiet --group bench
@@ -137,7 +143,9 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 		$(PY) -W ignore tests/python/campaigns/campaign_assemblies.py
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/test_friction_random.py \
-	  tests/python/kinematics/test_agreement.py tests/python/net/test_partial_requests.py \
+	  tests/python/dynamics/test_reactions_oracle.py \
+	  tests/python/kinematics/test_agreement.py tests/python/kinematics/test_invariance.py \
+	  tests/python/kinematics/test_angles_across_gaps.py tests/python/net/test_partial_requests.py \
 	  tests/python/description/test_random_remedies.py tests/python/studio/test_edits.py \
 	  tests/python/studio/test_studio_in_browser.py
 

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser
 
+    from lesson_page import LessonPage
+
 settings.register_profile("fast", deadline=None, derandomize=True, max_examples=100)
 settings.register_profile(
     "slow",
@@ -37,13 +39,38 @@ def pytest_sessionstart() -> None:
         raise pytest.UsageError(message)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    """Run a Chromium for the tests of one file; without one they are skipped, and say so."""
+    """Run one Chromium; without one its tests are skipped, and say so.
+
+    Its driver keeps the loop of this thread: tests run their own with `asyncio` in another thread.
+    """
     from browsers import chromium
 
     with chromium() as running:
         yield running
+
+
+@pytest.fixture(scope="session")
+def lesson_page(browser: Browser) -> Iterator[LessonPage]:
+    """Open the lesson on a server of its own."""
+    from browsing import Server
+    from lesson_page import LessonPage
+
+    server = Server()
+    page = LessonPage(browser, server.address)
+    yield page
+    page.close()
+    server.stop()
+
+
+@pytest.fixture
+def lesson(lesson_page: LessonPage) -> Iterator[LessonPage]:
+    """Begin the lesson anew; it must not complain."""
+    lesson_page.page.set_viewport_size({"width": 1440, "height": 900})
+    lesson_page.renew()
+    yield lesson_page
+    assert lesson_page.complaints == []
 
 
 @pytest.fixture

@@ -255,9 +255,9 @@ class InUnits(Findings):
             self.report.counts["numbers of steps as different in nearly the same units"] += 1
         if own.end != "reached" or other.end != "reached":
             return
-        apart = float(np.abs(own.q[-1] - other.q[-1] / per).max())
-        if not apart <= CLOSE * RTOL * max(1.0, float(np.abs(own.q).max())):
-            self.fail("units end", f"q off by {apart:.3g} at the end, in {u}")
+        off = float(np.abs(own.q[-1] - other.q[-1] / per).max())
+        if not off <= CLOSE * RTOL * max(1.0, float(np.abs(own.q).max())):
+            self.fail("units end", f"q off by {off:.3g} at the end, in {u}")
 
     # -- all that results have, and files -----------------------------------------------------
 

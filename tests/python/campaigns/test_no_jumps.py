@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,13 +17,14 @@ import campaign_checks as checks
 import mechanism_data
 import mixed_models
 from campaign_geometry import Geometry, Sample
+from samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from campaign_geometry import Array
 
-COUNT = 100_000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 300
+COUNT = sample(100, 100_000)
 PARTS = 10
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from typing import Any
 
@@ -12,9 +11,9 @@ import pytest
 import assur
 from friction_law import STILL, FrictionLaw
 from rubbing_machines import rubbing_case, with_friction
+from samples import sample
 
-# `make campaign` has 1000 machines.
-COUNT, CHUNK = (1000, 50) if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else (120, 20)
+COUNT, CHUNK = sample(60, 1000), 20
 STARTS = 200
 # Forces are compared to this part of the largest, times the condition of the position.
 CLOSE = 1e-11

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import os
 import warnings
 from collections.abc import Mapping
 from typing import Any
@@ -15,10 +14,11 @@ from hypothesis import strategies as st
 
 import assur
 from array_entries import ENTRIES, PICTURES, array_parameters, public
+from samples import sample
 
 pytestmark = pytest.mark.filterwarnings("ignore::assur.AssurWarning")
 
-EXAMPLES = 400 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 10
+EXAMPLES = sample(10, 400)
 
 KINDS = [
     "<f8",

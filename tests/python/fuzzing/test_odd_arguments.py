@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-import os
 import signal
 import warnings
 from typing import TYPE_CHECKING, Any
@@ -21,6 +20,7 @@ from assur.kinematics.extremes import Extremes
 from assur.kinematics.timed import TimedMotion
 from fuzz_entries import LONGEST, LONGEST_MESSAGE, give_up
 from fuzz_values import ODD_NUMBERS, ODD_OBJECTS, ODD_STRINGS
+from samples import sample
 from usual_calls import MODULES, usual_calls
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 mpl.use("Agg")
 
-EXAMPLES = 50_000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 2_000
+EXAMPLES = sample(2_000, 50_000)
 # Made anew for each call.
 ODD: tuple[Callable[[], Any], ...] = (
     *(lambda one=one: one for one in (*ODD_NUMBERS, *ODD_STRINGS)),

@@ -10,7 +10,6 @@ is thrown away.
 from __future__ import annotations
 
 import math
-import os
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,13 +27,17 @@ from agreement import Q
 from agreement_law import along, check_law, solve, whole_turns
 from assur import Status
 from mechanism_data import Description, arguments
+from samples import IS_CAMPAIGN, sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
+# A seed has no simpler one.
+SEEDS = settings(
+    max_examples=sample(30, 10_000), phases=(Phase.explicit, Phase.reuse, Phase.generate)
+)
 moves = st.tuples(st.floats(0.05, 3.0), st.floats(0.05, 3.0))
-ALL_ORDERS = os.environ.get("HYPOTHESIS_PROFILE") == "slow"  # at every q, else at one of four
+ALL_ORDERS = IS_CAMPAIGN  # at every q, else at one of four
 
 
 def check_beyond(
@@ -94,7 +97,7 @@ def check(
 
 @pytest.mark.parametrize("kind", dyad_models.KINDS)
 def test_dyads(kind: str) -> None:
-    @NO_SHRINK
+    @SEEDS
     @given(dyad_models.dyads(kind), moves)
     def run(case: dyad_models.Case, move: tuple[float, float]) -> None:
         check(case, *move)
@@ -104,7 +107,7 @@ def test_dyads(kind: str) -> None:
 
 @pytest.mark.parametrize("driver", dyad_models.DRIVERS)
 def test_drivers(driver: str) -> None:
-    @NO_SHRINK
+    @SEEDS
     @given(dyad_models.driven_by(driver), moves)
     def run(case: dyad_models.Case, move: tuple[float, float]) -> None:
         check(case, *move)
@@ -112,7 +115,7 @@ def test_drivers(driver: str) -> None:
     run()
 
 
-@NO_SHRINK
+@SEEDS
 @given(dyad_models.sequences(), moves)
 def test_sequences(case: dyad_models.Case, move: tuple[float, float]) -> None:
     check(case, *move)
@@ -150,7 +153,7 @@ def test_named(make: Callable[[], Description]) -> None:
     check(dyad_models.Case(d, "", (("PRP", ("", "")),), 0), 0.9, 0.9)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(sample(8, 20)))
 def test_tracer_is_follow(seed: int) -> None:
     """The fast tracer against the oracle's own `follow`."""
     d = dyad_models.random_case(seed, 3).description

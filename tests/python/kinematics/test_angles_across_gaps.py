@@ -10,6 +10,7 @@ import assur
 import bits
 import design_spaces
 import named_drawings
+from samples import sample
 
 # Positions of a turn: an island of a hundredth of a degree shows.
 SAMPLES = 36_001
@@ -89,7 +90,7 @@ def test_angles_continue_into_the_next_turn(name: str) -> None:
 def test_angles_of_driven_slides_continue_from_the_drawing() -> None:
     """Down and up, beyond gaps too: a cylinder passes length 0, a rod reaches the other side."""
     behind_gaps = 0
-    for seed in range(40):
+    for seed in range(sample(16, 40)):
         batch = design_spaces.slide_space(seed)
         assert isinstance(batch.q0, float)
         for end in (-3.0, 3.0):
@@ -110,4 +111,4 @@ def test_angles_of_driven_slides_continue_from_the_drawing() -> None:
                     np.testing.assert_allclose(
                         own, followed(own), rtol=0, atol=1e-6, err_msg=f"{seed} {link} {design}"
                     )
-    assert behind_gaps > 50
+    assert behind_gaps > 20

@@ -24,13 +24,17 @@ import named_models
 from assur import Status
 from frames import Frame
 from mechanism_data import GROUND, Description, arguments
+from samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-NO_SHRINK = settings(phases=(Phase.explicit, Phase.reuse, Phase.generate))  # seeds: no simpler
+# A seed has no simpler one.
+SEEDS = settings(
+    max_examples=sample(30, 100), phases=(Phase.explicit, Phase.reuse, Phase.generate)
+)
 moves = st.floats(-0.5, 0.5)
 # Dyads alone as often as dyads and higher groups in any order.
 ANY = dyad_models.sequences() | mixed_models.mixed()
@@ -140,13 +144,13 @@ def gap_before(m: assur.Mechanism, change: float) -> bool:
     return bool((m.solve(path, order=0, on_error="nan").status == Status.UNREACHABLE).any())
 
 
-@NO_SHRINK
+@SEEDS
 @given(ANY, moves, st.floats(-math.pi, math.pi))
 def test_rotation(case: dyad_models.Case, move: float, turn: float) -> None:
     check_frame(case, move, Frame(turn=turn))
 
 
-@NO_SHRINK
+@SEEDS
 @given(ANY, moves, st.tuples(st.floats(-9, 9), st.floats(-9, 9)))
 def test_translation(case: dyad_models.Case, move: float, shift: tuple[float, float]) -> None:
     check_frame(case, move, Frame(shift=shift))
@@ -158,19 +162,19 @@ def test_a_half_turn_behind_a_gap() -> None:
     check_frame(case, 0.06597458344611529, Frame(mirror=True))
 
 
-@NO_SHRINK
+@SEEDS
 @given(dyad_models.sequences(), moves, st.booleans())
 def test_mirror(case: dyad_models.Case, move: float, upright: bool) -> None:
     check_frame(case, move, Frame(mirror=True, turn=0.0 if upright else math.pi))
 
 
-@NO_SHRINK
+@SEEDS
 @given(ANY, moves, st.floats(1e-3, 1e3))
 def test_scale(case: dyad_models.Case, move: float, scale: float) -> None:
     check_frame(case, move, Frame(scale=scale))
 
 
-@NO_SHRINK
+@SEEDS
 @given(ANY, moves, st.integers(-300, 300))
 def test_scale_by_a_power_of_two(case: dyad_models.Case, move: float, power: int) -> None:
     """No bit changes."""
@@ -306,7 +310,7 @@ def test_library_in_other_units(
         assert (np.max(errors, axis=0) <= 3 * law).all(), (index, np.max(errors / law))
 
 
-@NO_SHRINK
+@SEEDS
 @given(ANY, moves, st.integers(0, 2**32 - 1))
 def test_order_of_the_description(case: dyad_models.Case, move: float, seed: int) -> None:
     """Joints, links and slides in any order, and the joints inside links."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 
@@ -14,9 +12,10 @@ import design_spaces
 import gap_steps
 import partial_requests
 from mechanism_data import arguments
+from samples import sample
 
 # Random mechanisms of every kind, each with a space of designs: 10, or 1000 in a campaign.
-COUNT = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 10
+COUNT = sample(10, 1000)
 PARTS = 10
 
 

@@ -6,6 +6,7 @@ The process has then done a known part of the work, however busy the machine is.
 from __future__ import annotations
 
 import gc
+import math
 import signal
 import threading
 import time
@@ -16,10 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 # Processor time of the work that is interrupted, s, and the part of it that is timed at least.
-WHOLE, PART = 2.0, 1 / 8
+WHOLE, PART = 1.2, 1 / 8
 # Processor time after which it is interrupted, and in which it is then to be heard, s. A machine
 # that is busy does the same work in half of the time or in twice: half is longer than both.
-WORKED, SOON = 0.3, 0.4
+WORKED, SOON = 0.1, 0.4
 # Time between two signals, and the longest in which none may be heard where work is done in small
 # parts, s of processor time.
 TICK, SILENT = 0.01, 0.1
@@ -28,6 +29,8 @@ ATTEMPTS = 3
 LARGEST = 1e8
 # Work that ends too early is doubled so often at most.
 DOUBLINGS = 4
+# Work grows at most like this power of its size; less than the first is noise.
+SLOWEST, FASTEST = 1.0, 3.5
 
 
 def interrupted(call: Callable[[], object], worked: float) -> float | None:
@@ -79,6 +82,7 @@ def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float
     A part of the work shows how large the whole is; where that was slow for once, the whole ends
     too early, and more is done. What is not heard is heard at its end.
     """
+    before = 0.0
     while True:
         part = make(size)
         part()  # the first time memory is new
@@ -87,9 +91,10 @@ def heard_after(make: Callable[[int], Callable[[], object]], size: int) -> float
         worked = time.process_time() - started
         if worked > PART * WHOLE:
             break
-        size *= 2
+        size, before = 2 * size, worked
         assert size < LARGEST, "the work does not grow"
-    size = round(size * WHOLE / worked)
+    power = min(max(math.log2(worked / before), SLOWEST), FASTEST) if before else SLOWEST
+    size = round(size * (WHOLE / worked) ** (1.0 / power))
     for _ in range(DOUBLINGS):
         if (after := interrupted(make(size), WORKED)) is not None:
             return after

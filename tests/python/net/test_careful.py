@@ -7,9 +7,10 @@ import os
 
 import bits
 import design_spaces
+from samples import sample
 
 # Random mechanisms, each with a space of 24 designs at 40 coordinates.
-COUNT = 200 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 12
+COUNT = sample(6, 200)
 
 
 def test_careful_path_gives_the_same_bits() -> None:

@@ -17,6 +17,7 @@ import pytest
 import assur
 import bits
 from bits import Bits, Float, coordinates, designs, solve
+from samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.usefixtures("threads_at_once")
 
 # Random mechanisms: 250, or 5000 in a campaign.
-COUNT = 5000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 250
+COUNT = sample(80, 5000)
 PARTS = 10
 SIZES = (1, 7, 8, 9)
 LARGE = ("library crank_rocker", "library whitworth", "library trammel")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import assur
     from bits import Float
 
-CALLS = 40
+CALLS = 20
 HIGHER = tuple(f"higher {name}" for name in named_drawings.HIGHER)
 
 

@@ -13,14 +13,15 @@ import pytest
 
 import bits
 import partial_requests
+from samples import sample
 from test_function_of_q import same
 
 if TYPE_CHECKING:
     import assur
     from bits import Bits, Float
 
-# Random mechanisms of every kind: 20, or 1000 in a campaign.
-COUNT = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else 20
+# Random mechanisms of every kind.
+COUNT = sample(10, 1000)
 PARTS = 10
 
 

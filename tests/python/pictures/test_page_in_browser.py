@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import assur
+from browsers import wait_until
 from studio_page import chain
 
 if TYPE_CHECKING:
@@ -62,12 +63,8 @@ class Opened:
         return x, y
 
     def wait_until(self, condition: str) -> None:
-        """Wait up to 10 s; playwright's own waiting evaluates texts, which the page forbids."""
-        for _ in range(500):
-            if self.page.evaluate(condition):
-                return
-            self.page.wait_for_timeout(20)
-        pytest.fail(f"{condition} did not come true")
+        """Wait for a condition."""
+        wait_until(self.page, condition, self.complaints)
 
     def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
         self.page.mouse.move(*start)
@@ -315,8 +312,7 @@ def test_keys_and_wheel_in_a_notebook(browser: Browser, tmp_path: Path) -> None:
     page.keyboard.down("Control")
     page.mouse.wheel(0, -120)
     page.keyboard.up("Control")
-    page.wait_for_timeout(200)
-    assert drawn() != before
+    wait_until(page, lambda: drawn() != before)
     context.close()
 
 

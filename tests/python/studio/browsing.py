@@ -5,16 +5,15 @@ from __future__ import annotations
 import secrets
 import socket
 import threading
-import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-import pytest
 import uvicorn
 
 from assur.studio import document
 from assur.studio.app import application
 from assur.studio.session import Given
+from browsers import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -23,7 +22,15 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
 
 WIDTHS = {"wide": (1440, 900), "between": (900, 900), "narrow": (390, 844)}
-LONGEST_WAIT = 15.0
+# What this window has written down for itself is what it shows.
+KEPT = """(() => {
+  const { document, file } = window.assurStudio.model;
+  const own = JSON.stringify(document);
+  return Object.values(sessionStorage).some((text) => {
+    const kept = JSON.parse(text);
+    return kept?.stamp === (file?.stamp ?? null) && JSON.stringify(kept.document) === own;
+  });
+})()"""
 
 
 class Server:
@@ -92,14 +99,12 @@ class Window:
         self.wait_until("window.assurStudio !== undefined", page)
 
     def wait_until(self, condition: str, page: Page | None = None) -> None:
-        """Wait for a condition; playwright's own waiting evaluates texts, which is forbidden."""
-        page = page or self.page
-        end = time.monotonic() + LONGEST_WAIT
-        while time.monotonic() < end:
-            if page.evaluate(condition):
-                return
-            page.wait_for_timeout(15)
-        pytest.fail(f"{condition} did not come true; {self.complaints}")
+        """Wait for a condition."""
+        wait_until(page or self.page, condition, self.complaints)
+
+    def wait_until_kept(self, page: Page | None = None) -> None:
+        """Wait until the browser keeps the document for when the page is opened again."""
+        self.wait_until(KEPT, page)
 
     def settle(self) -> None:
         """Wait until nothing is asked or computed."""

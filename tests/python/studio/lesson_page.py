@@ -9,6 +9,7 @@ import pytest
 
 import assur
 from assur.studio.bundle import joined
+from browsers import wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page, Route
@@ -53,6 +54,7 @@ const link = connect((isOpen) => {
 });
 }"""
 DEGREE = np.pi / 180.0
+LENGTHS = ("l1", "l2", "l3", "l4")
 
 
 class LessonPage:
@@ -69,12 +71,8 @@ class LessonPage:
         self.until("window.isConnected === true")
 
     def until(self, condition: str) -> None:
-        """Wait up to 10 s."""
-        for _ in range(1000):
-            if self.page.evaluate(condition):
-                return
-            self.page.wait_for_timeout(10)
-        pytest.fail(f"{condition} did not come true; {self.complaints}")
+        """Wait for a condition."""
+        wait_until(self.page, condition, self.complaints)
 
     def renew(self, *, is_wound: bool = True, language: str = "en") -> None:
         """Begin the lesson anew."""
@@ -103,6 +101,12 @@ class LessonPage:
         if role == "picture":
             return self.page.locator(".lesson-picture")
         return self.page.get_by_role(role, name=name, exact=True)
+
+    def apply(self, name: str, text: str) -> None:
+        """Type a value and apply it."""
+        self.control("textbox", name).fill(text)
+        self.control("textbox", name).press("Enter")
+        self.until("!lesson.fields.isDirty")
 
     @property
     def figures(self) -> dict[str, Any]:

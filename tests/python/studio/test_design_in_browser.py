@@ -279,7 +279,7 @@ def test_a_target_path_drawn_over_the_path_has_nearly_no_deviation(studio: Windo
     assert page.evaluate(f"{STUDIO}.model.target") is None
     studio.button("Take this path").click()
     assert page.evaluate(f"{deviation}.greatest") < 1e-3 * px
-    page.wait_for_timeout(600)
+    studio.wait_until_kept()
     page.reload()
     studio.ready()
     studio.settle()

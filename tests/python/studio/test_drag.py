@@ -97,7 +97,7 @@ def test_machines_keep_their_masses() -> None:
 @pytest.mark.parametrize(
     ("joint", "to", "said"),
     [
-        ("Q", [0, 0], "did you mean"),
+        ("Q", [0, 0], "known are A, B, C, D, P"),
         ("C", [0], "two numbers"),
         ("C", "here", "a list of two numbers"),
         ("B", [0, 0], "length zero"),
@@ -105,13 +105,11 @@ def test_machines_keep_their_masses() -> None:
 )
 def test_refused(joint: str, to: Any, said: str) -> None:
     error = refused("drag", document=FOUR_BAR, q=0.7, joint=joint, to=to)
-    if said == "did you mean":
-        assert "known are A, B, C, D, P" in error["message"]
-    else:
-        assert said in error["message"]
+    assert said in error["message"]
 
 
 def test_parallel_rods_say_why() -> None:
     own = ask("open", example="locomotive")["document"]
     error = refused("drag", document=own, joint=own["links"]["ground"][0], to=[0.01, 0.02])
-    assert error["kind"] in ("immovable", "almost_fits", "over_constrained")
+    # Rods as long as each other are what lets it move: with one drawn anew nothing does.
+    assert (error["kind"], error["link"]) == ("immovable", "wheel1")

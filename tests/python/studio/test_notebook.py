@@ -21,6 +21,7 @@ from assur.studio import document
 from assur.studio.bundle import widget_script
 from assur.studio.frame import decode
 from assur.studio.notebook import Explorer
+from browsers import wait_until
 from node import run_node
 
 if TYPE_CHECKING:
@@ -170,31 +171,28 @@ def in_widget(page: Page, expression: str) -> Any:
     )
 
 
-def wait_until(page: Page, condition: str) -> None:
-    for _ in range(400):
-        if page.evaluate(condition):
-            return
-        page.wait_for_timeout(25)
-    pytest.fail(f"{condition} did not come true")
-
-
 def run_cell(page: Page, i: int) -> None:
     """Run a cell; a notebook that is still opening takes no notice of keys."""
     cell = page.locator(".jp-CodeCell").nth(i)
+    prompt = cell.locator(".jp-InputPrompt")
+    before = prompt.text_content()
     for _ in range(10):
         cell.locator(".cm-content").click()
         page.keyboard.press("Control+Enter")
-        for _ in range(30):
-            if (cell.locator(".jp-InputPrompt").text_content() or "").strip() != "[ ]:":
+        for _ in range(100):
+            if prompt.text_content() != before:
                 return
-            page.wait_for_timeout(100)
+            page.wait_for_timeout(30)
     pytest.fail(f"cell {i} does not run")
 
 
-@contextmanager
-def explored(browser: Browser, folder: Path) -> Iterator[Page]:
-    """Open the notebook, run its first cell, and wait for the widget; no script may fail."""
+@pytest.fixture(scope="module")
+def notebook(
+    browser: Browser, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[Page, Path, list[str]]]:
+    """Open the notebook in one JupyterLab; yield its page, its file and the failures of scripts."""
     pytest.importorskip("jupyterlab", reason="JupyterLab is not installed: no test in a notebook")
+    folder = tmp_path_factory.mktemp("jupyter")
     with jupyter(folder) as address:
         page = browser.new_page(viewport={"width": 1300, "height": 1000})
         errors: list[str] = []
@@ -208,14 +206,22 @@ def explored(browser: Browser, folder: Path) -> Iterator[Page]:
         page.goto(address)
         page.locator(".jp-CodeCell").nth(2).wait_for(timeout=60_000)
         page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for(timeout=60_000)
-        run_cell(page, 0)
-        page.locator(".assur-explorer .picture").wait_for(timeout=60_000)
-        wait_until(page, "document.querySelector('.assur-explorer').studio !== undefined")
-        wait_until(page, "document.querySelector('.assur-explorer').studio.model.moves")
-        page.locator(".assur-explorer").scroll_into_view_if_needed()
-        yield page
-        assert errors == []
+        yield page, folder / "explore.ipynb", errors
         page.close()
+
+
+@pytest.fixture
+def explored(notebook: tuple[Page, Path, list[str]]) -> Iterator[Page]:
+    """Run the first cell and wait for a new widget; no script may fail."""
+    page, _, errors = notebook
+    page.evaluate("document.querySelector('.assur-explorer')?.setAttribute('data-old', '')")
+    run_cell(page, 0)
+    page.locator(".assur-explorer:not([data-old]) .picture").wait_for(timeout=60_000)
+    page.locator(".assur-explorer[data-old]").wait_for(state="detached")
+    wait_until(page, "document.querySelector('.assur-explorer').studio?.model.moves === true")
+    page.locator(".assur-explorer").scroll_into_view_if_needed()
+    yield page
+    assert errors == []
 
 
 def cells(page: Page) -> list[str]:
@@ -228,138 +234,132 @@ def cells(page: Page) -> list[str]:
     return own
 
 
-def test_keys_stay_in_the_cell(browser: Browser, tmp_path: Path) -> None:
-    with explored(browser, tmp_path) as page:
-        before = cells(page)
-        picture = page.locator(".assur-explorer .picture")
-        box = picture.bounding_box()
-        assert box is not None
-        keys = [
-            "m",
-            "y",
-            "a",
-            "b",
-            "x",
-            "c",
-            "v",
-            "z",
-            "d",
-            "d",
-            "1",
-            "Enter",
-            "Shift+Enter",
-            "Shift+M",
-        ]
-        places: dict[str, Any] = {
-            "picture": lambda: page.mouse.click(box["x"] + 30.0, box["y"] + box["height"] / 2.0),
-            "tab": page.locator(".assur-explorer .tab:visible").first.click,
-            "text": page.locator(".assur-explorer .section h2:visible").first.click,
-            "field": page.get_by_role("textbox", name="Speed of the driver").click,
-        }
-        for name, click in places.items():
-            if name == "field":
-                page.locator(".assur-explorer .tab[data-tab=diagrams]").click()
-            click()
-            for key in keys:
-                page.keyboard.press(key)
-            page.wait_for_timeout(150)
-            assert cells(page) == before, name
-            assert picture.is_visible()
-            page.keyboard.press("Escape")
-        # A word typed in a field is in it, and edited there.
-        field = page.get_by_role("textbox", name="Speed of the driver")
-        field.fill("")
-        field.press_sequentially("2 rpm")
-        field.press("Control+a")
-        field.press_sequentially("30 rpm")
-        assert field.input_value() == "30 rpm"
-        assert cells(page) == before
-        field.press("Enter")
-        wait_until(
-            page, "document.querySelector('.assur-explorer').studio.model.document.input_speed > 3"
-        )
-        # Ctrl S saves the notebook, and gives no file of the mechanism.
-        written = tmp_path / "explore.ipynb"
-        stamp = written.stat().st_mtime_ns
-        downloads: list[str] = []
-        page.on("download", lambda one: downloads.append(one.url))
-        picture.focus()
-        page.keyboard.press("Control+s")
-        for _ in range(100):
-            if written.stat().st_mtime_ns != stamp:
-                break
-            page.wait_for_timeout(50)
-        assert written.stat().st_mtime_ns != stamp
-        assert downloads == []
-        # Escape is the notebook's where there is nothing to end here.
-        page.evaluate("document.addEventListener('keydown', ({ key }) => (window.last = key))")
+def test_keys_stay_in_the_cell(explored: Page, notebook: tuple[Page, Path, list[str]]) -> None:
+    page, written = explored, notebook[1]
+    before = cells(page)
+    picture = page.locator(".assur-explorer .picture")
+    box = picture.bounding_box()
+    assert box is not None
+    keys = [
+        "m",
+        "y",
+        "a",
+        "b",
+        "x",
+        "c",
+        "v",
+        "z",
+        "d",
+        "d",
+        "1",
+        "Enter",
+        "Shift+Enter",
+        "Shift+M",
+    ]
+    places: dict[str, Any] = {
+        "picture": lambda: page.mouse.click(box["x"] + 30.0, box["y"] + box["height"] / 2.0),
+        "tab": page.locator(".assur-explorer .tab:visible").first.click,
+        "text": page.locator(".assur-explorer .section h2:visible").first.click,
+        "field": page.get_by_role("textbox", name="Speed of the driver").click,
+    }
+    for name, click in places.items():
+        if name == "field":
+            page.locator(".assur-explorer .tab[data-tab=diagrams]").click()
+        click()
+        for key in keys:
+            page.keyboard.press(key)
+        page.wait_for_timeout(150)
+        assert cells(page) == before, name
+        assert picture.is_visible()
         page.keyboard.press("Escape")
-        assert page.evaluate("window.last") == "Escape"
+    # A word typed in a field is in it, and edited there.
+    field = page.get_by_role("textbox", name="Speed of the driver")
+    field.fill("")
+    field.press_sequentially("2 rpm")
+    field.press("Control+a")
+    field.press_sequentially("30 rpm")
+    assert field.input_value() == "30 rpm"
+    assert cells(page) == before
+    field.press("Enter")
+    wait_until(
+        page, "document.querySelector('.assur-explorer').studio.model.document.input_speed > 3"
+    )
+    # Ctrl S saves the notebook, and gives no file of the mechanism.
+    stamp = written.stat().st_mtime_ns
+    downloads: list[str] = []
+    page.on("download", lambda one: downloads.append(one.url))
+    picture.focus()
+    page.keyboard.press("Control+s")
+    wait_until(page, lambda: written.stat().st_mtime_ns != stamp)
+    assert downloads == []
+    # Escape is the notebook's where there is nothing to end here.
+    page.evaluate("document.addEventListener('keydown', ({ key }) => (window.last = key))")
+    page.keyboard.press("Escape")
+    assert page.evaluate("window.last") == "Escape"
 
 
-def test_the_wheel_scrolls_and_zooms_with_ctrl(browser: Browser, tmp_path: Path) -> None:
-    with explored(browser, tmp_path) as page:
-        box = page.locator(".assur-explorer .picture").bounding_box()
-        assert box is not None
-        scale = "studio.canvas.stage.view.scale"
-        before = in_widget(page, scale)
-        top = "document.querySelector('.assur-explorer').getBoundingClientRect().top"
-        page.mouse.click(box["x"] + 30.0, box["y"] + box["height"] / 2.0)
-        page.mouse.wheel(0, 100)
-        own = page.evaluate(top)
-        page.wait_for_timeout(300)
-        moved = page.evaluate(top)
-        page.mouse.wheel(0, -100)
-        page.wait_for_timeout(300)
-        assert in_widget(page, scale) == before
-        assert own != moved or page.evaluate(top) != moved
-        page.get_by_text("Ctrl and the wheel zoom.").wait_for()
-        page.keyboard.down("Control")
-        page.mouse.wheel(0, -100)
-        page.keyboard.up("Control")
-        page.wait_for_timeout(200)
-        assert in_widget(page, scale) > before
+def test_the_wheel_scrolls_and_zooms_with_ctrl(explored: Page) -> None:
+    page = explored
+    box = page.locator(".assur-explorer .picture").bounding_box()
+    assert box is not None
+    scale = "studio.canvas.stage.view.scale"
+    before = in_widget(page, scale)
+    top = "document.querySelector('.assur-explorer').getBoundingClientRect().top"
+    page.mouse.click(box["x"] + 30.0, box["y"] + box["height"] / 2.0)
+    page.mouse.wheel(0, 100)
+    own = page.evaluate(top)
+    page.wait_for_timeout(300)
+    moved = page.evaluate(top)
+    page.mouse.wheel(0, -100)
+    page.wait_for_timeout(300)
+    assert in_widget(page, scale) == before
+    assert own != moved or page.evaluate(top) != moved
+    page.get_by_text("Ctrl and the wheel zoom.").wait_for()
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -100)
+    page.keyboard.up("Control")
+    wait_until(page, lambda: in_widget(page, scale) > before)
 
 
-def test_in_a_real_jupyter(browser: Browser, tmp_path: Path) -> None:
-    with explored(browser, tmp_path) as page:
-        # A joint that is dragged changes the mechanism of the kernel.
-        start = in_widget(
-            page,
-            "(() => { const { stage } = studio.canvas; const box ="
-            " stage.element.getBoundingClientRect(); const [x, y] = stage.view.px(4.1, 3.2);"
-            " return [box.left + x, box.top + y]; })()",
-        )
-        page.mouse.move(*start)
-        page.mouse.down()
-        page.mouse.move(start[0] + 30, start[1] - 20, steps=6)
-        page.mouse.up()
-        wait_until(
-            page,
-            "(({ model }) => model.document.dimensions && !model.isDragging"
-            " && model.link.isQuiet)(document.querySelector('.assur-explorer').studio)",
-        )
-        page.wait_for_timeout(400)
-        shown = in_widget(
-            page,
-            "(() => { const { pose } = studio.playback; const joint ="
-            " studio.canvas.stage.data.joints.find((one) => one.name === 'C');"
-            " const i = 3 * joint.link, [a, b] = joint.at, v = pose.value,"
-            " c = Math.cos(v[i + 2]), s = Math.sin(v[i + 2]);"
-            " return [v[i] + c * a - s * b, v[i + 1] + s * a + c * b]; })()",
-        )
-        run_cell(page, 1)
-        out = page.locator(".jp-CodeCell").nth(1).locator(".jp-OutputArea-output")
-        out.get_by_text("place").wait_for()
-        place = [float(word) for word in (out.text_content() or "").split()[1:]]
-        assert place == pytest.approx(shown, abs=1e-5)
-        assert np.hypot(place[0] - 4.1, place[1] - 3.2) > 0.1
+def test_in_a_real_jupyter(explored: Page) -> None:
+    page = explored
+    # A joint that is dragged changes the mechanism of the kernel.
+    start = in_widget(
+        page,
+        "(() => { const { stage } = studio.canvas; const box ="
+        " stage.element.getBoundingClientRect(); const [x, y] = stage.view.px(4.1, 3.2);"
+        " return [box.left + x, box.top + y]; })()",
+    )
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + 30, start[1] - 20, steps=6)
+    page.mouse.up()
+    wait_until(
+        page,
+        "(({ model }) => model.document.dimensions && !model.isDragging"
+        " && model.link.isQuiet)(document.querySelector('.assur-explorer').studio)",
+    )
+    page.wait_for_timeout(400)
+    shown = in_widget(
+        page,
+        "(() => { const { pose } = studio.playback; const joint ="
+        " studio.canvas.stage.data.joints.find((one) => one.name === 'C');"
+        " const i = 3 * joint.link, [a, b] = joint.at, v = pose.value,"
+        " c = Math.cos(v[i + 2]), s = Math.sin(v[i + 2]);"
+        " return [v[i] + c * a - s * b, v[i + 1] + s * a + c * b]; })()",
+    )
+    run_cell(page, 1)
+    out = page.locator(".jp-CodeCell").nth(1).locator(".jp-OutputArea-output")
+    out.get_by_text("place").wait_for()
+    place = [float(word) for word in (out.text_content() or "").split()[1:]]
+    assert place == pytest.approx(shown, abs=1e-5)
+    assert np.hypot(place[0] - 4.1, place[1] - 3.2) > 0.1
 
-        # A mechanism that is assigned is drawn.
-        run_cell(page, 2)
-        wait_until(
-            page,
-            "document.querySelector('.assur-explorer').studio.model.document"
-            ".dimensions['rocker.length'] === 3",
-        )
-        wait_until(page, "document.querySelector('.assur-explorer').studio.playback.q === 0.7")
+    # A mechanism that is assigned is drawn.
+    run_cell(page, 2)
+    wait_until(
+        page,
+        "document.querySelector('.assur-explorer').studio.model.document"
+        ".dimensions['rocker.length'] === 3",
+    )
+    wait_until(page, "document.querySelector('.assur-explorer').studio.playback.q === 0.7")

@@ -178,7 +178,7 @@ def test_a_reload_and_a_new_window_keep_it(browser: Browser) -> None:
         one.open(FOUR_BAR)
         write(one, "3 rpm")
         typed = speed(one)
-        one.page.wait_for_timeout(600)
+        one.wait_until_kept()
         one.page.reload()
         one.ready()
         one.settle()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ import assur
 from asking import FOUR_BAR
 from assur.studio import document
 from browsing import WIDTHS, Server, Window, window
+from samples import IS_CAMPAIGN
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -270,7 +270,7 @@ def test_examples_and_undo_across_them(browser: Browser, file: Path) -> None:
 
 # Every third; `make campaign` opens all.
 ALL = sorted(assur.examples.ALL)
-SHOWN = ALL if os.environ.get("HYPOTHESIS_PROFILE") == "slow" else ALL[::3]
+SHOWN = ALL if IS_CAMPAIGN else ALL[::3]
 
 
 @pytest.mark.parametrize("name", SHOWN)
@@ -351,7 +351,7 @@ def test_what_was_not_saved_comes_back(browser: Browser, file: Path) -> None:
 def test_a_new_window_goes_on_with_what_was_drawn(browser: Browser) -> None:
     with window(browser) as one:
         one.open(FOUR_BAR, "mine")
-        one.page.wait_for_timeout(600)
+        one.wait_until_kept()
         second = one.another()
         one.wait_until("window.assurStudio.model.title === 'mine'", second)
         assert second.evaluate("window.assurStudio.model.document") == FOUR_BAR

@@ -26,8 +26,8 @@ def file(tmp_path: Path) -> Path:
     return path
 
 
-def edit(page: Page, value: float) -> None:
-    """Change a dimension, as a step."""
+def edit(one: Window, page: Page, value: float) -> None:
+    """Change a dimension, as a step; it is kept a little later."""
     page.evaluate(
         """async ([name, value]) => {
              const { model } = window.assurStudio;
@@ -36,8 +36,7 @@ def edit(page: Page, value: float) -> None:
            }""",
         [LENGTH, value],
     )
-    # It is kept a little later.
-    page.wait_for_timeout(600)
+    one.wait_until_kept(page)
 
 
 def length(page: Page) -> Any:
@@ -67,8 +66,8 @@ def test_another_window_saved_and_the_server_was_started_again(
 ) -> None:
     with window(browser, file) as one:
         second = one.another()
-        edit(second, 3.1)
-        edit(one.page, 2.9)
+        edit(one, second, 3.1)
+        edit(one, one.page, 2.9)
         save(one, one.page)
         restarted(one, Given(file))
         opened_again(one, second)
@@ -104,9 +103,9 @@ def test_another_window_saved_and_the_server_was_started_again(
 def test_a_window_without_changes_shows_the_file(browser: Browser, file: Path) -> None:
     with window(browser, file) as one:
         second = one.another()
-        edit(one.page, 2.9)
+        edit(one, one.page, 2.9)
         save(one, one.page)
-        second.wait_for_timeout(600)
+        # Leaving, a window writes down what it shows.
         second.reload()
         one.ready(second)
         assert length(second) == 2.9
@@ -118,11 +117,11 @@ def test_the_work_on_a_file_is_not_anothers(browser: Browser, file: Path, tmp_pa
     other.parent.mkdir()
     other.write_text(document.toml_of({**FOUR_BAR, "dimensions": {LENGTH: 2.7}}), encoding="utf-8")
     with window(browser, file) as one:
-        edit(one.page, 3.1)
+        edit(one, one.page, 3.1)
         restarted(one, Given(other))
         opened_again(one, one.page)
         assert length(one.page) == 2.7
-        edit(one.page, 2.8)
+        edit(one, one.page, 2.8)
         restarted(one, Given(file))
         opened_again(one, one.page)
         assert length(one.page) == 3.1
@@ -133,7 +132,7 @@ def test_the_work_on_a_file_is_not_anothers(browser: Browser, file: Path, tmp_pa
 
 def test_a_file_that_broke(browser: Browser, file: Path) -> None:
     with window(browser, file) as one:
-        edit(one.page, 3.1)
+        edit(one, one.page, 3.1)
         file.write_text("format = 1\ndriver = ", encoding="utf-8")
         one.page.reload()
         one.ready()
@@ -149,7 +148,7 @@ def test_a_file_that_broke(browser: Browser, file: Path) -> None:
 
 def test_an_example_of_the_command(browser: Browser) -> None:
     with window(browser, example="crank_rocker") as one:
-        edit(one.page, 0.09)
+        edit(one, one.page, 0.09)
         one.page.reload()
         one.ready()
         assert length(one.page) == 0.09
@@ -158,9 +157,9 @@ def test_an_example_of_the_command(browser: Browser) -> None:
 def test_a_copy_leaves_the_file(browser: Browser, file: Path) -> None:
     with window(browser, file) as one:
         second = one.another()
-        edit(second, 3.1)
+        edit(one, second, 3.1)
         second.get_by_role("button", name="Work on a copy").click()
-        second.wait_for_timeout(600)
+        one.wait_until_kept(second)
         second.reload()
         one.ready(second)
         assert length(second) is None
