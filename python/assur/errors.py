@@ -110,7 +110,7 @@ class StructureError(AssurError, ValueError):
     """
 
     # Finds the remedies of the description that was refused, when they are first asked for.
-    _find_remedies: Callable[[], tuple[Remedy, ...]] | None = None
+    find_remedies: Callable[[], tuple[Remedy, ...]] | None = None
     _remedies: tuple[Remedy, ...] | None = None
 
     @property
@@ -137,7 +137,7 @@ class StructureError(AssurError, ValueError):
         'I(crank) → II(rod, C_block)'
         """
         if self._remedies is None:
-            self._remedies = () if self._find_remedies is None else self._find_remedies()
+            self._remedies = () if self.find_remedies is None else self.find_remedies()
         return self._remedies
 
 

@@ -90,7 +90,7 @@ def _with_remedies(make: Callable[..., T], parts: dict[str, Any]) -> T:
     try:
         return make(**parts)
     except StructureError as error:
-        error._find_remedies = partial(find, parts)
+        error.find_remedies = partial(find, parts)
         raise
 
 

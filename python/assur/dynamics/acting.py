@@ -103,7 +103,7 @@ def _pins(at: Positions, link: str) -> Iterator[Acting]:
 
 def _slides(at: Positions, link: str) -> Iterator[Acting]:
     mechanism = _mechanism(at)
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     for name, slide in mechanism.slides.items():
         if link not in (slide.link, slide.on):
             continue
@@ -125,7 +125,7 @@ def _slides(at: Positions, link: str) -> Iterator[Acting]:
 def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
     """Yield the torques of driven angles, which act where their two links meet."""
     mechanism = _mechanism(at)
-    for index, driver in enumerate(mechanism._description.drivers):
+    for index, driver in enumerate(mechanism.description.drivers):
         if driver in mechanism.slides:
             continue
         drive = driver if isinstance(driver, Drive) else Drive(driver)
@@ -229,14 +229,14 @@ def _acts(at: Positions, load: Force | Pressure | Torque, default: str | None) -
         rate = at.motion.link(name).velocity(speeds)
     # A rate that is rounding beside the drivers' speeds is no direction.
     size = _size(_mechanism(at))
-    units = [size if driver in slides else 1.0 for driver in _mechanism(at)._description.drivers]
+    units = [size if driver in slides else 1.0 for driver in _mechanism(at).description.drivers]
     still = AT_REST * (abs(at.speed) / units).sum(axis=-1) * (size if name in slides else 1.0)
     return rate > still if load.while_ == "forward" else rate < -still
 
 
 def _size(mechanism: Mechanism) -> float:
     """Return the larger side of the drawing, m."""
-    places = np.array([(x, y) for _, x, y in mechanism._description.joints])
+    places = np.array([(x, y) for _, x, y in mechanism.description.joints])
     size = float(np.ptp(places, axis=0).max())
     return size if size > 0.0 else 1.0
 

@@ -147,7 +147,7 @@ def with_counterweights(machine: Machine, weights: Any) -> Machine:
             message = f"{short(weight)} is not an assur.balance.Counterweight"
             raise InputError(message)
         link = weight.link
-        mechanism._core.require("link", link)
+        mechanism.core.require("link", link)
         if weight.mass is None:
             message = (
                 f"the counterweight on {link!r} has a moment of {weight.moment:g} kg·m but no "

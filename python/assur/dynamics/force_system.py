@@ -95,7 +95,7 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     assert found._source is not None
     machine, t = found._source
     mechanism = found._mechanism
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     if mechanism.shape:
         mechanism = mechanism.design(index[: len(mechanism.shape)])
         machine = machine.of(mechanism)
@@ -117,7 +117,7 @@ def _checked_links(mechanism: Mechanism, links: str | Sequence[str] | None) -> t
         return tuple(moving)
     wanted = checked_names(links, "links")
     for link in wanted:
-        mechanism._core.require("link", link)
+        mechanism.core.require("link", link)
     if not wanted or "ground" in wanted:
         message = f"links is {short(links)}: moving links are needed, some of {', '.join(moving)}"
         raise InputError(message)

@@ -68,7 +68,7 @@ def impact(
         message = "a machine of a table has no links: an impact needs a mechanism"
         raise InputError(message)
     _check_load(load)
-    n = machine._drivers
+    n = machine.driver_count
     q, speed, _, shape = broadcast_motion(machine, motion)
     full = shape if n == 1 else (*shape, n)
     before = np.broadcast_to(speed, full).reshape(*shape, n)

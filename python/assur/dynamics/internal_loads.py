@@ -185,7 +185,7 @@ def internal_loads(
     whole_number(n, "n", 2, MAX_POINTS)
     rod = straight_rod(machine, machine.mechanism, link, along, density)
     *given, shape = broadcast_motion(machine, motion)
-    drivers = machine._drivers
+    drivers = machine.driver_count
     full = shape if drivers == 1 else (*shape, drivers)
     q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in given)
     senses = motion.senses

@@ -37,7 +37,7 @@ UNSOLVED, UNDETERMINED = -1.0, -2.0
 
 
 def _keys(mechanism: Mechanism) -> list[Key]:
-    core = mechanism._core
+    core = mechanism.core
     is_redundant = any(core.redundant)
     keys: list[Key] = []
     for joint, links in links_at(mechanism).items():
@@ -54,7 +54,7 @@ def _keys(mechanism: Mechanism) -> list[Key]:
 def _keys_of_friction(machine: MachineModel) -> list[Key]:
     mechanism = machine.mechanism
     assert mechanism is not None
-    core, links_of = mechanism._core, links_at(mechanism)
+    core, links_of = mechanism.core, links_at(mechanism)
     keys: list[Key] = []
     for name, friction in machine.friction.items():
         if isinstance(friction, SlideFriction):
@@ -103,7 +103,7 @@ def reactions(
         message = "a machine of a table has no joints: reactions need a mechanism"
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
-    drivers, is_complete = machine._drivers, keys is None
+    drivers, is_complete = machine.driver_count, keys is None
     if keys is None:
         keys = [*_keys(mechanism), *_keys_of_friction(machine)]
     moving = broadcast_motion(machine, motion)
@@ -150,7 +150,7 @@ def _senses_needed(
     machine: MachineModel, motion: DrivenMotion, sense: Any, shape: tuple[int, ...]
 ) -> Senses | None:
     """Return the senses of a motion with a speed of 0 somewhere, if the machine needs them."""
-    asks = bool(machine.friction) or machine._core.follows[1]
+    asks = bool(machine.friction) or machine.core.follows[1]
     if motion.senses is None or sense is not None or not asks:
         return None
     senses = motion.senses.reshaped(shape)
@@ -225,11 +225,11 @@ def _solved(
     """Return an array for each key, the statuses, and the exception of the first failure."""
     mechanism = machine.mechanism
     assert mechanism is not None
-    drivers, designs = machine._drivers, machine.shape
+    drivers, designs = machine.driver_count, machine.shape
     x, v, a, shape = moving
     per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
     full = shape if drivers == 1 else (*shape, drivers)
-    everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
+    everywhere, functions = np.broadcast_to(x, full), machine.core.load_functions
     # One speed for all positions is not repeated; (2, 1) of two drivers are two positions.
     given_once = ((),) if drivers == 1 else ((drivers,),)
     speeds, accelerations = (
@@ -243,8 +243,8 @@ def _solved(
     given = np.empty(0)
     if functions:
         given = function_values(functions, *rows, at.ravel())
-    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine._core.reactions(
-        mechanism._values.reshape(-1),
+    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine.core.reactions(
+        mechanism.values.reshape(-1),
         coordinates,
         per_design,
         speeds,
@@ -296,7 +296,7 @@ def broadcast_motion(
     machine: MachineModel, motion: DrivenMotion
 ) -> tuple[Float, Float, Float, tuple[int, ...]]:
     """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
-    n, designs = machine._drivers, machine.shape
+    n, designs = machine.driver_count, machine.shape
     q, speed, acceleration = motion[:3]
     x = real_array(q, "q")
     if machine.mechanism is not None:
@@ -332,7 +332,7 @@ def effort(
     sense: float | Sequence[float] | None = None,
 ) -> Any:
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
-    n = machine._drivers
+    n = machine.driver_count
     if machine.friction:
         # What friction takes depends on the forces in its pairs.
         keys = [*(Key("driver", driver) for driver in range(n)), SOLUTIONS]

@@ -99,10 +99,10 @@ class MachineModel:
             dict(parts.body(mechanism, link, one) for link, one in bodies.items())
         )
         self.loads = tuple(as_list(loads, "loads"))
-        self._drivers = int(np.size(mechanism.q0))
+        self.driver_count = int(np.size(mechanism.q0))
         # With one driver, the motor itself.
         self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
-        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
+        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self.driver_count:
             self.motor = self.motor[0]
         self.friction: Mapping[str, PairFriction] = MappingProxyType(
             checked_friction(mechanism, friction)
@@ -111,9 +111,9 @@ class MachineModel:
             type(self)._made,
             (mechanism, dict(self.bodies), self.loads, self.motor, dict(self.friction)),
         )
-        motors = parts.motors(self.motor, self._drivers)
-        self._core = _core.Machine(
-            mechanism._core,
+        motors = parts.motors(self.motor, self.driver_count)
+        self.core = _core.Machine(
+            mechanism.core,
             loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
             bodies=list(self.bodies.items()),
             motors=motors,
@@ -122,7 +122,7 @@ class MachineModel:
         check_over(mechanism, self.loads)
         check_functions(self.loads, motors, np.ravel(mechanism.q0).tolist())
         if mechanism.driver not in mechanism.slides:
-            for rows, periodic in self._core.tables:
+            for rows, periodic in self.core.tables:
                 warn_if_degrees(rows[-1] - rows[0], periodic)
 
     @classmethod
@@ -201,7 +201,7 @@ class MachineModel:
         self = cls.__new__(cls)
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies, self.friction = MappingProxyType({}), MappingProxyType({})
-        self._drivers = 1
+        self.driver_count = 1
         x, columns = parts.columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
         periodic = flag(periodic, "periodic")
@@ -209,7 +209,7 @@ class MachineModel:
         table = x, columns["moment"], columns["inertia"]
         self._rebuild_with = cls.from_table, (*table, motor, spline, periodic)
         motors = parts.motors(motor, 1)
-        self._core = _core.Machine.from_table(
+        self.core = _core.Machine.from_table(
             x, columns["moment"], columns["inertia"], spline, periodic, *motors
         )
         check_functions((), motors, [float(x[0])])
@@ -281,7 +281,7 @@ class MachineModel:
 
     def __setattr__(self, name: str, value: object) -> None:
         # The core has copied everything: a change here would have no effect.
-        if "_core" in self.__dict__:
+        if "core" in self.__dict__:
             message = f"Machine is immutable ({name!r}): make another one"
             raise AttributeError(message)
         super().__setattr__(name, value)
@@ -381,7 +381,7 @@ class MachineModel:
         array([0.5     , 0.015382])
         """
         inertia, rates, _, _ = self._reduce(q, None, on_error)
-        if self._drivers == 1:
+        if self.driver_count == 1:
             return Reduced(inertia[..., 0, 0][()], rates[..., 0, 0, 0][()])
         return Reduced(inertia, np.moveaxis(rates, -3, -1))
 
@@ -426,7 +426,7 @@ class MachineModel:
         array([  0., 100.])
         """
         moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
-        return moment[..., 0][()] if self._drivers == 1 else moment
+        return moment[..., 0][()] if self.driver_count == 1 else moment
 
     def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
         """Return the potential energy of weights, springs and closed gases.

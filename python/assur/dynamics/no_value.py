@@ -85,7 +85,7 @@ def table_names(machine: MachineModel) -> tuple[str, ...]:
         elif isinstance(value, Table):
             one = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
             (over_q if value.over is None else others).append(one)
-    return (*(over_q or ["a table over q"] * len(machine._core.tables)), *others)
+    return (*(over_q or ["a table over q"] * len(machine.core.tables)), *others)
 
 
 def not_covered(machine: MachineModel, places: Float) -> AssurError | None:

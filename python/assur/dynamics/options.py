@@ -41,7 +41,7 @@ def without_friction(machine: MachineModel, what: str) -> None:
 
 def without_followers(machine: MachineModel, what: str) -> None:
     """Raise InputError for loads that follow other coordinates than the driver's."""
-    if machine._core.follows[0]:
+    if machine.core.follows[0]:
         message = (
             f"{what} has no loads with over=, while_= or a Gas yet: make the machine with one "
             "driver, or without them; reactions and effort have them"
@@ -53,7 +53,7 @@ def require_rotary_driver(machine: MachineModel, what: str) -> None:
     """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
-    if machine._drivers > 1 or (isinstance(driver, str) and driver in slides):
+    if machine.driver_count > 1 or (isinstance(driver, str) and driver in slides):
         message = f"driver {driver!r}: {what} needs a single driver that turns"
         raise InputError(message)
 

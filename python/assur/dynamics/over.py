@@ -59,11 +59,11 @@ def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:
 
 
 def _turns(mechanism: Mechanism, link: str) -> bool:
-    drawn = mechanism._with_values(np.array(mechanism._core.drawing))
+    drawn = mechanism._with_values(np.array(mechanism.core.drawing))
     size = size_of(mechanism, drawn=True)
     units = [1.0 if is_angle else size for is_angle in driven_angles(mechanism)]
-    q = drawn._q0_array() + np.multiply.outer(BESIDE, units)
-    places = q if drawn._driver_count > 1 else q[:, 0]
+    q = drawn.q0_array + np.multiply.outer(BESIDE, units)
+    places = q if drawn.driver_count > 1 else q[:, 0]
     angles = drawn.solve(places, order=0, outputs=[link], on_error="nan").link(link).value
     return not (np.isfinite(angles).all() and bool((angles == angles[0]).all()))
 

@@ -157,7 +157,7 @@ class Reactions(Tabular):
     def __getstate__(self) -> dict[str, Any]:
         # Functions of the user cannot be pickled.
         source = self._source
-        kept = source is not None and not source[0]._core.load_functions
+        kept = source is not None and not source[0].core.load_functions
         return {**self.__dict__, "_source": source if kept else None}
 
     def _columns(self, degrees: bool) -> list[Column]:
@@ -216,7 +216,7 @@ class Reactions(Tabular):
     def undetermined(self) -> tuple[str, ...]:
         """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
         solved = (self.status <= Status.NEAR_SINGULAR) & ~self.at_rest
-        joints, links = self._mechanism._joint_names, list(self._mechanism.links)
+        joints, links = self._mechanism.joint_names, list(self._mechanism.links)
         slides = list(self._mechanism.slides)
         names = []
         for key, values in self._found.items():
@@ -242,7 +242,7 @@ class Reactions(Tabular):
     @property
     def losses(self) -> dict[str, Any]:
         """Power that friction takes in each pair, W."""
-        joints, slides = self._mechanism._joint_names, list(self._mechanism.slides)
+        joints, slides = self._mechanism.joint_names, list(self._mechanism.slides)
         names = {"joint loss": joints, "slide loss": slides}
         return {
             names[key.kind][key.index]: values[()]
@@ -354,7 +354,7 @@ class Reactions(Tabular):
         >>> found.joint("B", on="piston"), found.joint("A", on="rod")  # N
         (array([-250.,   -0.]), array([-250.,   -0.]))
         """
-        core = self._mechanism._core
+        core = self._mechanism.core
         key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
         links, joint = links_at(self._mechanism)[name], key.index
         if len(links) == 1:
@@ -430,7 +430,7 @@ class Reactions(Tabular):
         >>> machine.reactions(np.pi / 2).slide("bore").normal.round(6)  # N: 1000 · 3/4
         np.float64(750.0)
         """
-        index = self._mechanism._core.require("slide", checked_name(name, "slide"))
+        index = self._mechanism.core.require("slide", checked_name(name, "slide"))
         normal, moment, along = (
             self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along")
         )
@@ -537,7 +537,7 @@ class Reactions(Tabular):
 
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:
     """Return the force at a joint on a link; with `on=None` on one of two links, whichever."""
-    core = mechanism._core
+    core = mechanism.core
     joint, links = core.require("joint", name), links_at(mechanism)[name]
     if on is None:
         if len(links) != 2:

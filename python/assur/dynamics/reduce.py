@@ -35,7 +35,7 @@ def reduce(
     Without a speed no function is called, and the moments are not valid.
     """
     one_of(on_error, ("raise", "nan"), "on_error")
-    n, designs = machine._drivers, machine.shape
+    n, designs = machine.driver_count, machine.shape
     x, v = real_array(q, "q"), finite_array(0.0 if speed is None else speed, "speed")
     if machine.mechanism is not None:
         warn_if_degrees(machine.mechanism, x)
@@ -54,11 +54,11 @@ def reduce(
     given, senses = np.empty(0), list[float]()
     if speed is not None:
         senses = checked_senses(machine, flat.reshape(-1, n), speeds.reshape(-1, n), sense)
-        functions = machine._core.load_functions
+        functions = machine.core.load_functions
         at = np.broadcast_to(np.asarray(t), shape).ravel()
         given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
-    values = np.empty(0) if machine.mechanism is None else machine.mechanism._values
-    *arrays, status, failure = machine._core.reduce(
+    values = np.empty(0) if machine.mechanism is None else machine.mechanism.values
+    *arrays, status, failure = machine.core.reduce(
         values.reshape(-1), flat, speeds, given, senses, None, list(designs)
     )
     if on_error == "raise":
@@ -71,7 +71,7 @@ def reduce(
         if missing.size:
             row = int(missing[0])
             if machine.mechanism is None:
-                raise _beyond_table(float(flat[row]), machine._core.tables[0][0])
+                raise _beyond_table(float(flat[row]), machine.core.tables[0][0])
             one, design = single(machine, row, status.size)
             own = flat.reshape(-1, n)[row], speeds.reshape(-1, n)[row]
             time = float(np.broadcast_to(np.asarray(t), shape).ravel()[row])
@@ -91,7 +91,7 @@ def require_potential(machine: MachineModel, q: npt.ArrayLike, potential: Float)
     missing = np.flatnonzero(np.isnan(potential))
     if not missing.size:
         return
-    n, row = machine._drivers, int(missing[0])
+    n, row = machine.driver_count, int(missing[0])
     x = real_array(q, "q")
     places = np.broadcast_to(x, potential.shape if n == 1 else (*potential.shape, n))
     one, design = single(machine, row, potential.size)
@@ -108,14 +108,16 @@ def checked_senses(
     """Return in which sense each driver is about to move at rest, which some loads need."""
     if sense is not None:
         senses = real_array(sense, "sense").ravel()
-        if senses.size != machine._drivers or not np.isin(senses, (-1.0, 1.0)).all():
-            wanted = "+1 or −1" if machine._drivers == 1 else f"{machine._drivers} of +1 or −1"
+        if senses.size != machine.driver_count or not np.isin(senses, (-1.0, 1.0)).all():
+            wanted = (
+                "+1 or −1" if machine.driver_count == 1 else f"{machine.driver_count} of +1 or −1"
+            )
             message = f"sense is {short(sense)}: {wanted} is needed"
             raise InputError(message)
         found: list[float] = senses.tolist()
         return found
     rests = ~speeds.any(axis=1)
-    has_ways = machine._core.follows[1]
+    has_ways = machine.core.follows[1]
     if (machine.friction or has_ways) and rests.any():
         shown = ", ".join(f"{number:.9g}" for number in q[np.argmax(rests)])
         what = "friction needs" if machine.friction else "a load with while_= needs a speed, or"
@@ -140,7 +142,7 @@ def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineMode
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
     beyond = np.flatnonzero(status > Status.NEAR_SINGULAR)
     if machine.mechanism is None and beyond.size:
-        raise _beyond_table(float(q[beyond[0]]), machine._core.tables[0][0])
+        raise _beyond_table(float(q[beyond[0]]), machine.core.tables[0][0])
 
 
 def _beyond_table(q: float, knots: list[float]) -> InputError:

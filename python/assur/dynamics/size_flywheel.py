@@ -89,7 +89,7 @@ def flywheel(
         )
         raise InputError(message)
     asked = fluctuation, mean_speed, mean, turns, on_error
-    if machine.shape and machine._core.follows[0]:
+    if machine.shape and machine.core.follows[0]:
         # Each design has its own coordinates at which the loads are not smooth.
         made: Flywheel = FlywheelOfDesigns.of(machine, asked, _from_tables)
     else:
@@ -224,7 +224,7 @@ def _jumps(machine: Machine, knots: list[float], cycle: float) -> list[bool]:
 def _knots(machine: Machine, cycle: float) -> list[float]:
     """Return the coordinates of a cycle at which loads are not smooth, its ends included."""
     found = {0.0, cycle, *stations_between(machine, 0.0, cycle)}
-    tables = zip(machine._core.tables, machine._core.rows, strict=True)
+    tables = zip(machine.core.tables, machine.core.rows, strict=True)
     for ((first, last), periodic), rows in tables:
         period = last - first
         require_whole_periods(period if periodic else None, cycle)

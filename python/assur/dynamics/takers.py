@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def taker(mechanism: Mechanism, point: PointLike) -> str:
     """Return the link that takes a load at a point, unless the load names another."""
-    return mechanism._core.taker(point)[0] if isinstance(point, str) else point[0]
+    return mechanism.core.taker(point)[0] if isinstance(point, str) else point[0]
 
 
 def warn_of_open_takers(
@@ -29,7 +29,7 @@ def warn_of_open_takers(
         for joint in _joints_without_a_link(load):
             if joint not in friction:
                 continue
-            link, is_open = mechanism._core.taker(joint)
+            link, is_open = mechanism.core.taker(joint)
             # An end of a spring at a fixed joint is fastened to the ground.
             is_anchor = link == "ground" and not isinstance(load, Force)
             if is_open and not is_anchor:

@@ -202,7 +202,7 @@ def known_speed(input_speed: Any) -> InputSpeed:
 
 
 def _checked_speed(given: Any, mechanism: Mechanism) -> InputSpeed:
-    count = mechanism._driver_count
+    count = mechanism.driver_count
     if count == 1:
         return real_number(given, "input_speed")
     if not isinstance(given, list | tuple) or len(given) != count:

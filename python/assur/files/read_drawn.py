@@ -35,7 +35,7 @@ def drawn_at(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechan
     place = _place(mechanism, section, sized)
     own = place.mechanism
     with section.refusing():
-        core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
+        core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
     drawn = mechanism._drawn_at(place, core)
     _check(own._drawn_at(place, core), place, section)
     return drawn
@@ -51,15 +51,15 @@ def _place(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechanis
     if "drawn" in entries:
         design = drawn_at(design, entries["drawn"], sized)
     q = np.atleast_1d(entries["q"].array())
-    if q.shape != (mechanism._driver_count,):
-        message = f"has {q.size} numbers: there are {mechanism._driver_count} drivers"
+    if q.shape != (mechanism.driver_count,):
+        message = f"has {q.size} numbers: there are {mechanism.driver_count} drivers"
         raise entries["q"].error(message)
-    core = mechanism._core
+    core = mechanism.core
     numbers: AssemblyNumbers = {
         "signs": [int(x) for x in _named(section, "signs", [n for n, _ in core.assembly], _sign)],
         "class_angles": _class_angles(entries),
         "slides": _named(section, "slides", mechanism.slides, _number),
-        "joints": _named(section, "joints", mechanism._joint_names, _pair),
+        "joints": _named(section, "joints", mechanism.joint_names, _pair),
         "angles": _named(section, "angles", mechanism.links, _number),
         "is_double": entries["is_double"].flag() if "is_double" in entries else False,
     }
@@ -101,7 +101,7 @@ def _check(drawn: Mechanism, place: Place, section: Node) -> None:
     """Refuse a place in which the mechanism does not fit together."""
     motion = drawn.solve(drawn.q0, order=0, on_error="nan")
     wanted: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
-    there = np.array([motion.joint(name).value for name in drawn._joint_names]).reshape(-1, 2)
+    there = np.array([motion.joint(name).value for name in drawn.joint_names]).reshape(-1, 2)
     # The comparison is false of NaN.
     if not bool((np.abs(there - wanted) <= SAME * size_of(drawn)).all()):
         message = (

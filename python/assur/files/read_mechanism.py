@@ -104,7 +104,7 @@ def read_input_speed(root: Node, mechanism: Mechanism) -> InputSpeed:
     node = root.table().get("input_speed")
     if node is None:
         return None
-    count = mechanism._driver_count
+    count = mechanism.driver_count
     if count == 1:
         return node.number()
     speeds = tuple(one.number() for one in node.entries(f"a list of {count} numbers"))

@@ -84,7 +84,7 @@ def text_of(what: Any) -> str:
             raise InputError(message)
         sections = machine_sections(what)
         what = what.mechanism
-    own = what._description
+    own = what.description
     for name, count in zip(("joints", "links", "slides"), map(len, own[:3]), strict=True):
         if count > MOST_ITEMS:
             message = f"the mechanism has {count} {name}: a file may have {MOST_ITEMS}"

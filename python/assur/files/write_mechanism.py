@@ -36,7 +36,7 @@ def _one_driver(driver: DriverLike) -> Any:
 
 def mechanism_sections(mechanism: Mechanism) -> list[str]:
     """Return the sections of a mechanism."""
-    own = mechanism._description
+    own = mechanism.description
     links, slides = with_cylinders(own)
     sections = [
         table_text("[joints]", [(key_text(name), (x, y)) for name, x, y in own.joints]),
@@ -47,12 +47,12 @@ def mechanism_sections(mechanism: Mechanism) -> list[str]:
     if own.assembly:
         sections.append(table_text("[assembly]", [(key_text(n), s) for n, s in own.assembly]))
     # The core of a mechanism that is drawn elsewhere has the drawing of that place.
-    core = mechanism._core if mechanism._place is None else encode.core_of(own)
+    core = mechanism.core if mechanism.place is None else encode.core_of(own)
     drawing = np.array(core.drawing)
-    if mechanism.shape or mechanism._values.tobytes() != drawing.tobytes():
+    if mechanism.shape or mechanism.values.tobytes() != drawing.tobytes():
         sections.append(_dimensions("[dimensions]", mechanism))
-    if mechanism._place is not None:
-        sections += _drawn("drawn", mechanism, mechanism._place)
+    if mechanism.place is not None:
+        sections += _drawn("drawn", mechanism, mechanism.place)
     return sections
 
 
@@ -109,7 +109,7 @@ def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
 
 def _dimensions(header: str, mechanism: Mechanism) -> str:
     """Return all dimensions; of a batch, lists of those that differ."""
-    names, values = mechanism._core.dimension_names, mechanism._values
+    names, values = mechanism.core.dimension_names, mechanism.values
     if values.size == 0 and names:
         message = f"a batch {mechanism.shape} without designs cannot be saved"
         raise InputError(message)
@@ -134,27 +134,27 @@ def _drawn(name: str, mechanism: Mechanism, place: Place) -> list[str]:
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
     own, numbers = place.mechanism, place.numbers
-    if not np.isfinite([*own._drawn_at(place, mechanism._core).joints.values()]).all():
+    if not np.isfinite([*own._drawn_at(place, mechanism.core).joints.values()]).all():
         at = ", ".join(f"{q:.6g}" for q in place.q)
         message = (
             f"{short(mechanism)} cannot be saved: with its signs it does not exist at q = {at}, "
             "where its assembly was found: with_assembly() of one that assemblies() finds"
         )
         raise InputError(message)
-    signs = dict(zip((n for n, _ in own._core.assembly), numbers["signs"], strict=True))
+    signs = dict(zip((n for n, _ in own.core.assembly), numbers["signs"], strict=True))
     entries: dict[str, Any] = {
         "q": list(place.q),
         "is_double": numbers["is_double"],
         "signs": signs,
         "class_angles": numbers["class_angles"],
         "slides": dict(zip(own.slides, numbers["slides"], strict=True)),
-        "joints": dict(zip(own._joint_names, numbers["joints"], strict=True)),
+        "joints": dict(zip(own.joint_names, numbers["joints"], strict=True)),
         "angles": dict(zip(own.links, numbers["angles"], strict=True)),
     }
     given = [(k, v) for k, v in entries.items() if v or k in ("q", "joints", "angles")]
     sections = [table_text(f"[{name}]", given)]
-    if own._values.tobytes() != mechanism._values.tobytes():
+    if own.values.tobytes() != mechanism.values.tobytes():
         sections.append(_dimensions(f"[{name}.dimensions]", own))
-    if own._place is not None:
-        sections += _drawn(f"{name}.drawn", own, own._place)
+    if own.place is not None:
+        sections += _drawn(f"{name}.drawn", own, own.place)
     return sections

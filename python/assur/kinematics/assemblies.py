@@ -26,15 +26,15 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
     if not np.isfinite(array).all():
         message = f"q = {short(q)}: a finite coordinate is needed"
         raise InputError(message, value=float(array[~np.isfinite(array)][0]))
-    drivers = mechanism._driver_count
-    found = mechanism._core.assemblies(
-        mechanism._values.ravel(), array.ravel(), per_design, checked_threads(threads)
+    drivers = mechanism.driver_count
+    found = mechanism.core.assemblies(
+        mechanism.values.ravel(), array.ravel(), per_design, checked_threads(threads)
     )
     shape = (*mechanism.shape, *positions)
     rows = np.broadcast_to(array if drivers > 1 else array[..., None], (*shape, drivers)).reshape(
         -1, drivers
     )
-    designs = np.moveaxis(mechanism._values, 0, -1).reshape(-1, len(mechanism._values))
+    designs = np.moveaxis(mechanism.values, 0, -1).reshape(-1, len(mechanism.values))
     each = max(len(found) // max(len(designs), 1), 1)
     if not found and shape:
         # No positions, or no designs.
@@ -53,7 +53,7 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
 
 def _named(mechanism: Mechanism, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
     count = found["complex_count"]
-    shown = joints_that_differ(mechanism._joint_names, found["assemblies"])
+    shown = joints_that_differ(mechanism.joint_names, found["assemblies"])
     named = [
         Assembly._found(Place(mechanism, q, numbers), count, shown)
         for numbers in found["assemblies"]

@@ -124,9 +124,9 @@ class Extremes:
             raise InputError(message, value=size)
         mechanism, signs, tracked, order, turns = self._of
         ends = ((self.least.value + size, False), (self.greatest.value - size, True))
-        values = mechanism._values.tolist()
+        values = mechanism.values.tolist()
         least, greatest = (
-            mechanism._core.stretches_beyond(values, signs, tracked, order, end)
+            mechanism.core.stretches_beyond(values, signs, tracked, order, end)
             if math.isfinite(end[0])
             else []
             for end in ends
@@ -157,12 +157,12 @@ def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
         if axis not in ("x", "y"):
             message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
             raise InputError(message)
-        return ("joint", mechanism._core.require("joint", joint), "xy".index(axis))
-    if name in mechanism._joint_names:
+        return ("joint", mechanism.core.require("joint", joint), "xy".index(axis))
+    if name in mechanism.joint_names:
         message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
         raise InputError(message, joint=name)
     kind = "slide" if name in mechanism.slides else "link"
-    return (kind, mechanism._core.require(kind, name), 0)
+    return (kind, mechanism.core.require(kind, name), 0)
 
 
 def extremes(
@@ -175,8 +175,8 @@ def extremes(
             "assur.sweep, whose metrics are those of the positions alone)"
         )
         raise InputError(message)
-    if mechanism._driver_count > 1:
-        message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"
+    if mechanism.driver_count > 1:
+        message = f"extremes() is for one driver; this mechanism has {mechanism.driver_count}"
         raise InputError(message)
     order = whole_number(order, "order", 0, 3, needed="0, 1, 2 or 3 is needed")
     tracked = coordinate(mechanism, name)
@@ -184,8 +184,8 @@ def extremes(
         drawn = drawn_in(mechanism, assembly)
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
-    values = mechanism._values.tolist()
-    found = mechanism._core.extremes(values, signs, tracked, order)
+    values = mechanism.values.tolist()
+    found = mechanism.core.extremes(values, signs, tracked, order)
     if found is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)

@@ -38,7 +38,7 @@ BESIDE = 1e-9
 def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembly]]:
     """See `Mechanism.find`."""
     name = checked_name(name, "find")
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     if mechanism.shape:
         message = f"find() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
@@ -58,7 +58,7 @@ def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembl
     size = size_of(mechanism)
     found: list[tuple[Any, Assembly]] = []
     for assembly in other.assemblies(coordinates):
-        place = assembly._place
+        place = assembly.place
         assert place is not None
         one = _of_original(mechanism, place.numbers, size)
         if one is not None and not any(_is_same(one, known) for known in found):
@@ -87,17 +87,17 @@ def _driven_by(
     mechanism: Mechanism, name: str, wanted: Any
 ) -> tuple[Mechanism, float | list[float]]:
     """Return the design driven by a coordinate, and the driver's coordinate of the value."""
-    own = mechanism._description
-    if mechanism._driver_count == 1 and "." not in name:
+    own = mechanism.description
+    if mechanism.driver_count == 1 and "." not in name:
         coordinate(mechanism, name)
         description = own._replace(drivers=encode.drivers(name), assembly=())
         return _redriven(mechanism, description, name), float(wanted[0])
-    if mechanism._driver_count == 1:
+    if mechanism.driver_count == 1:
         joint, _, axes = name.rpartition(".")
         coordinate(mechanism, name)
     else:
         joint, axes = name, "xy"
-        mechanism._core.require("joint", joint)
+        mechanism.core.require("joint", joint)
     other = _redriven(mechanism, _with_cross_slide(_to_size(mechanism), joint, axes), name)
     base = dict(zip("xy", _base(other), strict=True))
     steps = [float(value - base[axis]) for value, axis in zip(wanted, axes, strict=True)]
@@ -109,16 +109,16 @@ def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mech
     try:
         core = bare_core(description)
     except StructureError as error:
-        if "." not in name and name not in mechanism._joint_names:
+        if "." not in name and name not in mechanism.joint_names:
             if error.kind != "cannot_drive":
                 raise
             raise _does_not_change(mechanism, name) from error
-        joint = name if name in mechanism._joint_names else name.rpartition(".")[0]
+        joint = name if name in mechanism.joint_names else name.rpartition(".")[0]
         why = "the joint moves along a curve only, or not without other drivers"
         if joint in mechanism.links.get("ground", ()):
             why = f"joint {joint!r} is on the ground and does not move"
         raise InputError(f"{name!r} cannot be set: {why}") from error
-    own = dict(zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True))
+    own = dict(zip(mechanism.core.dimension_names, mechanism.values.tolist(), strict=True))
     drawn = zip(core.dimension_names, core.drawing, strict=True)
     values = np.array([own.get(name, value) for name, value in drawn])
     return mechanism._make(description, values, core)
@@ -137,7 +137,7 @@ def _does_not_change(mechanism: Mechanism, name: str) -> InputError:
 
 def _to_size(mechanism: Mechanism) -> Description:
     """Return the drawing in the size of the design: positions are followed from there."""
-    own = mechanism._description
+    own = mechanism.description
     ratio = size_of(mechanism) / size_of(mechanism, drawn=True)
     if 0.5 <= ratio <= 2.0:
         return own
@@ -146,7 +146,7 @@ def _to_size(mechanism: Mechanism) -> Description:
 
 def _base(mechanism: Mechanism) -> tuple[float, float]:
     """Return the ground's joint from which a cross-slide is measured."""
-    joint = next(slide.origin for _, slide in mechanism._description.slides[-2:])
+    joint = next(slide.origin for _, slide in mechanism.description.slides[-2:])
     values = mechanism.dimensions
     return values[f"ground.{joint}.x"], values[f"ground.{joint}.y"]
 
@@ -196,19 +196,19 @@ def _of_original(
     """Return the coordinate and assembly of a pose that was found with another driver."""
     links, slides = len(mechanism.links), len(mechanism.slides)
     pose = Pose.found(numbers)
-    joints = pose.joints[: len(mechanism._joint_names)]
+    joints = pose.joints[: len(mechanism.joint_names)]
     pose = Pose(joints, pose.angles[:links], pose.slides[:slides])
     q = _coordinates(mechanism, pose)
     coordinates = q[0] if len(q) == 1 else np.array(q)
-    if mechanism._core.cls > 2:
+    if mechanism.core.cls > 2:
         try:
-            _, own = bare_core(mechanism._description).at_pose(*astuple(pose))
+            _, own = bare_core(mechanism.description).at_pose(*astuple(pose))
         except StructureError:
             pass  # at a fold: the assembly is one of those beside it
         else:
             return coordinates, Assembly._found(Place(mechanism, tuple(q), own), ())
     there = place_vector(np.array(pose.joints), np.array(pose.angles), np.array(pose.slides), size)
-    unit = size if mechanism._description.drivers[0] in mechanism.slides else 1.0
+    unit = size if mechanism.description.drivers[0] in mechanism.slides else 1.0
     for beside, far in ((0.0, SAME), *((side * BESIDE * unit, AT_FOLD) for side in (1.0, -1.0))):
         near = list(mechanism.assemblies(np.array(coordinates) + beside))
         gaps = [float(np.abs(place_of(_numbers(one), size) - there).max()) for one in near]
@@ -218,8 +218,8 @@ def _of_original(
 
 
 def _numbers(assembly: Assembly) -> AssemblyNumbers:
-    assert assembly._place is not None
-    return assembly._place.numbers
+    assert assembly.place is not None
+    return assembly.place.numbers
 
 
 def _coordinates(mechanism: Mechanism, pose: Pose) -> list[float]:
@@ -227,7 +227,7 @@ def _coordinates(mechanism: Mechanism, pose: Pose) -> list[float]:
     angles = dict(zip(mechanism.links, pose.angles, strict=True))
     values = dict(zip(mechanism.slides, pose.slides, strict=True))
     found = []
-    for driver in mechanism._description.drivers:
+    for driver in mechanism.description.drivers:
         if isinstance(driver, str) and driver in values:
             found.append(values[driver])
             continue

@@ -54,7 +54,7 @@ def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str,
             )
             raise InputError(message)
         for name in names:
-            sketch._core.require("joint", name)
+            sketch.core.require("joint", name)
         link = next((link for link, on in sketch.links.items() if set(names) <= set(on)), None)
         if link is None or names[0] == names[1]:
             slide = _between(sketch, names)
@@ -96,7 +96,7 @@ def _dimensions(
     sketch: Mechanism, link: str, joints: tuple[str, ...], lengths: dict[frozenset[str], float]
 ) -> dict[str, float]:
     """Return the dimensions of a link whose joints have some distances."""
-    at = {name: complex(x, y) for name, x, y in sketch._description.joints}
+    at = {name: complex(x, y) for name, x, y in sketch.description.joints}
     placed: Shape = {}
     left = list(joints)
     while left:
@@ -193,7 +193,7 @@ def _named(
 
 def _nearest(mechanism: Mechanism, sketch: Mechanism) -> Mechanism:
     """Return the mechanism drawn in the assembly nearest to the sketch, at the sketch's q."""
-    wanted = np.array([at for _, *at in sketch._description.joints])
+    wanted = np.array([at for _, *at in sketch.description.joints])
     found = list(mechanism.assemblies(sketch.q0))
     if not found:
         where = mechanism.solve(sketch.q0, order=0, on_error="nan").explain()

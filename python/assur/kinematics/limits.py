@@ -158,20 +158,20 @@ class Limits:
 
 def limits(mechanism: Mechanism, assembly: Mapping[str, int] | None, threads: int | None) -> Limits:
     """See `Mechanism.limits`."""
-    if mechanism._driver_count > 1:
-        count = mechanism._driver_count
+    if mechanism.driver_count > 1:
+        count = mechanism.driver_count
         message = f"limits() is for one driver; this mechanism has {count}: see workspace()"
         raise InputError(message)
     if isinstance(assembly, Assembly):
         drawn = drawn_in(mechanism, assembly)
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
-    values = mechanism._values.ravel()
-    found = mechanism._core.limits(values, signs, checked_threads(threads))
+    values = mechanism.values.ravel()
+    found = mechanism.core.limits(values, signs, checked_threads(threads))
     shape = (*mechanism.shape, found["count"], 2)
     period = found["period"].reshape(mechanism.shape)
     # Dyads in the order of their signs, then groups.
-    inner = [name for name, _ in mechanism._core.assembly]
+    inner = [name for name, _ in mechanism.core.assembly]
     names = tuple(zip_longest(found["names"], inner))
     batch = Limits(
         _frozen(found["intervals"].reshape(shape)),

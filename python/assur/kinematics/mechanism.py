@@ -100,31 +100,31 @@ class Mechanism:
 
     __slots__ = (
         "__weakref__",
-        "_core",
-        "_description",
         "_joints",
         "_known_signs",
         "_moved",
         "_names",
-        "_place",
-        "_signs",
         "_structure",
-        "_values",
+        "core",
+        "description",
+        "place",
+        "signs",
+        "values",
     )
-    _core: Core
+    core: Core
     # Designs that earlier calls found to have constant signs.
     _known_signs: KnownSigns
-    _description: Description
+    description: Description
     # By how much joints were moved within the tolerance that was given, m.
     _moved: float
     # Dimensions, shape (number of dimensions, *S).
-    _values: Float
+    values: Float
     _structure: Structure | None
     _joints: MappingProxyType[str, Any] | None
     # Where it is drawn, if not in the drawing.
-    _place: Place | None
+    place: Place | None
     # Of all dyads, in the drawing; not to be modified.
-    _signs: list[int]
+    signs: list[int]
     # Indices of joints, links and slides by name.
     _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
 
@@ -220,14 +220,14 @@ class Mechanism:
     ) -> None:
         core = core or encode.core_of(description)
         self._set(
-            _core=core,
-            _description=description,
+            core=core,
+            description=description,
             _structure=None,
             _joints=None,
             _moved=0.0,
             _names=None,
-            _place=None,
-            _signs=[sign for _, sign in core.assembly],
+            place=None,
+            signs=[sign for _, sign in core.assembly],
         )
         self._set_values(np.array(core.drawing) if values is None else values)
 
@@ -239,7 +239,7 @@ class Mechanism:
         # Takes over the caller's array without a copy: a batch may be large.
         array = np.asarray(values, dtype=np.float64, order="C")
         array.flags.writeable = False
-        self._set(_values=array, _known_signs=KnownSigns(math.prod(array.shape[1:])))
+        self._set(values=array, _known_signs=KnownSigns(math.prod(array.shape[1:])))
 
     @classmethod
     def _make(
@@ -263,13 +263,13 @@ class Mechanism:
     def _drawn_at(self, place: Place, core: Core) -> Mechanism:
         """Return the mechanism drawn at a place of one of its designs."""
         other = object.__new__(Mechanism)
-        other._share(self, self._values)
-        other._set(_core=core, _place=place, _signs=[sign for _, sign in core.assembly])
+        other._share(self, self.values)
+        other._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
         return other
 
     def _share(self, other: Mechanism, values: Float) -> None:
         """Become the other mechanism with other values of its dimensions."""
-        for name in ("_core", "_description", "_moved", "_structure", "_names", "_place", "_signs"):
+        for name in ("core", "description", "_moved", "_structure", "_names", "place", "signs"):
             object.__setattr__(self, name, getattr(other, name))
         self._set(_joints=None)
         self._set_values(values)
@@ -283,31 +283,31 @@ class Mechanism:
         raise AttributeError(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (self._description, np.array(self._values), self._place, self._moved))
+        return (_rebuild, (self.description, np.array(self.values), self.place, self._moved))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mechanism):
             return NotImplemented
         return (
-            self._description == other._description
-            and self._place == other._place
-            and self._values.shape == other._values.shape
-            and self._values.tobytes() == other._values.tobytes()
+            self.description == other.description
+            and self.place == other.place
+            and self.values.shape == other.values.shape
+            and self.values.tobytes() == other.values.tobytes()
         )
 
     def __hash__(self) -> int:
-        return hash((self._description, self._values.shape, self._values.tobytes()))
+        return hash((self.description, self.values.shape, self.values.tobytes()))
 
     def __repr__(self) -> str:
         batch = f", {self.shape} designs" if self.shape else ""
-        return f"<assur.Mechanism {self._core.formula}{batch}>"
+        return f"<assur.Mechanism {self.core.formula}{batch}>"
 
     # -- what it is ---------------------------------------------------------
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Design shape S: ``()`` for one mechanism."""
-        return self._values.shape[1:]
+        return self.values.shape[1:]
 
     @property
     def joints(self) -> Mapping[str, Any]:
@@ -316,9 +316,9 @@ class Mechanism:
         NaN for designs that cannot be assembled at `q0`.
         """
         if self._joints is None:
-            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description.joints}
+            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self.description.joints}
             if not self._is_as_drawn:
-                motion = self.solve(self._q0_array(), order=0, on_error="nan")
+                motion = self.solve(self.q0_array, order=0, on_error="nan")
                 arrays = {name: motion.joint(name).value for name in drawn}
                 single = not self.shape
                 drawn = {
@@ -333,64 +333,79 @@ class Mechanism:
     def _is_as_drawn(self) -> bool:
         """Whether this is the drawing, not with another assembly or adjusted redundant links."""
         return (
-            self._place is None
-            and self._values.tolist() == self._core.drawing
-            and not self._description.assembly
-            and self._core.adjustment == 0.0
+            self.place is None
+            and self.values.tolist() == self.core.drawing
+            and not self.description.assembly
+            and self.core.adjustment == 0.0
         )
 
     @property
-    def _joint_names(self) -> tuple[str, ...]:
-        """Names of the joints: unlike `joints`, without solving a design."""
-        return tuple(name for name, _, _ in self._description.joints)
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints: unlike `joints`, without solving a design.
+
+        :meta private:
+        """
+        return tuple(name for name, _, _ in self.description.joints)
 
     @property
     def links(self) -> Mapping[str, tuple[str, ...]]:
         """Joints of each link."""
-        return MappingProxyType(dict(self._description.links))
+        return MappingProxyType(dict(self.description.links))
 
     @property
     def slides(self) -> Mapping[str, Slide]:
         """Sliding pairs by name."""
-        return MappingProxyType(dict(self._description.slides))
+        return MappingProxyType(dict(self.description.slides))
 
     @property
     def driver(self) -> DriverLike | tuple[DriverLike, ...]:
         """The driver, or a tuple of drivers."""
-        drivers = self._description.drivers
+        drivers = self.description.drivers
         return drivers[0] if len(drivers) == 1 else drivers
 
     @property
     def q0(self) -> float | Float:
         """Coordinate of the driver in the drawing, rad or m; an array (n,) for n drivers."""
-        q0 = self._q0_array()
+        q0 = self.q0_array
         return float(q0) if q0.ndim == 0 else q0
 
     @property
-    def _driver_count(self) -> int:
-        return len(self._description.drivers)
+    def driver_count(self) -> int:
+        """Number of drivers.
+
+        :meta private:
+        """
+        return len(self.description.drivers)
 
     @property
-    def _indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Indices of joints, links and slides by name; not to be modified."""
+    def indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """Indices of joints, links and slides by name; not to be modified.
+
+        :meta private:
+        """
         if self._names is None:
-            own = self._description
+            own = self.description
             named = own.joints, own.links, own.slides
             names = tuple({one[0]: i for i, one in enumerate(of)} for of in named)
             object.__setattr__(self, "_names", names)
         assert self._names is not None
         return self._names
 
-    def _q0_array(self) -> Float:
-        q0 = np.array(self._core.q0)
+    @property
+    def q0_array(self) -> Float:
+        """The same, of one driver an array ().
+
+        :meta private:
+        """
+        q0 = np.array(self.core.q0)
         return q0[0] if len(q0) == 1 else q0
 
     @property
     def structure(self) -> Structure:
         """Mobility, structural formula, Assur groups, redundant links."""
         if self._structure is None:
-            real, drawn, counted = self._core.mobility
-            links, slides = self._core.redundant
+            real, drawn, counted = self.core.mobility
+            links, slides = self.core.redundant
             groups = tuple(
                 Group(
                     cls=one["cls"],
@@ -401,23 +416,23 @@ class Mechanism:
                     joints=tuple(one["joints"]),
                     slides=tuple(one["slides"]),
                 )
-                for one in self._core.groups
+                for one in self.core.groups
             )
-            named = dict(self._description.links)
+            named = dict(self.description.links)
             at_joints = [joint for on in named.values() for joint in on]
             pins = [at_joints.count(joint) - 1 for joint in dict.fromkeys(at_joints)]
             structure = Structure(
                 mobility=real,
                 mobility_at_drawing=drawn,
                 mobility_counted=counted,
-                cls=self._core.cls,
-                formula=self._core.formula,
+                cls=self.core.cls,
+                formula=self.core.formula,
                 groups=groups,
                 redundant=(*links, *slides),
                 moving_links=len(named) - ("ground" in named),
                 turning_pairs=sum(pins),
-                sliding_pairs=len(self._description.slides),
-                adjustment=max(self._core.adjustment, self._moved),
+                sliding_pairs=len(self.description.slides),
+                adjustment=max(self.core.adjustment, self._moved),
             )
             object.__setattr__(self, "_structure", structure)
         assert self._structure is not None
@@ -426,7 +441,7 @@ class Mechanism:
     @property
     def assembly(self) -> Assembly:
         """The assembly shown by the drawing."""
-        return Assembly(dict(self._core.assembly))
+        return Assembly(dict(self.core.assembly))
 
     def with_assembly(self, assembly: Assembly) -> Mechanism:
         """Return the mechanism drawn in another assembly, as `assemblies` found it.
@@ -464,13 +479,13 @@ class Mechanism:
 
     def _in_signs(self, signs: list[int]) -> Mechanism:
         """Return the mechanism drawn with these signs of all its dyads."""
-        if signs == self._signs:
+        if signs == self.signs:
             return self
-        if self._place is not None:
-            return with_signs(self, self._place, signs)
-        named = zip((name for name, _ in self._core.assembly), signs, strict=True)
-        description = self._description._replace(assembly=tuple(named))
-        return self._make(description, np.array(self._values))._moved_as(self)
+        if self.place is not None:
+            return with_signs(self, self.place, signs)
+        named = zip((name for name, _ in self.core.assembly), signs, strict=True)
+        description = self.description._replace(assembly=tuple(named))
+        return self._make(description, np.array(self.values))._moved_as(self)
 
     @property
     def dimensions(self) -> Dimensions:
@@ -482,8 +497,8 @@ class Mechanism:
         >>> dict(assur.SliderCrank(1.0, 3.0).dimensions)["rod.length"]
         3.0
         """
-        names = self._core.dimension_names
-        values = self._values if self.shape else self._values.tolist()
+        names = self.core.dimension_names
+        values = self.values if self.shape else self.values.tolist()
         return Dimensions(dict(zip(names, values, strict=True)))
 
     # -- other mechanisms ---------------------------------------------------
@@ -525,9 +540,9 @@ class Mechanism:
         >>> m.with_dimensions({"coupler.length": np.linspace(2.8, 3.2, 5)}).shape
         (5,)
         """
-        given = dimensions_by_name(dimensions, self._core.dimension_names)
+        given = dimensions_by_name(dimensions, self.core.dimension_names)
         wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
-        indices = [self._core.dimension(name) for name in wanted]
+        indices = [self.core.dimension(name) for name in wanted]
         new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
         try:
             shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
@@ -536,11 +551,11 @@ class Mechanism:
             message = f"dimensions do not broadcast: {shapes}, designs {self.shape}"
             raise InputError(message) from error
         replaced = dict(zip(indices, new, strict=True))
-        values = np.empty((len(self._values), *shape))
-        for index, old in enumerate(self._values):
+        values = np.empty((len(self.values), *shape))
+        for index, old in enumerate(self.values):
             values[index] = replaced.get(index, old)
         if not shape:
-            self._core.check_dimensions(values.tolist())
+            self.core.check_dimensions(values.tolist())
         return self._with_values(values)
 
     def with_driver(
@@ -631,8 +646,8 @@ class Mechanism:
         ((3,), 3.2)
         """
         entry = checked_index(index, self.shape, "design")
-        values = np.array(np.moveaxis(self._values, 0, -1)[entry])
-        self._core.check_dimensions(values.tolist())
+        values = np.array(np.moveaxis(self.values, 0, -1)[entry])
+        self.core.check_dimensions(values.tolist())
         return self._with_values(values)
 
     # -- moving -------------------------------------------------------------
@@ -1324,7 +1339,7 @@ def _rebuild(
     if place is None:
         return mechanism
     own = place.mechanism
-    core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
+    core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
     return mechanism._drawn_at(place, core)
 
 

@@ -61,9 +61,9 @@ class Motion:
         self.q = request.q
         self.order = request.order
         self._status = status
-        self._request = request
-        self._stored = results
-        self._drivers = request.mechanism._driver_count
+        self.request = request
+        self.stored = results
+        self.driver_count = request.mechanism.driver_count
         self._reference_points: dict[str, tuple[Float, ...]] = {}
         self._diagnostics: tuple[Float, Float] | None = None
         self.kept: npt.NDArray[np.intp] | None = None
@@ -71,8 +71,8 @@ class Motion:
     @property
     def mechanism(self) -> Mechanism:
         """The mechanism solved, drawn in the assembly that was solved."""
-        request = self._request
-        if request.signs == request.mechanism._signs:
+        request = self.request
+        if request.signs == request.mechanism.signs:
             return request.mechanism
         # Made when first needed: solving need not compile it.
         if self._mechanism is None:
@@ -83,11 +83,11 @@ class Motion:
     def _results(self) -> Results:
         """The arrays held, by name."""
         self._require_complete()
-        return self._stored
+        return self.stored
 
     def _require_complete(self) -> None:
         """Raise if a solve(out=) overwrites this motion or was stopped while doing so."""
-        buffers = self._stored.buffers
+        buffers = self.stored.buffers
         if buffers is not None and not buffers.complete:
             message = (
                 "this motion is incomplete: a call that overwrites it (out=) is running, was "
@@ -103,11 +103,11 @@ class Motion:
 
     def __getstate__(self) -> dict[str, Any]:
         # A copy has no buffers: only the original may be overwritten.
-        return {**self.__dict__, "_stored": self._results.without_buffers(copy=False)}
+        return {**self.__dict__, "stored": self._results.without_buffers(copy=False)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        stored = self._stored
+        stored = self.stored
         held = (stored.joints, stored.links, stored.slides, self._reference_points)
         for array in (a for kind in held for arrays in kind.values() for a in arrays):
             array.flags.writeable = False
@@ -121,7 +121,7 @@ class Motion:
         own.__setstate__(
             {
                 **state,
-                "_stored": self._results.without_buffers(copy=True),
+                "stored": self._results.without_buffers(copy=True),
                 "_status": self.status.copy(),
             }
         )
@@ -133,7 +133,7 @@ class Motion:
         return self._status.shape
 
     def __repr__(self) -> str:
-        formula = self._request.mechanism._core.formula
+        formula = self.request.mechanism.core.formula
         return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
 
     def _find(
@@ -141,7 +141,7 @@ class Motion:
     ) -> tuple[Float, ...]:
         name = checked_name(name, kind)
         if name not in held:
-            self._request.mechanism._core.require(kind, name)
+            self.request.mechanism.core.require(kind, name)
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
         return held[name]
@@ -254,13 +254,13 @@ class Motion:
     ) -> Analogues:
         is_point = kind == "joint"
         if isinstance(name, str):
-            return Analogues(name, self._find(kind, held, name), self._drivers, is_point)
+            return Analogues(name, self._find(kind, held, name), self.driver_count, is_point)
         if not isinstance(name, list | tuple) or not name:
             message = f"{kind}: {short(name)} is not a name or a list of names"
             raise InputError(message)
         several = [self._find(kind, held, one) for one in name]
         arrays = tuple(np.stack(order) for order in zip(*several, strict=True))
-        return Analogues(", ".join(name), arrays, self._drivers, is_point)
+        return Analogues(", ".join(name), arrays, self.driver_count, is_point)
 
     @overload
     def __getitem__(self, index: str) -> Analogues: ...
@@ -284,7 +284,7 @@ class Motion:
             from assur.kinematics.select import part_of
 
             return part_of(self, index)
-        kinds = self._request.mechanism._indices
+        kinds = self.request.mechanism.indices
         for names, of in zip(kinds, (self.joint, self.link, self.slide), strict=True):
             if index in names:
                 return of(index)
@@ -304,10 +304,14 @@ class Motion:
     def __iter__(self) -> Iterator[Motion]:
         return (self[i] for i in range(len(self)))
 
-    def _held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Return the core's indices of the joints, links and slides held."""
+    @property
+    def held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """The core's indices of the joints, links and slides held.
+
+        :meta private:
+        """
         held = (self._results.joints, self._results.links, self._results.slides)
-        require = self._request.mechanism._core.require
+        require = self.request.mechanism.core.require
         joints, links, slides = (
             {name: require(kind, name) for name in of}
             for kind, of in zip(("joint", "link", "slide"), held, strict=True)
@@ -318,12 +322,12 @@ class Motion:
         link = checked_name(link, "link")
         # Rarely needed, so solved on request.
         if link not in self._reference_points:
-            self._reference_points[link] = self._request.reference_point(link)
-        return Analogues(link, self._reference_points[link], self._drivers, True)
+            self._reference_points[link] = self.request.reference_point(link)
+        return Analogues(link, self._reference_points[link], self.driver_count, True)
 
     def _require_one_driver(self, what: str) -> None:
-        if self._drivers > 1:
-            message = f"{what} is defined for one driver; this mechanism has {self._drivers}"
+        if self.driver_count > 1:
+            message = f"{what} is defined for one driver; this mechanism has {self.driver_count}"
             raise InputError(message)
 
     def curvature(self, joint: str) -> Float:
@@ -416,7 +420,7 @@ class Motion:
         np.float64(-10.0)
         """
         self._require_one_driver("mechanical_advantage")
-        is_slide = checked_name(name, "mechanical_advantage") in self._request.mechanism.slides
+        is_slide = checked_name(name, "mechanical_advantage") in self.request.mechanism.slides
         output = self.slide(name) if is_slide else self.link(name)
         with np.errstate(divide="ignore"):
             ratio: Float = 1.0 / output.d1
@@ -506,8 +510,8 @@ class Motion:
 
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
-            residual, condition = self._request.mechanism._core.diagnostics(
-                *self._request.flat(), self._request.signs
+            residual, condition = self.request.mechanism.core.diagnostics(
+                *self.request.flat(), self.request.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
             for array in self._diagnostics:
@@ -535,9 +539,9 @@ class Motion:
         2.0
         """
         entry = checked_index(index, self.shape, "index")
-        designs = 0 if self._request.per_design else len(self._request.mechanism.shape)
-        q = self.q[entry[designs:]] if self._request.positions else self.q
-        return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
+        designs = 0 if self.request.per_design else len(self.request.mechanism.shape)
+        q = self.q[entry[designs:]] if self.request.positions else self.q
+        return float(q) if self.driver_count == 1 else tuple(float(x) for x in q)
 
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
         """Return the status of one position as a sentence, as ``on_error="raise"`` words it.
@@ -561,10 +565,10 @@ class Motion:
         """
         entry = checked_index(index, self.shape, "index")
         q = self.coordinate(entry)
-        mechanism = self._request.mechanism
-        values = np.moveaxis(mechanism._values, 0, -1)[entry[: len(mechanism.shape)]]
+        mechanism = self.request.mechanism
+        values = np.moveaxis(mechanism.values, 0, -1)[entry[: len(mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
-        return mechanism._core.explain(values.tolist(), one, self._request.signs)
+        return mechanism.core.explain(values.tolist(), one, self.request.signs)
 
     def to_dataframe(
         self,

@@ -40,7 +40,7 @@ def places_along(motion: Motion, size: float) -> Float:
         return np.stack(values, axis=axis) if values else np.empty((*shape, 0, *tail))
 
     return place_vector(
-        stacked([motion.joint(name).value for name in own._joint_names], -2, (2,)),
+        stacked([motion.joint(name).value for name in own.joint_names], -2, (2,)),
         stacked([motion.link(name).value for name in own.links], -1),
         stacked([motion.slide(name).value for name in own.slides], -1),
         size,
@@ -63,12 +63,12 @@ def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
 
     Or those of the drawing.
     """
-    own = mechanism._description
+    own = mechanism.description
     free = {name for name, slide in own.slides if slide.on == "ground" and slide.origin is None}
     found: list[float] = []
     fixed: dict[str, list[float]] = {"x": [], "y": []}
-    values = mechanism._core.drawing if drawn else mechanism._values.tolist()
-    for name, value in zip(mechanism._core.dimension_names, values, strict=True):
+    values = mechanism.core.drawing if drawn else mechanism.values.tolist()
+    for name, value in zip(mechanism.core.dimension_names, values, strict=True):
         thing, _, what = name.rpartition(".")
         if thing.startswith("ground."):
             fixed[what].append(value)
@@ -80,6 +80,6 @@ def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
 def size_of(mechanism: Mechanism, drawn: bool = False) -> float:
     """Return a length of one design, or of the drawing, that its size is of the order of, m."""
     known = [length for length in lengths(mechanism, drawn) if np.isfinite(length)]
-    at = np.array([point for _, *point in mechanism._description.joints])
+    at = np.array([point for _, *point in mechanism.description.joints])
     width = float(np.ptp(at, axis=0).max()) if len(at) else 0.0
     return max(known, default=0.0) or width or 1.0

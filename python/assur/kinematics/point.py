@@ -33,17 +33,17 @@ def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
     lead = (len(points), *(1,) * angle.value.ndim)
     x, y = points[:, 0].reshape(lead), points[:, 1].reshape(lead)
     arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
-    drivers = motion._drivers
+    drivers = motion.driver_count
     # With one driver too an axis for each order, to be dropped again.
     rates = [
         one.reshape(angle.value.shape + (drivers,) * order)
-        for order, one in enumerate(angle._arrays)
+        for order, one in enumerate(angle.arrays)
     ]
     arrays = []
     for order in range(motion.order + 1):
         turned = _derivative(arm, rates, order)
         turned = turned.reshape(arm.shape + ((drivers,) * order if drivers > 1 else ()))
-        whole = turned if origin is None else origin._arrays[order] + turned
+        whole = turned if origin is None else origin.arrays[order] + turned
         whole = whole if at.ndim == 2 else whole[0]
         whole.flags.writeable = False
         arrays.append(whole)

@@ -41,7 +41,7 @@ class Pose:
         if motion.shape:
             message = f"q has shape {motion.shape}: one position is needed"
             raise InputError(message)
-        joints = [motion.joint(name).value.tolist() for name in mechanism._joint_names]
+        joints = [motion.joint(name).value.tolist() for name in mechanism.joint_names]
         return cls(
             [(x, y) for x, y in joints],
             [float(motion.link(name).value) for name in mechanism.links],
@@ -70,22 +70,22 @@ def drawn_at(mechanism: Mechanism, description: Description, pose: Pose) -> Mech
     q, numbers = bare.at_pose(pose.joints, pose.angles, pose.slides)
     names = (name for name, _ in bare.assembly)
     signs = tuple(zip(names, numbers["signs"], strict=True))
-    plain = mechanism._make(description._replace(assembly=signs), np.array(mechanism._values))
-    core = plain._core.drawn_in(plain._values.tolist(), q, numbers)
+    plain = mechanism._make(description._replace(assembly=signs), np.array(mechanism.values))
+    core = plain.core.drawn_in(plain.values.tolist(), q, numbers)
     return plain._drawn_at(Place(plain, tuple(q), numbers), core)
 
 
 def with_signs(mechanism: Mechanism, place: Place, signs: list[int]) -> Mechanism:
     """Return a mechanism that is drawn at a place, with other signs of its dyads there."""
     own = place.mechanism
-    q, values = list(place.q), own._values.tolist()
+    q, values = list(place.q), own.values.tolist()
     numbers: AssemblyNumbers = {**place.numbers, "signs": signs, "is_double": False}
-    core = own._core.drawn_in(values, q, numbers)
+    core = own.core.drawn_in(values, q, numbers)
     found = Place(own, place.q, numbers)
     motion = own._drawn_at(found, core).solve(q[0] if len(q) == 1 else q, order=0, on_error="nan")
     if motion.status < Status.UNREACHABLE:
         # The joints of the place move with the signs.
-        joints = [motion.joint(name).value.tolist() for name in own._joint_names]
+        joints = [motion.joint(name).value.tolist() for name in own.joint_names]
         numbers["joints"] = [(x, y) for x, y in joints]
         numbers["angles"] = [float(motion.link(name).value) for name in own.links]
     return mechanism._drawn_at(found, core)
@@ -98,10 +98,10 @@ def redrive(
     q: npt.ArrayLike | None,
 ) -> Mechanism:
     """See `Mechanism.with_driver`."""
-    description = mechanism._description._replace(drivers=drivers, assembly=signs)
-    if q is None and mechanism._place is None:
+    description = mechanism.description._replace(drivers=drivers, assembly=signs)
+    if q is None and mechanism.place is None:
         try:
-            return mechanism._make(description, np.array(mechanism._values))
+            return mechanism._make(description, np.array(mechanism.values))
         except StructureError as error:
             # The drawing of a named mechanism has other dimensions than its design.
             if mechanism.shape or error.kind != "flat_dyad" or mechanism._is_as_drawn:

@@ -63,21 +63,21 @@ class SolveRequest:
 
     def layout(self, joints: Names, links: Names, slides: Names) -> Layout:
         """Return what the columns of a result are."""
-        return Layout(joints, links, slides, self.shape, self.mechanism._driver_count, self.order)
+        return Layout(joints, links, slides, self.shape, self.mechanism.driver_count, self.order)
 
     def reference_point(self, link: str) -> tuple[Float, ...]:
         """Solve for a link's reference point, the origin of its frame."""
-        index = self.mechanism._core.require("link", link)
+        index = self.mechanism.core.require("link", link)
         buffers, _ = self._solve(([], [], [index], []))
         # Its columns are as those of a joint.
         return self.layout({link: index}, {}, {}).held("joint", buffers)[link]
 
     def flat(self) -> tuple[Float, Float, bool]:
         """Return flat dimensions and coordinates, and whether each design has its own."""
-        values = self.mechanism._values.reshape(-1)
+        values = self.mechanism.values.reshape(-1)
         if self.per_design and 0 in self.mechanism.shape:
             # With no designs the number of coordinates per design is undefined.
-            drivers = self.mechanism._driver_count
+            drivers = self.mechanism.driver_count
             return values, np.zeros(drivers * math.prod(self.positions)), False
         return values, self.q.reshape(-1), self.per_design
 
@@ -89,7 +89,7 @@ class SolveRequest:
         report: bool = False,
     ) -> tuple[Buffers, AssurError | None]:
         shape = list(self.mechanism.shape) if report else None
-        arrays, status, failure = self.mechanism._core.solve(
+        arrays, status, failure = self.mechanism.core.solve(
             *self.flat(),
             self.signs,
             self.order,

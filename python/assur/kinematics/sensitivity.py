@@ -37,11 +37,11 @@ class Sensitivity:
     """
 
     def __init__(self, motion: Motion, dimension: str) -> None:
-        index = motion.mechanism._core.dimension(checked_name(dimension, "sensitivity"))
-        outputs = motion._held_indices()
+        index = motion.mechanism.core.dimension(checked_name(dimension, "sensitivity"))
+        outputs = motion.held_indices
         self.dimension = dimension
-        self._drivers = motion.mechanism._driver_count
-        self._results, self.status, _ = motion._request.arrays(*outputs, dimension=index)
+        self._drivers = motion.mechanism.driver_count
+        self._results, self.status, _ = motion.request.arrays(*outputs, dimension=index)
 
     def joint(self, name: str) -> Analogues:
         """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2).

@@ -63,7 +63,7 @@ def solve(
     if is_typed:
         warn_if_degrees(mechanism, coordinates)
     own_signs = assembly is None
-    signs = mechanism._signs if own_signs else checked_assembly(mechanism, assembly)
+    signs = mechanism.signs if own_signs else checked_assembly(mechanism, assembly)
     threads = checked_threads(threads)
     request = SolveRequest(
         mechanism, coordinates, positions, per_design, order, signs, own_signs, threads
@@ -90,7 +90,7 @@ def _with_advice(
     """Say of a position beyond a dead point what goes past it, or where to look."""
     advice = PAST_DEAD_POINTS.get(failure.kind or "")
     # A configuration curve is of one design.
-    if advice is None or mechanism._driver_count > 1 or mechanism.shape:
+    if advice is None or mechanism.driver_count > 1 or mechanism.shape:
         return failure
     if failure.kind == "not_closed" and not _moves_somewhere(mechanism, assembly):
         return failure
@@ -103,7 +103,7 @@ def _with_advice(
 def _moves_somewhere(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> bool:
     """Whether a design of dyads can be assembled at other coordinates."""
     try:
-        return mechanism._core.cls <= 2 and len(mechanism.limits(assembly).intervals) > 0
+        return mechanism.core.cls <= 2 and len(mechanism.limits(assembly).intervals) > 0
     except AssurError:
         return False
 
@@ -114,7 +114,7 @@ def in_radians(mechanism: Mechanism, q: Any, deg: npt.ArrayLike | None) -> Float
         both = "both q and deg are" if q is not None else "neither q nor deg is"
         message = f"solve(): {both} given: pass q in rad (or m), or deg in degrees"
         raise InputError(message)
-    for driver in mechanism._description.drivers:
+    for driver in mechanism.description.drivers:
         if isinstance(driver, str) and driver in mechanism.slides:
             message = f"deg: the driver {driver!r} is a slide; its coordinate q is a length, m"
             raise InputError(message)
@@ -130,7 +130,7 @@ def warn_if_degrees(mechanism: Mechanism, q: Float) -> None:
     most = float(np.abs(q).max()) if q.ndim else abs(last)
     if not LIKE_DEGREES[0] < most < LIKE_DEGREES[1]:
         return
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     if len(drivers) > 1 or (isinstance(drivers[0], str) and drivers[0] in mechanism.slides):
         return
     if bool((q == np.floor(q)).all()):
@@ -147,10 +147,10 @@ def _buffers(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
     if not isinstance(motion, Motion):
         message = f"out is {short(motion)}: a motion is needed"
         raise InputError(message)
-    held = motion._stored
+    held = motion.stored
     names = [list(of) for of in (held.joints, held.links, held.slides)]
-    drivers = request.mechanism._driver_count
-    given = (motion._status.shape, motion.order, motion._drivers, *names)
+    drivers = request.mechanism.driver_count
+    given = (motion._status.shape, motion.order, motion.driver_count, *names)
     needed = (request.shape, request.order, drivers, *(list(of) for of in wanted))
     what = ("shape", "order", "number of drivers", "joints", "links", "slides")
     for of, one, other in zip(what, given, needed, strict=True):
@@ -168,7 +168,7 @@ def checked_coordinates(
 ) -> tuple[Float, tuple[int, ...], bool]:
     """Return coordinates, the shape of positions, and whether each design has its own."""
     array = real_array(q, "q")
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     shape = array.shape
     if drivers > 1:
         if not shape or shape[-1] != drivers:
@@ -188,13 +188,13 @@ def checked_coordinates(
 def checked_assembly(mechanism: Mechanism, assembly: Mapping[str, int] | None) -> list[int]:
     """Return the signs of all dyads, of the drawing where the assembly says nothing."""
     if assembly is None:
-        return mechanism._signs
-    signs = dict(mechanism._core.assembly)
+        return mechanism.signs
+    signs = dict(mechanism.core.assembly)
     for name, sign in checked_signs(assembly):
         if name not in signs:
             message = f"assembly: no dyad has the inner pair {name!r}; there are {list(signs)}"
             raise InputError(message, joint=name)
-        if sign < 0 and name in mechanism._core.lengths:
+        if sign < 0 and name in mechanism.core.lengths:
             message = f"assembly[{name!r}] is -1: the length of {name!r} is never negative"
             raise InputError(message, slide=name)
         signs[name] = sign
@@ -202,7 +202,7 @@ def checked_assembly(mechanism: Mechanism, assembly: Mapping[str, int] | None) -
 
 
 def _outputs(mechanism: Mechanism, names: Iterable[str] | None) -> Names:
-    joints, links, slides = mechanism._indices
+    joints, links, slides = mechanism.indices
     if names is None:
         return joints, links, slides
     if isinstance(names, str):

@@ -81,7 +81,7 @@ class TimedMotion(Tabular):
 
     def __repr__(self) -> str:
         count = self.t.size
-        return f"<assur.TimedMotion of {self.motion.mechanism._core.formula}, {count} times>"
+        return f"<assur.TimedMotion of {self.motion.mechanism.core.formula}, {count} times>"
 
     def joint(self, name: str | Sequence[str]) -> InTime:
         """Return a joint over time (of several, stacked along a new first axis).
@@ -295,7 +295,7 @@ def follow(
     if mechanism.shape:
         message = f"follow() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     listed: Any = [laws] if isinstance(laws, Law) else laws
     if not isinstance(listed, list | tuple) or len(listed) != drivers:
         message = f"laws is {short(laws)}: one law (assur.laws) for each driver is needed"

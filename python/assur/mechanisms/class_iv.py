@@ -177,7 +177,7 @@ def _drawn(joints: Mapping[str, Sequence[float]]) -> Mechanism:
 
 
 def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
-    mechanism._share(made, made._values)
+    mechanism._share(made, made.values)
 
 
 def _require_names(given: Any, names: Iterable[str], what: str) -> None:

@@ -132,7 +132,7 @@ def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.Arr
     sized = from_drawing(drawing).with_dimensions(dimensions)
     if not sized.shape:
         sized = _where_it_exists(sized)
-    mechanism._share(sized, sized._values)
+    mechanism._share(sized, sized.values)
 
 
 def _where_it_exists(mechanism: Mechanism) -> Mechanism:
@@ -146,10 +146,8 @@ def _where_it_exists(mechanism: Mechanism) -> Mechanism:
     end, other = min(inward, key=lambda ends: abs(math.remainder(ends[0] - q0, math.tau)))
     place_q = end + 0.25 * (other - end)
     for assembly in mechanism.assemblies(place_q):
-        place = assembly._place
+        place = assembly.place
         if assembly == mechanism.assembly and place is not None:
-            core = mechanism._core.drawn_in(
-                mechanism._values.tolist(), list(place.q), place.numbers
-            )
+            core = mechanism.core.drawn_in(mechanism.values.tolist(), list(place.q), place.numbers)
             return mechanism._drawn_at(place, core)
     return mechanism

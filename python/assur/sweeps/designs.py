@@ -31,9 +31,9 @@ class Designs:
             raise InputError(message)
         # From here on it is drawn in the assembly: whatever is handed back is, too.
         self.mechanism = mechanism = mechanism._in_assembly(assembly)
-        given = dimensions_by_name(dimensions, mechanism._core.dimension_names)
+        given = dimensions_by_name(dimensions, mechanism.core.dimension_names)
         names = [checked_name(name, "dimensions") for name in given]
-        indices = [mechanism._core.dimension(name) for name in names]
+        indices = [mechanism.core.dimension(name) for name in names]
         new = [real_array(given[n], f"dimension {n!r}", copy=False) for n in names]
         # Designs are asked for later, when the caller may have changed his arrays (no grid's).
         if not isinstance(dimensions, Grid):
@@ -45,7 +45,7 @@ class Designs:
             shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(names, new, strict=True))
             message = f"dimensions do not broadcast: {shapes}, designs {own}"
             raise InputError(message) from error
-        columns: list[Float] = list(mechanism._values)
+        columns: list[Float] = list(mechanism.values)
         for index, array in zip(indices, new, strict=True):
             columns[index] = array
         # One number, or one of each design.
@@ -53,7 +53,7 @@ class Designs:
         self.changed = dict(zip(names, indices, strict=True))
         self.count = int(np.prod(self.shape, dtype=np.int64))
         if not self.shape:
-            mechanism._core.check_dimensions([float(column) for column in columns])
+            mechanism.core.check_dimensions([float(column) for column in columns])
 
     def some(self, which: slice | npt.NDArray[np.intp], memory: Float | None = None) -> Mechanism:
         """Return a batch of some of them, by their indices in C order.

@@ -30,7 +30,7 @@ def encoded(metric: Metric, mechanism: Mechanism, q: Float) -> specs.Spec:
     spec = _leaf(metric, mechanism)
     if metric.over is not None:
         spec = specs.Part(spec, *metric.over, is_of_turn=_is_angle(mechanism))
-    refusal = mechanism._core.refusal_of_metric(q, spec)
+    refusal = mechanism.core.refusal_of_metric(q, spec)
     if refusal is not None:
         message = f"{metric!r}: {refusal}"
         raise InputError(message)
@@ -47,7 +47,7 @@ def _leaf(leaf: Leaf, mechanism: Mechanism) -> specs.Spec:
             (_line(mechanism, first), _line(mechanism, second)), complement
         )
     if leaf.kind == "deviation":
-        return specs.Deviation(mechanism._core.require("joint", leaf.of), *leaf.options)
+        return specs.Deviation(mechanism.core.require("joint", leaf.of), *leaf.options)
     return specs.Scalar(leaf.kind, _coordinate(mechanism, leaf.of, leaf.order))
 
 
@@ -57,23 +57,23 @@ def _coordinate(mechanism: Mechanism, name: str, order: int) -> specs.Coordinate
         if axis not in ("x", "y"):
             message = f'coordinate {name!r}: "{joint}.x" or "{joint}.y" is needed'
             raise InputError(message)
-        index = mechanism._core.require("joint", joint)
+        index = mechanism.core.require("joint", joint)
         return specs.Coordinate("joint", index, "xy".index(axis), order)
-    if name in mechanism._joint_names:
+    if name in mechanism.joint_names:
         message = f'coordinate {name!r} is a joint: "{name}.x" or "{name}.y" is needed'
         raise InputError(message, joint=name)
     kind = "slide" if name in mechanism.slides else "link"
-    return specs.Coordinate(kind, mechanism._core.require(kind, name), 0, order)
+    return specs.Coordinate(kind, mechanism.core.require(kind, name), 0, order)
 
 
 def _line(mechanism: Mechanism, line: transmission.Line) -> specs.Line:
     if isinstance(line, transmission.JointLine):
-        return specs.JointLine(*(mechanism._core.require("joint", joint) for joint in line))
-    names, angle = mechanism._core.dimension_names, f"{line.slide}.angle"
+        return specs.JointLine(*(mechanism.core.require("joint", joint) for joint in line))
+    names, angle = mechanism.core.dimension_names, f"{line.slide}.angle"
     index = names.index(angle) if angle in names else None
-    return specs.GuideLine(mechanism._core.require("link", line.link), index)
+    return specs.GuideLine(mechanism.core.require("link", line.link), index)
 
 
 def _is_angle(mechanism: Mechanism) -> bool:
-    driver = mechanism._description.drivers
+    driver = mechanism.description.drivers
     return not any(name in mechanism.slides for name in driver if isinstance(name, str))

@@ -108,10 +108,10 @@ class Measuring:
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
-        found, status, kept = some._core.measure(
-            some._values.reshape(-1),
+        found, status, kept = some.core.measure(
+            some.values.reshape(-1),
             self.q.reshape(-1),
-            some._signs,
+            some.signs,
             self.encoded,
             self.early,
             self.threads,
@@ -136,7 +136,7 @@ class Measuring:
 
     def without_value(self, design: Mechanism) -> str:
         """Return which metric of a design has no value, and why."""
-        some = design._with_values(design._values[:, None])
+        some = design._with_values(design.values[:, None])
         asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
         for name, metric in asked.items():
             for part in (*metric.leaves(), metric):
@@ -159,7 +159,7 @@ class Measuring:
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
-            batch = some._with_values(some._values[:, few])
+            batch = some._with_values(some.values[:, few])
             for function, numbers in self._numbers(batch):
                 if numbers.shape != few.shape:
                     message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
@@ -217,7 +217,7 @@ def _conditions(where: Any) -> list[Condition]:
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> Float:
     array = real_array(q, "q")
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     if array.ndim != (1 if drivers == 1 else 2) or (drivers > 1 and array.shape[-1] != drivers):
         shape = "(N,)" if drivers == 1 else f"(N, {drivers})"
         message = f"q has shape {array.shape}: metrics need {shape}, the same for all designs"

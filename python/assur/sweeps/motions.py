@@ -120,15 +120,15 @@ def in_blocks(
             own[:] = column
         report(of.stop)
 
-    buffers = motion._stored.buffers
+    buffers = motion.stored.buffers
     assert buffers is not None
     # What is interrupted cannot be read.
     buffers.complete = False
     store(block, _arrays(first))
     if engine is None:
-        wanted = first._held_indices()
+        wanted = first.held_indices
         for of, (some, own_q) in tasks:
-            request = replace(first._request, mechanism=some, q=own_q)
+            request = replace(first.request, mechanism=some, q=own_q)
             request.arrays(*wanted, buffers=Buffers(*rows(of)))
             report(of.stop)
     else:
@@ -140,8 +140,8 @@ def in_blocks(
 
 def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) -> Motion:
     """Return a motion of all designs as that of the first ones is, with arrays to be written."""
-    request = replace(first._request, mechanism=every, q=course.whole)
-    wanted = first._held_indices()
+    request = replace(first.request, mechanism=every, q=course.whole)
+    wanted = first.held_indices
     if out is None:
         columns, status = _arrays(first)
         designs, count = first.shape[0], math.prod(every.shape)
@@ -165,6 +165,6 @@ def _rows(column: npt.NDArray[Number], block: slice, count: int) -> npt.NDArray[
 
 
 def _arrays(motion: Motion) -> Arrays:
-    stored = motion._stored
+    stored = motion.stored
     assert stored.buffers is not None
     return stored.columns(), stored.buffers.status

@@ -101,7 +101,7 @@ def _unreachable(found: Measures, which: Flags) -> list[tuple[str, Flags]]:
     indices = np.flatnonzero(which)
     if not indices.size:
         return []
-    if mechanism._driver_count > 1 or mechanism._core.cls > 2:
+    if mechanism.driver_count > 1 or mechanism.core.cls > 2:
         # Limits of a higher class take too long.
         return [("out of reach", which)]
     limits = found._designs.some(indices).limits()

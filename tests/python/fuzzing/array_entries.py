@@ -208,7 +208,7 @@ ENTRIES: dict[str, Entry] = {
     ),
     "Workspace.contains.points": Entry(SPACE.contains, (np.ones((3, 2)), np.ones(2))),
     "Motion.point.local": Entry(
-        lambda at: MOTION.point("coupler", at)._arrays, (np.ones(2), np.ones((3, 2)))
+        lambda at: MOTION.point("coupler", at).arrays, (np.ones(2), np.ones((3, 2)))
     ),
     **each_of("Motion.to_dataframe", written("frame"), omega=2.0, alpha=1.0),
     **each_of("Motion.to_excel", written("xlsx"), omega=2.0, alpha=1.0),

@@ -119,7 +119,7 @@ def run(given: argparse.Namespace) -> int:
     where = [condition(text) for text in given.where]
     contents = read(given)
     require_one(contents.mechanism, given.file)
-    dimensions = _dimensions(given, contents.mechanism._core.dimension_names)
+    dimensions = _dimensions(given, contents.mechanism.core.dimension_names)
     rows = math.prod(np.broadcast_shapes(*map(np.shape, dimensions.values())))
     output.require_few(rows if given.best is None else min(rows, given.best))
     found: Measures = sweep(

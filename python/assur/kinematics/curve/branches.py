@@ -60,8 +60,8 @@ class Branches:
 
     def add(self, assembly: Assembly, q: float) -> None:
         """Add the branch of an assembly, if it is a new one."""
-        assert assembly._place is not None
-        own = place_of(assembly._place.numbers, self.size)
+        assert assembly.place is not None
+        own = place_of(assembly.place.numbers, self.size)
         if self.has(own, q):
             return
         limits = self.limits(assembly)
@@ -81,7 +81,7 @@ class Branches:
 
     def limits(self, assembly: Mapping[str, int]) -> Limits:
         """Return the limits of an assembly."""
-        if self.mechanism._core.cls > 2:
+        if self.mechanism.core.cls > 2:
             return self.mechanism.limits(assembly)
         signs = frozenset(assembly.items())
         if signs not in self._limits:

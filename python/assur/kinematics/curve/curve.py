@@ -100,11 +100,11 @@ class ConfigurationCurve:
     folds: tuple[Fold, ...]
     circuits: tuple[Circuit, ...]
     fan: Float
-    _mechanism: Mechanism
+    mechanism: Mechanism
 
     def __repr__(self) -> str:
         folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
-        of = self._mechanism._core.formula
+        of = self.mechanism.core.formula
         return f"<assur.ConfigurationCurve of {of}, {circuits}, {folds}>"
 
     def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:
@@ -196,13 +196,13 @@ class ConfigurationCurve:
         parts = []
         for number, direction in self.circuits[index].branches:
             branch = self.branches[number]
-            low, high = ends_of(branch, self._mechanism)
+            low, high = ends_of(branch, self.mechanism)
             part = 0.5 - 0.5 * sin_cos(np.linspace(0.0, np.pi, samples))[1]
             if branch.period is not None:
                 part = np.linspace(0.0, 1.0, samples)
             q = low + (high - low) * part
             parts.append((number, q if direction > 0 else q[::-1]))
-        return _along(self._mechanism, self.branches, parts)
+        return _along(self.mechanism, self.branches, parts)
 
 
 def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motion:
@@ -222,7 +222,7 @@ def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motio
 def _along(
     mechanism: Mechanism, branches: tuple[Branch, ...], parts: list[tuple[int, Float]]
 ) -> CircuitMotion:
-    names = mechanism._joint_names, tuple(mechanism.links), tuple(mechanism.slides)
+    names = mechanism.joint_names, tuple(mechanism.links), tuple(mechanism.slides)
     rows: list[tuple[Float, Float, list[list[Float]]]] = []
     for index, (number, part) in enumerate(parts):
         # The end of one branch is the beginning of the next.

@@ -76,7 +76,7 @@ def defects_of(curve: ConfigurationCurve, places: Sequence[tuple[float, Assembly
 
 def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[int, float]:
     """Return the branch of a position, and its q in the branch's counted turns."""
-    mechanism = curve._mechanism
+    mechanism = curve.mechanism
     size = size_of(mechanism)
     own = places_along(mechanism.solve(q, order=0, assembly=assembly), size)
     is_angle = has_driven_angle(mechanism)
@@ -102,7 +102,7 @@ def _is_in_order(curve: ConfigurationCurve, circuit: int, found: list[tuple[int,
     places = []
     for number, q in found:
         step = next(i for i, (own, _) in enumerate(ways) if own == number)
-        low, high = ends_of(curve.branches[number], curve._mechanism)
+        low, high = ends_of(curve.branches[number], curve.mechanism)
         part = (q - low) / (high - low)
         places.append(step + (part if ways[step][1] > 0 else 1.0 - part))
     # Rounded, so that the same place twice is no step backward by a whole round.

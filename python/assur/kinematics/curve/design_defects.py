@@ -63,7 +63,7 @@ def design_defects(
         raise InputError(message)
     coordinates = real_array(q, "q")
     for name in joints:
-        mechanism._core.require("joint", checked_name(name, "joints"))
+        mechanism.core.require("joint", checked_name(name, "joints"))
     wanted = {name: real_array(places, name) for name, places in joints.items()}
     unknown = next((name for name, at in wanted.items() if not np.isfinite(at).all()), None)
     if unknown is not None:
@@ -87,7 +87,7 @@ def design_defects(
         raise InputError(message)
     found = np.empty(mechanism.shape, dtype=np.uint8)
     for index in np.ndindex(mechanism.shape):
-        own = mechanism._with_values(mechanism._values[(slice(None), *index)])
+        own = mechanism._with_values(mechanism.values[(slice(None), *index)])
         places = {name: at[index] for name, at in there.items()}
         found[index] = _of_one(own, rows[index].tolist(), places)
     return found if mechanism.shape else Defect(int(found))
@@ -116,7 +116,7 @@ def _nearest(mechanism: Mechanism, q: float, wanted: dict[str, Float]) -> Assemb
         apart = max(float(np.abs(np.array(joints[name]) - at).max()) for name, at in wanted.items())
         if apart <= THERE * size:
             found.append((apart, assembly))
-    places = [place_of(one._place.numbers, size) for _, one in found if one._place is not None]
+    places = [place_of(one.place.numbers, size) for _, one in found if one.place is not None]
     if any(np.abs(place - places[0]).max() > APART for place in places[1:]):
         message = f"joints: {', '.join(wanted)} do not tell which assembly is meant: add others"
         raise InputError(message, value=q)

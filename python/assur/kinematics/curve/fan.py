@@ -114,10 +114,10 @@ def look_within_intervals(known: Branches) -> bool:
     It is in class II.
     """
     mechanism = known.mechanism
-    drawn = dict(mechanism._core.assembly)
+    drawn = dict(mechanism.core.assembly)
     slides = mechanism.slides
     free = [name for name in drawn if not (name in slides and slides[name].length)]
-    if mechanism._core.cls > 2 or 2 ** len(free) > MOST_SIGNS:
+    if mechanism.core.cls > 2 or 2 ** len(free) > MOST_SIGNS:
         return False
     for signs in product((1, -1), repeat=len(free)):
         assembly = drawn | dict(zip(free, signs, strict=True))

@@ -122,5 +122,5 @@ def ends_of(branch: Branch, mechanism: Mechanism) -> tuple[float, float]:
 
 def has_driven_angle(mechanism: Mechanism) -> bool:
     """Whether the driver is an angle, not a slide."""
-    driver = mechanism._description.drivers[0]
+    driver = mechanism.description.drivers[0]
     return not isinstance(driver, str) or driver not in mechanism.slides

@@ -60,8 +60,8 @@ def curve_through(mechanism: Mechanism, places: list[tuple[float, Assembly]]) ->
 
 def require_one_driver(mechanism: Mechanism, what: str) -> None:
     """Refuse a mechanism with several drivers."""
-    if mechanism._driver_count > 1:
-        message = f"{what}() is for one driver; this mechanism has {mechanism._driver_count}"
+    if mechanism.driver_count > 1:
+        message = f"{what}() is for one driver; this mechanism has {mechanism.driver_count}"
         raise InputError(message)
 
 

@@ -173,7 +173,7 @@ def _checked_place(mechanism: Mechanism, of: str, q: Any) -> Any:
     if of != "assemblies":
         message = f"q is {short(q)}: full rotation is about all coordinates, q is for assemblies"
         raise InputError(message)
-    where, drivers = real_array(q, "q"), mechanism._driver_count
+    where, drivers = real_array(q, "q"), mechanism.driver_count
     if where.shape != ((drivers,) if drivers > 1 else ()) or not np.isfinite(where).all():
         message = f"q is {short(q)}: one finite position is needed"
         raise InputError(message)

@@ -101,7 +101,7 @@ class SingularLocus:
     joints: Mapping[str, Float]
     is_closed: bool
     is_complete: bool
-    _mechanism: Mechanism
+    mechanism: Mechanism
 
     def plot(self, joint: str | None = None, ax: Any = None, dark: bool = False) -> Any:
         """Draw the curve of a joint, or of the drivers' coordinates (needs matplotlib).
@@ -141,7 +141,7 @@ class SingularLocus:
         from assur.pictures.maps.loci import locus_picture
 
         if joint is not None:
-            self._mechanism._core.require("joint", checked_name(joint, "plot"))
+            self.mechanism.core.require("joint", checked_name(joint, "plot"))
         return locus_picture(self, joint, ax, dark)
 
     def __repr__(self) -> str:
@@ -185,7 +185,7 @@ class Workspace:
     boundary: tuple[SingularLocus, ...]
     _surface: Surface
     _base: tuple[float, float]
-    _mechanism: Mechanism
+    mechanism: Mechanism
 
     def plot(self, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False) -> Any:
         """Draw where the joint can be, and in how many ways (needs matplotlib).
@@ -256,7 +256,7 @@ class Workspace:
         flat = (array - np.array(self._base)).reshape(-1, 2)
         # Farther than all lengths together; the core follows nothing that far.
         inside = np.abs(flat).max(axis=1, initial=0.0) <= FAR * self._surface.size
-        if self._surface.mechanism._description.slides[2:]:
+        if self._surface.mechanism.description.slides[2:]:
             inside[:] = True
         inside[inside] = [len(poses) > 0 for poses in all_poses(self._surface, flat[inside])]
         inside = inside.reshape(array.shape[:-1])
@@ -287,7 +287,7 @@ def singular_loci(
 ) -> tuple[SingularLocus, ...]:
     """See `Mechanism.singular_loci`."""
     if joint is not None:
-        mechanism._core.require("joint", checked_name(joint, "singular_loci"))
+        mechanism.core.require("joint", checked_name(joint, "singular_loci"))
     surface, grid = _over_drivers(mechanism, "singular_loci", drivers, positions)
     found = _loci(surface, mechanism, grid, 2)
     if joint is not None and grid.counts.any():
@@ -299,7 +299,7 @@ def workspace(
     mechanism: Mechanism, joint: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> Workspace:
     """See `Mechanism.workspace`."""
-    mechanism._core.require("joint", checked_name(joint, "workspace"))
+    mechanism.core.require("joint", checked_name(joint, "workspace"))
     surface, grid = _over_drivers(mechanism, "workspace", drivers, positions)
     return _workspace_of(surface, grid, joint)
 
@@ -307,7 +307,7 @@ def workspace(
 def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     """Return the workspace, given all assemblies over the drivers."""
     own = surface.mechanism
-    index = own._joint_names.index(joint)
+    index = own.joint_names.index(joint)
     seen = np.array([pose.joints[index] for row in grid.poses for poses in row for pose in poses])
     positions = len(grid.axes[0])
     if not len(seen):
@@ -316,8 +316,8 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     low, high = seen.min(axis=0), seen.max(axis=0)
     margin = MARGIN * np.maximum(high - low, 1e-3 * surface.size)
     axes = [np.linspace(a, b, positions) for a, b in zip(low - margin, high + margin, strict=True)]
-    held = [i for i in range(own._driver_count) if i not in surface.free]
-    other, base = driven_by_joint(own, joint, [own._description.drivers[i] for i in held])
+    held = [i for i in range(own.driver_count) if i not in surface.free]
+    other, base = driven_by_joint(own, joint, [own.description.drivers[i] for i in held])
     at = (0.0, 0.0, *(surface.q[i] for i in held))
     inverse = Surface(other, (0, 1), at, surface.size)
     over = grid_of(inverse, (axes[0] - base[0], axes[1] - base[1]), (False, False))
@@ -334,7 +334,7 @@ def _over_drivers(
     free = _free_drivers(mechanism, what, drivers)
     needed = f"from {FEWEST} to {MOST} are needed"
     positions = whole_number(positions, "positions", FEWEST, MOST, needed)
-    own = mechanism._description.drivers
+    own = mechanism.description.drivers
     is_angle = [not isinstance(own[i], str) or own[i] not in mechanism.slides for i in free]
     axes = []
     for angle in is_angle:
@@ -349,7 +349,7 @@ def _free_drivers(
     mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None
 ) -> tuple[int, int]:
     """Return the indices of the two drivers that move."""
-    own = mechanism._description.drivers
+    own = mechanism.description.drivers
     if len(own) < 2:
         message = f"{what}() is for two drivers or more; this mechanism has one: see limits()"
         raise InputError(message)
@@ -407,7 +407,7 @@ def _within(surface: Surface, grid: Grid) -> Callable[[Pose], bool]:
     slides = list(surface.mechanism.slides)
     ranges = {}
     for i, axis, is_angle in zip(surface.free, grid.axes, grid.is_angle, strict=True):
-        driver = surface.mechanism._description.drivers[i]
+        driver = surface.mechanism.description.drivers[i]
         if not is_angle and isinstance(driver, str):
             ranges[slides.index(driver)] = (float(axis[0]), float(axis[-1]))
 
@@ -457,12 +457,12 @@ def _coordinates(mechanism: Mechanism, traced: Traced) -> Float:
         one: Float = links[driver.link] - links[driver.relative_to]
         return one
 
-    return np.stack([coordinate(one) for one in mechanism._description.drivers], axis=-1)
+    return np.stack([coordinate(one) for one in mechanism.description.drivers], axis=-1)
 
 
 def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
     """Return a locus with the coordinates of the mechanism's drivers and its joints."""
     q = _coordinates(mechanism, traced)
     joints = np.array([pose.joints for pose in _round(traced)])
-    named = {name: joints[:, i] for i, name in enumerate(mechanism._joint_names)}
+    named = {name: joints[:, i] for i, name in enumerate(mechanism.joint_names)}
     return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete, mechanism)

@@ -82,7 +82,7 @@ def centrodes(
     motion = checked_motion(motion)
     motion._require_one_driver("centrodes")
     for name in (link, other):
-        motion.mechanism._core.require("link", checked_name(name, "link"))
+        motion.mechanism.core.require("link", checked_name(name, "link"))
     if link == other:
         message = f"link and other are both {link!r}: give two links"
         raise InputError(message, link=link)

@@ -90,7 +90,7 @@ def inflection_circle(
     """
     motion, second = checked_motion(motion), flag(bresse, "bresse")
     motion._require_one_driver("inflection_circle")
-    motion.mechanism._core.require("link", checked_name(link, "link"))
+    motion.mechanism.core.require("link", checked_name(link, "link"))
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
     pole, change, ratio = _pole_motion(one, link)
     diameter = float(np.hypot(*change))

@@ -121,7 +121,7 @@ def _checked_links(one: Motion, links: Sequence[str] | None) -> list[str]:
         return known
     chosen = checked_names(links, "links")
     for link in chosen:
-        one.mechanism._core.require("link", link)
+        one.mechanism.core.require("link", link)
     if len(set(chosen)) < 2:
         message = f"links is {chosen}: instant centres need two links"
         raise InputError(message)

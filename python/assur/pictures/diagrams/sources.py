@@ -76,10 +76,10 @@ class AlongDriver:
         self, motion: Motion, speeds: tuple[Float, Float, Float] | None, degrees: bool
     ) -> None:
         self.motion, self.degrees, self._speeds = motion, degrees, speeds
-        if motion._drivers > 1:
+        if motion.driver_count > 1:
             message = (
-                f"diagram is over one driver's coordinate, this mechanism has {motion._drivers}: "
-                "follow() gives its motion over time, with a diagram"
+                f"diagram is over one driver's coordinate, this mechanism has "
+                f"{motion.driver_count}: follow() gives its motion over time, with a diagram"
             )
             raise InputError(message)
         designs = len(motion.mechanism.shape)
@@ -214,7 +214,7 @@ def _at(motion: Motion, design: int, q: Float) -> Motion:
     if mechanism.shape:
         mechanism = mechanism.design(np.unravel_index(design, mechanism.shape))  # type: ignore[arg-type]
     request = replace(
-        motion._request, mechanism=mechanism, q=q, positions=q.shape, per_design=False, threads=1
+        motion.request, mechanism=mechanism, q=q, positions=q.shape, per_design=False, threads=1
     )
-    results, status, _ = request.arrays(*motion._held_indices())
+    results, status, _ = request.arrays(*motion.held_indices)
     return type(motion)(request, results, status)

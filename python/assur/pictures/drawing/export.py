@@ -117,7 +117,7 @@ def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:
         found = [name for name in mechanism.links if _has_shape(mechanism, name)]
         return found or list(mechanism.links)
     link = checked_name(link, "link")
-    mechanism._core.require("link", link)
+    mechanism.core.require("link", link)
     if not _has_shape(mechanism, link):
         message = f"link {link!r} has no joint and no slide: there is nothing to draw"
         raise InputError(message)
@@ -147,7 +147,7 @@ def _checked_scale(scale: Any) -> float:
 
 def _position(mechanism: Mechanism, q: Any, assembly: Assembly | None) -> Motion:
     found = getattr(assembly, "q", None)
-    at = next(one for one in (q, found, mechanism._q0_array()) if one is not None)
+    at = next(one for one in (q, found, mechanism.q0_array) if one is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if motion.shape:
         message = f"q has positions {motion.shape}: a drawing shows one"

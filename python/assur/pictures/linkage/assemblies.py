@@ -38,7 +38,7 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
     subjects = []
     shown = list(found)[: MOST if ax is None else None]
     for assembly in shown:
-        place = assembly._place
+        place = assembly.place
         assert place is not None
         q = np.array(place.q) if len(place.q) > 1 else place.q[0]
         motion = place.mechanism.solve(q, order=0, assembly=assembly)

@@ -38,7 +38,7 @@ def mechanism_picture(
         raise InputError(message)
     one_of(labels, LABELS, "labels")
     found = getattr(assembly, "q", None)
-    places = (q, found, mechanism._q0_array())
+    places = (q, found, mechanism.q0_array)
     at = next(place for place in places if place is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if 0 in motion.shape:

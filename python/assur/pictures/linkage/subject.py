@@ -141,8 +141,8 @@ class Subject:
 
 def assembly_of(motion: Motion) -> dict[str, int]:
     """Return the assembly in which a motion was solved."""
-    names = (name for name, _ in motion.mechanism._core.assembly)
-    return dict(zip(names, motion._request.signs, strict=True))
+    names = (name for name, _ in motion.mechanism.core.assembly)
+    return dict(zip(names, motion.request.signs, strict=True))
 
 
 def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | None:

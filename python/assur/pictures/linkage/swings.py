@@ -36,7 +36,7 @@ class Swing(NamedTuple):
 
 def swings(mechanism: Mechanism, assembly: dict[str, int]) -> list[Swing]:
     """Return the links that turn about the ground; of several drivers none is known."""
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         return []
     ground = set(mechanism.links.get("ground", ()))
     found = []

@@ -37,7 +37,7 @@ ALIKE = 0.008
 
 def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> Any:
     """See `ConfigurationCurve.plot`."""
-    mechanism = curve._mechanism
+    mechanism = curve.mechanism
     name = _output(mechanism) if name is None else name
     of_angle = isinstance(name, str) and name in mechanism.links
     driver = mechanism.driver

@@ -184,7 +184,7 @@ def _turn(of: Any, q: Any, duration: float | None) -> Turn:
         return of
     if not hasattr(of, "solve"):
         return turn_of_rows(of, duration)
-    several = of._driver_count > 1
+    several = of.driver_count > 1
     q = None if q is None else real_array(q, "q")
     if q is None or (q.ndim == 0 and not several):
         return turn_of(of, q)

@@ -144,7 +144,7 @@ def _ground(frames: Frames) -> list[float]:
 
 
 def _driver(mechanism: Mechanism) -> str:
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     return ", ".join(d if isinstance(d, str) else f"{d.link} − {d.relative_to}" for d in drivers)
 
 
@@ -198,7 +198,7 @@ def _slides(played: Played, index: dict[str, int]) -> Iterable[dict[str, Any]]:
 def _drawn_value(played: Played, name: str, own: Float, angle: float) -> float:
     """Return what the projection gives where the slide's value is zero."""
     mechanism = played.mechanism
-    motion = mechanism.solve(mechanism._q0_array(), order=0)
+    motion = mechanism.solve(mechanism.q0_array, order=0)
     slide = mechanism.slides[name]
     places = []
     for link in (slide.link, slide.on):

@@ -69,7 +69,7 @@ def _require(wanted: Iterable[str], known: list[str], what: str, noun: str) -> N
 
 def _output(mechanism: Mechanism) -> list[str]:
     """Return what the driver moves last: a slide of the ground, else the last link."""
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     free = {n: slide for n, slide in mechanism.slides.items() if n not in drivers}
     slides = [n for n, slide in free.items() if slide.on == "ground"]
     groups = mechanism.structure.groups

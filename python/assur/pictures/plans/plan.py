@@ -122,7 +122,7 @@ class _Builder:
         return Plan(images, self._links, self._fixed, driven, self._under, kept)
 
     def _driven(self) -> frozenset[str]:
-        drivers = self._m._description.drivers
+        drivers = self._m.description.drivers
         points: set[str] = set()
         for driver in drivers:
             if isinstance(driver, str):

@@ -65,7 +65,7 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
 
 def _drivers(mechanism: Mechanism) -> tuple[list[tuple[str, str]], list[str]]:
     """Return the driven links, each with the one it is measured from, and the driven slides."""
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     sliding = [one for one in drivers if isinstance(one, str) and one in mechanism.slides]
     angles = [
         (one, "ground") if isinstance(one, str) else (one.link, one.relative_to)

@@ -47,7 +47,7 @@ def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
 def place_text(one: Motion) -> str:
     """Write the coordinates of a position."""
     mechanism = one.mechanism
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     q = np.atleast_1d(np.asarray(one.coordinate(())))
     places = [
         f"{number(float(x))} m"

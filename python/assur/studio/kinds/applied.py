@@ -21,7 +21,7 @@ def applied_forces(
 ) -> tuple[list[dict[str, Any]], Float]:
     """Return which load acts on which link, and place and force, [row][of them][x, y, Fx, Fy]."""
     motion = mechanism.solve(q, order=1, on_error="nan")
-    count = mechanism._driver_count
+    count = mechanism.driver_count
     own = np.asarray(q, dtype=float).reshape(-1, count)
     rows = own.shape[0]
     rates = np.broadcast_to(np.asarray(speed, dtype=float).reshape(-1, count), own.shape)
