@@ -110,7 +110,7 @@ class StructureError(AssurError, ValueError):
     """
 
     # Finds the remedies of the description that was refused, when they are first asked for.
-    find_remedies: Callable[[], tuple[Remedy, ...]] | None = None
+    _find_remedies: Callable[[], tuple[Remedy, ...]] | None = None
     _remedies: tuple[Remedy, ...] | None = None
 
     @property
@@ -137,7 +137,7 @@ class StructureError(AssurError, ValueError):
         'I(crank) → II(rod, C_block)'
         """
         if self._remedies is None:
-            self._remedies = () if self.find_remedies is None else self.find_remedies()
+            self._remedies = () if self._find_remedies is None else self._find_remedies()
         return self._remedies
 
 
@@ -220,3 +220,8 @@ class AssurWarning(UserWarning):
     >>> print(found[0].message)
     the motor gives the driver 5 N·m, the loads take 3 on average: the flywheel is sized for ...
     """
+
+
+def offer_remedies(error: StructureError, find: Callable[[], tuple[Remedy, ...]]) -> None:
+    """Let an error find remedies, when they are first asked for."""
+    error._find_remedies = find

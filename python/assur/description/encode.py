@@ -17,7 +17,7 @@ from assur._trig import arctan2
 from assur._validate import checked_name
 from assur.description.remedy import find
 from assur.description.words import Cylinder, Drive, Slide
-from assur.errors import AssurWarning, InputError, StructureError
+from assur.errors import AssurWarning, InputError, StructureError, offer_remedies
 
 DriverLike: TypeAlias = str | Drive
 T = TypeVar("T")
@@ -90,7 +90,7 @@ def _with_remedies(make: Callable[..., T], parts: dict[str, Any]) -> T:
     try:
         return make(**parts)
     except StructureError as error:
-        error.find_remedies = partial(find, parts)
+        offer_remedies(error, partial(find, parts))
         raise
 
 

@@ -85,7 +85,8 @@ def acting_on(at: Positions, link: str, couples: bool = False) -> Iterator[Actin
 
 
 def _mechanism(at: Positions) -> Mechanism:
-    return at.motion.mechanism
+    mechanism: Mechanism = at.motion.mechanism
+    return mechanism
 
 
 def _nothing(at: Positions) -> Float:
@@ -140,7 +141,7 @@ def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
             )
             raise InputError(message, link=link)
         sign = 1.0 if link == drive.link else -1.0
-        pivot = at.motion.joint(shared[0]) if shared else at.motion._reference_point(link)
+        pivot = at.motion.joint(shared[0]) if shared else at.motion.reference_points[link]
         place = pivot.value
         torque = sign * _effort(at, index)
         joint = shared[0] if shared else None
@@ -186,7 +187,7 @@ def _torque(
             "depend on it; replace it by two forces"
         )
         raise InputError(message, link=link)
-    place = at.motion._reference_point(link).value
+    place = at.motion.reference_points[link].value
     sign = 1.0 if link == load.link else -1.0
     return Acting(what, place, np.zeros(place.shape), sign * _couple(at, load), None)
 
@@ -305,7 +306,7 @@ def _place(at: Positions, link: str | None, point: PointLike) -> tuple[Float, Fl
         fixed = np.broadcast_to(np.array([x, y]), (at.q.shape[0], 2))
         return fixed, np.zeros(fixed.shape)
     joints = mechanism.links[link]
-    origin = at.motion.joint(joints[0]) if joints else at.motion._reference_point(link)
+    origin = at.motion.joint(joints[0]) if joints else at.motion.reference_points[link]
     angle = at.motion.link(link)
     sine, cosine = _trig.sin_cos(angle.value)
     arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)

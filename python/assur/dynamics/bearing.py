@@ -57,11 +57,11 @@ class Bearing:
     force: Any
     relative_speed: Any
     q: Any
-    _designs: tuple[int, ...] = ()
+    designs: tuple[int, ...] = ()
     # Of the frame: the link, its angle; and what the force acts on.
-    _frame: tuple[str, Any] = ("ground", 0.0)
-    _what: tuple[str, str] = ("", "")
-    _is_angle: bool = True
+    frame: tuple[str, Any] = ("ground", 0.0)
+    what: tuple[str, str] = ("", "")
+    is_angle: bool = True
 
     @property
     def mean(self) -> Any:
@@ -187,7 +187,7 @@ class Bearing:
     def _rows(self, what: str) -> Float:
         """Return the sizes with positions on the last axis, also of one coordinate."""
         size = np.asarray(self.size)
-        if size.ndim == len(self._designs):
+        if size.ndim == len(self.designs):
             size = size[..., np.newaxis]
         if size.shape[-1] == 0:
             message = f"no positions: {what} needs one"
@@ -237,10 +237,10 @@ def bearing(
         force=turned,
         relative_speed=None if other is None else (speeds[on] - speeds[other])[()],
         q=found.q,
-        _designs=found._mechanism.shape,
-        _frame=(own_frame, angles[own_frame]),
-        _what=(name, on),
-        _is_angle=driven_angles(found._mechanism)[0],
+        designs=found._mechanism.shape,
+        frame=(own_frame, angles[own_frame]),
+        what=(name, on),
+        is_angle=driven_angles(found._mechanism)[0],
     )
 
 

@@ -105,7 +105,7 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     row = q[:, 0] if drivers == 1 else q
     rates = (speed[:, 0], acceleration[:, 0]) if drivers == 1 else (speed, acceleration)
     motion = mechanism.solve(row, order=2, on_error="nan")
-    held = {key: values[index][np.newaxis] for key, values in found._found.items()}
+    held = {key: values[index][np.newaxis] for key, values in found.by_key.items()}
     part = type(found)(mechanism, (row, *rates), held, found.status[index].reshape(1))
     at: Any = Positions(machine, motion, part, q, speed, np.reshape(t[index], (1,)))  # type: ignore[arg-type]
     return at, motion[0]

@@ -178,11 +178,11 @@ def _impulses(
     of_change = reactions(bodies, DrivenMotion(q, 0.0, known, 0.0), None, on_error)
     of_unit = reactions(one, DrivenMotion(q, 0.0, 0.0, 0.0), None, on_error)
     found = {}
-    for key, values in of_change._found.items():
+    for key, values in of_change.by_key.items():
         factor = impulse[..., None] if values.ndim > np.ndim(impulse) else impulse
         with np.errstate(invalid="ignore"):
             # The place of a guide's force may be at infinity.
-            found[key] = np.asarray(values + factor * of_unit._found[key])
+            found[key] = np.asarray(values + factor * of_unit.by_key[key])
         found[key].flags.writeable = False
     if mechanism.slides:
         places = mechanism.solve(q, order=0, outputs=list(mechanism.slides), on_error=on_error)

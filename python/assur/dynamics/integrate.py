@@ -34,7 +34,7 @@ from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
 from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError
-from assur.kinematics.solve import warn_if_degrees
+from assur.kinematics.solve_arguments import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

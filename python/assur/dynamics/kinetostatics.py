@@ -19,7 +19,7 @@ from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions
 from assur.dynamics.reduce import checked_senses, single, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError
-from assur.kinematics.solve import warn_if_degrees
+from assur.kinematics.solve_arguments import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,6 +8,7 @@ import numpy as np
 
 from assur.dynamics.table import Table
 from assur.errors import InputError
+from assur.kinematics.model import with_values
 from assur.kinematics.place import size_of
 from assur.kinematics.table import driven_angles
 
@@ -59,7 +60,7 @@ def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:
 
 
 def _turns(mechanism: Mechanism, link: str) -> bool:
-    drawn = mechanism._with_values(np.array(mechanism.core.drawing))
+    drawn = with_values(mechanism, np.array(mechanism.core.drawing))
     size = size_of(mechanism, drawn=True)
     units = [1.0 if is_angle else size for is_angle in driven_angles(mechanism)]
     q = drawn.q0_array + np.multiply.outer(BESIDE, units)

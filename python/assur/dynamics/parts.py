@@ -92,7 +92,7 @@ def _frame(mechanism: Mechanism, link: str) -> tuple[complex, complex]:
         return at[0], span / length
     motion = mechanism.solve(mechanism.q0_array, order=0, on_error="nan")
     sine, cosine = _trig.sin_cos(motion.link(link).value)
-    return complex(*motion._reference_point(link).value), complex(cosine, sine)
+    return complex(*motion.reference_points[link].value), complex(cosine, sine)
 
 
 def load(mechanism: Mechanism, load: Load) -> Load:

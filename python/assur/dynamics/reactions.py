@@ -146,7 +146,7 @@ class Reactions(Tabular):
     ) -> None:
         self._mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
-        self._found = found
+        self.by_key = found
         self._again = again
         # The machine and the times: with them what acts can be drawn.
         self._source = source
@@ -199,18 +199,18 @@ class Reactions(Tabular):
     def driver(self) -> Any:
         """Torque or force of the drive."""
         count = int(np.size(self._mechanism.q0))
-        each = [self._found[Key("driver", index)] for index in range(count)]
+        each = [self.by_key[Key("driver", index)] for index in range(count)]
         return each[0][()] if count == 1 else np.stack(each, axis=-1)
 
     @property
     def shaking_force(self) -> Any:
         """Inertia forces of all bodies, N."""
-        return self._found[Key("shaking force")]
+        return self.by_key[Key("shaking force")]
 
     @property
     def shaking_moment(self) -> Any:
         """Moment of the inertia forces about the drawing's origin, N·m."""
-        return self._found[Key("shaking moment")][()]
+        return self.by_key[Key("shaking moment")][()]
 
     @property
     def undetermined(self) -> tuple[str, ...]:
@@ -219,7 +219,7 @@ class Reactions(Tabular):
         joints, links = self._mechanism.joint_names, list(self._mechanism.links)
         slides = list(self._mechanism.slides)
         names = []
-        for key, values in self._found.items():
+        for key, values in self.by_key.items():
             kind, index, on = key.kind, key.index, key.on
             if kind not in ("joint", "normal", "moment", "driver"):
                 continue
@@ -237,7 +237,7 @@ class Reactions(Tabular):
     @property
     def locked(self) -> Any:
         """Where friction leaves no solution."""
-        return np.asarray(self._found.get(SOLUTIONS, np.ones(self.status.shape)) == 0.0)[()]
+        return np.asarray(self.by_key.get(SOLUTIONS, np.ones(self.status.shape)) == 0.0)[()]
 
     @property
     def losses(self) -> dict[str, Any]:
@@ -246,7 +246,7 @@ class Reactions(Tabular):
         names = {"joint loss": joints, "slide loss": slides}
         return {
             names[key.kind][key.index]: values[()]
-            for key, values in self._found.items()
+            for key, values in self.by_key.items()
             if key.kind in names
         }
 
@@ -265,22 +265,22 @@ class Reactions(Tabular):
         """All reactions that agree with the law of friction."""
         if self._again is None:
             return (self,)
-        counts = self._found[SOLUTIONS]
+        counts = self.by_key[SOLUTIONS]
         most = int(np.nanmax(counts, initial=0.0))
-        keys = list(self._found)
+        keys = list(self.by_key)
         return (self, *(self._again(keys, index) for index in range(1, most)))[:most]
 
     @property
     def residual(self) -> Any:
         """By how much the law of friction is missed, in parts of the greatest friction."""
-        return self._found.get(RESIDUAL, np.zeros(self.status.shape))[()]
+        return self.by_key.get(RESIDUAL, np.zeros(self.status.shape))[()]
 
     @property
     def safety(self) -> Any:
         """By what coefficients of friction can be multiplied before this solution ends."""
         if self._again is None:
             return np.full(self.status.shape, np.inf)[()]
-        return self._again([SAFETY], 0)._found[SAFETY][()]
+        return self._again([SAFETY], 0).by_key[SAFETY][()]
 
     def joint_moment(self, name: str, on: str) -> Any:
         """Return the moment of friction on a link at a joint.
@@ -318,7 +318,7 @@ class Reactions(Tabular):
         np.float64(2.0)
         """
         key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
-        moment = self._found.get(Key("joint moment", key.index, key.on))
+        moment = self.by_key.get(Key("joint moment", key.index, key.on))
         if moment is None:
             return np.where(np.isnan(self.shaking_moment), np.nan, 0.0)[()]
         return moment[()]
@@ -359,12 +359,12 @@ class Reactions(Tabular):
         links, joint = links_at(self._mechanism)[name], key.index
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
-        if key in self._found:
-            return self._found[key]
+        if key in self.by_key:
+            return self.by_key[key]
         indices = [core.require("link", other) for other in links[:-1]]
-        total = self._found[Key("joint", joint, indices[0])]
+        total = self.by_key[Key("joint", joint, indices[0])]
         for index in indices[1:]:
-            total = total + self._found[Key("joint", joint, index)]
+            total = total + self.by_key[Key("joint", joint, index)]
         return -total
 
     def bearing(
@@ -432,9 +432,9 @@ class Reactions(Tabular):
         """
         index = self._mechanism.core.require("slide", checked_name(name, "slide"))
         normal, moment, along = (
-            self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along")
+            self.by_key[Key(kind, index)][()] for kind in ("normal", "moment", "along")
         )
-        friction = self._found.get(Key("friction", index), np.where(np.isnan(normal), np.nan, 0.0))
+        friction = self.by_key.get(Key("friction", index), np.where(np.isnan(normal), np.nan, 0.0))
         return SlideReaction(normal, moment, along, friction[()])
 
     def plot(

@@ -14,7 +14,7 @@ from assur.description.words import Status
 from assur.dynamics.no_value import EXTEND, Moment, without_value
 from assur.dynamics.values import function_values
 from assur.errors import InputError
-from assur.kinematics.solve import warn_if_degrees
+from assur.kinematics.solve_arguments import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

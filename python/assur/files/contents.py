@@ -17,7 +17,7 @@ from assur.files.read_mechanism import read_input_speed, read_mechanism
 from assur.files.source import Source
 from assur.files.wanted import WANTED, read_wanted
 from assur.kinematics.mechanism import Mechanism
-from assur.kinematics.solve import in_radians
+from assur.kinematics.solve_arguments import in_radians
 
 if TYPE_CHECKING:
     from os import PathLike

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.kinematics.assembly import SAME, AssemblyNumbers, Place
+from assur.kinematics.assembly import SAME
+from assur.kinematics.model import AssemblyNumbers, Place, at_place
 from assur.kinematics.place import size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.files.node import Node
     from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 REQUIRED = ("q", "joints", "angles")
 OPTIONAL = ("signs", "class_angles", "slides", "is_double", "dimensions", "drawn")
@@ -36,8 +39,8 @@ def drawn_at(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechan
     own = place.mechanism
     with section.refusing():
         core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
-    drawn = mechanism._drawn_at(place, core)
-    _check(own._drawn_at(place, core), place, section)
+    drawn = at_place(mechanism, place, core)
+    _check(at_place(own, place, core), place, section)
     return drawn
 
 
@@ -97,9 +100,9 @@ def _named(section: Node, key: str, names: Iterable[str], read: Callable[[Node],
     return [read(entries[name]) for name in names]
 
 
-def _check(drawn: Mechanism, place: Place, section: Node) -> None:
+def _check(drawn: MechanismModel, place: Place, section: Node) -> None:
     """Refuse a place in which the mechanism does not fit together."""
-    motion = drawn.solve(drawn.q0, order=0, on_error="nan")
+    motion = solve(drawn, drawn.q0, order=0, on_error="nan")
     wanted: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
     there = np.array([motion.joint(name).value for name in drawn.joint_names]).reshape(-1, 2)
     # The comparison is false of NaN.

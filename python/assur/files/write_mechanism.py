@@ -12,12 +12,13 @@ from assur.description.words import Cylinder, Drive
 from assur.errors import InputError
 from assur.files.limits import MOST_PARTS
 from assur.files.toml import key_text, table_text
+from assur.kinematics.model import at_place
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.description.encode import Description, DriverLike
-    from assur.kinematics.assembly import Place
     from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel, Place
 
 
 def driver_value(mechanism: Mechanism) -> Any:
@@ -107,7 +108,7 @@ def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _dimensions(header: str, mechanism: Mechanism) -> str:
+def _dimensions(header: str, mechanism: MechanismModel) -> str:
     """Return all dimensions; of a batch, lists of those that differ."""
     names, values = mechanism.core.dimension_names, mechanism.values
     if values.size == 0 and names:
@@ -127,14 +128,14 @@ def _same_or_all(values: Float) -> Any:
     return float(first) if is_one else values.tolist()
 
 
-def _drawn(name: str, mechanism: Mechanism, place: Place) -> list[str]:
+def _drawn(name: str, mechanism: MechanismModel, place: Place) -> list[str]:
     """Return where an assembly was found, by the names of joints, links and slides."""
     if name.count(".") + 2 >= MOST_PARTS:
         message = "too many assemblies, each found from the one before: with_assembly() once, of "
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
     own, numbers = place.mechanism, place.numbers
-    if not np.isfinite([*own._drawn_at(place, mechanism.core).joints.values()]).all():
+    if not np.isfinite([*at_place(own, place, mechanism.core).joints.values()]).all():
         at = ", ".join(f"{q:.6g}" for q in place.q)
         message = (
             f"{short(mechanism)} cannot be saved: with its signs it does not exist at q = {at}, "

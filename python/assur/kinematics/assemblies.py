@@ -8,19 +8,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import short
+from assur._callers import level_of_caller
 from assur._validate import checked_threads
 from assur.errors import AssurWarning, InputError
-from assur.kinematics.assembly import Assemblies, Assembly, Place, joints_that_differ
-from assur.kinematics.solve import checked_coordinates
+from assur.kinematics.assembly import Assemblies, Assembly, joints_that_differ
+from assur.kinematics.model import Place, with_values
+from assur.kinematics.solve_arguments import checked_coordinates
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur.kinematics.assembly import FoundAssemblies
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 
-def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> Any:
+def assemblies(mechanism: MechanismModel, q: npt.ArrayLike, threads: int | None = None) -> Any:
     """See `Mechanism.assemblies`."""
     array, positions, per_design = checked_coordinates(mechanism, q)
     if not np.isfinite(array).all():
@@ -44,14 +46,14 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
         return empty
     lists: list[Any] = []
     for index, (one, row) in enumerate(zip(found, rows.tolist(), strict=True)):
-        own = mechanism if not mechanism.shape else mechanism._with_values(designs[index // each])
+        own = mechanism if not mechanism.shape else with_values(mechanism, designs[index // each])
         lists.append(_named(own, tuple(row), one))
     for size in reversed(shape[1:]):
         lists = [lists[i : i + size] for i in range(0, len(lists), size)]
     return lists if shape else lists[0]
 
 
-def _named(mechanism: Mechanism, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
+def _named(mechanism: MechanismModel, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
     count = found["complex_count"]
     shown = joints_that_differ(mechanism.joint_names, found["assemblies"])
     named = [
@@ -60,5 +62,5 @@ def _named(mechanism: Mechanism, q: tuple[float, ...], found: FoundAssemblies) -
     ]
     if not found["is_complete"]:
         message = f"assemblies at q = {q}: the list may be incomplete: {found['failures'][0]}"
-        warnings.warn(message, AssurWarning, stacklevel=4)
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     return Assemblies(named, count, found["failures"], found["is_complete"])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypedDict
 
@@ -11,31 +10,22 @@ import numpy as np
 
 from assur._validate import checked_signs
 from assur.errors import InputError
+from assur.kinematics.model import at_place
+from assur.kinematics.request import at_position
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._arrays import Float
     from assur._core import Mechanism as Core
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import AnyMechanism, AssemblyNumbers, Place
 
-__all__ = ["Assemblies", "Assembly", "Place"]
+__all__ = ["Assemblies", "Assembly"]
 
 # How near (relative to the size) two positions of the same assembly are; others are farther.
 SAME = 1e-6
 # Joints in a repr.
 SHOWN = 2
-
-
-class AssemblyNumbers(TypedDict):
-    """An assembly as the core knows it."""
-
-    signs: list[int]
-    class_angles: list[float]
-    slides: list[float]
-    joints: list[tuple[float, float]]
-    angles: list[float]
-    is_double: bool
 
 
 class FoundAssemblies(TypedDict):
@@ -45,20 +35,6 @@ class FoundAssemblies(TypedDict):
     complex_count: list[int]
     failures: list[str]
     is_complete: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where an assembly was found: a design, its coordinates, and the core's numbers."""
-
-    mechanism: Mechanism
-    q: tuple[float, ...]
-    numbers: AssemblyNumbers
-
-    @property
-    def is_traced(self) -> bool:
-        """Whether the assembly is what can be reached from here, not signs alone."""
-        return self.mechanism.core.cls > 2
 
 
 class Assembly(Mapping[str, int]):
@@ -181,11 +157,11 @@ class Assembly(Mapping[str, int]):
     def _leads_to(self, place: Place) -> bool:
         """Whether following it to a place arrives there."""
         assert self.place is not None
-        target = np.array(place.q) if len(place.q) > 1 else place.q[0]
-        motion = place.mechanism.solve(target, order=0, assembly=self, on_error="nan")
-        names, wanted = place.mechanism.joint_names, np.array(place.numbers["joints"])
-        there = np.array([motion.joint(name).value for name in names])
-        slides = np.array([motion.slide(name).value for name in place.mechanism.slides])
+        drawn = drawn_in(place.mechanism, self)
+        arrays, _ = at_position(drawn, place.q)
+        wanted = np.array(place.numbers["joints"])
+        there = np.array([arrays.joints[name][0] for name in drawn.joint_names])
+        slides = np.array([arrays.slides[name][0] for name in drawn.slides])
         size = max(np.ptp(wanted, axis=0).max(), 1e-300)
         errors = np.abs(np.concatenate([there - wanted], axis=None))
         gaps = np.abs(slides - np.array(place.numbers["slides"]))
@@ -230,7 +206,7 @@ def joints_that_differ(names: Sequence[str], found: Sequence[AssemblyNumbers]) -
     return tuple(differ[:SHOWN])
 
 
-def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
+def drawn_in(mechanism: AnyMechanism, assembly: Mapping[str, int]) -> AnyMechanism:
     """Return the mechanism drawn where an assembly of a group above class II was found.
 
     Any other assembly is given by its signs: the mechanism itself is returned.
@@ -247,7 +223,7 @@ def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
     if assembly._core is None:
         values = place.mechanism.values.tolist()
         assembly._core = place.mechanism.core.drawn_in(values, list(place.q), place.numbers)
-    return mechanism._drawn_at(place, assembly._core)
+    return at_place(mechanism, place, assembly._core)
 
 
 def _rebuild(

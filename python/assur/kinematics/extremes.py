@@ -10,13 +10,14 @@ from assur._arrays import short
 from assur._validate import checked_name, real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.limits import limits
 from assur.kinematics.place import size_of
-from assur.kinematics.solve import checked_assembly
+from assur.kinematics.solve_arguments import checked_assembly
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["Extremes", "ValueAt"]
 
@@ -78,7 +79,7 @@ class Extremes:
     time_ratio: float | None
     # The design in its assembly, the coordinate and its order, turns after which the motion closes:
     # for `dwells`.
-    _of: tuple[Mechanism, list[int], tuple[str, int, int], int, int | None] = field(
+    _of: tuple[MechanismModel, list[int], tuple[str, int, int], int, int | None] = field(
         repr=False, compare=False
     )
 
@@ -146,7 +147,7 @@ def _near(stretches: list[list[float]], place: float, period: float | None) -> l
     return sorted(found)
 
 
-def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
+def coordinate(mechanism: MechanismModel, name: Any) -> tuple[str, int, int]:
     """Return what a coordinate is of, its index and component: "B.x", "rocker", "bore"."""
     if not isinstance(name, str):
         message = f"coordinate {short(name)}: a name is needed"
@@ -166,7 +167,7 @@ def coordinate(mechanism: Mechanism, name: Any) -> tuple[str, int, int]:
 
 
 def extremes(
-    mechanism: Mechanism, name: str, order: int, assembly: Mapping[str, int] | None
+    mechanism: MechanismModel, name: str, order: int, assembly: Mapping[str, int] | None
 ) -> Extremes:
     """See `Mechanism.extremes`."""
     if mechanism.shape:
@@ -190,12 +191,12 @@ def extremes(
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
     least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
-    limits = mechanism.limits(assembly)
+    own = limits(mechanism, assembly)
     ratio = None
     unit = 1.0 if tracked[0] == "link" else size_of(mechanism)
     moves = greatest.value - least.value > STANDS * unit
-    if order == 0 and moves and limits.period == 1 and math.isfinite(greatest.q - least.q):
+    if order == 0 and moves and own.period == 1 and math.isfinite(greatest.q - least.q):
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, tracked, order, limits.period))
+    return Extremes(least, greatest, ratio, (mechanism, signs, tracked, order, own.period))

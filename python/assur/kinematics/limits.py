@@ -11,7 +11,7 @@ import numpy as np
 from assur._validate import checked_index, checked_threads
 from assur.errors import InputError
 from assur.kinematics.assembly import Assembly, drawn_in
-from assur.kinematics.solve import checked_assembly
+from assur.kinematics.solve_arguments import checked_assembly
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["DeadPoint", "Limits"]
 
@@ -156,7 +156,11 @@ class Limits:
         return f"<assur.Limits {intervals or 'nowhere'}, {period}>"
 
 
-def limits(mechanism: Mechanism, assembly: Mapping[str, int] | None, threads: int | None) -> Limits:
+def limits(
+    mechanism: MechanismModel,
+    assembly: Mapping[str, int] | None = None,
+    threads: int | None = None,
+) -> Limits:
     """See `Mechanism.limits`."""
     if mechanism.driver_count > 1:
         count = mechanism.driver_count

@@ -10,9 +10,8 @@ from assur._trig import sin_cos
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.assembly import AssemblyNumbers
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.model import AssemblyNumbers, MechanismModel
+    from assur.kinematics.motion_model import MotionModel
 
 
 def place_vector(joints: Float, angles: Float, slides: Float, size: float) -> Float:
@@ -31,7 +30,7 @@ def place_of(numbers: AssemblyNumbers, size: float) -> Float:
     return place_vector(joints, angles, np.array(numbers["slides"]), size)
 
 
-def places_along(motion: Motion, size: float) -> Float:
+def places_along(motion: MotionModel, size: float) -> Float:
     """Return the places of a motion of one design, shape (…, n)."""
     own = motion.mechanism
     shape = motion.shape
@@ -58,7 +57,7 @@ def nearest(places: Float, place: Float) -> float:
     return float(np.where(np.isnan(apart), np.inf, apart).min())
 
 
-def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
+def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
     """Return the lengths of one design, wherever it stands: distances, not places on the ground.
 
     Or those of the drawing.
@@ -77,7 +76,7 @@ def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
     return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
 
 
-def size_of(mechanism: Mechanism, drawn: bool = False) -> float:
+def size_of(mechanism: MechanismModel, drawn: bool = False) -> float:
     """Return a length of one design, or of the drawing, that its size is of the order of, m."""
     known = [length for length in lengths(mechanism, drawn) if np.isfinite(length)]
     at = np.array([point for _, *point in mechanism.description.joints])

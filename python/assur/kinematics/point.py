@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.motion_model import MotionModel
 
 
-def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
+def point_of(motion: MotionModel, link: str, local: npt.ArrayLike) -> Analogues:
     """See `Motion.point`."""
     at = real_array(local, "local")
     if at.shape[-1:] != (2,) or at.ndim > 2 or not np.isfinite(at).all():
@@ -26,7 +26,7 @@ def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
         raise InputError(message)
     angle = motion.link(link)
     # The ground's frame is the drawing's, whichever joint is listed first.
-    origin = None if link == "ground" else motion._reference_point(link)
+    origin = None if link == "ground" else motion.reference_points[link]
     sine, cosine = sin_cos(angle.value)
     # For each point; axes: points, those of the motion, components.
     points = at.reshape(-1, 2)

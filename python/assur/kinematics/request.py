@@ -12,8 +12,10 @@ import numpy.typing as npt
 from assur.kinematics.held import Buffers, Layout, Names, Results
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from assur.errors import AssurError
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 Float: TypeAlias = npt.NDArray[np.float64]
 # Indices of joints, links (angles), links (reference points), slides.
@@ -24,7 +26,7 @@ Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 class SolveRequest:
     """Everything a motion depends on."""
 
-    mechanism: Mechanism
+    mechanism: MechanismModel
     q: Float
     positions: tuple[int, ...]
     per_design: bool
@@ -98,6 +100,16 @@ class SolveRequest:
             buffers,
             dimension,
             shape,
-            self.mechanism._known_signs if self.own_signs else None,
+            self.mechanism.known_signs if self.own_signs else None,
         )
         return buffers or Buffers(arrays, status), failure
+
+
+def at_position(
+    mechanism: MechanismModel, q: Sequence[float]
+) -> tuple[Results, npt.NDArray[np.uint8]]:
+    """Solve one design at one position, with a coordinate for each driver: NaN where it is open."""
+    own = np.array(q[0] if len(q) == 1 else q)
+    request = SolveRequest(mechanism, own, (), False, 0, mechanism.signs, True, None)
+    results, status, _ = request.arrays(*mechanism.indices)
+    return results, status

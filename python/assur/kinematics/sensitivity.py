@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur.kinematics.held import Arrays
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.motion_model import MotionModel
 
 __all__ = ["Sensitivity"]
 
@@ -36,7 +36,7 @@ class Sensitivity:
     np.float64(-0.485247)
     """
 
-    def __init__(self, motion: Motion, dimension: str) -> None:
+    def __init__(self, motion: MotionModel, dimension: str) -> None:
         index = motion.mechanism.core.dimension(checked_name(dimension, "sensitivity"))
         outputs = motion.held_indices
         self.dimension = dimension

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.model import MechanismModel
+    from assur.kinematics.motion_model import MotionModel
     from assur.kinematics.quantity import Analogues
 
 # Of a joint's components, an angle and a slide: value, velocity, acceleration, jerk.
@@ -45,7 +45,7 @@ class _Quantity(NamedTuple):
     analogues: Analogues
 
 
-def motion_columns(motion: Motion, options: Options) -> list[Column]:
+def motion_columns(motion: MotionModel, options: Options) -> list[Column]:
     """Return the columns of a motion's table, rows over designs and positions."""
     flag(options.degrees, "degrees")
     flag(options.moving, "moving")
@@ -62,7 +62,7 @@ def motion_columns(motion: Motion, options: Options) -> list[Column]:
     return columns
 
 
-def _rows(motion: Motion, degrees: bool) -> list[Column]:
+def _rows(motion: MotionModel, degrees: bool) -> list[Column]:
     """Designs, coordinates and statuses."""
     angles = driven_angles(motion.mechanism)
     return [
@@ -72,14 +72,14 @@ def _rows(motion: Motion, degrees: bool) -> list[Column]:
     ]
 
 
-def driven_angles(mechanism: Mechanism) -> list[bool]:
+def driven_angles(mechanism: MechanismModel) -> list[bool]:
     """Whether each driver is an angle, not a slide."""
     slides = mechanism.slides
     drivers = mechanism.description.drivers
     return [not isinstance(one, str) or one not in slides for one in drivers]
 
 
-def _quantities(motion: Motion, taken: set[str]) -> Iterator[_Quantity]:
+def _quantities(motion: MotionModel, taken: set[str]) -> Iterator[_Quantity]:
     """Joints, links, slides; a link or slide whose name is taken is shown with its kind."""
     results = motion._results
     for name in results.joints:
@@ -112,7 +112,7 @@ def _components(kind: str) -> list[str]:
     return ["x", "y"] if kind == "joint" else [""]
 
 
-def _analogues(motion: Motion, quantity: _Quantity, degrees: bool) -> Iterator[Column]:
+def _analogues(motion: MotionModel, quantity: _Quantity, degrees: bool) -> Iterator[Column]:
     drivers, size = motion.driver_count, motion.status.size
     unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
@@ -134,7 +134,7 @@ def _analogues(motion: Motion, quantity: _Quantity, degrees: bool) -> Iterator[C
                     yield Column(name + tail, values, unit + per, quantity.shown)
 
 
-def _velocities(motion: Motion, quantity: _Quantity, options: Options) -> Iterator[Column]:
+def _velocities(motion: MotionModel, quantity: _Quantity, options: Options) -> Iterator[Column]:
     forms = {"joint": POINT, "link": ANGLE, "slide": SLIDE}[quantity.kind]
     unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
@@ -164,7 +164,7 @@ def _velocities(motion: Motion, quantity: _Quantity, options: Options) -> Iterat
                 yield Column(name, flat[:, c], unit + per, quantity.shown)
 
 
-def dataset(motion: Motion) -> Any:
+def dataset(motion: MotionModel) -> Any:
     """See `Motion.to_xarray`."""
     try:
         import xarray as xr

@@ -11,6 +11,7 @@ from assur._summary import summary
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
+from assur.kinematics.solve import solve
 from assur.kinematics.table import Options, motion_columns
 from assur.laws import Law
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
     from assur.kinematics.quantity import Analogues
 
@@ -288,7 +289,7 @@ class TimedMotion(Tabular):
 
 
 def follow(
-    mechanism: Mechanism, laws: Law | Sequence[Law | float], t: npt.ArrayLike, on_error: Any
+    mechanism: MechanismModel, laws: Law | Sequence[Law | float], t: npt.ArrayLike, on_error: Any
 ) -> TimedMotion:
     """See `Mechanism.follow`."""
     one_of(on_error, ("raise", "nan"), "on_error")
@@ -309,7 +310,7 @@ def follow(
         each[0][k] if drivers == 1 else np.stack([one[k] for one in each], axis=-1)
         for k in range(4)
     )
-    motion = mechanism.solve(q, order=3, on_error=on_error)
+    motion = solve(mechanism, q, order=3, on_error=on_error, is_typed=True)
     return TimedMotion(times, (q, speed, acceleration, jerk), motion)
 
 

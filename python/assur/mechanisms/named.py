@@ -13,6 +13,7 @@ from assur._validate import one_of
 from assur.description.words import Slide
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.model import at_place, copy_from
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -132,7 +133,7 @@ def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.Arr
     sized = from_drawing(drawing).with_dimensions(dimensions)
     if not sized.shape:
         sized = _where_it_exists(sized)
-    mechanism._share(sized, sized.values)
+    copy_from(mechanism, sized)
 
 
 def _where_it_exists(mechanism: Mechanism) -> Mechanism:
@@ -149,5 +150,5 @@ def _where_it_exists(mechanism: Mechanism) -> Mechanism:
         place = assembly.place
         if assembly == mechanism.assembly and place is not None:
             core = mechanism.core.drawn_in(mechanism.values.tolist(), list(place.q), place.numbers)
-            return mechanism._drawn_at(place, core)
+            return at_place(mechanism, place, core)
     return mechanism

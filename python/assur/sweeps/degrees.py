@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.errors import AssurWarning
-from assur.kinematics.solve import LIKE_DEGREES, warn_if_degrees
+from assur.kinematics.solve_arguments import LIKE_DEGREES, warn_if_degrees
 from assur.kinematics.table import driven_angles
 from assur.sweeps.terms import Combination, Leaf
 

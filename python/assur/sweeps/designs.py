@@ -10,7 +10,9 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
+from assur.kinematics.drawn import in_assembly
 from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.model import with_values
 from assur.kinematics.named_dimensions import dimensions_by_name
 from assur.sweeps.grid import Grid
 
@@ -30,7 +32,7 @@ class Designs:
             message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
             raise InputError(message)
         # From here on it is drawn in the assembly: whatever is handed back is, too.
-        self.mechanism = mechanism = mechanism._in_assembly(assembly)
+        self.mechanism = mechanism = in_assembly(mechanism, assembly)
         given = dimensions_by_name(dimensions, mechanism.core.dimension_names)
         names = [checked_name(name, "dimensions") for name in given]
         indices = [mechanism.core.dimension(name) for name in names]
@@ -71,7 +73,7 @@ class Designs:
         values = memory[: size * count].reshape(size, count)
         for row, column in zip(values, self._columns, strict=True):
             row[:] = column[places] if np.ndim(column) else column
-        return self.mechanism._with_values(values)
+        return with_values(self.mechanism, values)
 
     @property
     def size(self) -> int:
@@ -83,7 +85,7 @@ class Designs:
         values = np.empty((len(self._columns), *self.shape))
         for index, column in enumerate(self._columns):
             values[index] = column
-        return self.mechanism._with_values(values)
+        return with_values(self.mechanism, values)
 
     def values(self, name: str) -> Float:
         """Return a dimension that the sweep changes, of all designs in C order."""

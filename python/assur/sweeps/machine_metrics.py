@@ -14,6 +14,7 @@ from assur.dynamics.along import motion_of
 from assur.dynamics.kinetostatics import reaction_squares, reactions
 from assur.dynamics.reactions import Key, key_of_joint
 from assur.errors import AssurError, InputError
+from assur.kinematics.model import with_values
 from assur.sweeps.terms import OfMachine
 
 if TYPE_CHECKING:
@@ -146,14 +147,14 @@ class Effort(Driven):
         missing = np.flatnonzero(np.isnan(greatest))
         if missing.size:
             assert machine.mechanism is not None
-            few = machine.mechanism._with_values(machine.mechanism.values[:, missing])
+            few = with_values(machine.mechanism, machine.mechanism.values[:, missing])
             greatest[missing] = self._by_power(machine.of(few), q)
         return greatest
 
     def _by_power(self, machine: Machine, q: Float) -> Float:
         """Its values where a position has no forces: at a change point the effort has a value."""
         motion, keys = motion_of(q, self.speed, self.acceleration, 0.0), self.keys(machine)
-        found = reactions(machine, motion, None, "nan", keys)._found
+        found = reactions(machine, motion, None, "nan", keys).by_key
         known = machine.effort(q, self.speed, self.acceleration, on_error="nan")
         every = [known] if machine.driver_count == 1 else list(np.moveaxis(known, -1, 0))
         each = [

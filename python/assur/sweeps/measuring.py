@@ -12,6 +12,7 @@ from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.description.words import Status
 from assur.errors import InputError
+from assur.kinematics.model import with_values
 from assur.kinematics.solve import solve
 from assur.sweeps.encode import encoded
 from assur.sweeps.engine import results
@@ -136,7 +137,7 @@ class Measuring:
 
     def without_value(self, design: Mechanism) -> str:
         """Return which metric of a design has no value, and why."""
-        some = design._with_values(design.values[:, None])
+        some = with_values(design, design.values[:, None])
         asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
         for name, metric in asked.items():
             for part in (*metric.leaves(), metric):
@@ -159,7 +160,7 @@ class Measuring:
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
-            batch = some._with_values(some.values[:, few])
+            batch = with_values(some, some.values[:, few])
             for function, numbers in self._numbers(batch):
                 if numbers.shape != few.shape:
                     message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"

@@ -13,6 +13,8 @@ from assur.description.words import Status
 from assur.kinematics import solve as solver
 from assur.kinematics.held import Buffers, Results
 from assur.kinematics.motion import Motion
+from assur.kinematics.motion_model import overwrite
+from assur.kinematics.solve_arguments import checked_coordinates
 from assur.sweeps.engine import results
 from assur.sweeps.measuring import blocks
 
@@ -62,7 +64,7 @@ class Course:
     """The coordinates of some designs: the same for all, or of each its own."""
 
     def __init__(self, every: Mechanism, q: npt.ArrayLike) -> None:
-        array, positions, self.is_own = solver.checked_coordinates(every, q)
+        array, positions, self.is_own = checked_coordinates(every, q)
         array.flags.writeable = False
         self.whole = array
         axes = len(every.shape)
@@ -148,13 +150,13 @@ def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) 
         columns = [np.empty(len(column) // designs * count) for column in columns]
         buffers = Buffers(columns, np.empty(len(status) // designs * count, dtype=np.uint8))
     else:
-        buffers = solver._buffers(out, request, wanted)
+        buffers = solver.buffers_of(out, request, wanted)
     status = buffers.status.reshape(request.shape)
     status.flags.writeable = False
     whole = Results(request.layout(*wanted), buffers)
     if out is None:
         return Motion(request, whole, status)
-    out._replace_with(request, whole, status)
+    overwrite(out, request, whole, status)
     return out
 
 

@@ -224,7 +224,7 @@ def test_motions_are_pickled() -> None:
     assert dead.end == "dead point"
     assert np.array_equal(pickle.loads(pickle.dumps(dead)).at(dead.t), dead.at(dead.t))
     with pytest.raises(InputError, match="not the state of a run"):
-        type(pend.core)({})
+        type(pend._core)({})
 
 
 def torn(_t: float, _q: float, speed: float) -> float:

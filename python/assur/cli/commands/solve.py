@@ -74,7 +74,7 @@ def run(given: argparse.Namespace) -> int:
 
 
 def _motion(contents: Contents, given: argparse.Namespace, output: Output) -> Motion:
-    from assur.kinematics.solve import in_radians
+    from assur.kinematics.solve_arguments import in_radians
     from assur.sweeps.sweep import sweep
 
     mechanism, wanted = contents.mechanism, contents.wanted.get("solve", {})

@@ -14,6 +14,7 @@ from assur.description.words import Status
 from assur.kinematics.curve.defects import defects_of
 from assur.kinematics.curve.parts import ends_of, has_driven_angle
 from assur.kinematics.place import size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.curve.defects import Defects
     from assur.kinematics.curve.parts import Branch, Circuit, Fold
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
 
 __all__ = ["CircuitMotion", "ConfigurationCurve"]
@@ -100,7 +101,8 @@ class ConfigurationCurve:
     folds: tuple[Fold, ...]
     circuits: tuple[Circuit, ...]
     fan: Float
-    mechanism: Mechanism
+    # A `Mechanism`, whose file stands above.
+    mechanism: Any
 
     def __repr__(self) -> str:
         folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
@@ -205,22 +207,22 @@ class ConfigurationCurve:
         return _along(self.mechanism, self.branches, parts)
 
 
-def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motion:
+def _beside_dead_points(mechanism: MechanismModel, branch: Branch, q: Float) -> Motion:
     """Solve a branch, beside a dead point in place of on it: there rounding decides."""
     unit = 1.0 if has_driven_angle(mechanism) else size_of(mechanism)
     finite = [abs(end) for end in (branch.low, branch.high) if np.isfinite(end)]
-    motion = mechanism.solve(q, order=0, assembly=branch.assembly, on_error="nan")
+    motion = solve(mechanism, q, order=0, assembly=branch.assembly, on_error="nan")
     for margin in MARGINS if branch.period is None else ():
         beside = margin * max([unit, *finite])
         inside = np.clip(q, branch.low + beside, branch.high - beside)
-        motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
+        motion = solve(mechanism, inside, order=0, assembly=branch.assembly, on_error="nan")
         if motion.status[0] < Status.UNREACHABLE and motion.status[-1] < Status.UNREACHABLE:
             break
     return motion
 
 
 def _along(
-    mechanism: Mechanism, branches: tuple[Branch, ...], parts: list[tuple[int, Float]]
+    mechanism: MechanismModel, branches: tuple[Branch, ...], parts: list[tuple[int, Float]]
 ) -> CircuitMotion:
     names = mechanism.joint_names, tuple(mechanism.links), tuple(mechanism.slides)
     rows: list[tuple[Float, Float, list[list[Float]]]] = []

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.kinematics.curve.branches import Branches
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 # Of a step, how far the first coordinate is to either side of the drawing's: off the values that
 # people draw at, where things may be special, and in a mirror the same.
@@ -100,7 +100,7 @@ class Fan:
         return (low < turned) & (turned < high)
 
 
-def around_drawing(mechanism: Mechanism, positions: int, is_angle: bool) -> list[float]:
+def around_drawing(mechanism: MechanismModel, positions: int, is_angle: bool) -> list[float]:
     """Return coordinates over a turn, or as far as all lengths together, about the drawing's."""
     q0 = float(np.ravel(mechanism.q0)[0])
     step = 2.0 * (math.pi if is_angle else sum(lengths(mechanism))) / positions

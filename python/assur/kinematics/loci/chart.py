@@ -15,12 +15,13 @@ import numpy as np
 
 from assur.description.words import Drive
 from assur.errors import AssurError
-from assur.kinematics.assembly import Place
+from assur.kinematics.model import Place, at_place
 from assur.kinematics.pose import Pose, bare_core
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 # How far (rad, or of the size) a chart is followed before it is drawn anew.
 REACH = 0.5
@@ -32,7 +33,7 @@ class Surface:
 
     Attributes
     ----------
-    mechanism : Mechanism
+    mechanism : MechanismModel
         A design with two or more drivers.
     free : tuple of int
         The two drivers that move; the others are held.
@@ -42,7 +43,7 @@ class Surface:
         A length of the mechanism, m.
     """
 
-    mechanism: Mechanism
+    mechanism: MechanismModel
     free: tuple[int, int]
     q: tuple[float, ...]
     size: float
@@ -114,7 +115,7 @@ class Chart:
         q, numbers = core.at_pose(pose.joints, pose.angles, pose.slides)
         plain = own._make(description, np.array(own.values), core)
         drawn = core.drawn_in(plain.values.tolist(), q, numbers)
-        self._mechanism = plain._drawn_at(Place(plain, tuple(q), numbers), drawn)
+        self._mechanism = at_place(plain, Place(plain, tuple(q), numbers), drawn)
         self._surface = surface
         self._held = q[2:]
         is_length = [isinstance(one, str) and one in own.slides for one in free]
@@ -126,7 +127,7 @@ class Chart:
         """Return the position at two coordinates; None if the chart does not lead there."""
         if np.abs(where - self.start).max() > REACH:
             return None
-        motion = self._mechanism.solve([*(where * self.unit), *self._held], on_error="nan")
+        motion = solve(self._mechanism, [*(where * self.unit), *self._held], on_error="nan")
         if int(motion.status) > 1:
             return None
         own, surface = self._mechanism, self._surface

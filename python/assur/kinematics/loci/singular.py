@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.description.encode import DriverLike
     from assur.kinematics.loci.trace import Traced
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.pose import Pose
 
 __all__ = ["SingularLocus", "Workspace"]
@@ -101,7 +101,8 @@ class SingularLocus:
     joints: Mapping[str, Float]
     is_closed: bool
     is_complete: bool
-    mechanism: Mechanism
+    # A `Mechanism`, whose file stands above.
+    mechanism: Any
 
     def plot(self, joint: str | None = None, ax: Any = None, dark: bool = False) -> Any:
         """Draw the curve of a joint, or of the drivers' coordinates (needs matplotlib).
@@ -185,7 +186,8 @@ class Workspace:
     boundary: tuple[SingularLocus, ...]
     _surface: Surface
     _base: tuple[float, float]
-    mechanism: Mechanism
+    # A `Mechanism`, whose file stands above.
+    mechanism: Any
 
     def plot(self, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False) -> Any:
         """Draw where the joint can be, and in how many ways (needs matplotlib).
@@ -280,7 +282,7 @@ def _checked_loci(loci: Any, joint: str) -> list[SingularLocus]:
 
 
 def singular_loci(
-    mechanism: Mechanism,
+    mechanism: MechanismModel,
     joint: str | None,
     drivers: Sequence[DriverLike] | None,
     positions: int,
@@ -296,7 +298,7 @@ def singular_loci(
 
 
 def workspace(
-    mechanism: Mechanism, joint: str, drivers: Sequence[DriverLike] | None, positions: int
+    mechanism: MechanismModel, joint: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> Workspace:
     """See `Mechanism.workspace`."""
     mechanism.core.require("joint", checked_name(joint, "workspace"))
@@ -326,7 +328,7 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
 
 
 def _over_drivers(
-    mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None, positions: int
+    mechanism: MechanismModel, what: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> tuple[Surface, Grid]:
     if mechanism.shape:
         message = f"{what}() is for one design, this is a batch {mechanism.shape}: use design(i)"
@@ -346,7 +348,7 @@ def _over_drivers(
 
 
 def _free_drivers(
-    mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None
+    mechanism: MechanismModel, what: str, drivers: Sequence[DriverLike] | None
 ) -> tuple[int, int]:
     """Return the indices of the two drivers that move."""
     own = mechanism.description.drivers
@@ -363,7 +365,9 @@ def _free_drivers(
     return indices[0], indices[1]
 
 
-def _loci(surface: Surface, own: Mechanism, grid: Grid, kind: int) -> tuple[SingularLocus, ...]:
+def _loci(
+    surface: Surface, own: MechanismModel, grid: Grid, kind: int
+) -> tuple[SingularLocus, ...]:
     """Return the loci of a surface, as positions of the mechanism."""
     traced, lost = _traced(surface, grid)
     lost += sum(not one.is_complete for one in traced)
@@ -443,7 +447,7 @@ def _round(traced: Traced) -> list[Pose]:
     return [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
 
 
-def _coordinates(mechanism: Mechanism, traced: Traced) -> Float:
+def _coordinates(mechanism: MechanismModel, traced: Traced) -> Float:
     """Return the coordinates of a mechanism's drivers along a locus, angles continuous."""
     poses = _round(traced)
     angles = np.unwrap([pose.angles for pose in poses], axis=0)
@@ -460,7 +464,7 @@ def _coordinates(mechanism: Mechanism, traced: Traced) -> Float:
     return np.stack([coordinate(one) for one in mechanism.description.drivers], axis=-1)
 
 
-def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
+def _named(mechanism: MechanismModel, traced: Traced, kind: int) -> SingularLocus:
     """Return a locus with the coordinates of the mechanism's drivers and its joints."""
     q = _coordinates(mechanism, traced)
     joints = np.array([pose.joints for pose in _round(traced)])

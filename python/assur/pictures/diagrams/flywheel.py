@@ -18,7 +18,7 @@ from assur.pictures.style import blend, style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.flywheel import Flywheel
+    from assur._faces import Flywheel
     from assur.pictures.style import Style
 
 # Areas of less than that part of the greatest are not labelled.
@@ -94,14 +94,14 @@ def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own:
 
 def areas(flywheel: Flywheel, q: Float) -> list[tuple[float, float, float]]:
     """Return where the motor has a surplus or a deficit: start, end, energy of each, J."""
-    surplus = np.asarray(flywheel._surplus(q))
+    surplus = np.asarray(flywheel.surplus(q))
     sign = np.sign(surplus)
     ends = [float(q[0])]
     for i in np.flatnonzero(sign[:-1] * sign[1:] < 0.0).tolist():
         low, high = float(q[i]), float(q[i + 1])
         for _ in range(HALVINGS):
             middle = (low + high) / 2.0
-            if float(flywheel._surplus(np.array(middle))) * sign[i] > 0.0:
+            if float(flywheel.surplus(np.array(middle))) * sign[i] > 0.0:
                 low = middle
             else:
                 high = middle
@@ -119,7 +119,7 @@ def moment_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: S
     axes = chart.chart_axes(ax, own)
     start(axes, over, own)
     resistance = -np.asarray(flywheel.reduced_moment(q))
-    motor = np.asarray(flywheel._surplus(q)) + resistance
+    motor = np.asarray(flywheel.surplus(q)) + resistance
     x = over.values
     for gid, colour, where in (
         ("surplus", own.driver, motor >= resistance),

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
 
 AXES = ("x", "y")
 KINDS = ("joint", "link", "slide")
+# Attributes of analogues, by their order.
+ORDERS = ("value", "d1", "d2", "d3")
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.run import EventRecord, Run
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import EventRecord, Mechanism, Run
     from assur.pictures.style import Style
 
 # Points of a curve over a run.

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.diagrams.quantities import components
+from assur.pictures.diagrams.quantities import ORDERS, components
 from assur.pictures.numerals import degrees_text, number, radians_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
-    from assur.kinematics.timed import TimedMotion
+    from assur._faces import Motion, TimedMotion
     from assur.pictures.diagrams.quantities import Line, Quantity
 
 TITLES = {
@@ -149,7 +148,7 @@ class AlongDriver:
     def _rate(self, motion: Motion, of: Quantity, order: int) -> Float:
         analogues = getattr(motion, of.kind)(of.name)
         if order == 0 or self._speeds is None:
-            rate: Float = analogues._order(order)
+            rate: Float = getattr(analogues, ORDERS[order])
             return rate
         omega, alpha, beta = self._speeds
         shown: list[Callable[[], Float]] = [

@@ -9,7 +9,7 @@ import numpy as np
 from assur.errors import AssurError
 
 if TYPE_CHECKING:
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.linkage.subject import Subject
 
 Stroke = tuple[float, float]

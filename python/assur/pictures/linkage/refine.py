@@ -13,7 +13,7 @@ from assur.pictures.scene.course import course
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
 
 # Positions of a curve, at least.
 ROWS = 361
@@ -21,7 +21,7 @@ ROWS = 361
 
 def checked_motion(motion: Any) -> Motion:
     """Return a motion; what is none is refused."""
-    if not hasattr(motion, "_require_one_driver"):
+    if not hasattr(motion, "instant_centre"):
         message = f"motion is {short(motion)}: an assur.Motion is needed, as solve() gives"
         raise InputError(message)
     own: Motion = motion

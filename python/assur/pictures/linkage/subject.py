@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.scene.parts import Part, Scene, Vertex
     from assur.pictures.style import Style
 

@@ -16,7 +16,7 @@ from assur.pictures.text import printable, text_size
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.axes import Canvas
     from assur.pictures.linkage.subject import Subject
 

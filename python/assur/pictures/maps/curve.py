@@ -18,8 +18,7 @@ from assur.pictures.text import shortened
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.curve.curve import CircuitMotion, ConfigurationCurve
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import CircuitMotion, ConfigurationCurve, Mechanism
 
 SAMPLES = 240
 DIAMOND = 9.0

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.kinematics.loci.singular import SingularLocus, Workspace
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism, SingularLocus, Workspace
     from assur.pictures.axes import Canvas
     from assur.pictures.style import Style
 

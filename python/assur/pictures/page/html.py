@@ -22,8 +22,7 @@ from assur.pictures.style import DARK, LIGHT
 if TYPE_CHECKING:
     from os import PathLike
 
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.page.payload import Played
     from assur.pictures.style import Style
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.page.turn import Turn
     from assur.pictures.scene.parts import Part, Scene, Stroke, Vertex
 
@@ -202,7 +202,7 @@ def _drawn_value(played: Played, name: str, own: Float, angle: float) -> float:
     slide = mechanism.slides[name]
     places = []
     for link in (slide.link, slide.on):
-        place = motion._reference_point(link).value.reshape(2)
+        place = motion.reference_points[link].value.reshape(2)
         places.append((place, float(motion.link(link).value)))
     (at, turned), (base, guide) = places
     cosine, sine = np.cos(turned), np.sin(turned)

@@ -11,7 +11,8 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
+
 
 OF_JOINT = ("x", "y", "v", "a", "vx", "vy", "ax", "ay")
 OF_LINK = ("omega", "alpha")

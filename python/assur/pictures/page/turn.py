@@ -14,9 +14,7 @@ from assur.pictures.scene.frames import FAR, Frames, frames_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Limits, Mechanism, Motion
 
 ROWS = 181
 # Motions that close only after more turns than this are shown over one, to and fro.
@@ -195,7 +193,7 @@ def frames_in_time(motion: Motion, speed: Float, acceleration: Float) -> Frames:
     position = frames_of(motion)
     first, second = np.zeros_like(position.values[0]), np.zeros_like(position.values[0])
     for i, link in enumerate(position.links):
-        origin, angle = motion._reference_point(link).arrays, motion.link(link).arrays
+        origin, angle = motion.reference_points[link].arrays, motion.link(link).arrays
         for columns, arrays in ((slice(0, 2), origin), (slice(2, 3), angle)):
             d1 = arrays[1].reshape(rows, -1, drivers)
             d2 = arrays[2].reshape(rows, -1, drivers, drivers)

@@ -11,9 +11,7 @@ from assur.pictures.page.turn import Turn, frames_in_time, require_one
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.run import Run
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.timed import TimedMotion
+    from assur._faces import Mechanism, Run, TimedMotion
 
 # Rows to a turn of the driver, and in all.
 ROWS_PER_TURN, LEAST_ROWS, MOST_ROWS = 48, 181, 721

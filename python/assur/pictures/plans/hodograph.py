@@ -23,7 +23,7 @@ from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
 # About so many positions of a curve have a dot.

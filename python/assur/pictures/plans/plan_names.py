@@ -10,7 +10,7 @@ from assur.pictures.numerals import number
 from assur.pictures.vectors.heading import link_numbers, listed, place_text
 
 if TYPE_CHECKING:
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.plans.plan import Plan
 
 

@@ -26,7 +26,7 @@ from assur.pictures.vectors.symbols import symbol
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
     from assur.pictures.style import Style
 

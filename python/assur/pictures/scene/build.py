@@ -15,7 +15,7 @@ from assur.pictures.scene.slides import Slides
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.scene.frames import Frames
 
 

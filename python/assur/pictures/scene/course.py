@@ -10,9 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Limits, Mechanism, Motion
 
 # Every five degrees of a turn.
 ROWS = 73

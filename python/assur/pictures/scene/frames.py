@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
 
 # Joints farther from the middle of the drawing than so many times its size are out of sight.
 FAR = 4.0
@@ -102,7 +102,7 @@ def frames_of(motion: Motion) -> Frames:
         if link == "ground":
             continue
         # A link's frame is at its first joint; without one it takes another solution.
-        origin = motion.joint(joints[0]) if joints else motion._reference_point(link)
+        origin = motion.joint(joints[0]) if joints else motion.reference_points[link]
         angle = motion.link(link)
         for own, place, turned in zip(values, origin.arrays, angle.arrays, strict=False):
             own[:, i, :2] = place.reshape(-1, 2)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.scene.frames import Frames
 
 # What of a guide is seen beyond the block at the ends of its stroke, px.

@@ -17,8 +17,7 @@ from assur.pictures.text import printable, text_size
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.axes import Canvas
 
 # Height of a line of the heading, points.

@@ -21,7 +21,7 @@ from assur.studio.session import Answer
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
+    from assur._faces import Limits
     from assur.kinematics.mechanism import Mechanism
     from assur.pictures.page.turn import Unit
     from assur.studio.session import Session
