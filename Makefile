@@ -63,6 +63,7 @@ check: lint-tools $(EXTENSION) $(DEV_STAMP)
 	cargo clippy $(LOCKED) --workspace -- -D warnings
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
+	$(PY) tools/check_floors
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy
@@ -95,6 +96,7 @@ python-test: python-lint pytest
 python-lint: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
+	$(PY) tools/check_floors
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) -m mypy

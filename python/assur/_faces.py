@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur._core import Mechanism as Core
     from assur._extreme import Extreme
-    from assur.description.encode import Description, DriverLike
+    from assur.description.encode import Description
     from assur.description.structure import Structure
-    from assur.description.words import Slide
+    from assur.description.words import DriverLike, Slide
 
 # Of joints, links and slides.
 Indices = tuple[dict[str, int], dict[str, int], dict[str, int]]
@@ -203,7 +203,9 @@ class ConfigurationCurve(Protocol):
     """See `assur.ConfigurationCurve`."""
 
     @property
-    def mechanism(self) -> Mechanism: ...
+    def mechanism(self) -> Any: ...
+    @property
+    def branches(self) -> Sequence[Any]: ...
     @property
     def circuits(self) -> Sequence[Any]: ...
     @property

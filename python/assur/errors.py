@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from assur.description.remedy import Remedy
+    from assur._remedy import Remedy
 
 __all__ = [
     "AssurError",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import TypeAlias
 
 __all__ = ["Cylinder", "Drive", "Slide", "Status"]
 
@@ -167,3 +168,7 @@ class Drive:
 
     link: str
     relative_to: str = "ground"
+
+
+# What drives: a link or a slide by its name, or an angle between two links.
+DriverLike: TypeAlias = str | Drive

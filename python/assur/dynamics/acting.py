@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from assur._arrays import Float
+    from assur.dynamics._reactions import Reactions
     from assur.dynamics.loads import Load, PointLike
-    from assur.dynamics.machine import Machine
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics.model import MachineModel
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -41,7 +41,7 @@ AT_REST = 1e-12
 class Positions(NamedTuple):
     """A machine's motion and reactions at P positions: q and speeds (P, n), times (P,)."""
 
-    machine: Machine
+    machine: MachineModel
     motion: Motion
     found: Reactions
     q: Float

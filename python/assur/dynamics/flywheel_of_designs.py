@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from assur._arrays import Float
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
     from assur.flywheel.result import Curve
 
 
@@ -52,9 +52,9 @@ class FlywheelOfDesigns(Flywheel):
     @classmethod
     def of(
         cls,
-        machine: Machine,
+        machine: MachineModel,
         wanted: tuple[Any, Any, Any, int, str],
-        one: Callable[[Machine, Any, Any, Any, int, str], Flywheel],
+        one: Callable[[MachineModel, Any, Any, Any, int, str], Flywheel],
     ) -> Self:
         """Size the flywheel of each design for a fluctuation, mean speed and mean."""
         fluctuation, speed, mean, turns, on_error = wanted

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from assur._arrays import Float
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics._reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -94,7 +94,7 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     """Return the machine of one design at one position, as a row of one."""
     assert found._source is not None
     machine, t = found._source
-    mechanism = found._mechanism
+    mechanism = found.mechanism
     drivers = mechanism.driver_count
     if mechanism.shape:
         mechanism = mechanism.design(index[: len(mechanism.shape)])
@@ -107,7 +107,7 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     motion = mechanism.solve(row, order=2, on_error="nan")
     held = {key: values[index][np.newaxis] for key, values in found.by_key.items()}
     part = type(found)(mechanism, (row, *rates), held, found.status[index].reshape(1))
-    at: Any = Positions(machine, motion, part, q, speed, np.reshape(t[index], (1,)))  # type: ignore[arg-type]
+    at: Any = Positions(machine, motion, part, q, speed, np.reshape(t[index], (1,)))
     return at, motion[0]
 
 

@@ -11,6 +11,7 @@ from assur._arrays import finite_array, in_range, short
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads import Force, Torque
+from assur.dynamics.reduce import reduced_inertia, reduced_moment
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -74,8 +75,8 @@ def impact(
     before = np.broadcast_to(speed, full).reshape(*shape, n)
     # The unit load's moments on the drivers are the derivatives of its path.
     one = type(machine)(mechanism, loads=[load])
-    path = np.asarray(one.reduced_moment(q, on_error=on_error)).reshape(*shape, n)
-    inertia = np.asarray(machine.reduced_inertia(q, on_error).value).reshape(*shape, n, n)
+    path = np.asarray(reduced_moment(one, q, on_error=on_error)).reshape(*shape, n)
+    inertia = np.asarray(reduced_inertia(machine, q, on_error).value).reshape(*shape, n, n)
     with in_range("an impact"), np.errstate(divide="ignore"):
         answer = _solved(inertia, path)
         mobility = (path * answer).sum(axis=-1)

@@ -16,7 +16,6 @@ from assur._validate import one_of
 from assur.dynamics import parts
 from assur.dynamics.no_value import not_covered, table_names
 from assur.dynamics.options import (
-    as_list,
     checked_breaks,
     checked_seconds,
     one_design,
@@ -30,6 +29,7 @@ from assur.dynamics.options import (
     without_followers,
     without_friction,
 )
+from assur.dynamics.parts import as_list
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
 from assur.dynamics.table import Table
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 # Less accurate periods do not determine the speed.
 LOOSEST_RTOL = 1e-4
@@ -69,7 +69,7 @@ BALANCE_WARN_RTOL = 1e-6
 
 
 def run(
-    machine: Machine, t_end: Any, q0: Any, speed0: Any, q_end: Any, t0: Any, **options: Any
+    machine: MachineModel, t_end: Any, q0: Any, speed0: Any, q_end: Any, t0: Any, **options: Any
 ) -> Run:
     """See `Machine.run`."""
     one_design(machine, "run")
@@ -130,7 +130,7 @@ def run(
 
 
 def steady_state(
-    machine: Machine, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
+    machine: MachineModel, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
 ) -> SteadyState:
     """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
     one_design(machine, "steady_state")
@@ -182,7 +182,7 @@ def steady_state(
 
 
 @contextmanager
-def _naming_tables(machine: Machine, places: Float, speeds: list[float]) -> Iterator[None]:
+def _naming_tables(machine: MachineModel, places: Float, speeds: list[float]) -> Iterator[None]:
     """Name the load or the driver whose table does not cover these, where the core refuses one."""
     try:
         yield
@@ -200,7 +200,7 @@ def _naming_tables(machine: Machine, places: Float, speeds: list[float]) -> Iter
         raise named from None
 
 
-def _driver_beyond(machine: Machine, speeds: list[float]) -> str | None:
+def _driver_beyond(machine: MachineModel, speeds: list[float]) -> str | None:
     """Return the driver whose motor's table over its speed does not cover the speed of it."""
     assert machine.mechanism is not None
     drivers = machine.mechanism.description.drivers
@@ -219,12 +219,12 @@ def _of_driver(driver: str, error: InputError) -> InputError:
     )
 
 
-def _dimensions(machine: Machine) -> list[float]:
+def _dimensions(machine: MachineModel) -> list[float]:
     dimensions: list[float] = [] if machine.mechanism is None else machine.mechanism.values.tolist()
     return dimensions
 
 
-def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[float]:
+def _start(machine: MachineModel, value: npt.ArrayLike | None, name: str) -> list[float]:
     if value is None and name == "q0":
         value = machine.core.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
     array = finite_array(value, name)

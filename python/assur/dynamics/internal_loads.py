@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.dynamics.beam import Beam
-    from assur.dynamics.machine import Machine
-    from assur.dynamics.model import OnError
+    from assur.dynamics.model import MachineModel, OnError
     from assur.dynamics.rod import Rod
 
 __all__ = ["InternalLoads", "LoadExtremes"]
@@ -168,7 +167,7 @@ class InternalLoads:
 
 
 def internal_loads(
-    machine: Machine,
+    machine: MachineModel,
     link: str,
     motion: DrivenMotion,
     along: Sequence[str] | None,

@@ -16,7 +16,8 @@ from assur.dynamics.friction import SlideFriction
 from assur.dynamics.no_value import Moment, without_value
 from assur.dynamics.places import links_at
 from assur.dynamics.reactions import RESIDUAL, SOLUTIONS, Key, Reactions
-from assur.dynamics.reduce import checked_senses, single, with_designs
+from assur.dynamics.reduce import reduce, single
+from assur.dynamics.reduced import checked_senses, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError
 from assur.kinematics.solve_arguments import warn_if_degrees
@@ -348,7 +349,7 @@ def effort(
     if senses is not None:
         rests, sense = senses.rests, 1.0
         going = senses.creeping(np.broadcast_to(v, shape), with_begins=True)
-    inertia, rates, moment, _ = bare._reduce(x, going, on_error, times(motion.t, shape), sense)
+    inertia, rates, moment, _ = reduce(bare, x, going, on_error, times(motion.t, shape), sense)
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment

@@ -72,21 +72,6 @@ def require_whole_periods(period: float | None, span: float) -> None:
         raise InputError(message, value=period)
 
 
-def as_list(value: Any, name: str) -> list[Any]:
-    """Return a sequence as a list."""
-    if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
-        message = f"{name} must be a sequence, got {short(value)}"
-        raise InputError(message)
-    if getattr(value, "ndim", 1) == 0:
-        message = f"{name} must be a sequence, got {short(value)}"
-        raise InputError(message)
-    try:
-        return list(value)
-    except TypeError as error:  # A single mechanism is no batch of designs.
-        message = f"{name} must be a sequence, got {short(value)}"
-        raise InputError(message) from error
-
-
 def positive_number(value: Any, name: str) -> float:
     """Return a positive number; infinity is allowed."""
     number = real_number(value, name, finite=False)

@@ -128,3 +128,18 @@ def columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float
         message = f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad: it must not be negative"
         raise InputError(message, kind="negative", q=float(x[row]), value=least)
     return x, numbers
+
+
+def as_list(value: Any, name: str) -> list[Any]:
+    """Return a sequence as a list."""
+    if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message)
+    if getattr(value, "ndim", 1) == 0:
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message)
+    try:
+        return list(value)
+    except TypeError as error:  # A single mechanism is no batch of designs.
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message) from error

@@ -144,7 +144,7 @@ class Reactions(Tabular):
         source: tuple[MachineModel, Float] | None = None,
         at_rest: npt.NDArray[np.bool_] | None = None,
     ) -> None:
-        self._mechanism = mechanism
+        self.mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
         self.by_key = found
         self._again = again
@@ -162,7 +162,7 @@ class Reactions(Tabular):
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return all forces: of a joint on every link but the first, which takes the rest."""
-        mechanism, shape = self._mechanism, self.status.shape
+        mechanism, shape = self.mechanism, self.status.shape
         angles = driven_angles(mechanism)
         columns = [
             *design_columns(shape, len(mechanism.shape)),
@@ -191,14 +191,14 @@ class Reactions(Tabular):
         return columns
 
     def __repr__(self) -> str:
-        pins = [links for links in links_at(self._mechanism).values() if len(links) > 1]
-        joints, slides = len(pins), len(self._mechanism.slides)
+        pins = [links for links in links_at(self.mechanism).values() if len(links) > 1]
+        joints, slides = len(pins), len(self.mechanism.slides)
         return f"<assur.Reactions of {joints} joints, {slides} slides, shape {self.status.shape}>"
 
     @property
     def driver(self) -> Any:
         """Torque or force of the drive."""
-        count = int(np.size(self._mechanism.q0))
+        count = int(np.size(self.mechanism.q0))
         each = [self.by_key[Key("driver", index)] for index in range(count)]
         return each[0][()] if count == 1 else np.stack(each, axis=-1)
 
@@ -216,8 +216,8 @@ class Reactions(Tabular):
     def undetermined(self) -> tuple[str, ...]:
         """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
         solved = (self.status <= Status.NEAR_SINGULAR) & ~self.at_rest
-        joints, links = self._mechanism.joint_names, list(self._mechanism.links)
-        slides = list(self._mechanism.slides)
+        joints, links = self.mechanism.joint_names, list(self.mechanism.links)
+        slides = list(self.mechanism.slides)
         names = []
         for key, values in self.by_key.items():
             kind, index, on = key.kind, key.index, key.on
@@ -242,7 +242,7 @@ class Reactions(Tabular):
     @property
     def losses(self) -> dict[str, Any]:
         """Power that friction takes in each pair, W."""
-        joints, slides = self._mechanism.joint_names, list(self._mechanism.slides)
+        joints, slides = self.mechanism.joint_names, list(self.mechanism.slides)
         names = {"joint loss": joints, "slide loss": slides}
         return {
             names[key.kind][key.index]: values[()]
@@ -255,7 +255,7 @@ class Reactions(Tabular):
         """What comes out of what goes in."""
         loss = np.sum(list(self.losses.values()), axis=0) + np.zeros(self.status.shape)
         power = np.asarray(self.driver * self.speed)
-        if np.size(self._mechanism.q0) > 1:
+        if np.size(self.mechanism.q0) > 1:
             power = power.sum(axis=-1)
         with np.errstate(invalid="ignore", divide="ignore"):
             return (1.0 - loss / np.maximum(power, loss - power))[()]
@@ -317,7 +317,7 @@ class Reactions(Tabular):
         >>> found.joint_moment("B", on="rod").round(3)  # N·m
         np.float64(2.0)
         """
-        key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
+        key = key_of_joint(self.mechanism, checked_name(name, "joint"), checked_name(on, "on"))
         moment = self.by_key.get(Key("joint moment", key.index, key.on))
         if moment is None:
             return np.where(np.isnan(self.shaking_moment), np.nan, 0.0)[()]
@@ -354,9 +354,9 @@ class Reactions(Tabular):
         >>> found.joint("B", on="piston"), found.joint("A", on="rod")  # N
         (array([-250.,   -0.]), array([-250.,   -0.]))
         """
-        core = self._mechanism.core
-        key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
-        links, joint = links_at(self._mechanism)[name], key.index
+        core = self.mechanism.core
+        key = key_of_joint(self.mechanism, checked_name(name, "joint"), checked_name(on, "on"))
+        links, joint = links_at(self.mechanism)[name], key.index
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
         if key in self.by_key:
@@ -430,7 +430,7 @@ class Reactions(Tabular):
         >>> machine.reactions(np.pi / 2).slide("bore").normal.round(6)  # N: 1000 · 3/4
         np.float64(750.0)
         """
-        index = self._mechanism.core.require("slide", checked_name(name, "slide"))
+        index = self.mechanism.core.require("slide", checked_name(name, "slide"))
         normal, moment, along = (
             self.by_key[Key(kind, index)][()] for kind in ("normal", "moment", "along")
         )

@@ -12,7 +12,7 @@ from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.description.encode import DriverLike
+    from assur.description.words import DriverLike
     from assur.errors import AssurError
     from assur.files.node import Node
     from assur.files.positions import KeyPath

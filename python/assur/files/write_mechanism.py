@@ -16,7 +16,8 @@ from assur.kinematics.model import at_place
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.description.encode import Description, DriverLike
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.model import MechanismModel, Place
 

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from assur._extreme import Extreme
-    from assur.dynamics.steady import SteadyState
 
 Mean: TypeAlias = Literal["extremes", "period"]
 Curve: TypeAlias = Literal["speed", "time", "coordinate", "moment", "inertia", "work"]
@@ -80,7 +79,7 @@ class Flywheel(Tabular, ABC):
         mean: Mean,
         turn: tuple[float, float],
         shape: tuple[int, ...] = (),
-        steady: SteadyState | None = None,
+        steady: Any = None,
     ) -> None:
         self.shape, self.mean, self.steady = shape, mean, steady
         self.turn = turn

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from assur.description.encode import DriverLike
+    from assur.description.words import DriverLike
     from assur.kinematics.model import AnyMechanism, MechanismModel
 
 

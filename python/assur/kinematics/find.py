@@ -27,7 +27,8 @@ from assur.kinematics.pose import Pose, bare_core
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
-    from assur.description.encode import Description, DriverLike
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike
     from assur.kinematics.model import AssemblyNumbers, MechanismModel
 
 # Places of the same assembly found in two ways, in sizes. Beside a fold half of the digits are

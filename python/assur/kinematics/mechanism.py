@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from assur._later import explorer, save
 from assur._validate import checked_index, checked_signs
 from assur.description import encode
 from assur.description.words import Cylinder
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from assur._arrays import Float
-    from assur.description.encode import Description, DriverLike
-    from assur.description.words import Slide
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike, Slide
     from assur.kinematics.curve.curve import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
     from assur.kinematics.limits import Limits
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from assur.kinematics.motion import Motion
     from assur.kinematics.timed import TimedMotion
     from assur.laws import Law
-    from assur.studio.notebook import Explorer
 
 __all__ = ["Mechanism"]
 
@@ -784,10 +784,7 @@ class Mechanism(MechanismModel):
         >>> assur.load(path) == m
         True
         """
-        import assur
-
-        # Through the package: files are a floor above.
-        assur.files.save(self, path)
+        save(self, path)
 
     def plot(
         self,
@@ -900,7 +897,7 @@ class Mechanism(MechanismModel):
             self, path, q=q, speed=omega, paths=paths, diagrams=diagrams, title=title, dark=dark
         )
 
-    def explore(self, height: int = 640) -> Explorer:
+    def explore(self, height: int = 640) -> Any:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: dragging changes ``view.mechanism``, assigning ``view.mechanism`` redraws. Needs
@@ -928,8 +925,6 @@ class Mechanism(MechanismModel):
         >>> view.mechanism.structure.mobility
         1
         """
-        from assur._later import explorer
-
         return explorer(self, height)
 
     def to_drawing(

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur._core import Mechanism as Core
-    from assur.description.encode import Description, DriverLike
-    from assur.description.words import Slide
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike, Slide
 
 __all__ = [
     "AnyMechanism",

@@ -17,8 +17,8 @@ from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
+    from assur.sweeps._measured import Asked
     from assur.sweeps.designs import Designs
-    from assur.sweeps.measuring import Measuring
 
 __all__ = ["Measures"]
 
@@ -65,7 +65,7 @@ class Measures(Mapping[str, Float]):
         status: npt.NDArray[np.uint8],
         kept: npt.NDArray[np.intp],
         designs: Designs,
-        measuring: Measuring,
+        measuring: Asked,
     ) -> None:
         self._values = values
         self.status = status

@@ -18,8 +18,8 @@ from assur.kinematics.solve import solve
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from assur._faces import ConfigurationCurve
     from assur.kinematics.assembly import Assembly
-    from assur.kinematics.curve.curve import ConfigurationCurve
 
 __all__ = ["Defects"]
 

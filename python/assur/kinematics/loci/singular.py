@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.description.encode import DriverLike
+    from assur.description.words import DriverLike
     from assur.kinematics.loci.trace import Traced
     from assur.kinematics.model import MechanismModel
     from assur.kinematics.pose import Pose

@@ -77,7 +77,8 @@ def polygon_sides(system: ForceSystem) -> list[PlacedForce]:
         own = force.name if force.kind == "reaction" else str(len(outer))
         before = outer.get((force.kind, own))
         total = force.force if before is None else before.force + force.force
-        outer[force.kind, own] = (before or force)._replace(force=total)
+        first: Any = before or force
+        outer[force.kind, own] = first._replace(force=total)
     greatest = max(float(np.hypot(*force.force)) for force in outer.values())
     kept = [f for f in outer.values() if np.hypot(*f.force) > LEAST * greatest]
     return sorted(kept, key=lambda force: ORDER.index(force.kind))
