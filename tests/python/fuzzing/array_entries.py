@@ -225,9 +225,9 @@ ENTRIES: dict[str, Entry] = {
     **each_of("Analogues.velocity", MOTION.joint("C").velocity, omega=1.0),
     **each_of("Analogues.acceleration", MOTION.joint("C").acceleration, omega=1.0, alpha=2.0),
     **each_of("Analogues.jerk", MOTION.link("rocker").jerk, omega=1.0, alpha=2.0, beta=3.0),
-    **each_of("MachineModel.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
-    **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
-    **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
+    **each_of("Machine.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
+    **each_of("Machine.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
+    **each_of("Machine.potential", MACHINE.potential, q=0.0),
     **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     "Machine.internal_loads.density": Entry(
