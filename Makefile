@@ -71,6 +71,7 @@ rust-lint: lint-tools
 lint: $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
+	$(PY) tools/check_floors
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) tools/error_page --check

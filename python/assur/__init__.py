@@ -18,8 +18,9 @@ np.float64(0.0191)
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from assur import _later
 from assur._core import version
-from assur.description.remedy import Remedy
+from assur._remedy import Remedy
 from assur.description.structure import Group, Structure
 from assur.description.words import Cylinder, Drive, Slide, Status
 from assur.errors import (
@@ -190,6 +191,10 @@ _LATER = {
     "assur.sweeps.measures": ("Measures",),
     "assur.sweeps.sweep": ("sweep",),
 }
+# What methods of lower floors call by these names.
+_later.register("save", "assur.files.write", "save")
+_later.register("explore", "assur.studio.notebook", "Explorer")
+
 _HOME = {name: home for home, names in _LATER.items() for name in names}
 
 if not TYPE_CHECKING:  # a type checker would take any name for one of the package

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 Float: TypeAlias = npt.NDArray[np.float64]
+# Called with floats (t, q, speed); with several drivers q and speed are tuples.
+Function: TypeAlias = Callable[[float, Any, Any], float]
 
 # NumPy converts these to float64 silently, though they are not real numbers.
 NOT_NUMBERS = (

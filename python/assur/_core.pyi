@@ -15,9 +15,10 @@ from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
-from assur.kinematics.assembly import AssemblyNumbers, FoundAssemblies
+from assur.kinematics.assembly import FoundAssemblies
 from assur.kinematics.held import Buffers
 from assur.kinematics.limits import FoundLimits
+from assur.kinematics.model import AssemblyNumbers
 from assur.sweeps.terms import Metric
 
 __all__ = [

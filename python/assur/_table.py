@@ -310,3 +310,8 @@ def coordinate_columns(
         is_length = Column(name, values, "m", None)
         columns.append(angle_column(name, values, degrees) if is_angle else is_length)
     return columns
+
+
+def columns_of(shown: Tabular, degrees: bool) -> Sequence[Column]:
+    """Return the columns of the table of a result."""
+    return shown._columns(degrees)

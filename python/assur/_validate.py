@@ -164,3 +164,10 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
 def checked_threads(threads: Any) -> int | None:
     """Return the number of threads, or None."""
     return None if threads is None else whole_number(threads, "threads", 1, MAX_THREADS)
+
+
+def require_one_driver(drivers: int, what: str) -> None:
+    """Refuse what is defined for one driver alone."""
+    if drivers > 1:
+        message = f"{what} is defined for one driver; this mechanism has {drivers}"
+        raise InputError(message)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from assur.description.remedy import Remedy
+    from assur._remedy import Remedy
 
 __all__ = [
     "AssurError",
@@ -245,3 +245,8 @@ class AssurWarning(UserWarning):
     >>> print(found[0].message)
     the motor gives the driver 5 N·m, the loads take 3 on average: the flywheel is sized for ...
     """
+
+
+def offer_remedies(error: StructureError, find: Callable[[], tuple[Remedy, ...]]) -> None:
+    """Let an error find remedies, when they are first asked for."""
+    error._find_remedies = find

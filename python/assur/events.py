@@ -12,7 +12,7 @@ from assur.errors import InputError
 from assur.kinematics import transmission
 
 if TYPE_CHECKING:
-    from assur.dynamics.values import Function
+    from assur._arrays import Function
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Crossing", "Obstacle", "Position", "Rest", "Speed", "TransmissionAngle"]

@@ -45,7 +45,7 @@ def find_four_bar(mechanism: Mechanism) -> FourBarChain:
     if len(pivoted) != 2:
         raise _refusal(mechanism, "four-bar", "2 links pivoted on the ground")
     coupler = next(link for link in moving if link not in pivoted)
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     driven = {one.link if isinstance(one, Drive) else one for one in drivers}
     crank, rocker = sorted(pivoted, key=lambda link: link not in driven)
     around = ((GROUND, crank), (crank, coupler), (coupler, rocker), (rocker, GROUND))
@@ -80,7 +80,7 @@ def _moving(mechanism: Mechanism) -> list[str]:
 def _pins(mechanism: Mechanism, kind: str) -> dict[frozenset[str], str]:
     """Return the joint of every two links that share one; points of one link are no pins."""
     pins: dict[frozenset[str], str] = {}
-    for joint in mechanism._joint_names:
+    for joint in mechanism.joint_names:
         links = [link for link, joints in mechanism.links.items() if joint in joints]
         if len(links) > 2:
             message = (

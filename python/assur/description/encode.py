@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -16,10 +16,9 @@ from assur._core import Mechanism as Core
 from assur._trig import arctan2
 from assur._validate import checked_name
 from assur.description.remedy import find
-from assur.description.words import Cylinder, Drive, Slide
-from assur.errors import AssurWarning, InputError, StructureError
+from assur.description.words import Cylinder, Drive, DriverLike, Slide
+from assur.errors import AssurWarning, InputError, StructureError, offer_remedies
 
-DriverLike: TypeAlias = str | Drive
 T = TypeVar("T")
 
 # Guides beyond two turns are in degrees, as far as anyone meant them.
@@ -90,7 +89,7 @@ def _with_remedies(make: Callable[..., T], parts: dict[str, Any]) -> T:
     try:
         return make(**parts)
     except StructureError as error:
-        error._find_remedies = partial(find, parts)
+        offer_remedies(error, partial(find, parts))
         raise
 
 

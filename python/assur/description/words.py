@@ -183,3 +183,7 @@ class Drive:
 
     link: str
     relative_to: str = "ground"
+
+
+# What drives: a link or a slide by its name, or an angle between two links.
+DriverLike: TypeAlias = str | Drive

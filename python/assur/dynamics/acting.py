@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from assur._arrays import Float
+    from assur.dynamics._reactions import Reactions
     from assur.dynamics.load_forces import LoadForce
-    from assur.dynamics.machine import Machine
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics.model import MachineModel
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -26,7 +26,7 @@ Kind: TypeAlias = Literal["joint", "slide", "drive", "load"]
 class Positions(NamedTuple):
     """A machine's motion, its reactions and the forces of its loads at P positions."""
 
-    machine: Machine
+    machine: MachineModel
     motion: Motion
     found: Reactions
     loads: list[LoadForce]
@@ -78,7 +78,8 @@ def acting_on(at: Positions, link: str, couples: bool = False) -> Iterator[Actin
 
 
 def _mechanism(at: Positions) -> Mechanism:
-    return at.motion.mechanism
+    mechanism: Mechanism = at.motion.mechanism
+    return mechanism
 
 
 def _nothing(at: Positions) -> Float:
@@ -96,7 +97,7 @@ def _pins(at: Positions, link: str) -> Iterator[Acting]:
 
 def _slides(at: Positions, link: str) -> Iterator[Acting]:
     mechanism = _mechanism(at)
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     for name, slide in mechanism.slides.items():
         if link not in (slide.link, slide.on):
             continue
@@ -118,7 +119,7 @@ def _slides(at: Positions, link: str) -> Iterator[Acting]:
 def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
     """Yield the torques of driven angles, which act where their two links meet."""
     mechanism = _mechanism(at)
-    for index, driver in enumerate(mechanism._description.drivers):
+    for index, driver in enumerate(mechanism.description.drivers):
         if driver in mechanism.slides:
             continue
         drive = driver if isinstance(driver, Drive) else Drive(driver)
@@ -159,7 +160,7 @@ def _loads(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
 def _origin(at: Positions, link: str) -> Float:
     """Return the place of a link's first joint, or of the origin of one without joints, (P, 2)."""
     joints = _mechanism(at).links[link]
-    both = at.motion.joint(joints[0]) if joints else at.motion._reference_point(link)
+    both = at.motion.joint(joints[0]) if joints else at.motion.reference_points[link]
     return both.value
 
 

@@ -17,7 +17,7 @@ from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics._reactions import Reactions
 
 __all__ = ["Bearing"]
 
@@ -57,11 +57,11 @@ class Bearing:
     force: Any
     relative_speed: Any
     q: Any
-    _designs: tuple[int, ...] = ()
+    designs: tuple[int, ...] = ()
     # Of the frame: the link, its angle; and what the force acts on.
-    _frame: tuple[str, Any] = ("ground", 0.0)
-    _what: tuple[str, str] = ("", "")
-    _is_angle: bool = True
+    frame: tuple[str, Any] = ("ground", 0.0)
+    what: tuple[str, str] = ("", "")
+    is_angle: bool = True
 
     @property
     def mean(self) -> Any:
@@ -187,7 +187,7 @@ class Bearing:
     def _rows(self, what: str) -> Float:
         """Return the sizes with positions on the last axis, also of one coordinate."""
         size = np.asarray(self.size)
-        if size.ndim == len(self._designs):
+        if size.ndim == len(self.designs):
             size = size[..., np.newaxis]
         if size.shape[-1] == 0:
             message = f"no positions: {what} needs one"
@@ -211,7 +211,7 @@ def bearing(
     """Return a pin's force as polar data; see `Reactions.bearing`."""
     name, on = checked_name(name, "joint"), checked_name(on, "on")
     force = found.joint(name, on)
-    links = [link for link, joints in found._mechanism.links.items() if name in joints]
+    links = [link for link, joints in found.mechanism.links.items() if name in joints]
     if len(links) == 1:
         message = f"joint {name!r} is on link {on!r} alone: nothing bears on it"
         raise InputError(message, joint=name, link=on)
@@ -237,16 +237,16 @@ def bearing(
         force=turned,
         relative_speed=None if other is None else (speeds[on] - speeds[other])[()],
         q=found.q,
-        _designs=found._mechanism.shape,
-        _frame=(own_frame, angles[own_frame]),
-        _what=(name, on),
-        _is_angle=driven_angles(found._mechanism)[0],
+        designs=found.mechanism.shape,
+        frame=(own_frame, angles[own_frame]),
+        what=(name, on),
+        is_angle=driven_angles(found.mechanism)[0],
     )
 
 
 def _motion_of(found: Reactions, links: list[str]) -> tuple[dict[str, Float], dict[str, Float]]:
     """Return angles and angular velocities of links at the positions of reactions."""
-    mechanism, q, speed = found._mechanism, found.q, found.speed
+    mechanism, q, speed = found.mechanism, found.q, found.speed
     shape = found.status.shape
     # Of a batch the coordinates need an axis of their own.
     alone = bool(mechanism.shape) and shape == mechanism.shape

@@ -11,13 +11,14 @@ from assur import _trig
 from assur._arrays import not_negative, real_number, short
 from assur._validate import checked_name
 from assur.dynamics.loads import Body
-from assur.dynamics.options import as_list, one_design, positive_number
+from assur.dynamics.options import one_design, positive_number
+from assur.dynamics.parts import as_list
 from assur.dynamics.places import joint_place, mass_centre
 from assur.dynamics.table import replace_fields
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import AnyMachine
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Counterweight"]
@@ -134,7 +135,7 @@ def counterweight(link: str, about: str | None, moment: complex) -> Counterweigh
     return Counterweight(link, size, float(_trig.arctan2(y, x)), about)
 
 
-def with_counterweights(machine: Machine, weights: Any) -> Machine:
+def with_counterweights(machine: AnyMachine, weights: Any) -> AnyMachine:
     """Return a machine with counterweights; see `Machine.with_counterweights`."""
     mechanism = machine.mechanism
     if mechanism is None:
@@ -147,7 +148,7 @@ def with_counterweights(machine: Machine, weights: Any) -> Machine:
             message = f"{short(weight)} is not an assur.balance.Counterweight"
             raise InputError(message)
         link = weight.link
-        mechanism._core.require("link", link)
+        mechanism.core.require("link", link)
         if weight.mass is None:
             message = (
                 f"the counterweight on {link!r} has a moment of {weight.moment:g} kg·m but no "

@@ -103,10 +103,10 @@ def duty(
     on_error: OnError,
 ) -> Duty:
     """Return the duty of a drive; see `Machine.duty`."""
-    if machine._drivers > 1:
+    if machine.driver_count > 1:
         message = (
-            f"the machine has {machine._drivers} drivers: a duty is that of one, whose coordinate "
-            "and speed give the time; machine.effort gives the efforts of all"
+            f"the machine has {machine.driver_count} drivers: a duty is that of one, whose "
+            "coordinate and speed give the time; machine.effort gives the efforts of all"
         )
         raise InputError(message)
     x, v, a, shape = kinetostatics.broadcast_motion(machine, motion)
@@ -172,7 +172,7 @@ def duty(
 
 def warn_of_jumps(machine: MachineModel, motion: DrivenMotion) -> None:
     """Warn if loads jump between the positions of a motion given by numbers."""
-    if machine._drivers > 1 or not (machine._core.follows[0] or any(machine._core.jumps)):
+    if machine.driver_count > 1 or not (machine.core.follows[0] or any(machine.core.jumps)):
         return
     x = real_array(motion.q, "q")
     if not (x.size and np.isfinite(x).all()):
@@ -225,7 +225,7 @@ def _closing(
     nothing = np.zeros(len(x), dtype=bool)
     mechanism = machine.mechanism
     if mechanism is None:
-        knots, is_periodic = machine._core.tables[0]
+        knots, is_periodic = machine.core.tables[0]
         turn = knots[-1] - knots[0] if is_periodic else 0.0
     else:
         turn = 0.0 if mechanism.driver in mechanism.slides else math.tau

@@ -79,9 +79,9 @@ class Equilibria(NamedTuple):
 
 def equilibria(machine: MachineModel, between: Any) -> Equilibria:
     """Return the positions of rest of a machine; see `Machine.equilibria`."""
-    if machine._drivers > 1:
+    if machine.driver_count > 1:
         message = (
-            f"the machine has {machine._drivers} drivers: equilibria are found for one; "
+            f"the machine has {machine.driver_count} drivers: equilibria are found for one; "
             "hold the others: make a mechanism with links fixed at them"
         )
         raise InputError(message)
@@ -92,22 +92,22 @@ def equilibria(machine: MachineModel, between: Any) -> Equilibria:
             "of equilibria: call machine.design(index).equilibria()"
         )
         raise InputError(message)
-    if machine._core.load_functions:
+    if machine.core.load_functions:
         message = (
             "a load is a function of (t, q, speed), which may change with time or speed: "
             "equilibria need constant loads, or tables over q (assur.Table)"
         )
         raise InputError(message)
-    if machine._core.follows[1]:
+    if machine.core.follows[1]:
         message = (
             "a load has while_=: it acts in one direction of motion, and at rest there is none; "
             "equilibria need loads that act at rest"
         )
         raise InputError(message)
     ends, is_turn, intervals = search_range(machine, between)
-    dimensions = np.empty(0) if machine.mechanism is None else machine.mechanism._values.ravel()
+    dimensions = np.empty(0) if machine.mechanism is None else machine.mechanism.values.ravel()
     q, stable, stiffness, frequency, indifferent, jumps, incomplete, empty, failure = (
-        machine._core.equilibria(dimensions, list(ends), is_turn, intervals)
+        machine.core.equilibria(dimensions, list(ends), is_turn, intervals)
     )
     if failure is not None:
         raise failure
@@ -143,7 +143,7 @@ def search_range(machine: MachineModel, between: Any) -> tuple[tuple[float, floa
     is_slide = mechanism is not None and mechanism.driver in mechanism.slides
     if between is None:
         if mechanism is None:
-            knots, periodic = machine._core.tables[0]
+            knots, periodic = machine.core.tables[0]
             return (knots[0], knots[-1]), periodic, INTERVALS
         if is_slide:
             message = (

@@ -9,7 +9,7 @@ import numpy as np
 from assur._arrays import real_array
 from assur._extreme import Extreme
 from assur.errors import AssurError, InputError
-from assur.flywheel.result import Flywheel
+from assur.flywheel.result import Flywheel, curve_of, problem_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from assur._arrays import Float
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
     from assur.flywheel.result import Curve
 
 
@@ -45,16 +45,16 @@ class FlywheelOfDesigns(Flywheel):
             ),
             period=stacked([one.period for one in each]),
             mean=each[0].mean,
-            turn=each[0]._turn,
+            turn=each[0].turn,
             shape=shape,
         )
 
     @classmethod
     def of(
         cls,
-        machine: Machine,
+        machine: MachineModel,
         wanted: tuple[Any, Any, Any, int, str],
-        one: Callable[[Machine, Any, Any, Any, int, str], Flywheel],
+        one: Callable[[MachineModel, Any, Any, Any, int, str], Flywheel],
     ) -> Self:
         """Size the flywheel of each design for a fluctuation, mean speed and mean."""
         fluctuation, speed, mean, turns, on_error = wanted
@@ -80,10 +80,11 @@ class FlywheelOfDesigns(Flywheel):
         return type(self), (self._each, self.shape)
 
     def _problem(self, entry: tuple[int, ...]) -> str | None:
-        return self._each[int(np.ravel_multi_index(entry, self.shape))]._problem(())
+        own = self._each[int(np.ravel_multi_index(entry, self.shape))]
+        return problem_of(own, ())
 
     def _curve(self, what: Curve, x: Float) -> Any:
-        curves = np.array([one._curve(what, x) for one in self._each], np.float64)
+        curves = np.array([curve_of(one, what, x) for one in self._each], np.float64)
         curves = curves.reshape(self.shape + x.shape)
         curves.flags.writeable = False
         return curves

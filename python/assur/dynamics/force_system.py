@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from assur._arrays import Float
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics._reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
@@ -95,8 +95,8 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     """Return the machine of one design at one position, as a row of one."""
     assert found._source is not None
     machine, _ = found._source
-    mechanism = found._mechanism
-    drivers = mechanism._driver_count
+    mechanism = found.mechanism
+    drivers = mechanism.driver_count
     if mechanism.shape:
         mechanism = mechanism.design(index[: len(mechanism.shape)])
         machine = machine.of(mechanism)
@@ -106,10 +106,10 @@ def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Mot
     row = q[:, 0] if drivers == 1 else q
     rates = (speed[:, 0], acceleration[:, 0]) if drivers == 1 else (speed, acceleration)
     motion = mechanism.solve(row, order=2, on_error="nan")
-    held = {key: values[index][np.newaxis] for key, values in found._found.items()}
+    held = {key: values[index][np.newaxis] for key, values in found.by_key.items()}
     part = type(found)(mechanism, (row, *rates), held, found.status[index].reshape(1))
     loads = [one.at(index) for one in loads_of(found)]
-    at: Any = Positions(machine, motion, part, loads)  # type: ignore[arg-type]
+    at: Any = Positions(machine, motion, part, loads)
     return at, motion[0]
 
 
@@ -119,7 +119,7 @@ def _checked_links(mechanism: Mechanism, links: str | Sequence[str] | None) -> t
         return tuple(moving)
     wanted = checked_names(links, "links")
     for link in wanted:
-        mechanism._core.require("link", link)
+        mechanism.core.require("link", link)
     if not wanted or "ground" in wanted:
         message = f"links is {short(links)}: moving links are needed, some of {', '.join(moving)}"
         raise InputError(message)

@@ -11,6 +11,7 @@ from assur._arrays import finite_array, in_range, short
 from assur.dynamics.along import DrivenMotion
 from assur.dynamics.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads import Force, Torque
+from assur.dynamics.reduce import reduced_inertia, reduced_moment
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -68,14 +69,14 @@ def impact(
         message = "a machine of a table has no links: an impact needs a mechanism"
         raise InputError(message)
     _check_load(load)
-    n = machine._drivers
+    n = machine.driver_count
     q, speed, _, shape = broadcast_motion(machine, motion)
     full = shape if n == 1 else (*shape, n)
     before = np.broadcast_to(speed, full).reshape(*shape, n)
     # The unit load's moments on the drivers are the derivatives of its path.
     one = type(machine)(mechanism, loads=[load])
-    path = np.asarray(one.reduced_moment(q, on_error=on_error)).reshape(*shape, n)
-    inertia = np.asarray(machine.reduced_inertia(q, on_error).value).reshape(*shape, n, n)
+    path = np.asarray(reduced_moment(one, q, on_error=on_error)).reshape(*shape, n)
+    inertia = np.asarray(reduced_inertia(machine, q, on_error).value).reshape(*shape, n, n)
     with in_range("an impact"), np.errstate(divide="ignore"):
         answer = _solved(inertia, path)
         mobility = (path * answer).sum(axis=-1)
@@ -178,11 +179,11 @@ def _impulses(
     of_change = reactions(bodies, DrivenMotion(q, 0.0, known, 0.0), None, on_error)
     of_unit = reactions(one, DrivenMotion(q, 0.0, 0.0, 0.0), None, on_error)
     found = {}
-    for key, values in of_change._found.items():
+    for key, values in of_change.by_key.items():
         factor = impulse[..., None] if values.ndim > np.ndim(impulse) else impulse
         with np.errstate(invalid="ignore"):
             # The place of a guide's force may be at infinity.
-            found[key] = np.asarray(values + factor * of_unit._found[key])
+            found[key] = np.asarray(values + factor * of_unit.by_key[key])
         found[key].flags.writeable = False
     if mechanism.slides:
         places = mechanism.solve(q, order=0, outputs=list(mechanism.slides), on_error=on_error)

@@ -16,7 +16,6 @@ from assur._validate import one_of
 from assur.dynamics import parts
 from assur.dynamics.no_value import not_covered, table_names
 from assur.dynamics.options import (
-    as_list,
     checked_breaks,
     checked_seconds,
     one_design,
@@ -30,11 +29,12 @@ from assur.dynamics.options import (
     without_followers,
     without_friction,
 )
+from assur.dynamics.parts import as_list
 from assur.dynamics.run import Run
 from assur.dynamics.steady import SteadyState
 from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError
-from assur.kinematics.solve import warn_if_degrees
+from assur.kinematics.solve_arguments import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
 
 # Less accurate periods do not determine the speed.
 LOOSEST_RTOL = 1e-4
@@ -69,11 +69,11 @@ BALANCE_WARN_RTOL = 1e-6
 
 
 def run(
-    machine: Machine, t_end: Any, q0: Any, speed0: Any, q_end: Any, t0: Any, **options: Any
+    machine: MachineModel, t_end: Any, q0: Any, speed0: Any, q_end: Any, t0: Any, **options: Any
 ) -> Run:
     """See `Machine.run`."""
     one_design(machine, "run")
-    if machine._drivers > 1:
+    if machine.driver_count > 1:
         without_friction(machine, "run with several drivers")
         without_followers(machine, "run with several drivers")
     along_q = q_end is not None
@@ -81,7 +81,7 @@ def run(
         message = "run needs t_end or q_end" + (", not both" if along_q else "")
         raise InputError(message)
     watched = as_list(options["events"], "events")
-    n = machine._drivers
+    n = machine.driver_count
     checked = [known_events.checked(one, machine.mechanism, n) for one in watched]
     if along_q and any(isinstance(one, known_events.Obstacle) for one in watched):
         message = "q_end: over q a motion does not turn back at an Obstacle; give t_end"
@@ -98,7 +98,7 @@ def run(
         message = f"q_end = {end:g} lies behind q0 = {start[0]:g} at speed0 = {speeds[0]:g}"
         raise InputError(message, value=end)
     with _naming_tables(machine, np.array(start), speeds):
-        core = machine._core.run(
+        core = machine.core.run(
             _dimensions(machine),
             along_q,
             (real_number(t0, "t0"), start, speeds),
@@ -130,7 +130,7 @@ def run(
 
 
 def steady_state(
-    machine: Machine, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
+    machine: MachineModel, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
 ) -> SteadyState:
     """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
     one_design(machine, "steady_state")
@@ -143,7 +143,7 @@ def steady_state(
         raise InputError(message, value=0.0)
     ratio = 1.0 if machine.motor is None else float(getattr(machine.motor, "ratio", 1.0))
     span = math.copysign(2.0 * math.pi * turn_count(turns), ratio if guess is None else guess)
-    for q, periodic in machine._core.tables:
+    for q, periodic in machine.core.tables:
         require_whole_periods(q[-1] - q[0] if periodic else None, abs(span))
     flywheel = real_number(options["flywheel"], "flywheel")
     if flywheel < 0.0:
@@ -156,7 +156,7 @@ def steady_state(
     # Where the core finds a table that does not cover the period, it says nothing of the load.
     places = start + np.linspace(0.0, span, PLACES)
     with _naming_tables(machine, places, [0.0 if guess is None else guess]):
-        core, numbers = machine._core.steady(
+        core, numbers = machine.core.steady(
             _dimensions(machine),
             start,
             span,
@@ -182,7 +182,7 @@ def steady_state(
 
 
 @contextmanager
-def _naming_tables(machine: Machine, places: Float, speeds: list[float]) -> Iterator[None]:
+def _naming_tables(machine: MachineModel, places: Float, speeds: list[float]) -> Iterator[None]:
     """Name the load or the driver whose table does not cover these, where the core refuses one."""
     try:
         yield
@@ -192,7 +192,7 @@ def _naming_tables(machine: Machine, places: Float, speeds: list[float]) -> Iter
         driver = _driver_beyond(machine, speeds)
         if driver is not None and str(error).startswith(OF_MOTOR):
             raise _of_driver(driver, error) from None
-        if machine._drivers > 1:
+        if machine.driver_count > 1:
             raise
         named = not_covered(machine, places)
         if named is None:
@@ -200,10 +200,10 @@ def _naming_tables(machine: Machine, places: Float, speeds: list[float]) -> Iter
         raise named from None
 
 
-def _driver_beyond(machine: Machine, speeds: list[float]) -> str | None:
+def _driver_beyond(machine: MachineModel, speeds: list[float]) -> str | None:
     """Return the driver whose motor's table over its speed does not cover the speed of it."""
     assert machine.mechanism is not None
-    drivers = machine.mechanism._description.drivers
+    drivers = machine.mechanism.description.drivers
     motors = parts.motors(machine.motor, len(drivers))
     for driver, motor, speed in zip(drivers, motors, speeds, strict=True):
         if isinstance(motor, Table) and not motor.q[0] <= speed * motor.ratio <= motor.q[-1]:
@@ -219,18 +219,16 @@ def _of_driver(driver: str, error: InputError) -> InputError:
     )
 
 
-def _dimensions(machine: Machine) -> list[float]:
-    dimensions: list[float] = (
-        [] if machine.mechanism is None else machine.mechanism._values.tolist()
-    )
+def _dimensions(machine: MachineModel) -> list[float]:
+    dimensions: list[float] = [] if machine.mechanism is None else machine.mechanism.values.tolist()
     return dimensions
 
 
-def _start(machine: Machine, value: npt.ArrayLike | None, name: str) -> list[float]:
+def _start(machine: MachineModel, value: npt.ArrayLike | None, name: str) -> list[float]:
     if value is None and name == "q0":
-        value = machine._core.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
+        value = machine.core.tables[0][0][0] if machine.mechanism is None else machine.mechanism.q0
     array = finite_array(value, name)
-    n = machine._drivers
+    n = machine.driver_count
     if array.shape not in ((), (n,)):
         message = f"{name} has the shape {array.shape}: {n} numbers are needed"
         raise InputError(message)

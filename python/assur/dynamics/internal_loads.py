@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.dynamics.beam import Beam
-    from assur.dynamics.machine import Machine
-    from assur.dynamics.model import OnError
+    from assur.dynamics.model import MachineModel, OnError
     from assur.dynamics.rod import Rod
 
 __all__ = ["InternalLoads", "LoadExtremes"]
@@ -168,7 +167,7 @@ class InternalLoads:
 
 
 def internal_loads(
-    machine: Machine,
+    machine: MachineModel,
     link: str,
     motion: DrivenMotion,
     along: Sequence[str] | None,
@@ -185,7 +184,7 @@ def internal_loads(
     whole_number(n, "n", 2, MAX_POINTS)
     rod = straight_rod(machine, machine.mechanism, link, along, density)
     *given, shape = broadcast_motion(machine, motion)
-    drivers = machine._drivers
+    drivers = machine.driver_count
     full = shape if drivers == 1 else (*shape, drivers)
     q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in given)
     senses = motion.senses

@@ -34,22 +34,22 @@ AT_JUMP = 1e-11
 
 def stations_between(machine: MachineModel, low: float, high: float) -> list[float]:
     """Return where loads of one design that follow other coordinates are not smooth."""
-    if not machine._core.follows[0] or machine.mechanism is None or machine._drivers > 1:
+    if not machine.core.follows[0] or machine.mechanism is None or machine.driver_count > 1:
         return []
-    return machine._core.stations(machine.mechanism._values.ravel().tolist(), low, high)
+    return machine.core.stations(machine.mechanism.values.ravel().tolist(), low, high)
 
 
 def _reversals_between(machine: MachineModel, low: float, high: float) -> list[float]:
     """Return where pairs with friction of one design reverse: the friction jumps there."""
-    if not machine.friction or machine.mechanism is None or machine._drivers > 1:
+    if not machine.friction or machine.mechanism is None or machine.driver_count > 1:
         return []
-    return machine._core.reversals(machine.mechanism._values.ravel().tolist(), low, high)
+    return machine.core.reversals(machine.mechanism.values.ravel().tolist(), low, high)
 
 
 def jumps_between(machine: MachineModel, low: float, high: float) -> Float:
     """Return where the loads of one design may jump between two coordinates."""
     found = stations_between(machine, low, high)
-    for (rows, periodic), own in zip(machine._core.tables, machine._core.jumps, strict=True):
+    for (rows, periodic), own in zip(machine.core.tables, machine.core.jumps, strict=True):
         if not own:
             continue
         period = rows[-1] - rows[0]
@@ -80,7 +80,7 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
     behind it: loads and friction must be those of the same side.
     """
     q, speed = np.asarray(motion.q), np.asarray(motion.speed)
-    if machine._drivers > 1 or q.ndim != 1 or q.size == 0 or not np.isfinite(q).all():
+    if machine.driver_count > 1 or q.ndim != 1 or q.size == 0 or not np.isfinite(q).all():
         return motion
     size = np.maximum(1.0, np.abs(q))
     reach = 2.0 * BESIDE * float(size.max())
@@ -98,7 +98,7 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
     rows = at_jump & (speed != 0.0)
     if rows.any():
         # So near the run itself says how fast it is: its own effort stays zero.
-        if run._along_q:
+        if run.along_q:
             state = run.at(q=np.clip(moved[rows], low + reach, high - reach))
         else:
             times = run.t[rows] + (way / np.where(rows, np.abs(speed), 1.0))[rows]

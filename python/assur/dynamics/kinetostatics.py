@@ -17,10 +17,11 @@ from assur.dynamics.no_value import Moment, without_value
 from assur.dynamics.places import links_at
 from assur.dynamics.reaction_key import RESIDUAL, SOLUTIONS, Key
 from assur.dynamics.reactions import Reactions
-from assur.dynamics.reduce import checked_senses, single, with_designs
+from assur.dynamics.reduce import reduce, single
+from assur.dynamics.reduced import checked_senses, with_designs
 from assur.dynamics.values import function_values
 from assur.errors import InputError
-from assur.kinematics.solve import warn_if_degrees
+from assur.kinematics.solve_arguments import warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,7 +39,7 @@ UNSOLVED, UNDETERMINED = -1.0, -2.0
 
 
 def _keys(mechanism: Mechanism) -> list[Key]:
-    core = mechanism._core
+    core = mechanism.core
     is_redundant = any(core.redundant)
     keys: list[Key] = []
     for joint, links in links_at(mechanism).items():
@@ -55,7 +56,7 @@ def _keys(mechanism: Mechanism) -> list[Key]:
 def _keys_of_friction(machine: MachineModel) -> list[Key]:
     mechanism = machine.mechanism
     assert mechanism is not None
-    core, links_of = mechanism._core, links_at(mechanism)
+    core, links_of = mechanism.core, links_at(mechanism)
     keys: list[Key] = []
     for name, friction in machine.friction.items():
         if isinstance(friction, SlideFriction):
@@ -104,7 +105,7 @@ def reactions(
         message = "a machine of a table has no joints: reactions need a mechanism"
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
-    drivers, is_complete = machine._drivers, keys is None
+    drivers, is_complete = machine.driver_count, keys is None
     if keys is None:
         keys = [*_keys(mechanism), *_keys_of_friction(machine)]
     moving = broadcast_motion(machine, motion)
@@ -150,7 +151,7 @@ def _senses_needed(
     machine: MachineModel, motion: DrivenMotion, sense: Any, shape: tuple[int, ...]
 ) -> Senses | None:
     """Return the senses of a motion with a speed of 0 somewhere, if the machine needs them."""
-    asks = bool(machine.friction) or machine._core.follows[1]
+    asks = bool(machine.friction) or machine.core.follows[1]
     if motion.senses is None or sense is not None or not asks:
         return None
     senses = motion.senses.reshaped(shape)
@@ -226,11 +227,11 @@ def _solved(
     """Return an array for each key, the statuses, and the exception of the first failure."""
     mechanism = machine.mechanism
     assert mechanism is not None
-    drivers, designs = machine._drivers, machine.shape
+    drivers, designs = machine.driver_count, machine.shape
     x, v, a, shape = moving
     per_design = bool(designs) and x.ndim > (1 if drivers == 1 else 2)
     full = shape if drivers == 1 else (*shape, drivers)
-    everywhere, functions = np.broadcast_to(x, full), machine._core.load_functions
+    everywhere, functions = np.broadcast_to(x, full), machine.core.load_functions
     # One speed for all positions is not repeated; (2, 1) of two drivers are two positions.
     given_once = ((),) if drivers == 1 else ((drivers,),)
     speeds, accelerations = (
@@ -244,8 +245,8 @@ def _solved(
     given = np.empty(0)
     if functions:
         given = function_values(functions, *rows, at.ravel())
-    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine._core.reactions(
-        mechanism._values.reshape(-1),
+    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine.core.reactions(
+        mechanism.values.reshape(-1),
         coordinates,
         per_design,
         speeds,
@@ -297,7 +298,7 @@ def broadcast_motion(
     machine: MachineModel, motion: DrivenMotion
 ) -> tuple[Float, Float, Float, tuple[int, ...]]:
     """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
-    n, designs = machine._drivers, machine.shape
+    n, designs = machine.driver_count, machine.shape
     q, speed, acceleration = motion[:3]
     x = real_array(q, "q")
     if machine.mechanism is not None:
@@ -333,7 +334,7 @@ def effort(
     sense: float | Sequence[float] | None = None,
 ) -> Any:
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
-    n = machine._drivers
+    n = machine.driver_count
     if machine.friction:
         # What friction takes depends on the forces in its pairs.
         keys = [*(Key("driver", driver) for driver in range(n)), SOLUTIONS]
@@ -349,7 +350,7 @@ def effort(
     if senses is not None:
         rests, sense = senses.rests, 1.0
         going = senses.creeping(np.broadcast_to(v, shape), with_begins=True)
-    inertia, rates, moment, _ = bare._reduce(x, going, on_error, times(motion.t, shape), sense)
+    inertia, rates, moment, _ = reduce(bare, x, going, on_error, times(motion.t, shape), sense)
     speeds = np.broadcast_to(v, full).reshape(*shape, n)
     accelerations = np.broadcast_to(a, full).reshape(*shape, n)
     out = -moment

@@ -11,7 +11,7 @@ from assur.dynamics.reaction_key import Key
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics._reactions import Reactions
 
 
 class LoadForce(NamedTuple):
@@ -56,7 +56,7 @@ def loads_of(found: Reactions) -> list[LoadForce]:
     machine, again = found._source
     # The core counts the loads without gravity, which acts on bodies.
     own = [index for index, load in enumerate(machine.loads) if not isinstance(load, Gravity)]
-    actions = machine._core.load_actions
+    actions = machine.core.load_actions
     keys = [
         Key(kind, index)
         for index, (*_, is_couple) in enumerate(actions)
@@ -64,7 +64,7 @@ def loads_of(found: Reactions) -> list[LoadForce]:
     ]
     if not keys:
         return []
-    values, rests = again(keys, 0)._found, np.asarray(found.at_rest)
+    values, rests = again(keys, 0).by_key, np.asarray(found.at_rest)
     all_forces = []
     for index, (load, link, joint, is_couple) in enumerate(actions):
         strength = values[Key("load couple" if is_couple else "load force", index)]

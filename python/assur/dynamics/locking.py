@@ -67,8 +67,10 @@ def self_locking(
 ) -> SelfLocking:
     """Return where friction locks a machine; see `Machine.self_locking`."""
     one_design(machine, "self_locking")
-    if machine._drivers > 1:
-        message = f"the machine has {machine._drivers} drivers: self_locking is over one coordinate"
+    if machine.driver_count > 1:
+        message = (
+            f"the machine has {machine.driver_count} drivers: self_locking is over one coordinate"
+        )
         raise InputError(message)
     mechanism = machine.mechanism
     if mechanism is None or not machine.friction:

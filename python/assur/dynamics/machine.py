@@ -13,6 +13,7 @@ from assur.dynamics import (
     integrate,
     kinetostatics,
     locking,
+    reduce,
     size_flywheel,
 )
 from assur.dynamics import internal_loads as inside
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from assur.dynamics.locking import SelfLocking
     from assur.dynamics.model import OnError
     from assur.dynamics.reactions import Reactions
+    from assur.dynamics.reduce import Reduced
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean
 
@@ -94,6 +96,122 @@ class Machine(MachineModel):
     >>> machine.reduced_moment(np.pi / 2).round(6)
     np.float64(100.0)
     """
+
+    def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
+        """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
+            drivers (..., n).
+        on_error : {"raise", "nan"}
+            Where there is no position or no analogue: raise an error, or return NaN.
+
+        Returns
+        -------
+        Reduced
+            `value` and `d1`, of shape S + (N,), rotors of motors included.
+
+        Raises
+        ------
+        PositionError
+            A position that the assembly does not reach, or without analogues.
+        InputError
+            Wrong arguments, or coordinates beyond a table.
+
+        Examples
+        --------
+        >>> import assur
+        >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
+        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
+        >>> value, d1 = machine.reduced_inertia([0.0, 1.0])
+        >>> value.round(6)
+        array([0.5     , 0.015382])
+        """
+        return reduce.reduced_inertia(self, q, on_error)
+
+    def reduced_moment(
+        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: OnError = "raise"
+    ) -> Any:
+        """Return the reduced moment of all loads, without the motor.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, see `reduced_inertia`.
+        speed : array_like
+            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers, functions and loads with
+            ``while_`` need them. (Functions of time are evaluated at t = 0.)
+        on_error : {"raise", "nan"}
+            See `reduced_inertia`.
+
+        Returns
+        -------
+        ndarray
+            N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
+
+        Raises
+        ------
+        PositionError
+            See `reduced_inertia`.
+        InputError
+            Wrong arguments, coordinates beyond a table, a function that gives no finite number; a
+            load with ``while_`` at rest.
+        MotionError
+            A damper or spring of length zero, or a load too great.
+
+        Examples
+        --------
+        1000 N on a piston that at π/2 moves as fast as the crank's pin, at 0.1 m:
+
+        >>> import assur, numpy as np
+        >>> force = assur.Force("B", (-1000.0, 0.0))
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), loads=[force])
+        >>> machine.reduced_moment([0.0, np.pi / 2]).round(6)  # N·m
+        array([  0., 100.])
+        """
+        return reduce.reduced_moment(self, q, speed, on_error)
+
+    def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
+        """Return the potential energy of weights, springs and closed gases.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates, see `reduced_inertia`.
+        on_error : {"raise", "nan"}
+            See `reduced_inertia`.
+
+        Returns
+        -------
+        ndarray
+            J, of shape S + (N,). A weight has −m g·r, r from the drawing's origin; a spring
+            k e²/2 + preload · e, e its elongation (or twist) from the free length (or angle); a
+            `Gas` in a `Pressure` without ``while_`` −∫ (p − p_ambient) dV from its `at`. Other
+            loads have none here, constant forces and torques included; so `reduced_moment` is
+            −dV/dq if there are only such weights, springs and gases.
+
+        Raises
+        ------
+        PositionError
+            See `reduced_inertia`.
+        InputError
+            Wrong arguments, or coordinates beyond a table.
+
+        See Also
+        --------
+        Machine.equilibria : positions of rest, where this is extreme (constant loads count too).
+
+        Examples
+        --------
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> spring = assur.Spring("O", "B", stiffness=200.0, length=0.4)
+        >>> assur.Machine(press, loads=[spring]).potential([0.0, 3.141592653589793]).round(9)
+        array([1., 1.])
+        """
+        return reduce.potential(self, q, on_error)
 
     def reactions(
         self,

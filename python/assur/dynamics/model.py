@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
 
 from assur import _core
-from assur._arrays import counted, flag, real_array
+from assur._arrays import counted, flag
 from assur._by_value import key_of
-from assur._summary import summary
+from assur._later import explorer, save
 from assur._validate import one_of
-from assur.dynamics import parts, reduce
+from assur.dynamics import parts
 from assur.dynamics.friction import checked_friction
 from assur.dynamics.functions import check_functions
 from assur.dynamics.loads import checked_load
-from assur.dynamics.options import as_list
 from assur.dynamics.over import check_over
 from assur.dynamics.takers import warn_of_open_takers
 from assur.errors import InputError
@@ -30,46 +29,19 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from typing_extensions import Self
 
-    from assur._arrays import Float
     from assur.dynamics.friction import PairFriction
     from assur.dynamics.loads import Body, Load
     from assur.dynamics.motors import Motor
     from assur.flywheel import Spline
     from assur.kinematics.mechanism import Mechanism
-    from assur.studio.notebook import Explorer
+
+AnyMachine = TypeVar("AnyMachine", bound="MachineModel")
 
 OnError: TypeAlias = Literal["raise", "nan"]
 
 
-class Reduced(NamedTuple):
-    """The reduced inertia and its exact derivative.
-
-    Attributes
-    ----------
-    value : ndarray
-        kg·m² (driven slide: kg); for n drivers the mass matrix, (..., n, n).
-    d1 : ndarray
-        Its derivative by the coordinate; for n drivers (..., n, n, n), the last axis that of the
-        coordinate.
-
-    Examples
-    --------
-    >>> import assur, numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
-    >>> reduced = machine.reduced_inertia(np.pi / 2)  # the piston moves as fast as the pin
-    >>> reduced.value.round(6), reduced.d1.round(6)  # kg·m², kg·m²/rad
-    (np.float64(0.2), np.float64(-0.10328))
-    """
-
-    value: Any
-    d1: Any
-
-    def __repr__(self) -> str:
-        return summary(self)
-
-
 class MachineModel:
-    """What a machine consists of, and its inertia and moment referred to the driver."""
+    """What a machine consists of."""
 
     mechanism: Mechanism | None
 
@@ -98,11 +70,11 @@ class MachineModel:
         self.bodies = MappingProxyType(
             dict(parts.body(mechanism, link, one) for link, one in bodies.items())
         )
-        self.loads = tuple(as_list(loads, "loads"))
-        self._drivers = int(np.size(mechanism.q0))
+        self.loads = tuple(parts.as_list(loads, "loads"))
+        self.driver_count = int(np.size(mechanism.q0))
         # With one driver, the motor itself.
         self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
-        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self._drivers:
+        if isinstance(self.motor, tuple) and len(self.motor) == 1 == self.driver_count:
             self.motor = self.motor[0]
         self.friction: Mapping[str, PairFriction] = MappingProxyType(
             checked_friction(mechanism, friction)
@@ -111,9 +83,9 @@ class MachineModel:
             type(self)._made,
             (mechanism, dict(self.bodies), self.loads, self.motor, dict(self.friction)),
         )
-        motors = parts.motors(self.motor, self._drivers)
-        self._core = _core.Machine(
-            mechanism._core,
+        motors = parts.motors(self.motor, self.driver_count)
+        self.core = _core.Machine(
+            mechanism.core,
             loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
             bodies=list(self.bodies.items()),
             motors=motors,
@@ -122,7 +94,7 @@ class MachineModel:
         check_over(mechanism, self.loads)
         check_functions(self.loads, motors, np.ravel(mechanism.q0).tolist())
         if mechanism.driver not in mechanism.slides:
-            for rows, periodic in self._core.tables:
+            for rows, periodic in self.core.tables:
                 warn_if_degrees(rows[-1] - rows[0], periodic)
 
     @classmethod
@@ -201,7 +173,7 @@ class MachineModel:
         self = cls.__new__(cls)
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies, self.friction = MappingProxyType({}), MappingProxyType({})
-        self._drivers = 1
+        self.driver_count = 1
         x, columns = parts.columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
         periodic = flag(periodic, "periodic")
@@ -209,7 +181,7 @@ class MachineModel:
         table = x, columns["moment"], columns["inertia"]
         self._rebuild_with = cls.from_table, (*table, motor, spline, periodic)
         motors = parts.motors(motor, 1)
-        self._core = _core.Machine.from_table(
+        self.core = _core.Machine.from_table(
             x, columns["moment"], columns["inertia"], spline, periodic, *motors
         )
         check_functions((), motors, [float(x[0])])
@@ -242,12 +214,9 @@ class MachineModel:
         >>> assur.load(path)
         <assur.Machine I(crank) → II(rod, piston), 1 body, 0 loads>
         """
-        import assur
+        save(self, path)
 
-        # Through the package: files are a floor above.
-        assur.files.save(self, path)
-
-    def explore(self, height: int = 640) -> Explorer:
+    def explore(self, height: int = 640) -> Any:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: what is changed there is in ``view.machine``, assigning ``view.machine`` redraws.
@@ -275,13 +244,11 @@ class MachineModel:
         >>> press.explore().machine
         <assur.Machine I(crank) → II(rod, piston), 1 body, 0 loads>
         """
-        from assur._later import explorer
-
         return explorer(self, height)
 
     def __setattr__(self, name: str, value: object) -> None:
         # The core has copied everything: a change here would have no effect.
-        if "_core" in self.__dict__:
+        if "core" in self.__dict__:
             message = f"Machine is immutable ({name!r}): make another one"
             raise AttributeError(message)
         super().__setattr__(name, value)
@@ -347,136 +314,3 @@ class MachineModel:
             message = "this machine is a single table, not a batch"
             raise InputError(message)
         return self.of(self.mechanism.design(index))
-
-    def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
-        """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
-
-        Parameters
-        ----------
-        q : array_like
-            Coordinates, rad or m: a number, (N,) or, for a batch of shape S, S + (N,); for n
-            drivers (..., n).
-        on_error : {"raise", "nan"}
-            Where there is no position or no analogue: raise an error, or return NaN.
-
-        Returns
-        -------
-        Reduced
-            `value` and `d1`, of shape S + (N,), rotors of motors included.
-
-        Raises
-        ------
-        PositionError
-            A position that the assembly does not reach, or without analogues.
-        InputError
-            Wrong arguments, or coordinates beyond a table.
-
-        Examples
-        --------
-        >>> import assur
-        >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
-        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
-        >>> value, d1 = machine.reduced_inertia([0.0, 1.0])
-        >>> value.round(6)
-        array([0.5     , 0.015382])
-        """
-        inertia, rates, _, _ = self._reduce(q, None, on_error)
-        if self._drivers == 1:
-            return Reduced(inertia[..., 0, 0][()], rates[..., 0, 0, 0][()])
-        return Reduced(inertia, np.moveaxis(rates, -3, -1))
-
-    def reduced_moment(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: OnError = "raise"
-    ) -> Any:
-        """Return the reduced moment of all loads, without the motor.
-
-        Parameters
-        ----------
-        q : array_like
-            Coordinates, see `reduced_inertia`.
-        speed : array_like
-            Speeds of the drivers, rad/s or m/s, broadcast to q; dampers, functions and loads with
-            ``while_`` need them. (Functions of time are evaluated at t = 0.)
-        on_error : {"raise", "nan"}
-            See `reduced_inertia`.
-
-        Returns
-        -------
-        ndarray
-            N·m (driven slide: N), of shape S + (N,); for n drivers (..., n).
-
-        Raises
-        ------
-        PositionError
-            See `reduced_inertia`.
-        InputError
-            Wrong arguments, coordinates beyond a table, a function that gives no finite number; a
-            load with ``while_`` at rest.
-        MotionError
-            A damper or spring of length zero, or a load too great.
-
-        Examples
-        --------
-        1000 N on a piston that at π/2 moves as fast as the crank's pin, at 0.1 m:
-
-        >>> import assur, numpy as np
-        >>> force = assur.Force("B", (-1000.0, 0.0))
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), loads=[force])
-        >>> machine.reduced_moment([0.0, np.pi / 2]).round(6)  # N·m
-        array([  0., 100.])
-        """
-        moment = self._reduce(q, real_array(speed, "speed"), on_error)[2]
-        return moment[..., 0][()] if self._drivers == 1 else moment
-
-    def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
-        """Return the potential energy of weights, springs and closed gases.
-
-        Parameters
-        ----------
-        q : array_like
-            Coordinates, see `reduced_inertia`.
-        on_error : {"raise", "nan"}
-            See `reduced_inertia`.
-
-        Returns
-        -------
-        ndarray
-            J, of shape S + (N,). A weight has −m g·r, r from the drawing's origin; a spring
-            k e²/2 + preload · e, e its elongation (or twist) from the free length (or angle); a
-            `Gas` in a `Pressure` without ``while_`` −∫ (p − p_ambient) dV from its `at`. Other
-            loads have none here, constant forces and torques included; so `reduced_moment` is
-            −dV/dq if there are only such weights, springs and gases.
-
-        Raises
-        ------
-        PositionError
-            See `reduced_inertia`.
-        InputError
-            Wrong arguments, or coordinates beyond a table.
-
-        See Also
-        --------
-        Machine.equilibria : positions of rest, where this is extreme (constant loads count too).
-
-        Examples
-        --------
-        >>> import assur
-        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
-        >>> spring = assur.Spring("O", "B", stiffness=200.0, length=0.4)
-        >>> assur.Machine(press, loads=[spring]).potential([0.0, 3.141592653589793]).round(9)
-        array([1., 1.])
-        """
-        found = self._reduce(q, None, on_error)[3]
-        if on_error == "raise":
-            reduce.require_potential(self, q, found)
-        return found[()]
-
-    def _reduce(
-        self,
-        q: npt.ArrayLike,
-        speed: npt.ArrayLike | None,
-        on_error: str,
-        t: npt.ArrayLike = 0.0,
-        sense: Any = None,
-    ) -> tuple[Float, Float, Float, Float]:
-        return reduce.reduce(self, q, speed, on_error, t, sense)

@@ -9,6 +9,7 @@ import numpy as np
 from assur.dynamics.loads import Damper, Force, Gravity, Pressure, Spring, Torque
 from assur.dynamics.motors import ConstantTorque
 from assur.dynamics.pressure import Gas
+from assur.dynamics.reduced import answer
 from assur.dynamics.table import Table
 from assur.dynamics.values import function_values
 from assur.errors import InputError, MotionError
@@ -85,7 +86,7 @@ def table_names(machine: MachineModel) -> tuple[str, ...]:
         elif isinstance(value, Table):
             one = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
             (over_q if value.over is None else others).append(one)
-    return (*(over_q or ["a table over q"] * len(machine._core.tables)), *others)
+    return (*(over_q or ["a table over q"] * len(machine.core.tables)), *others)
 
 
 def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
@@ -137,8 +138,9 @@ def _motor_values(machine: MachineModel) -> Iterator[tuple[str, Any]]:
 def _is_finite(machine: MachineModel, moment: Moment) -> bool:
     """Whether inertia and moment have values."""
     q, speed = (x if x.size > 1 else x[0] for x in (moment.q, moment.speed))
-    inertia, rates, found, _ = machine._reduce(q, speed, "nan", moment.t, moment.sense)
-    return all(bool(np.isfinite(one).all()) for one in (inertia, rates, found))
+    found = answer(machine, q, speed, moment.t, moment.sense)
+    numbers = found.inertia, found.rates, found.moment
+    return all(bool(np.isfinite(one).all()) for one in numbers)
 
 
 def _of_load(mechanism: Mechanism, name: str, load: Load, moment: Moment) -> AssurError:

@@ -41,7 +41,7 @@ def without_friction(machine: MachineModel, what: str) -> None:
 
 def without_followers(machine: MachineModel, what: str) -> None:
     """Raise InputError for loads that follow other coordinates than the driver's."""
-    if machine._core.follows[0]:
+    if machine.core.follows[0]:
         message = (
             f"{what} has no loads with over=, while_= or a Gas yet: make the machine with one "
             "driver, or without them; reactions and effort have them"
@@ -53,7 +53,7 @@ def require_rotary_driver(machine: MachineModel, what: str) -> None:
     """Raise InputError unless the machine has one driver and that is an angle."""
     driver = None if machine.mechanism is None else machine.mechanism.driver
     slides = {} if machine.mechanism is None else machine.mechanism.slides
-    if machine._drivers > 1 or (isinstance(driver, str) and driver in slides):
+    if machine.driver_count > 1 or (isinstance(driver, str) and driver in slides):
         message = f"driver {driver!r}: {what} needs a single driver that turns"
         raise InputError(message)
 
@@ -70,21 +70,6 @@ def require_whole_periods(period: float | None, span: float) -> None:
             "times: pass turns= if the cycle is longer"
         )
         raise InputError(message, value=period)
-
-
-def as_list(value: Any, name: str) -> list[Any]:
-    """Return a sequence as a list."""
-    if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
-        message = f"{name} must be a sequence, got {short(value)}"
-        raise InputError(message)
-    if getattr(value, "ndim", 1) == 0:
-        message = f"{name} must be a sequence, got {short(value)}"
-        raise InputError(message)
-    try:
-        return list(value)
-    except TypeError as error:  # A single mechanism is no batch of designs.
-        message = f"{name} must be a sequence, got {short(value)}"
-        raise InputError(message) from error
 
 
 def positive_number(value: Any, name: str) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from assur.dynamics.table import Table
 from assur.errors import InputError
+from assur.kinematics.model import with_values
 from assur.kinematics.place import size_of
 from assur.kinematics.table import driven_angles
 
@@ -59,11 +60,11 @@ def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:
 
 
 def _turns(mechanism: Mechanism, link: str) -> bool:
-    drawn = mechanism._with_values(np.array(mechanism._core.drawing))
+    drawn = with_values(mechanism, np.array(mechanism.core.drawing))
     size = size_of(mechanism, drawn=True)
     units = [1.0 if is_angle else size for is_angle in driven_angles(mechanism)]
-    q = drawn._q0_array() + np.multiply.outer(BESIDE, units)
-    places = q if drawn._driver_count > 1 else q[:, 0]
+    q = drawn.q0_array + np.multiply.outer(BESIDE, units)
+    places = q if drawn.driver_count > 1 else q[:, 0]
     angles = drawn.solve(places, order=0, outputs=[link], on_error="nan").link(link).value
     return not (np.isfinite(angles).all() and bool((angles == angles[0]).all()))
 

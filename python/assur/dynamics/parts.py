@@ -61,7 +61,7 @@ def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
 
 def _in_its_frame(mechanism: Mechanism, link: str, body: Body) -> Body:
     """Return a body whose centre of mass is given in the drawing, with its place in the link."""
-    mechanism._core.require("link", link)
+    mechanism.core.require("link", link)
     if mechanism.shape:
         message = (
             f"bodies[{link!r}]: drawn is in the drawing of one design, this is a batch "
@@ -90,9 +90,9 @@ def _frame(mechanism: Mechanism, link: str) -> tuple[complex, complex]:
         span = at[1] - at[0]
         length = math.sqrt(span.real * span.real + span.imag * span.imag)
         return at[0], span / length
-    motion = mechanism.solve(mechanism._q0_array(), order=0, on_error="nan")
+    motion = mechanism.solve(mechanism.q0_array, order=0, on_error="nan")
     sine, cosine = _trig.sin_cos(motion.link(link).value)
-    return complex(*motion._reference_point(link).value), complex(cosine, sine)
+    return complex(*motion.reference_points[link].value), complex(cosine, sine)
 
 
 def load(mechanism: Mechanism, load: Load) -> Load:
@@ -100,7 +100,7 @@ def load(mechanism: Mechanism, load: Load) -> Load:
     if not isinstance(load, Force) or load.on is None or load.on not in mechanism.links:
         return load
     at, on = load.at, load.on
-    if isinstance(at, str) and at in mechanism._joint_names and at not in mechanism.links[on]:
+    if isinstance(at, str) and at in mechanism.joint_names and at not in mechanism.links[on]:
         message = f'Force on: link "{on}" has no joint "{at}": name a link that has it'
         raise InputError(message, joint=at, link=on)
     if isinstance(at, tuple) and at[0] != on:
@@ -128,3 +128,18 @@ def columns(phi: Any, moment: Any, inertia: Any) -> tuple[Float, dict[str, Float
         message = f"the inertia is {least:g} kg·m² at phi = {x[row]:g} rad: it must not be negative"
         raise InputError(message, kind="negative", q=float(x[row]), value=least)
     return x, numbers
+
+
+def as_list(value: Any, name: str) -> list[Any]:
+    """Return a sequence as a list."""
+    if isinstance(value, str | bytes) or not hasattr(value, "__iter__"):
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message)
+    if getattr(value, "ndim", 1) == 0:
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message)
+    try:
+        return list(value)
+    except TypeError as error:  # A single mechanism is no batch of designs.
+        message = f"{name} must be a sequence, got {short(value)}"
+        raise InputError(message) from error

@@ -35,5 +35,5 @@ def links_at(mechanism: Mechanism) -> dict[str, list[str]]:
     """Return the links of every joint, in the order of the description."""
     return {
         joint: [link for link, joints in mechanism.links.items() if joint in joints]
-        for joint in mechanism._joint_names
+        for joint in mechanism.joint_names
     }

@@ -132,9 +132,9 @@ class Reactions(Tabular):
         source: tuple[MachineModel, Callable[[list[Key], int], Reactions]] | None = None,
         at_rest: npt.NDArray[np.bool_] | None = None,
     ) -> None:
-        self._mechanism = mechanism
+        self.mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
-        self._found = found
+        self.by_key = found
         self._again = again
         # The machine, and other reactions of the same motion: with them what acts can be drawn.
         self._source = source
@@ -145,12 +145,12 @@ class Reactions(Tabular):
     def __getstate__(self) -> dict[str, Any]:
         # Functions of the user cannot be pickled.
         source = self._source
-        kept = source is not None and not source[0]._core.load_functions
+        kept = source is not None and not source[0].core.load_functions
         return {**self.__dict__, "_source": source if kept else None}
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return all forces: of a joint on every link but the first, which takes the rest."""
-        mechanism, shape = self._mechanism, self.status.shape
+        mechanism, shape = self.mechanism, self.status.shape
         angles = driven_angles(mechanism)
         columns = [
             *design_columns(shape, len(mechanism.shape)),
@@ -179,35 +179,35 @@ class Reactions(Tabular):
         return columns
 
     def __repr__(self) -> str:
-        pins = [links for links in links_at(self._mechanism).values() if len(links) > 1]
-        joints, slides = len(pins), len(self._mechanism.slides)
+        pins = [links for links in links_at(self.mechanism).values() if len(links) > 1]
+        joints, slides = len(pins), len(self.mechanism.slides)
         return f"<assur.Reactions of {joints} joints, {slides} slides, shape {self.status.shape}>"
 
     @property
     def driver(self) -> Any:
         """Torque or force of the drive."""
-        count = int(np.size(self._mechanism.q0))
-        each = [self._found[Key("driver", index)] for index in range(count)]
+        count = int(np.size(self.mechanism.q0))
+        each = [self.by_key[Key("driver", index)] for index in range(count)]
         return each[0][()] if count == 1 else np.stack(each, axis=-1)
 
     @property
     def shaking_force(self) -> Any:
         """Inertia forces of all bodies, N."""
-        return self._found[Key("shaking force")]
+        return self.by_key[Key("shaking force")]
 
     @property
     def shaking_moment(self) -> Any:
         """Moment of the inertia forces about the drawing's origin, N·m."""
-        return self._found[Key("shaking moment")][()]
+        return self.by_key[Key("shaking moment")][()]
 
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
         solved = has_analogues(self.status) & ~self.at_rest
-        joints, links = self._mechanism._joint_names, list(self._mechanism.links)
-        slides = list(self._mechanism.slides)
+        joints, links = self.mechanism.joint_names, list(self.mechanism.links)
+        slides = list(self.mechanism.slides)
         names = []
-        for key, values in self._found.items():
+        for key, values in self.by_key.items():
             kind, index, on = key.kind, key.index, key.on
             if kind not in ("joint", "normal", "moment", "driver"):
                 continue
@@ -225,16 +225,16 @@ class Reactions(Tabular):
     @property
     def locked(self) -> Any:
         """Where friction leaves no solution."""
-        return np.asarray(self._found.get(SOLUTIONS, np.ones(self.status.shape)) == 0.0)[()]
+        return np.asarray(self.by_key.get(SOLUTIONS, np.ones(self.status.shape)) == 0.0)[()]
 
     @property
     def losses(self) -> dict[str, Any]:
         """Power that friction takes in each pair, W."""
-        joints, slides = self._mechanism._joint_names, list(self._mechanism.slides)
+        joints, slides = self.mechanism.joint_names, list(self.mechanism.slides)
         names = {"joint loss": joints, "slide loss": slides}
         return {
             names[key.kind][key.index]: values[()]
-            for key, values in self._found.items()
+            for key, values in self.by_key.items()
             if key.kind in names
         }
 
@@ -243,7 +243,7 @@ class Reactions(Tabular):
         """What comes out of what goes in."""
         loss = np.sum(list(self.losses.values()), axis=0) + np.zeros(self.status.shape)
         power = np.asarray(self.driver * self.speed)
-        if np.size(self._mechanism.q0) > 1:
+        if np.size(self.mechanism.q0) > 1:
             power = power.sum(axis=-1)
         with np.errstate(invalid="ignore", divide="ignore"):
             return (1.0 - loss / np.maximum(power, loss - power))[()]
@@ -253,22 +253,22 @@ class Reactions(Tabular):
         """All reactions that agree with the law of friction."""
         if self._again is None:
             return (self,)
-        counts = self._found[SOLUTIONS]
+        counts = self.by_key[SOLUTIONS]
         most = int(np.nanmax(counts, initial=0.0))
-        keys = list(self._found)
+        keys = list(self.by_key)
         return (self, *(self._again(keys, index) for index in range(1, most)))[:most]
 
     @property
     def residual(self) -> Any:
         """By how much the law of friction is missed, in parts of the greatest friction."""
-        return self._found.get(RESIDUAL, np.zeros(self.status.shape))[()]
+        return self.by_key.get(RESIDUAL, np.zeros(self.status.shape))[()]
 
     @property
     def safety(self) -> Any:
         """By what coefficients of friction can be multiplied before this solution ends."""
         if self._again is None:
             return np.full(self.status.shape, np.inf)[()]
-        return self._again([SAFETY], 0)._found[SAFETY][()]
+        return self._again([SAFETY], 0).by_key[SAFETY][()]
 
     def joint_moment(self, name: str, on: str) -> Any:
         """Return the moment of friction on a link at a joint.
@@ -305,8 +305,8 @@ class Reactions(Tabular):
         >>> found.joint_moment("B", on="rod").round(3)  # N·m
         np.float64(2.0)
         """
-        key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
-        moment = self._found.get(Key("joint moment", key.index, key.on))
+        key = key_of_joint(self.mechanism, checked_name(name, "joint"), checked_name(on, "on"))
+        moment = self.by_key.get(Key("joint moment", key.index, key.on))
         if moment is None:
             return np.where(np.isnan(self.shaking_moment), np.nan, 0.0)[()]
         return moment[()]
@@ -342,17 +342,17 @@ class Reactions(Tabular):
         >>> found.joint("B", on="piston"), found.joint("A", on="rod")  # N
         (array([-250.,   -0.]), array([-250.,   -0.]))
         """
-        core = self._mechanism._core
-        key = key_of_joint(self._mechanism, checked_name(name, "joint"), checked_name(on, "on"))
-        links, joint = links_at(self._mechanism)[name], key.index
+        core = self.mechanism.core
+        key = key_of_joint(self.mechanism, checked_name(name, "joint"), checked_name(on, "on"))
+        links, joint = links_at(self.mechanism)[name], key.index
         if len(links) == 1:
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
-        if key in self._found:
-            return self._found[key]
+        if key in self.by_key:
+            return self.by_key[key]
         indices = [core.require("link", other) for other in links[:-1]]
-        total = self._found[Key("joint", joint, indices[0])]
+        total = self.by_key[Key("joint", joint, indices[0])]
         for index in indices[1:]:
-            total = total + self._found[Key("joint", joint, index)]
+            total = total + self.by_key[Key("joint", joint, index)]
         return -total
 
     def bearing(
@@ -418,11 +418,11 @@ class Reactions(Tabular):
         >>> machine.reactions(np.pi / 2).slide("bore").normal.round(6)  # N: 1000 · 3/4
         np.float64(750.0)
         """
-        index = self._mechanism._core.require("slide", checked_name(name, "slide"))
+        index = self.mechanism.core.require("slide", checked_name(name, "slide"))
         normal, moment, along = (
-            self._found[Key(kind, index)][()] for kind in ("normal", "moment", "along")
+            self.by_key[Key(kind, index)][()] for kind in ("normal", "moment", "along")
         )
-        friction = self._found.get(Key("friction", index), np.where(np.isnan(normal), np.nan, 0.0))
+        friction = self.by_key.get(Key("friction", index), np.where(np.isnan(normal), np.nan, 0.0))
         return SlideReaction(normal, moment, along, friction[()])
 
     def plot(
@@ -525,7 +525,7 @@ class Reactions(Tabular):
 
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:
     """Return the force at a joint on a link; with `on=None` on one of two links, whichever."""
-    core = mechanism._core
+    core = mechanism.core
     joint, links = core.require("joint", name), links_at(mechanism)[name]
     if on is None:
         if len(links) != 2:

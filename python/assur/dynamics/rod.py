@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.dynamics.acting import Acting
     from assur.dynamics.beam import Beam
-    from assur.dynamics.machine import Machine
-    from assur.dynamics.model import OnError
+    from assur.dynamics.model import MachineModel, OnError
     from assur.kinematics.mechanism import Mechanism
 
 # The body and its distribution may differ by this part: they are typed.
@@ -32,7 +31,7 @@ AGREE = 1e-9
 class Rod(NamedTuple):
     """A link seen as a beam: its line from one joint to another, and its mass along it."""
 
-    machine: Machine
+    machine: MachineModel
     link: str
     along: tuple[str, str]
     length: float
@@ -46,7 +45,7 @@ class Rod(NamedTuple):
         q, speed, acceleration = given
         own = DrivenMotion(q, speed, acceleration, motion.t, motion.senses)
         found = reactions(machine, own, None, on_error)
-        solved = found._mechanism.solve(given[0], order=2, on_error=on_error)
+        solved = found.mechanism.solve(given[0], order=2, on_error=on_error)
         a, b = (solved.joint(joint).value for joint in self.along)
         e = (b - a) / self.length
         n = np.stack([-e[:, 1], e[:, 0]], axis=-1)
@@ -84,17 +83,17 @@ class Rod(NamedTuple):
         return PointLoad(foot, along, across, load.couple - y * along + (x - foot) * across)
 
 
-def _gravity(machine: Machine) -> Float:
+def _gravity(machine: MachineModel) -> Float:
     own = [load.acceleration for load in machine.loads if isinstance(load, Gravity)]
     return np.sum(own, axis=0) if own else np.zeros(2)
 
 
 def straight_rod(
-    machine: Machine, mechanism: Mechanism, link: Any, along: Any, density: Any
+    machine: MachineModel, mechanism: Mechanism, link: Any, along: Any, density: Any
 ) -> Rod:
     """Return a link of a machine of one design as a rod, checked; see `Machine.internal_loads`."""
     link = checked_name(link, "link")
-    mechanism._core.require("link", link)
+    mechanism.core.require("link", link)
     joints = mechanism.links[link]
     if link == "ground" or len(joints) < 2:
         message = f"link {link!r} is not a rod: loads inside it need a moving link of two joints"

@@ -263,9 +263,9 @@ class Run(Tabular):
         tables: tuple[str, ...] = (),
     ) -> None:
         self._init_args = core, mechanism, drivers, events, along_q, tables
-        self._core, self._along_q, self._drivers = core, along_q, drivers
+        self._core, self.along_q, self._drivers = core, along_q, drivers
         self._tables = tables
-        self._mechanism = mechanism
+        self.mechanism = mechanism
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
             array.flags.writeable = False
@@ -343,7 +343,7 @@ class Run(Tabular):
         >>> run.at([0.5, 1.0]).speed.round(6)  # rad/s: 4 rad/s² for t
         array([2., 4.])
         """
-        own, other, name = (q, t, "q") if self._along_q else (t, q, "t")
+        own, other, name = (q, t, "q") if self.along_q else (t, q, "t")
         if own is None or other is not None:
             message = f"this run goes along {name}: call at({name}=...)"
             raise InputError(message)
@@ -357,7 +357,7 @@ class Run(Tabular):
 
     def _clip_to_run(self, x: Float, name: str) -> Float:
         """Raise InputError outside the run; a few ulps beyond an end count as the end."""
-        first, last = (float(end) for end in (self.q if self._along_q else self.t)[[0, -1]])
+        first, last = (float(end) for end in (self.q if self.along_q else self.t)[[0, -1]])
         low, high = min(first, last), max(first, last)
         slack = END_ULPS * np.finfo(np.float64).eps * max(abs(low), abs(high))
         # Written so that NaN counts as outside.
@@ -394,7 +394,7 @@ class Run(Tabular):
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return the ends of the steps: time, coordinates, speeds, energies."""
-        angles = driven_angles(self._mechanism) if self._mechanism else [True] * self._drivers
+        angles = driven_angles(self.mechanism) if self.mechanism else [True] * self._drivers
         columns = [
             Column("t", self.t, "s", None),
             *coordinate_columns(self.q, angles, self.t.shape, degrees),

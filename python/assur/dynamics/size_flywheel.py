@@ -22,13 +22,14 @@ from assur.dynamics.options import (
     turn_count,
     without_friction,
 )
+from assur.dynamics.reduce import reduce
 from assur.dynamics.steady_flywheel import SteadyFlywheel
 from assur.dynamics.table import Table
 from assur.errors import AssurWarning, InputError, MotionError
 from assur.flywheel.sizing import tabulated_flywheel
 
 if TYPE_CHECKING:
-    from assur.dynamics.machine import Machine
+    from assur.dynamics.model import MachineModel
     from assur.flywheel import Flywheel
 
 # Options of the periodic motion: the defaults of `Machine.steady_state`.
@@ -57,7 +58,7 @@ CONVERGED_RTOL = 1e-9
 
 
 def flywheel(
-    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, turns: Any, on_error: str
+    machine: MachineModel, fluctuation: Any, mean_speed: Any, mean: Any, turns: Any, on_error: str
 ) -> Flywheel:
     """See `Machine.flywheel`."""
     turns = turn_count(turns)
@@ -89,7 +90,7 @@ def flywheel(
         )
         raise InputError(message)
     asked = fluctuation, mean_speed, mean, turns, on_error
-    if machine.shape and machine._core.follows[0]:
+    if machine.shape and machine.core.follows[0]:
         # Each design has its own coordinates at which the loads are not smooth.
         made: Flywheel = FlywheelOfDesigns.of(machine, asked, _from_tables)
     else:
@@ -108,7 +109,7 @@ def flywheel(
 
 
 def _from_tables(
-    machine: Machine, fluctuation: Any, mean_speed: Any, mean: Any, turns: int, on_error: str
+    machine: MachineModel, fluctuation: Any, mean_speed: Any, mean: Any, turns: int, on_error: str
 ) -> Flywheel:
     """Refine tables of moment and inertia until the flywheel converges."""
     cycle = 2.0 * math.pi * turns
@@ -126,7 +127,7 @@ def _from_tables(
     while True:
         phi, at, corners = _table_rows(knots, jumps, rows)
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
-        inertia, _, moment, _ = machine._reduce(at, own_speed, on_error)
+        inertia, _, moment, _ = reduce(machine, at, own_speed, on_error)
         if last is None:
             others = _aperiodic_designs(machine, (at, cycle), own_speed, on_error, inertia, moment)
         inertia[others], moment[others] = math.nan, math.nan
@@ -160,7 +161,7 @@ def _from_tables(
 
 
 def _aperiodic_designs(
-    machine: Machine,
+    machine: MachineModel,
     cycle: tuple[Any, float],
     speed: Any,
     on_error: str,
@@ -173,7 +174,7 @@ def _aperiodic_designs(
     """
     phi, length = cycle
     found = np.zeros(machine.shape, bool)
-    later, _, other, _ = machine._reduce(phi + length, speed, on_error)
+    later, _, other, _ = reduce(machine, phi + length, speed, on_error)
     # Inertia times squared speed is the scale of a moment's rounding error.
     of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
     floor = (
@@ -208,12 +209,12 @@ def _aperiodic_designs(
     return found
 
 
-def _flat(machine: Machine, array: Any) -> Any:
+def _flat(machine: MachineModel, array: Any) -> Any:
     """Reshape to one row per design."""
     return array.reshape(*machine.shape, -1)
 
 
-def _jumps(machine: Machine, knots: list[float], cycle: float) -> list[bool]:
+def _jumps(machine: MachineModel, knots: list[float], cycle: float) -> list[bool]:
     """Return at which of the knots of a cycle loads may jump."""
     found = jumps_between(machine, -PERIOD_RTOL, cycle + PERIOD_RTOL)
     # The seam is at both ends.
@@ -221,10 +222,10 @@ def _jumps(machine: Machine, knots: list[float], cycle: float) -> list[bool]:
     return [bool(np.abs(every - q).min() <= PERIOD_RTOL) for q in knots]
 
 
-def _knots(machine: Machine, cycle: float) -> list[float]:
+def _knots(machine: MachineModel, cycle: float) -> list[float]:
     """Return the coordinates of a cycle at which loads are not smooth, its ends included."""
     found = {0.0, cycle, *stations_between(machine, 0.0, cycle)}
-    tables = zip(machine._core.tables, machine._core.rows, strict=True)
+    tables = zip(machine.core.tables, machine.core.rows, strict=True)
     for ((first, last), periodic), rows in tables:
         period = last - first
         require_whole_periods(period if periodic else None, cycle)

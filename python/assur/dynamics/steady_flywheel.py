@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._extreme import Extreme
+from assur.dynamics.reduce import reduced_inertia, reduced_moment
 from assur.flywheel.result import Flywheel
 
 if TYPE_CHECKING:
@@ -70,17 +71,17 @@ class SteadyFlywheel(Flywheel):
         return values if x.shape else float(values)
 
     def _moment(self, q: Float) -> Any:
-        return self._machine.reduced_moment(self._remainder(q), self._motion.at(q).speed)
+        return reduced_moment(self._machine, self._remainder(q), self._motion.at(q).speed)
 
     def _surplus(self, q: Float) -> Any:
         """Return the moment that changes the kinetic energy, of loads and motor."""
         state = self._motion.at(q)
-        inertia = self._machine.reduced_inertia(self._remainder(q))
+        inertia = reduced_inertia(self._machine, self._remainder(q))
         whole = inertia.value + self.inertia
         return whole * state.acceleration + 0.5 * inertia.d1 * np.square(state.speed)
 
     def _machine_inertia(self, q: Float) -> Any:
-        return self._machine.reduced_inertia(self._remainder(q)).value
+        return reduced_inertia(self._machine, self._remainder(q)).value
 
     def _kinetic_energy(self, q: Float) -> Any:
         """Return the kinetic energy; it changes by the work of loads and motor."""

@@ -24,7 +24,7 @@ def warn_of_open_takers(
         for joint in _joints_without_a_link(load):
             if joint not in friction:
                 continue
-            link, is_open = mechanism._core.taker(joint)
+            link, is_open = mechanism.core.taker(joint)
             # An end of a spring at a fixed joint is fastened to the ground.
             is_anchor = link == "ground" and not isinstance(load, Force)
             if is_open and not is_anchor:

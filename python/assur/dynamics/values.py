@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from assur._arrays import Float, real_array, real_number, short
+from assur._arrays import Float, Function, real_array, real_number, short
 from assur.dynamics.table import Table
 from assur.errors import InputError
 
 __all__ = ["Function", "Value", "checked_value", "function_values"]
 
-# Called with floats (t, q, speed); with several drivers q and speed are tuples.
-Function: TypeAlias = Callable[[float, Any, Any], float]
 # A number, a table over q or another coordinate, or a function of (t, q, speed).
 Value: TypeAlias = float | Table | Function
 

@@ -32,7 +32,9 @@ from assur.examples.straight_lines import chebyshev_lambda, hart, peaucellier
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    import assur
+    from assur.dynamics.machine import Machine
+    from assur.kinematics.mechanism import Mechanism
+
 
 __all__ = [
     "ALL",
@@ -70,7 +72,7 @@ __all__ = [
 ]
 
 Coordinate: TypeAlias = "float | tuple[float, ...]"
-Example: TypeAlias = "Callable[[], assur.Mechanism | assur.Machine]"
+Example: TypeAlias = "Callable[[], Mechanism | Machine]"
 
 ALL: Mapping[str, Example] = MappingProxyType(
     {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-import assur
+from assur.description.words import Slide
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["crank_rocker", "locomotive"]
 
@@ -18,7 +19,7 @@ FOUR_BAR = {
 COUPLER_POINT = (0.03, 0.12)
 
 
-def crank_rocker() -> assur.Mechanism:
+def crank_rocker() -> Mechanism:
     """Crank-rocker four-bar with a coupler point P.
 
     Crank 40 mm, coupler 120 mm, rocker 80 mm, ground 100 mm: a textbook's round numbers. By
@@ -42,14 +43,14 @@ def crank_rocker() -> assur.Mechanism:
     >>> round(float(np.degrees(swing)), 3)                  # by the law of cosines
     73.782
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={**FOUR_BAR, "P": COUPLER_POINT},
         links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
         driver="crank",
     )
 
 
-def locomotive() -> assur.Mechanism:
+def locomotive() -> Mechanism:
     """A locomotive's rods: three wheels on one coupling rod, one wheel more than it needs.
 
     Crank pins 330 mm from the axles (stroke 660 mm), axles 2.2 m apart, main rod 3 m: round
@@ -78,7 +79,7 @@ def locomotive() -> assur.Mechanism:
     True
     """
     pin, axles, rod = 0.33, 2.2, 3.0
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "O1": (0, 0),
             "O2": (axles, 0),
@@ -97,6 +98,6 @@ def locomotive() -> assur.Mechanism:
             "main_rod": ["A2", "X"],
             "crosshead": ["X"],
         },
-        slides={"guide": assur.Slide("crosshead", on="ground", angle=0.0, origin="O2")},
+        slides={"guide": Slide("crosshead", on="ground", angle=0.0, origin="O2")},
         driver="wheel2",
     )

@@ -6,12 +6,13 @@ A group above class II has no dyad in it: take away any of its links and all of 
 
 from __future__ import annotations
 
-import assur
+from assur.kinematics.mechanism import Mechanism
+from assur.mechanisms.class_iv import ClassIV
 
 __all__ = ["loom", "pentagon", "stephenson_reversed", "triad"]
 
 
-def triad() -> assur.Mechanism:
+def triad() -> Mechanism:
     """Class III at its simplest: a plate on a rod and two rockers.
 
     Crank 0.36 m, plate B, C, D of some 1.6 m, rockers CE and DF of 2.1 m and 2.2 m. The crank turns
@@ -36,7 +37,7 @@ def triad() -> assur.Mechanism:
     >>> found.complex_count, len(found)
     ((6,), 2)
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "O": (0, 0),
             "A": (0.3, 0.2),
@@ -58,7 +59,7 @@ def triad() -> assur.Mechanism:
     )
 
 
-def stephenson_reversed() -> assur.Mechanism:
+def stephenson_reversed() -> Mechanism:
     """Stephenson III driven by the rocker that its coupler plate hangs on by the rod: class III.
 
     Rod, coupler, crank and rocker hang together then. Driven by crank or rocker of its four-bar
@@ -82,7 +83,7 @@ def stephenson_reversed() -> assur.Mechanism:
     >>> m.structure.cls, m.with_driver("crank").structure.cls
     (3, 2)
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "A": (0, 0),
             "B": (0.05, 0.06),
@@ -104,7 +105,7 @@ def stephenson_reversed() -> assur.Mechanism:
     )
 
 
-def loom() -> assur.Mechanism:
+def loom() -> Mechanism:
     """V. M. Dvorzhak's mechanism of class IV, order 3: six links, no dyad.
 
     Three ternary links and a bar make a quadrilateral that changes its form, on two rockers. Crank
@@ -127,7 +128,7 @@ def loom() -> assur.Mechanism:
     >>> found.complex_count, len(found)
     ((16,), 2)
     """
-    return assur.ClassIV(
+    return ClassIV(
         joints={
             "1": (0, 0),
             "2": (0.35, 0),
@@ -143,7 +144,7 @@ def loom() -> assur.Mechanism:
     )
 
 
-def pentagon() -> assur.Mechanism:
+def pentagon() -> Mechanism:
     """Class V: two rockers, two bars and a plate make a closed pentagon that changes its form.
 
     The two rockers with the bar between them are a four-bar; the plate on the first rocker, tied to
@@ -166,7 +167,7 @@ def pentagon() -> assur.Mechanism:
     >>> assur.examples.pentagon().structure.formula
     'I(crank) → V(rod, left, right, lower, plate, upper)'
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "O": (0, 0),
             "A": (0.12, 0.1),

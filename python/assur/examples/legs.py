@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import assur
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["jansen_leg", "klann_leg"]
 
 
-def jansen_leg() -> assur.Mechanism:
+def jansen_leg() -> Mechanism:
     """Leg of Theo Jansen's beach animals; foot F.
 
     His "holy numbers" in cm (crank 15 cm, a 38 cm, b 41.5 cm, …), as a drawing rounded to a tenth
@@ -40,7 +40,7 @@ def jansen_leg() -> assur.Mechanism:
         "K": (-56.05, -35.42),
         "F": (-22.22, -91.74),
     }
-    return assur.Mechanism(
+    return Mechanism(
         joints={name: (x / 100, y / 100) for name, (x, y) in places.items()},
         links={
             "ground": "OB",
@@ -56,7 +56,7 @@ def jansen_leg() -> assur.Mechanism:
     )
 
 
-def klann_leg() -> assur.Mechanism:
+def klann_leg() -> Mechanism:
     """Leg of Joe Klann's mechanical spider; foot F.
 
     The example of the patent, whose unit is the stride, with a stride of 0.5 m: drawn in its
@@ -90,7 +90,7 @@ def klann_leg() -> assur.Mechanism:
         "H": (0.866, 1.500),
         "F": (0.0, 0.0),
     }
-    return assur.Mechanism(
+    return Mechanism(
         joints={name: (x / 2, y / 2) for name, (x, y) in places.items()},
         links={
             "ground": "OUL",

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 
-import assur
 from assur._trig import sin_cos
+from assur.description.words import Slide
+from assur.dynamics.loads import Body, Spring
+from assur.dynamics.machine import Machine
+from assur.dynamics.motors import ConstantTorque
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["andrews_squeezer", "toggle_press"]
 
 
-def toggle_press() -> assur.Mechanism:
+def toggle_press() -> Mechanism:
     """Toggle press: crank, rod and two toggle links; at the toggle the ram's force has no bound.
 
     Crank 50 mm, rod 250 mm, toggle links 200 mm. Drawn at its toggle, q = π: crank and rod are
@@ -34,7 +38,7 @@ def toggle_press() -> assur.Mechanism:
     >>> motion.mechanical_advantage("guide").round(0)                   # N per N·m
     array([   38.,   431., 83835.])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O": (0.3, -0.2), "A": (0.25, -0.2), "B": (0, -0.2), "C": (0, -0.4), "D": (0, 0)},
         links={
             "ground": "OD",
@@ -44,12 +48,12 @@ def toggle_press() -> assur.Mechanism:
             "lower": "BC",
             "ram": "C",
         },
-        slides={"guide": assur.Slide("ram", on="ground", angle=-math.pi / 2, origin="D")},
+        slides={"guide": Slide("ram", on="ground", angle=-math.pi / 2, origin="D")},
         driver="crank",
     )
 
 
-def andrews_squeezer() -> assur.Machine:
+def andrews_squeezer() -> Machine:
     """Andrews' squeezer: the multibody benchmark of seven bodies, with its data.
 
     Seven bodies K1 … K7 of 4 to 71 g on the pivots O, A and B, the largest 40 mm long; a spring of
@@ -85,7 +89,7 @@ def andrews_squeezer() -> assur.Machine:
     angles = [-0.0617138900142764496, 0.455279819163070380, 0.487364979543842550]
     sines, cosines = sin_cos([*angles, 1.23054744454982119])
     s, c = dict(zip("βγδε", sines, strict=True)), dict(zip("βγδε", cosines, strict=True))
-    mechanism = assur.Mechanism(
+    mechanism = Mechanism(
         joints={
             "O": (0, 0),
             "A": (xa, ya),
@@ -109,17 +113,17 @@ def andrews_squeezer() -> assur.Machine:
         },
         driver="K1",
     )
-    return assur.Machine(
+    return Machine(
         mechanism,
         bodies={
-            "K1": assur.Body(0.04325, 2.194e-6, at=(0.00092, 0.0)),
-            "K2": assur.Body(0.00365, 4.410e-7, at=(0.0115, 0.0)),
-            "K3": assur.Body(0.02373, 5.255e-6, at=(0.01874, 0.01043)),
-            "K4": assur.Body(0.00706, 5.667e-7, at=(e - 0.01421, 0.0)),
-            "K5": assur.Body(0.07050, 1.169e-5, at=(0.02308, 0.00916)),
-            "K6": assur.Body(0.00706, 5.667e-7, at=(zf - 0.01421, 0.0)),
-            "K7": assur.Body(0.05498, 1.912e-5, at=(0.01228, -0.00449)),
+            "K1": Body(0.04325, 2.194e-6, at=(0.00092, 0.0)),
+            "K2": Body(0.00365, 4.410e-7, at=(0.0115, 0.0)),
+            "K3": Body(0.02373, 5.255e-6, at=(0.01874, 0.01043)),
+            "K4": Body(0.00706, 5.667e-7, at=(e - 0.01421, 0.0)),
+            "K5": Body(0.07050, 1.169e-5, at=(0.02308, 0.00916)),
+            "K6": Body(0.00706, 5.667e-7, at=(zf - 0.01421, 0.0)),
+            "K7": Body(0.05498, 1.912e-5, at=(0.01228, -0.00449)),
         },
-        loads=[assur.Spring("C", "D", stiffness=4530.0, length=0.07785)],
-        motor=assur.ConstantTorque(0.033),
+        loads=[Spring("C", "D", stiffness=4530.0, length=0.07785)],
+        motor=ConstantTorque(0.033),
     )

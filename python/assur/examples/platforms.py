@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import assur
 from assur._trig import arctan2
+from assur.description.words import Slide
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["platform_on_cranks", "platform_on_cylinders"]
 
 
-def platform_on_cylinders() -> assur.Mechanism:
+def platform_on_cylinders() -> Mechanism:
     """The planar platform on three cylinders (3-RPR): up to six assemblies for given lengths.
 
     Base A, B, C of some 2 m, platform D, E, F of some 0.7 m. With the lengths of the legs given,
@@ -41,7 +42,7 @@ def platform_on_cylinders() -> assur.Mechanism:
         "F": (1.1, 1.25),
     }
     directions = arctan2([0.7, 0.65, -0.65], [0.8, -0.7, 0.1])
-    return assur.Mechanism(
+    return Mechanism(
         joints=joints,
         links={
             "ground": "ABC",
@@ -54,7 +55,7 @@ def platform_on_cylinders() -> assur.Mechanism:
             "platform": "DEF",
         },
         slides={
-            f"leg{number}": assur.Slide(
+            f"leg{number}": Slide(
                 f"rod{number}", f"tube{number}", float(direction), base, length=True
             )
             for number, (base, direction) in enumerate(zip("ABC", directions, strict=True), 1)
@@ -63,7 +64,7 @@ def platform_on_cylinders() -> assur.Mechanism:
     )
 
 
-def platform_on_cranks() -> assur.Mechanism:
+def platform_on_cranks() -> Mechanism:
     """The planar manipulator on three cranks (3-RRR).
 
     Base A, B, C of some 2.4 m, cranks of some 0.6 m, platform D, E, F of some 0.7 m. With the
@@ -86,7 +87,7 @@ def platform_on_cranks() -> assur.Mechanism:
     >>> assur.examples.platform_on_cranks().structure.formula
     'I(crank1, crank2, crank3) → III(rod1, rod2, rod3, platform)'
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "A": (0, 0),
             "B": (2.4, 0),

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 
-import assur
+from assur.description.words import Slide
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["shaper", "whitworth"]
 
 RIGHT_ANGLE = math.pi / 2
 
 
-def whitworth() -> assur.Mechanism:
+def whitworth() -> Mechanism:
     """Whitworth's quick return: the slotted lever turns fully, because the crank passes round D.
 
     Crank 100 mm, OD 50 mm, DE 150 mm, rod 390 mm: the ram, its bed in line with D, goes out during
@@ -34,7 +35,7 @@ def whitworth() -> assur.Mechanism:
     >>> round(ram.stroke, 9), round(ram.time_ratio, 9)
     (0.3, 2.0)
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O": (0, 0), "A": (0, 0.1), "D": (0, -0.05), "E": (0, -0.2), "F": (0.36, -0.05)},
         links={
             "ground": "OD",
@@ -45,14 +46,14 @@ def whitworth() -> assur.Mechanism:
             "ram": "F",
         },
         slides={
-            "slot": assur.Slide("block", on="lever", angle=RIGHT_ANGLE, origin="D"),
-            "bed": assur.Slide("ram", on="ground", angle=0.0, origin="D"),
+            "slot": Slide("block", on="lever", angle=RIGHT_ANGLE, origin="D"),
+            "bed": Slide("ram", on="ground", angle=0.0, origin="D"),
         },
         driver="crank",
     )
 
 
-def shaper() -> assur.Mechanism:
+def shaper() -> Mechanism:
     """Crank-shaper: as `whitworth` with the crank shorter than OD, so that the lever swings.
 
     Crank 100 mm, OD 200 mm, DE 400 mm, rod 150 mm: the lever swings 30° to either side, out during
@@ -76,7 +77,7 @@ def shaper() -> assur.Mechanism:
     (0.4, 2.0)
     """
     end = (math.sqrt(0.15**2 - 0.03**2), 0.17)
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O": (0, 0), "A": (0, 0.1), "D": (0, -0.2), "E": (0, 0.2), "F": end},
         links={
             "ground": "OD",
@@ -87,8 +88,8 @@ def shaper() -> assur.Mechanism:
             "ram": "F",
         },
         slides={
-            "slot": assur.Slide("block", on="lever", angle=RIGHT_ANGLE, origin="D"),
-            "bed": assur.Slide("ram", on="ground", angle=0.0, origin="O"),
+            "slot": Slide("block", on="lever", angle=RIGHT_ANGLE, origin="D"),
+            "bed": Slide("ram", on="ground", angle=0.0, origin="O"),
         },
         driver="crank",
     )

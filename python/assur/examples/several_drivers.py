@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 
-import assur
+from assur.description.words import Cylinder, Slide
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["excavator", "five_bar", "pantograph"]
 
 RIGHT_ANGLE = math.pi / 2
 
 
-def pantograph() -> assur.Mechanism:
+def pantograph() -> Mechanism:
     """Pantograph: the pen P draws three times as large what the tracer T follows.
 
     O is the fixed pole. OA = 150 mm, OB = 450 mm, and ABCT is a parallelogram, so that O, T and P
@@ -34,7 +35,7 @@ def pantograph() -> assur.Mechanism:
     array([[0.54, 0.15],
            [0.36, 0.3 ]])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "O": (0, 0),
             "A": (0.09, 0.12),
@@ -53,14 +54,14 @@ def pantograph() -> assur.Mechanism:
             "tracer": "T",
         },
         slides={
-            "x": assur.Slide("carriage", on="ground", angle=0.0, origin="O"),
-            "y": assur.Slide("tracer", on="carriage", angle=RIGHT_ANGLE),
+            "x": Slide("carriage", on="ground", angle=0.0, origin="O"),
+            "y": Slide("tracer", on="carriage", angle=RIGHT_ANGLE),
         },
         driver=("x", "y"),
     )
 
 
-def five_bar() -> assur.Mechanism:
+def five_bar() -> Mechanism:
     """Symmetrical five-bar: two cranks lead the point P over a plane.
 
     Cranks 250 mm, rods 300 mm, pivots 220 mm apart. The pick-and-place robots of this form have
@@ -84,7 +85,7 @@ def five_bar() -> assur.Mechanism:
     >>> point.round(6)                                                  # y = 0.25 + √(0.3² − 0.11²)
     array([0.11    , 0.529106])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "A": (0, 0),
             "B": (-0.07, 0.24),
@@ -103,7 +104,7 @@ def five_bar() -> assur.Mechanism:
     )
 
 
-def excavator() -> assur.Mechanism:
+def excavator() -> Mechanism:
     """Arm of a 20 t excavator on three cylinders: boom, stick and bucket.
 
     Boom 5.5 m, stick 2.9 m, bucket 1.4 m: round numbers of the class. The bucket hangs on a
@@ -149,11 +150,11 @@ def excavator() -> assur.Mechanism:
         "link": ["knuckle", "bucket_eye"],
         "bucket": ["wrist", "bucket_eye", "tip"],
     }
-    return assur.Mechanism(
+    return Mechanism(
         joints=joints,
         links=links,
         slides={
-            f"{name}_cylinder": assur.Cylinder(
+            f"{name}_cylinder": Cylinder(
                 f"{name}_base", end, barrel=f"{name}_barrel", rod=f"{name}_rod"
             )
             for name, end in ends.items()

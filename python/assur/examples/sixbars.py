@@ -6,13 +6,13 @@ in Stephenson's; the number says which link is the ground.
 
 from __future__ import annotations
 
-import assur
 from assur.examples.fourbars import COUPLER_POINT, FOUR_BAR
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["stephenson_1", "stephenson_2", "stephenson_3", "watt_1", "watt_2"]
 
 
-def watt_1() -> assur.Mechanism:
+def watt_1() -> Mechanism:
     """Watt I: the ground is a binary link; a second four-bar rides on coupler and rocker.
 
     The first four-bar is `crank_rocker` (40, 120, 80, 100 mm). Look at S: the second loop C, P, S,
@@ -34,7 +34,7 @@ def watt_1() -> assur.Mechanism:
     >>> assur.examples.watt_1().structure.formula
     'I(crank) → II(coupler, rocker) → II(link, arm)'
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={**FOUR_BAR, "P": COUPLER_POINT, "Q": (0.15, 0.09), "S": (0.11, 0.17)},
         links={
             "ground": "AD",
@@ -48,7 +48,7 @@ def watt_1() -> assur.Mechanism:
     )
 
 
-def watt_2() -> assur.Mechanism:
+def watt_2() -> Mechanism:
     """Watt II: the ground is a ternary link; two four-bars in series.
 
     The first is that of `crank_rocker` (40, 120, 80, 100 mm); its rocker, a lever with the arm DE
@@ -72,7 +72,7 @@ def watt_2() -> assur.Mechanism:
     >>> [round(float(np.degrees(m.extremes(link).stroke)), 1) for link in ("lever", "rocker")]
     [73.8, 81.9]
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={**FOUR_BAR, "E": (0.2, 0), "F": (0.22, 0.06), "G": (0.24, 0)},
         links={
             "ground": "ADG",
@@ -86,7 +86,7 @@ def watt_2() -> assur.Mechanism:
     )
 
 
-def stephenson_1() -> assur.Mechanism:
+def stephenson_1() -> Mechanism:
     """Stephenson I: both ternary links, crank and rocker, turn on the ground.
 
     The four-bar of `crank_rocker` (40, 120, 80, 100 mm), with a second pin E on the crank and F on
@@ -108,7 +108,7 @@ def stephenson_1() -> assur.Mechanism:
     >>> assur.examples.stephenson_1().structure.formula
     'I(crank) → II(coupler, rocker) → II(link1, link2)'
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={**FOUR_BAR, "E": (-0.03, 0.02), "F": (0.16, 0.07), "S": (0.07, 0.16)},
         links={
             "ground": "AD",
@@ -122,7 +122,7 @@ def stephenson_1() -> assur.Mechanism:
     )
 
 
-def stephenson_2() -> assur.Mechanism:
+def stephenson_2() -> Mechanism:
     """Stephenson II: one ternary link turns on the ground, the other is the crank's coupler.
 
     Crank 40 mm, ground 200 mm, rocker DE 103 mm. Driven by the binary crank the other four links
@@ -145,7 +145,7 @@ def stephenson_2() -> assur.Mechanism:
     >>> m.structure.formula, m.limits().full_rotation
     ('I(crank) → IV(plate, rocker, lower, upper)', True)
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "A": (0, 0),
             "B": (0, 0.04),
@@ -167,7 +167,7 @@ def stephenson_2() -> assur.Mechanism:
     )
 
 
-def stephenson_3() -> assur.Mechanism:
+def stephenson_3() -> Mechanism:
     """Stephenson III: the ground is a ternary link; a coupler point swings a lever at E.
 
     The four-bar of `crank_rocker` (40, 120, 80, 100 mm); link 160 mm, lever 100 mm. Driven by the
@@ -194,7 +194,7 @@ def stephenson_3() -> assur.Mechanism:
     """
     # S is 160 mm from P and 100 mm from E; all digits, so that the drawing is the same everywhere.
     end = (0.18721181772432, 0.14973960940925723)
-    return assur.Mechanism(
+    return Mechanism(
         joints={**FOUR_BAR, "P": COUPLER_POINT, "E": (0.18, 0.05), "S": end},
         links={
             "ground": "ADE",

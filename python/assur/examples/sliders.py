@@ -7,14 +7,16 @@ from __future__ import annotations
 
 import math
 
-import assur
+from assur.description.words import Slide
+from assur.kinematics.mechanism import Mechanism
+from assur.mechanisms.named import SliderCrank
 
 __all__ = ["engine", "oldham", "scotch_yoke", "tangent_generator", "trammel"]
 
 RIGHT_ANGLE = math.pi / 2
 
 
-def engine() -> assur.Mechanism:
+def engine() -> Mechanism:
     """Central slider-crank of a car's engine.
 
     Crank 45 mm (stroke 90 mm), rod 150 mm (λ = 0.3). Drawn at its outer dead point, all joints in
@@ -38,10 +40,10 @@ def engine() -> assur.Mechanism:
     >>> bore.value, (bore.d2 / 0.045).round(6)                           # −(1 + λ), 1 − λ
     (array([0.195, 0.105]), array([-1.3,  0.7]))
     """
-    return assur.SliderCrank(crank=0.045, rod=0.15)
+    return SliderCrank(crank=0.045, rod=0.15)
 
 
-def scotch_yoke() -> assur.Mechanism:
+def scotch_yoke() -> Mechanism:
     """Scotch yoke: its motion is a pure cosine.
 
     Crank 50 mm. The yoke has no joint at all: two slides place it, on the crank pin's block and on
@@ -64,18 +66,18 @@ def scotch_yoke() -> assur.Mechanism:
     >>> bed.value.round(9), bed.d2.round(9)                              # 50 mm · cos 60°
     (np.float64(0.025), np.float64(-0.025))
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O": (0, 0), "A": (0.03, 0.04)},
         links={"ground": "O", "crank": "OA", "block": "A", "yoke": ""},
         slides={
-            "slot": assur.Slide("yoke", on="block", angle=RIGHT_ANGLE, origin="A"),
-            "bed": assur.Slide("yoke", on="ground", angle=0.0, origin="O"),
+            "slot": Slide("yoke", on="block", angle=RIGHT_ANGLE, origin="A"),
+            "bed": Slide("yoke", on="ground", angle=0.0, origin="O"),
         },
         driver="crank",
     )
 
 
-def tangent_generator() -> assur.Mechanism:
+def tangent_generator() -> Mechanism:
     """Tangent generator of a computing linkage: a slotted lever moves a pin on a rail by tan q.
 
     The rail is 100 mm from the lever's pivot. A dyad of the fourth kind (PRP): two blocks on one
@@ -98,18 +100,18 @@ def tangent_generator() -> assur.Mechanism:
     >>> rail.value.round(9) + 0.0
     array([-0.1,  0. ,  0.1])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O": (0, 0), "A": (0.1, 0), "H": (0.1, 0)},
         links={"ground": "OH", "lever": "O", "block": "A", "cursor": "A"},
         slides={
-            "slot": assur.Slide("block", on="lever", angle=0.0, origin="O"),
-            "rail": assur.Slide("cursor", on="ground", angle=RIGHT_ANGLE, origin="H"),
+            "slot": Slide("block", on="lever", angle=0.0, origin="O"),
+            "rail": Slide("cursor", on="ground", angle=RIGHT_ANGLE, origin="H"),
         },
         driver="lever",
     )
 
 
-def trammel() -> assur.Mechanism:
+def trammel() -> Mechanism:
     """Elliptic trammel (of Archimedes), driven by its bar.
 
     A slides along x, B along y, 120 mm apart; P, 200 mm from B, traces the ellipse with the half
@@ -132,18 +134,18 @@ def trammel() -> assur.Mechanism:
     >>> ((x / 0.2)**2 + (y / 0.08)**2).round(12)
     array([1., 1., 1.])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O": (0, 0), "A": (0.096, 0), "B": (0, 0.072), "P": (0.16, -0.048)},
         links={"ground": "O", "x_block": "A", "y_block": "B", "bar": "BAP"},
         slides={
-            "x": assur.Slide("x_block", on="ground", angle=0.0, origin="O"),
-            "y": assur.Slide("y_block", on="ground", angle=RIGHT_ANGLE, origin="O"),
+            "x": Slide("x_block", on="ground", angle=0.0, origin="O"),
+            "y": Slide("y_block", on="ground", angle=RIGHT_ANGLE, origin="O"),
         },
         driver="bar",
     )
 
 
-def oldham() -> assur.Mechanism:
+def oldham() -> Mechanism:
     """Oldham's coupling of two parallel shafts that are not in line.
 
     The shafts are 20 mm apart. A disc without joints has two tongues at right angles, each in a
@@ -166,12 +168,12 @@ def oldham() -> assur.Mechanism:
     >>> motion.link("shaft2").d1                                         # ratio of the speeds
     array([1., 1., 1.])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"O1": (0, 0), "O2": (0.02, 0)},
         links={"ground": ["O1", "O2"], "shaft1": ["O1"], "disc": [], "shaft2": ["O2"]},
         slides={
-            "tongue1": assur.Slide("disc", on="shaft1", angle=0.5, origin="O1"),
-            "tongue2": assur.Slide("disc", on="shaft2", angle=0.5 + RIGHT_ANGLE, origin="O2"),
+            "tongue1": Slide("disc", on="shaft1", angle=0.5, origin="O1"),
+            "tongue2": Slide("disc", on="shaft2", angle=0.5 + RIGHT_ANGLE, origin="O2"),
         },
         driver="shaft1",
     )

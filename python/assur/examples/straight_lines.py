@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import assur
+from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["chebyshev_lambda", "hart", "peaucellier"]
 
 
-def chebyshev_lambda() -> assur.Mechanism:
+def chebyshev_lambda() -> Mechanism:
     """Chebyshev's lambda linkage: P moves almost on a straight line for half a turn.
 
     Chebyshev's proportions: crank 1, ground 2, coupler half, its other half and rocker 2.5; unit
@@ -31,14 +31,14 @@ def chebyshev_lambda() -> assur.Mechanism:
     >>> np.ptp(pen.value / 0.05, axis=0).round(5)                       # units
     array([4.     , 0.00975])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={"A": (0, 0), "B": (-0.05, 0), "C": (0.025, 0.1), "D": (0.1, 0), "P": (0.1, 0.2)},
         links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
         driver="crank",
     )
 
 
-def peaucellier() -> assur.Mechanism:
+def peaucellier() -> Mechanism:
     """Peaucellier and Lipkin's inversor: the first planar linkage to draw an exact line (1864).
 
     Arms OA, OC 250 mm, rhombus A, B, C, P 170 mm: OB · OP = 0.25² − 0.17². B runs on a circle
@@ -62,7 +62,7 @@ def peaucellier() -> assur.Mechanism:
     array([[ 0.28   ,  0.28   ,  0.28   ,  0.28   ,  0.28   ],
            [-0.28   , -0.11598,  0.     ,  0.11598,  0.28   ]])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "O": (0, 0),
             "Q": (0.06, 0),
@@ -85,7 +85,7 @@ def peaucellier() -> assur.Mechanism:
     )
 
 
-def hart() -> assur.Mechanism:
+def hart() -> Mechanism:
     """Hart's inversor: the same line with four bars of a crossed parallelogram (1874).
 
     Bars AB = CD = 200 mm, AD = BC = 130 mm; O, P, Q in the middles of AD, AB, CD are in line and
@@ -109,7 +109,7 @@ def hart() -> assur.Mechanism:
     array([[ 0.055,  0.055,  0.055],
            [-0.055,  0.   ,  0.055]])
     """
-    return assur.Mechanism(
+    return Mechanism(
         joints={
             "O": (0, 0),
             "M": (0.0525, 0),

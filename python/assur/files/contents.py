@@ -17,7 +17,7 @@ from assur.files.read_mechanism import read_input_speed, read_mechanism
 from assur.files.source import Source
 from assur.files.wanted import WANTED, read_wanted
 from assur.kinematics.mechanism import Mechanism
-from assur.kinematics.solve import in_radians
+from assur.kinematics.solve_arguments import in_radians
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -202,7 +202,7 @@ def known_speed(input_speed: Any) -> InputSpeed:
 
 
 def _checked_speed(given: Any, mechanism: Mechanism) -> InputSpeed:
-    count = mechanism._driver_count
+    count = mechanism.driver_count
     if count == 1:
         return real_number(given, "input_speed")
     if not isinstance(given, list | tuple) or len(given) != count:

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.kinematics.assembly import SAME, AssemblyNumbers, Place
+from assur.kinematics.assembly import SAME
+from assur.kinematics.model import AssemblyNumbers, Place, at_place
 from assur.kinematics.place import size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.files.node import Node
     from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 REQUIRED = ("q", "joints", "angles")
 OPTIONAL = ("signs", "class_angles", "slides", "is_double", "dimensions", "drawn")
@@ -35,9 +38,9 @@ def drawn_at(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechan
     place = _place(mechanism, section, sized)
     own = place.mechanism
     with section.refusing():
-        core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
-    drawn = mechanism._drawn_at(place, core)
-    _check(own._drawn_at(place, core), place, section)
+        core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
+    drawn = at_place(mechanism, place, core)
+    _check(at_place(own, place, core), place, section)
     return drawn
 
 
@@ -51,15 +54,15 @@ def _place(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechanis
     if "drawn" in entries:
         design = drawn_at(design, entries["drawn"], sized)
     q = np.atleast_1d(entries["q"].array())
-    if q.shape != (mechanism._driver_count,):
-        message = f"has {q.size} numbers: there are {mechanism._driver_count} drivers"
+    if q.shape != (mechanism.driver_count,):
+        message = f"has {q.size} numbers: there are {mechanism.driver_count} drivers"
         raise entries["q"].error(message)
-    core = mechanism._core
+    core = mechanism.core
     numbers: AssemblyNumbers = {
         "signs": [int(x) for x in _named(section, "signs", [n for n, _ in core.assembly], _sign)],
         "class_angles": _class_angles(entries),
         "slides": _named(section, "slides", mechanism.slides, _number),
-        "joints": _named(section, "joints", mechanism._joint_names, _pair),
+        "joints": _named(section, "joints", mechanism.joint_names, _pair),
         "angles": _named(section, "angles", mechanism.links, _number),
         "is_double": entries["is_double"].flag() if "is_double" in entries else False,
     }
@@ -97,11 +100,11 @@ def _named(section: Node, key: str, names: Iterable[str], read: Callable[[Node],
     return [read(entries[name]) for name in names]
 
 
-def _check(drawn: Mechanism, place: Place, section: Node) -> None:
+def _check(drawn: MechanismModel, place: Place, section: Node) -> None:
     """Refuse a place in which the mechanism does not fit together."""
-    motion = drawn.solve(drawn.q0, order=0, on_error="nan")
+    motion = solve(drawn, drawn.q0, order=0, on_error="nan")
     wanted: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
-    there = np.array([motion.joint(name).value for name in drawn._joint_names]).reshape(-1, 2)
+    there = np.array([motion.joint(name).value for name in drawn.joint_names]).reshape(-1, 2)
     # The comparison is false of NaN.
     if not bool((np.abs(there - wanted) <= SAME * size_of(drawn)).all()):
         message = (

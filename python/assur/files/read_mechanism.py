@@ -12,7 +12,7 @@ from assur.kinematics.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.description.encode import DriverLike
+    from assur.description.words import DriverLike
     from assur.errors import AssurError
     from assur.files.node import Node
     from assur.files.positions import KeyPath
@@ -104,7 +104,7 @@ def read_input_speed(root: Node, mechanism: Mechanism) -> InputSpeed:
     node = root.table().get("input_speed")
     if node is None:
         return None
-    count = mechanism._driver_count
+    count = mechanism.driver_count
     if count == 1:
         return node.number()
     speeds = tuple(one.number() for one in node.entries(f"a list of {count} numbers"))

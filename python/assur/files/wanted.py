@@ -137,6 +137,6 @@ def read_wanted(root: Node, mechanism: Mechanism, has_machine: bool) -> Mapping[
 
 
 def _check_outputs(node: Node, mechanism: Mechanism) -> None:
-    known = (*mechanism._joint_names, *mechanism.links, *mechanism.slides)
+    known = (*mechanism.joint_names, *mechanism.links, *mechanism.slides)
     for one in node.entries("a list of names"):
         one.word(known)

@@ -92,7 +92,7 @@ def tree_of(what: Any) -> dict[str, Any]:
             raise InputError(message)
         machine = machine_tree(what)
         what = what.mechanism
-    own = what._description
+    own = what.description
     for name, count in zip(("joints", "links", "slides"), map(len, own[:3]), strict=True):
         if count > MOST_ITEMS:
             message = f"the mechanism has {count} {name}: a file may have {MOST_ITEMS}"

@@ -11,12 +11,14 @@ from assur.description import encode
 from assur.description.words import Cylinder, Drive
 from assur.errors import InputError
 from assur.files.limits import MOST_PARTS
+from assur.kinematics.model import at_place
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.description.encode import Description, DriverLike
-    from assur.kinematics.assembly import Place
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike
     from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel, Place
 
 
 def driver_value(mechanism: Mechanism) -> Any:
@@ -35,7 +37,7 @@ def _one_driver(driver: DriverLike) -> Any:
 
 def mechanism_tree(mechanism: Mechanism) -> dict[str, Any]:
     """Return the tables of a mechanism."""
-    own = mechanism._description
+    own = mechanism.description
     links, slides = with_cylinders(own)
     tree: dict[str, Any] = {
         "joints": {name: [x, y] for name, x, y in own.joints},
@@ -46,12 +48,12 @@ def mechanism_tree(mechanism: Mechanism) -> dict[str, Any]:
     if own.assembly:
         tree["assembly"] = dict(own.assembly)
     # The core of a mechanism that is drawn elsewhere has the drawing of that place.
-    core = mechanism._core if mechanism._place is None else encode.core_of(own)
+    core = mechanism.core if mechanism.place is None else encode.core_of(own)
     drawing = np.array(core.drawing)
-    if mechanism.shape or mechanism._values.tobytes() != drawing.tobytes():
+    if mechanism.shape or mechanism.values.tobytes() != drawing.tobytes():
         tree["dimensions"] = _dimensions(mechanism)
-    if mechanism._place is not None:
-        tree["drawn"] = _drawn(mechanism, mechanism._place)
+    if mechanism.place is not None:
+        tree["drawn"] = _drawn(mechanism, mechanism.place)
     return tree
 
 
@@ -106,9 +108,9 @@ def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
     return {name: value for name, value in given.items() if value is not None}
 
 
-def _dimensions(mechanism: Mechanism) -> dict[str, Any]:
+def _dimensions(mechanism: MechanismModel) -> dict[str, Any]:
     """Return all dimensions; of a batch, lists of those that differ."""
-    names, values = mechanism._core.dimension_names, mechanism._values
+    names, values = mechanism.core.dimension_names, mechanism.values
     if values.size == 0 and names:
         message = f"a batch {mechanism.shape} without designs cannot be saved"
         raise InputError(message)
@@ -125,33 +127,33 @@ def _same_or_all(values: Float) -> Any:
     return float(first) if is_one else values.tolist()
 
 
-def _drawn(mechanism: Mechanism, place: Place, depth: int = 1) -> dict[str, Any]:
+def _drawn(mechanism: MechanismModel, place: Place, depth: int = 1) -> dict[str, Any]:
     """Return where an assembly was found, by the names of joints, links and slides."""
     if depth + 1 >= MOST_PARTS:
         message = "too many assemblies, each found from the one before: with_assembly() once, of "
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
     own, numbers = place.mechanism, place.numbers
-    if not np.isfinite([*own._drawn_at(place, mechanism._core).joints.values()]).all():
+    if not np.isfinite([*at_place(own, place, mechanism.core).joints.values()]).all():
         at = ", ".join(f"{q:.6g}" for q in place.q)
         message = (
             f"{short(mechanism)} cannot be saved: with its signs it does not exist at q = {at}, "
             "where its assembly was found: with_assembly() of one that assemblies() finds"
         )
         raise InputError(message)
-    signs = dict(zip((n for n, _ in own._core.assembly), numbers["signs"], strict=True))
+    signs = dict(zip((n for n, _ in own.core.assembly), numbers["signs"], strict=True))
     entries: dict[str, Any] = {
         "q": list(place.q),
         "is_double": numbers["is_double"],
         "signs": signs,
         "class_angles": numbers["class_angles"],
         "slides": dict(zip(own.slides, numbers["slides"], strict=True)),
-        "joints": dict(zip(own._joint_names, map(list, numbers["joints"]), strict=True)),
+        "joints": dict(zip(own.joint_names, map(list, numbers["joints"]), strict=True)),
         "angles": dict(zip(own.links, numbers["angles"], strict=True)),
     }
     tree = {k: v for k, v in entries.items() if v or k in ("q", "joints", "angles")}
-    if own._values.tobytes() != mechanism._values.tobytes():
+    if own.values.tobytes() != mechanism.values.tobytes():
         tree["dimensions"] = _dimensions(own)
-    if own._place is not None:
-        tree["drawn"] = _drawn(own, own._place, depth + 1)
+    if own.place is not None:
+        tree["drawn"] = _drawn(own, own.place, depth + 1)
     return tree

@@ -14,8 +14,9 @@ from assur._validate import MAX_POINTS, checked_index, one_of, whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from assur._extreme import Extreme
-    from assur.dynamics.steady import SteadyState
 
 Mean: TypeAlias = Literal["extremes", "period"]
 Curve: TypeAlias = Literal["speed", "time", "coordinate", "moment", "inertia", "work"]
@@ -78,10 +79,10 @@ class Flywheel(Tabular, ABC):
         mean: Mean,
         turn: tuple[float, float],
         shape: tuple[int, ...] = (),
-        steady: SteadyState | None = None,
+        steady: Any = None,
     ) -> None:
         self.shape, self.mean, self.steady = shape, mean, steady
-        self._turn = turn
+        self.turn = turn
         self.inertia, self.speed0, self.motor_moment = inertia, speed0, motor_moment
         self.greatest, self.least = extremes
         self.period = period
@@ -335,14 +336,14 @@ class Flywheel(Tabular, ABC):
         >>> inertia.round(6), (energy - energy[0]).round(2)  # kg·m², J
         (array([2., 2., 2., 2., 2.]), array([  0., 100., 200., 100.,   0.]))
         """
-        q = np.linspace(*self._turn, whole_number(points, "points", 2, MAX_POINTS))
+        q = np.linspace(*self.turn, whole_number(points, "points", 2, MAX_POINTS))
         inertia = self.reduced_inertia(q)
-        start = np.asarray(self.reduced_inertia(self._turn[0]) * np.square(self.speed0) / 2.0)
+        start = np.asarray(self.reduced_inertia(self.turn[0]) * np.square(self.speed0) / 2.0)
         return inertia, self.work(q) + start[..., np.newaxis]
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return one turn, row after row of the batch."""
-        q = np.linspace(*self._turn, PLOT_POINTS)
+        q = np.linspace(*self.turn, PLOT_POINTS)
         shape = (*self.shape, PLOT_POINTS)
         columns = design_columns(shape, len(self.shape))
         columns.append(angle_column("q", np.broadcast_to(q, shape).reshape(-1), degrees))
@@ -356,6 +357,14 @@ class Flywheel(Tabular, ABC):
             values = np.broadcast_to(curve(q), shape).reshape(-1)
             columns.append(Column(name, values, unit, name))
         return columns
+
+    @property
+    def surplus(self) -> Callable[[Float], Any]:
+        """The motor's moment less the resistance at coordinates, N·m.
+
+        :meta private:
+        """
+        return self._surplus
 
     def _surplus(self, q: Float) -> Any:
         """Return the moment of motor and loads together at coordinates, N·m."""
@@ -408,4 +417,14 @@ class Flywheel(Tabular, ABC):
         kinds = ("speed", "time", "moment", "energy", "energy-mass", "reduced")
         one_of(what, kinds, "what")
         shown = flag(degrees, "degrees")
-        return flywheel_picture(self, what, self._turn, PLOT_POINTS, ax, shown, dark)
+        return flywheel_picture(self, what, self.turn, PLOT_POINTS, ax, shown, dark)
+
+
+def problem_of(flywheel: Flywheel, entry: tuple[int, ...]) -> str | None:
+    """Return why an entry of a batch has no flywheel; None if it has one."""
+    return flywheel._problem(entry)
+
+
+def curve_of(flywheel: Flywheel, what: Curve, x: Float) -> Any:
+    """Return a curve at finite coordinates or times, of the batch's shape and that of x."""
+    return flywheel._curve(what, x)

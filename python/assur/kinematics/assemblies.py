@@ -8,33 +8,35 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import short
+from assur._callers import level_of_caller
 from assur._validate import checked_threads
 from assur.errors import AssurWarning, InputError
-from assur.kinematics.assembly import Assemblies, Assembly, Place, joints_that_differ
-from assur.kinematics.solve import checked_coordinates
+from assur.kinematics.assembly import Assemblies, Assembly, joints_that_differ
+from assur.kinematics.model import Place, with_values
+from assur.kinematics.solve_arguments import checked_coordinates
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur.kinematics.assembly import FoundAssemblies
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 
-def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> Any:
+def assemblies(mechanism: MechanismModel, q: npt.ArrayLike, threads: int | None = None) -> Any:
     """See `Mechanism.assemblies`."""
     array, positions, per_design = checked_coordinates(mechanism, q)
     if not np.isfinite(array).all():
         message = f"q = {short(q)}: a finite coordinate is needed"
         raise InputError(message, value=float(array[~np.isfinite(array)][0]))
-    drivers = mechanism._driver_count
-    found = mechanism._core.assemblies(
-        mechanism._values.ravel(), array.ravel(), per_design, checked_threads(threads)
+    drivers = mechanism.driver_count
+    found = mechanism.core.assemblies(
+        mechanism.values.ravel(), array.ravel(), per_design, checked_threads(threads)
     )
     shape = (*mechanism.shape, *positions)
     rows = np.broadcast_to(array if drivers > 1 else array[..., None], (*shape, drivers)).reshape(
         -1, drivers
     )
-    designs = np.moveaxis(mechanism._values, 0, -1).reshape(-1, len(mechanism._values))
+    designs = np.moveaxis(mechanism.values, 0, -1).reshape(-1, len(mechanism.values))
     each = max(len(found) // max(len(designs), 1), 1)
     if not found and shape:
         # No positions, or no designs.
@@ -44,21 +46,21 @@ def assemblies(mechanism: Mechanism, q: npt.ArrayLike, threads: int | None) -> A
         return empty
     lists: list[Any] = []
     for index, (one, row) in enumerate(zip(found, rows.tolist(), strict=True)):
-        own = mechanism if not mechanism.shape else mechanism._with_values(designs[index // each])
+        own = mechanism if not mechanism.shape else with_values(mechanism, designs[index // each])
         lists.append(_named(own, tuple(row), one))
     for size in reversed(shape[1:]):
         lists = [lists[i : i + size] for i in range(0, len(lists), size)]
     return lists if shape else lists[0]
 
 
-def _named(mechanism: Mechanism, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
+def _named(mechanism: MechanismModel, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
     count = found["complex_count"]
-    shown = joints_that_differ(mechanism._joint_names, found["assemblies"])
+    shown = joints_that_differ(mechanism.joint_names, found["assemblies"])
     named = [
         Assembly._found(Place(mechanism, q, numbers), count, shown)
         for numbers in found["assemblies"]
     ]
     if not found["is_complete"]:
         message = f"assemblies at q = {q}: the list may be incomplete: {found['failures'][0]}"
-        warnings.warn(message, AssurWarning, stacklevel=4)
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     return Assemblies(named, count, found["failures"], found["is_complete"])

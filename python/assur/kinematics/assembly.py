@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypedDict
 
@@ -11,31 +10,22 @@ import numpy as np
 
 from assur._validate import checked_signs
 from assur.errors import InputError
+from assur.kinematics.model import at_place
+from assur.kinematics.request import at_position
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from assur._arrays import Float
     from assur._core import Mechanism as Core
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import AnyMechanism, AssemblyNumbers, Place
 
-__all__ = ["Assemblies", "Assembly", "Place"]
+__all__ = ["Assemblies", "Assembly"]
 
 # How near (relative to the size) two positions of the same assembly are; others are farther.
 SAME = 1e-6
 # Joints in a repr.
 SHOWN = 2
-
-
-class AssemblyNumbers(TypedDict):
-    """An assembly as the core knows it."""
-
-    signs: list[int]
-    class_angles: list[float]
-    slides: list[float]
-    joints: list[tuple[float, float]]
-    angles: list[float]
-    is_double: bool
 
 
 class FoundAssemblies(TypedDict):
@@ -45,20 +35,6 @@ class FoundAssemblies(TypedDict):
     complex_count: list[int]
     failures: list[str]
     is_complete: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where an assembly was found: a design, its coordinates, and the core's numbers."""
-
-    mechanism: Mechanism
-    q: tuple[float, ...]
-    numbers: AssemblyNumbers
-
-    @property
-    def is_traced(self) -> bool:
-        """Whether the assembly is what can be reached from here, not signs alone."""
-        return self.mechanism._core.cls > 2
 
 
 class Assembly(Mapping[str, int]):
@@ -99,11 +75,11 @@ class Assembly(Mapping[str, int]):
     (1, Assembly({'C': -1}))
     """
 
-    __slots__ = ("_complex_count", "_core", "_place", "_shown", "_signs")
+    __slots__ = ("_complex_count", "_core", "_shown", "_signs", "place")
 
     def __init__(self, signs: Mapping[str, int]) -> None:
         self._signs = checked_signs(signs)
-        self._place: Place | None = None
+        self.place: Place | None = None
         self._complex_count: tuple[int, ...] = ()
         # The mechanism drawn in it, made when first needed.
         self._core: Core | None = None
@@ -114,9 +90,9 @@ class Assembly(Mapping[str, int]):
     def _found(
         cls, place: Place, complex_count: Iterable[int], shown: tuple[str, ...] = ()
     ) -> Assembly:
-        names = [name for name, _ in place.mechanism._core.assembly]
+        names = [name for name, _ in place.mechanism.core.assembly]
         found = cls(dict(zip(names, place.numbers["signs"], strict=True)))
-        found._place = place
+        found.place = place
         found._shown = shown
         found._complex_count = tuple(complex_count)
         return found
@@ -124,23 +100,23 @@ class Assembly(Mapping[str, int]):
     @property
     def q(self) -> float | Float | None:
         """Where it was found, rad or m; with several drivers an array."""
-        if self._place is None:
+        if self.place is None:
             return None
-        q = self._place.q
+        q = self.place.q
         return q[0] if len(q) == 1 else np.array(q)
 
     @property
     def joints(self) -> Mapping[str, tuple[float, float]] | None:
         """Positions of the joints where it was found, m."""
-        if self._place is None:
+        if self.place is None:
             return None
-        names = self._place.mechanism._joint_names
-        return MappingProxyType(dict(zip(names, self._place.numbers["joints"], strict=True)))
+        names = self.place.mechanism.joint_names
+        return MappingProxyType(dict(zip(names, self.place.numbers["joints"], strict=True)))
 
     @property
     def is_double(self) -> bool:
         """Whether two assemblies meet where it was found."""
-        return self._place is not None and self._place.numbers["is_double"]
+        return self.place is not None and self.place.numbers["is_double"]
 
     @property
     def complex_count(self) -> tuple[int, ...]:
@@ -166,26 +142,26 @@ class Assembly(Mapping[str, int]):
             return NotImplemented
         if dict(self) != dict(other):
             return False
-        theirs = other._place if isinstance(other, Assembly) else None
-        own = self._place
+        theirs = other.place if isinstance(other, Assembly) else None
+        own = self.place
         if own is None or theirs is None or not (own.is_traced and theirs.is_traced):
             # A named assembly says nothing about groups above class II.
             return not any(place is not None and place.is_traced for place in (own, theirs))
         one, another = own.mechanism, theirs.mechanism
         is_same = (
-            one._description == another._description
-            and one._values.tobytes() == another._values.tobytes()
+            one.description == another.description
+            and one.values.tobytes() == another.values.tobytes()
         )
         return is_same and self._leads_to(theirs)
 
     def _leads_to(self, place: Place) -> bool:
         """Whether following it to a place arrives there."""
-        assert self._place is not None
-        target = np.array(place.q) if len(place.q) > 1 else place.q[0]
-        motion = place.mechanism.solve(target, order=0, assembly=self, on_error="nan")
-        names, wanted = place.mechanism._joint_names, np.array(place.numbers["joints"])
-        there = np.array([motion.joint(name).value for name in names])
-        slides = np.array([motion.slide(name).value for name in place.mechanism.slides])
+        assert self.place is not None
+        drawn = drawn_in(place.mechanism, self)
+        arrays, _ = at_position(drawn, place.q)
+        wanted = np.array(place.numbers["joints"])
+        there = np.array([arrays.joints[name][0] for name in drawn.joint_names])
+        slides = np.array([arrays.slides[name][0] for name in drawn.slides])
         size = max(np.ptp(wanted, axis=0).max(), 1e-300)
         errors = np.abs(np.concatenate([there - wanted], axis=None))
         gaps = np.abs(slides - np.array(place.numbers["slides"]))
@@ -193,26 +169,26 @@ class Assembly(Mapping[str, int]):
 
     def __hash__(self) -> int:
         # Beside a change point a sign may differ from that of an equal assembly elsewhere.
-        traced = self._place is not None and self._place.is_traced
+        traced = self.place is not None and self.place.is_traced
         return hash(frozenset(self if traced else self._signs))
 
     def __neg__(self) -> Assembly:
         """Return the assembly with every sign reversed."""
-        if self._place is not None and self._place.is_traced:
+        if self.place is not None and self.place.is_traced:
             message = "an assembly of a group above class II has no opposite: see assemblies()"
             raise InputError(message)
         return Assembly({name: -sign for name, sign in self._signs})
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (dict(self._signs), self._place, self._complex_count, self._shown))
+        return (_rebuild, (dict(self._signs), self.place, self._complex_count, self._shown))
 
     def __repr__(self) -> str:
-        if self._place is None or not self._place.is_traced:
+        if self.place is None or not self.place.is_traced:
             return f"Assembly({dict(self._signs)!r})"
-        q = ", ".join(f"{q:.6g}" for q in self._place.q)
+        q = ", ".join(f"{q:.6g}" for q in self.place.q)
         signs = f"{dict(self._signs)!r}, " if self._signs else ""
         at = dict(self.joints or {})
-        fixed = dict(self._place.mechanism._description.links).get("ground", ())
+        fixed = dict(self.place.mechanism.description.links).get("ground", ())
         moving = [name for name in at if name not in fixed]
         shown = self._shown or moving[-1:]
         places = "".join(f", {name}=({at[name][0]:.4g}, {at[name][1]:.4g})" for name in shown)
@@ -230,7 +206,7 @@ def joints_that_differ(names: Sequence[str], found: Sequence[AssemblyNumbers]) -
     return tuple(differ[:SHOWN])
 
 
-def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
+def drawn_in(mechanism: AnyMechanism, assembly: Mapping[str, int]) -> AnyMechanism:
     """Return the mechanism drawn where an assembly of a group above class II was found.
 
     Any other assembly is given by its signs: the mechanism itself is returned.
@@ -238,16 +214,16 @@ def drawn_in(mechanism: Mechanism, assembly: Mapping[str, int]) -> Mechanism:
     if not isinstance(assembly, Assembly):
         # Signs by name.
         return mechanism
-    place = assembly._place
+    place = assembly.place
     if place is None or not place.is_traced:
         return mechanism
-    if place.mechanism._description != mechanism._description:
+    if place.mechanism.description != mechanism.description:
         message = "assembly: it is one of another mechanism"
         raise InputError(message)
     if assembly._core is None:
-        values = place.mechanism._values.tolist()
-        assembly._core = place.mechanism._core.drawn_in(values, list(place.q), place.numbers)
-    return mechanism._drawn_at(place, assembly._core)
+        values = place.mechanism.values.tolist()
+        assembly._core = place.mechanism.core.drawn_in(values, list(place.q), place.numbers)
+    return at_place(mechanism, place, assembly._core)
 
 
 def _rebuild(
@@ -258,7 +234,7 @@ def _rebuild(
 ) -> Assembly:
     assembly = Assembly(signs)
     assembly._shown = shown
-    assembly._place = place
+    assembly.place = place
     assembly._complex_count = complex_count
     return assembly
 

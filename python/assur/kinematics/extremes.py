@@ -10,13 +10,14 @@ from assur._arrays import short
 from assur._validate import checked_name, real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.limits import limits
 from assur.kinematics.place import size_of
-from assur.kinematics.solve import checked_assembly
+from assur.kinematics.solve_arguments import checked_assembly
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["Extremes", "ValueAt"]
 
@@ -78,7 +79,7 @@ class Extremes:
     time_ratio: float | None
     # The design in its assembly, the coordinate and its order, turns after which the motion closes:
     # for `dwells`.
-    _of: tuple[Mechanism, list[int], str, int, int | None] = field(repr=False, compare=False)
+    _of: tuple[MechanismModel, list[int], str, int, int | None] = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
         ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.least, self.greatest))
@@ -122,9 +123,9 @@ class Extremes:
             raise InputError(message, value=size)
         mechanism, signs, name, order, turns = self._of
         ends = ((self.least.value + size, False), (self.greatest.value - size, True))
-        values = mechanism._values.tolist()
+        values = mechanism.values.tolist()
         least, greatest = (
-            mechanism._core.stretches_beyond(values, signs, name, order, end)
+            mechanism.core.stretches_beyond(values, signs, name, order, end)
             if math.isfinite(end[0])
             else []
             for end in ends
@@ -144,18 +145,18 @@ def _near(stretches: list[list[float]], place: float, period: float | None) -> l
     return sorted(found)
 
 
-def checked_coordinate(mechanism: Mechanism, name: Any) -> str:
+def checked_coordinate(mechanism: MechanismModel, name: Any) -> str:
     """Return the name of a coordinate: "B.x", "rocker", "bore"."""
     if not isinstance(name, str):
         message = f"coordinate {short(name)}: a name is needed"
         raise InputError(message)
     known = checked_name(name, "coordinate")
-    mechanism._core.check_coordinate(known)
+    mechanism.core.check_coordinate(known)
     return known
 
 
 def extremes(
-    mechanism: Mechanism, name: str, order: int, assembly: Mapping[str, int] | None
+    mechanism: MechanismModel, name: str, order: int, assembly: Mapping[str, int] | None
 ) -> Extremes:
     """See `Mechanism.extremes`."""
     if mechanism.shape:
@@ -164,8 +165,8 @@ def extremes(
             "assur.sweep, whose metrics are those of the positions alone)"
         )
         raise InputError(message)
-    if mechanism._driver_count > 1:
-        message = f"extremes() is for one driver; this mechanism has {mechanism._driver_count}"
+    if mechanism.driver_count > 1:
+        message = f"extremes() is for one driver; this mechanism has {mechanism.driver_count}"
         raise InputError(message)
     order = whole_number(order, "order", 0, 3, needed="0, 1, 2 or 3 is needed")
     name = checked_coordinate(mechanism, name)
@@ -173,18 +174,18 @@ def extremes(
         drawn = drawn_in(mechanism, assembly)
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
-    values = mechanism._values.tolist()
-    found = mechanism._core.extremes(values, signs, name, order)
+    values = mechanism.values.tolist()
+    found = mechanism.core.extremes(values, signs, name, order)
     if found is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
     least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
-    limits = mechanism.limits(assembly)
+    own = limits(mechanism, assembly)
     ratio = None
     unit = 1.0 if name in mechanism.links else size_of(mechanism)
     moves = greatest.value - least.value > STANDS * unit
-    if order == 0 and moves and limits.period == 1 and math.isfinite(greatest.q - least.q):
+    if order == 0 and moves and own.period == 1 and math.isfinite(greatest.q - least.q):
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, limits.period))
+    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, own.period))

@@ -18,15 +18,18 @@ from assur._validate import checked_name, real_array
 from assur.description import encode
 from assur.description.words import Slide
 from assur.errors import AssurWarning, InputError, StructureError
-from assur.kinematics.assembly import Assembly, Place
+from assur.kinematics.assemblies import assemblies
+from assur.kinematics.assembly import Assembly
 from assur.kinematics.extremes import checked_coordinate
+from assur.kinematics.model import Place
 from assur.kinematics.place import place_of, place_vector, size_of
 from assur.kinematics.pose import Pose, bare_core
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
-    from assur.description.encode import Description, DriverLike
-    from assur.kinematics.assembly import AssemblyNumbers
-    from assur.kinematics.mechanism import Mechanism
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike
+    from assur.kinematics.model import AssemblyNumbers, MechanismModel
 
 # Places of the same assembly found in two ways, in sizes. Beside a fold half of the digits are
 # lost; there the assemblies so far (rad, or in sizes) from it tell.
@@ -35,10 +38,10 @@ AT_FOLD = 1e-3
 BESIDE = 1e-9
 
 
-def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembly]]:
+def find(mechanism: MechanismModel, name: str, value: Any) -> list[tuple[Any, Assembly]]:
     """See `Mechanism.find`."""
     name = checked_name(name, "find")
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     if mechanism.shape:
         message = f"find() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
@@ -57,8 +60,8 @@ def find(mechanism: Mechanism, name: str, value: Any) -> list[tuple[Any, Assembl
     other, coordinates = _driven_by(mechanism, name, wanted)
     size = size_of(mechanism)
     found: list[tuple[Any, Assembly]] = []
-    for assembly in other.assemblies(coordinates):
-        place = assembly._place
+    for assembly in assemblies(other, coordinates):
+        place = assembly.place
         assert place is not None
         one = _of_original(mechanism, place.numbers, size)
         if one is not None and not any(_is_same(one, known) for known in found):
@@ -73,8 +76,8 @@ def _is_same(one: tuple[Any, Assembly], other: tuple[Any, Assembly]) -> bool:
 
 
 def driven_by_joint(
-    mechanism: Mechanism, joint: str, held: list[DriverLike]
-) -> tuple[Mechanism, tuple[float, float]]:
+    mechanism: MechanismModel, joint: str, held: list[DriverLike]
+) -> tuple[MechanismModel, tuple[float, float]]:
     """Return the design driven by a joint's x and y before other drivers, and where both are 0."""
     description = _with_cross_slide(_to_size(mechanism), joint, "xy")
     description = description._replace(drivers=(*description.drivers, *held))
@@ -84,49 +87,49 @@ def driven_by_joint(
 
 
 def _driven_by(
-    mechanism: Mechanism, name: str, wanted: Any
-) -> tuple[Mechanism, float | list[float]]:
+    mechanism: MechanismModel, name: str, wanted: Any
+) -> tuple[MechanismModel, float | list[float]]:
     """Return the design driven by a coordinate, and the driver's coordinate of the value."""
-    own = mechanism._description
-    if mechanism._driver_count == 1 and "." not in name:
+    own = mechanism.description
+    if mechanism.driver_count == 1 and "." not in name:
         checked_coordinate(mechanism, name)
         description = own._replace(drivers=encode.drivers(name), assembly=())
         return _redriven(mechanism, description, name), float(wanted[0])
-    if mechanism._driver_count == 1:
+    if mechanism.driver_count == 1:
         joint, _, axes = name.rpartition(".")
         checked_coordinate(mechanism, name)
     else:
         joint, axes = name, "xy"
-        mechanism._core.require("joint", joint)
+        mechanism.core.require("joint", joint)
     other = _redriven(mechanism, _with_cross_slide(_to_size(mechanism), joint, axes), name)
     base = dict(zip("xy", _base(other), strict=True))
     steps = [float(value - base[axis]) for value, axis in zip(wanted, axes, strict=True)]
     return other, steps[0] if len(steps) == 1 else steps
 
 
-def _redriven(mechanism: Mechanism, description: Description, name: str) -> Mechanism:
+def _redriven(mechanism: MechanismModel, description: Description, name: str) -> MechanismModel:
     """Return the design with another description, whose drawing need not show an assembly."""
     try:
         core = bare_core(description)
     except StructureError as error:
-        if "." not in name and name not in mechanism._joint_names:
+        if "." not in name and name not in mechanism.joint_names:
             if error.kind != "cannot_drive":
                 raise
             raise _does_not_change(mechanism, name) from error
-        joint = name if name in mechanism._joint_names else name.rpartition(".")[0]
+        joint = name if name in mechanism.joint_names else name.rpartition(".")[0]
         why = "the joint moves along a curve only, or not without other drivers"
         if joint in mechanism.links.get("ground", ()):
             why = f"joint {joint!r} is on the ground and does not move"
         raise InputError(f"{name!r} cannot be set: {why}") from error
-    own = dict(zip(mechanism._core.dimension_names, mechanism._values.tolist(), strict=True))
+    own = dict(zip(mechanism.core.dimension_names, mechanism.values.tolist(), strict=True))
     drawn = zip(core.dimension_names, core.drawing, strict=True)
     values = np.array([own.get(name, value) for name, value in drawn])
     return mechanism._make(description, values, core)
 
 
-def _does_not_change(mechanism: Mechanism, name: str) -> InputError:
+def _does_not_change(mechanism: MechanismModel, name: str) -> InputError:
     """Return the error for a link's angle or a slide's value that is the same in all positions."""
-    motion = mechanism.solve(mechanism.q0, order=0, on_error="nan")
+    motion = solve(mechanism, mechanism.q0, order=0, on_error="nan")
     is_slide = name in mechanism.slides
     value = float((motion.slide(name) if is_slide else motion.link(name)).value)
     what, unit = ("value of slide", "m") if is_slide else ("angle of link", "rad")
@@ -135,18 +138,18 @@ def _does_not_change(mechanism: Mechanism, name: str) -> InputError:
     return InputError(message, slide=name) if is_slide else InputError(message, link=name)
 
 
-def _to_size(mechanism: Mechanism) -> Description:
+def _to_size(mechanism: MechanismModel) -> Description:
     """Return the drawing in the size of the design: positions are followed from there."""
-    own = mechanism._description
+    own = mechanism.description
     ratio = size_of(mechanism) / size_of(mechanism, drawn=True)
     if 0.5 <= ratio <= 2.0:
         return own
     return own._replace(joints=tuple((name, x * ratio, y * ratio) for name, x, y in own.joints))
 
 
-def _base(mechanism: Mechanism) -> tuple[float, float]:
+def _base(mechanism: MechanismModel) -> tuple[float, float]:
     """Return the ground's joint from which a cross-slide is measured."""
-    joint = next(slide.origin for _, slide in mechanism._description.slides[-2:])
+    joint = next(slide.origin for _, slide in mechanism.description.slides[-2:])
     values = mechanism.dimensions
     return values[f"ground.{joint}.x"], values[f"ground.{joint}.y"]
 
@@ -191,26 +194,26 @@ def _free(word: str, taken: set[str]) -> str:
 
 
 def _of_original(
-    mechanism: Mechanism, numbers: AssemblyNumbers, size: float
+    mechanism: MechanismModel, numbers: AssemblyNumbers, size: float
 ) -> tuple[Any, Assembly] | None:
     """Return the coordinate and assembly of a pose that was found with another driver."""
     links, slides = len(mechanism.links), len(mechanism.slides)
     pose = Pose.found(numbers)
-    joints = pose.joints[: len(mechanism._joint_names)]
+    joints = pose.joints[: len(mechanism.joint_names)]
     pose = Pose(joints, pose.angles[:links], pose.slides[:slides])
     q = _coordinates(mechanism, pose)
     coordinates = q[0] if len(q) == 1 else np.array(q)
-    if mechanism._core.cls > 2:
+    if mechanism.core.cls > 2:
         try:
-            _, own = bare_core(mechanism._description).at_pose(*astuple(pose))
+            _, own = bare_core(mechanism.description).at_pose(*astuple(pose))
         except StructureError:
             pass  # at a fold: the assembly is one of those beside it
         else:
             return coordinates, Assembly._found(Place(mechanism, tuple(q), own), ())
     there = place_vector(np.array(pose.joints), np.array(pose.angles), np.array(pose.slides), size)
-    unit = size if mechanism._description.drivers[0] in mechanism.slides else 1.0
+    unit = size if mechanism.description.drivers[0] in mechanism.slides else 1.0
     for beside, far in ((0.0, SAME), *((side * BESIDE * unit, AT_FOLD) for side in (1.0, -1.0))):
-        near = list(mechanism.assemblies(np.array(coordinates) + beside))
+        near = list(assemblies(mechanism, np.array(coordinates) + beside))
         gaps = [float(np.abs(place_of(_numbers(one), size) - there).max()) for one in near]
         if gaps and min(gaps) <= far:
             return coordinates, near[int(np.argmin(gaps))]
@@ -218,16 +221,16 @@ def _of_original(
 
 
 def _numbers(assembly: Assembly) -> AssemblyNumbers:
-    assert assembly._place is not None
-    return assembly._place.numbers
+    assert assembly.place is not None
+    return assembly.place.numbers
 
 
-def _coordinates(mechanism: Mechanism, pose: Pose) -> list[float]:
+def _coordinates(mechanism: MechanismModel, pose: Pose) -> list[float]:
     """Return the drivers' coordinates in a pose, of angles in (−π, π]."""
     angles = dict(zip(mechanism.links, pose.angles, strict=True))
     values = dict(zip(mechanism.slides, pose.slides, strict=True))
     found = []
-    for driver in mechanism._description.drivers:
+    for driver in mechanism.description.drivers:
         if isinstance(driver, str) and driver in values:
             found.append(values[driver])
             continue

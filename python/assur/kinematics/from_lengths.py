@@ -13,10 +13,14 @@ from assur._arrays import short
 from assur._callers import level_of_caller
 from assur._validate import real_number
 from assur.errors import AssurWarning, InputError, PositionError
+from assur.kinematics.assemblies import assemblies
+from assur.kinematics.drawn import in_assembly
+from assur.kinematics.named_dimensions import with_dimensions
 from assur.kinematics.place import size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import AnyMechanism, MechanismModel
 
 # How far (relative to the length) a distance that others decide may be from the one that is given.
 AGREES = 1e-6
@@ -29,7 +33,7 @@ ON_LINE, HARDLY = 1e-9, 0.0175
 Shape = dict[str, complex]
 
 
-def sized(sketch: Mechanism, lengths: Any) -> Mechanism:
+def sized(sketch: AnyMechanism, lengths: Any) -> AnyMechanism:
     """Return the sketched mechanism with lengths between joints, in the assembly nearest to it."""
     given = _checked(sketch, lengths)
     dimensions: dict[str, float] = {}
@@ -37,10 +41,10 @@ def sized(sketch: Mechanism, lengths: Any) -> Mechanism:
         own = {pair: length for pair, (of, length) in given.items() if of == link}
         if own:
             dimensions.update(_dimensions(sketch, link, joints, own))
-    return _nearest(sketch.with_dimensions(dimensions), sketch)
+    return _nearest(with_dimensions(sketch, dimensions), sketch)
 
 
-def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str, float]]:
+def _checked(sketch: MechanismModel, lengths: Any) -> dict[frozenset[str], tuple[str, float]]:
     """Return for every pair of joints the link that has both, and the length."""
     if not isinstance(lengths, Mapping):
         message = f"lengths is {short(lengths)}: a mapping of pairs of joints to lengths is needed"
@@ -54,7 +58,7 @@ def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str,
             )
             raise InputError(message)
         for name in names:
-            sketch._core.require("joint", name)
+            sketch.core.require("joint", name)
         link = next((link for link, on in sketch.links.items() if set(names) <= set(on)), None)
         if link is None or names[0] == names[1]:
             slide = _between(sketch, names)
@@ -82,7 +86,7 @@ def _checked(sketch: Mechanism, lengths: Any) -> dict[frozenset[str], tuple[str,
     return found
 
 
-def _between(sketch: Mechanism, names: tuple[str, ...]) -> str | None:
+def _between(sketch: MechanismModel, names: tuple[str, ...]) -> str | None:
     """Return the slide whose value is the distance of two joints, as that of a cylinder is."""
     links = sketch.links
     for name, slide in sketch.slides.items():
@@ -93,10 +97,10 @@ def _between(sketch: Mechanism, names: tuple[str, ...]) -> str | None:
 
 
 def _dimensions(
-    sketch: Mechanism, link: str, joints: tuple[str, ...], lengths: dict[frozenset[str], float]
+    sketch: MechanismModel, link: str, joints: tuple[str, ...], lengths: dict[frozenset[str], float]
 ) -> dict[str, float]:
     """Return the dimensions of a link whose joints have some distances."""
-    at = {name: complex(x, y) for name, x, y in sketch._description.joints}
+    at = {name: complex(x, y) for name, x, y in sketch.description.joints}
     placed: Shape = {}
     left = list(joints)
     while left:
@@ -191,12 +195,12 @@ def _named(
     return found
 
 
-def _nearest(mechanism: Mechanism, sketch: Mechanism) -> Mechanism:
+def _nearest(mechanism: AnyMechanism, sketch: AnyMechanism) -> AnyMechanism:
     """Return the mechanism drawn in the assembly nearest to the sketch, at the sketch's q."""
-    wanted = np.array([at for _, *at in sketch._description.joints])
-    found = list(mechanism.assemblies(sketch.q0))
+    wanted = np.array([at for _, *at in sketch.description.joints])
+    found = list(assemblies(mechanism, sketch.q0))
     if not found:
-        where = mechanism.solve(sketch.q0, order=0, on_error="nan").explain()
+        where = solve(mechanism, sketch.q0, order=0, on_error="nan").explain()
         message = f"these lengths do not fit the sketch's position: {where}"
         raise PositionError(message)
 
@@ -205,4 +209,4 @@ def _nearest(mechanism: Mechanism, sketch: Mechanism) -> Mechanism:
         assert joints is not None
         return float(np.abs(np.array(list(joints.values())) - wanted).max()) / size_of(mechanism)
 
-    return mechanism.with_assembly(found[min(range(len(found)), key=apart)])
+    return in_assembly(mechanism, found[min(range(len(found)), key=apart)])

@@ -11,7 +11,7 @@ import numpy as np
 from assur._validate import checked_index, checked_threads
 from assur.errors import InputError
 from assur.kinematics.assembly import Assembly, drawn_in
-from assur.kinematics.solve import checked_assembly
+from assur.kinematics.solve_arguments import checked_assembly
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["DeadPoint", "Limits"]
 
@@ -156,22 +156,26 @@ class Limits:
         return f"<assur.Limits {intervals or 'nowhere'}, {period}>"
 
 
-def limits(mechanism: Mechanism, assembly: Mapping[str, int] | None, threads: int | None) -> Limits:
+def limits(
+    mechanism: MechanismModel,
+    assembly: Mapping[str, int] | None = None,
+    threads: int | None = None,
+) -> Limits:
     """See `Mechanism.limits`."""
-    if mechanism._driver_count > 1:
-        count = mechanism._driver_count
+    if mechanism.driver_count > 1:
+        count = mechanism.driver_count
         message = f"limits() is for one driver; this mechanism has {count}: see workspace()"
         raise InputError(message)
     if isinstance(assembly, Assembly):
         drawn = drawn_in(mechanism, assembly)
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
-    values = mechanism._values.ravel()
-    found = mechanism._core.limits(values, signs, checked_threads(threads))
+    values = mechanism.values.ravel()
+    found = mechanism.core.limits(values, signs, checked_threads(threads))
     shape = (*mechanism.shape, found["count"], 2)
     period = found["period"].reshape(mechanism.shape)
     # Dyads in the order of their signs, then groups.
-    inner = [name for name, _ in mechanism._core.assembly]
+    inner = [name for name, _ in mechanism.core.assembly]
     names = tuple(zip_longest(found["names"], inner))
     batch = Limits(
         _frozen(found["intervals"].reshape(shape)),

@@ -2,56 +2,48 @@
 
 from __future__ import annotations
 
-import math
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from assur._core import KnownSigns
-from assur._validate import checked_index, checked_name, checked_signs, real_array
+from assur._later import explorer, save
+from assur._validate import checked_index, checked_signs
 from assur.description import encode
-from assur.description.structure import Group, Structure
 from assur.description.words import Cylinder
-from assur.errors import InputError
 from assur.kinematics import assemblies as assembly_search
 from assur.kinematics import extremes as extreme_search
 from assur.kinematics import find as inverse
 from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
-from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.assembly import Assembly
 from assur.kinematics.curve import search as curves
-from assur.kinematics.dimensions import Dimensions
-from assur.kinematics.named_dimensions import dimensions_by_name
-from assur.kinematics.pose import redrive, with_signs
+from assur.kinematics.drawn import in_assembly, redrive
+from assur.kinematics.model import MechanismModel, at_place, with_values
+from assur.kinematics.named_dimensions import with_dimensions
+from assur.kinematics.solve_arguments import in_radians
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
     from os import PathLike
 
     from assur._arrays import Float
-    from assur._core import Mechanism as Core
-    from assur.description.encode import Description, DriverLike
-    from assur.description.words import Slide
-    from assur.kinematics.assembly import Place
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike, Slide
     from assur.kinematics.curve.curve import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
     from assur.kinematics.limits import Limits
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
+    from assur.kinematics.model import Place
     from assur.kinematics.motion import Motion
     from assur.kinematics.timed import TimedMotion
     from assur.laws import Law
-    from assur.studio.notebook import Explorer
 
 __all__ = ["Mechanism"]
 
-# Four units in the last place: by so much a solved place differs from the drawing's by rounding.
-TYPED = 1e-15
 
-
-class Mechanism:
+class Mechanism(MechanismModel):
     """A planar linkage with its drivers, or a batch of designs of one.
 
     Parameters
@@ -98,35 +90,7 @@ class Mechanism:
     array([4.368934, 3.247181])
     """
 
-    __slots__ = (
-        "__weakref__",
-        "_core",
-        "_description",
-        "_joints",
-        "_known_signs",
-        "_moved",
-        "_names",
-        "_place",
-        "_signs",
-        "_structure",
-        "_values",
-    )
-    _core: Core
-    # Designs that earlier calls found to have constant signs.
-    _known_signs: KnownSigns
-    _description: Description
-    # By how much joints were moved within the tolerance that was given, m.
-    _moved: float
-    # Dimensions, shape (number of dimensions, *S).
-    _values: Float
-    _structure: Structure | None
-    _joints: MappingProxyType[str, Any] | None
-    # Where it is drawn, if not in the drawing.
-    _place: Place | None
-    # Of all dyads, in the drawing; not to be modified.
-    _signs: list[int]
-    # Indices of joints, links and slides by name.
-    _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
+    __slots__ = ()
 
     def __init__(
         self,
@@ -215,218 +179,15 @@ class Mechanism:
 
         return sized(Mechanism(joints, links, driver, slides, assembly), lengths)
 
-    def _initialise(
-        self, description: Description, values: Float | None, core: Core | None = None
-    ) -> None:
-        core = core or encode.core_of(description)
-        self._set(
-            _core=core,
-            _description=description,
-            _structure=None,
-            _joints=None,
-            _moved=0.0,
-            _names=None,
-            _place=None,
-            _signs=[sign for _, sign in core.assembly],
-        )
-        self._set_values(np.array(core.drawing) if values is None else values)
-
-    def _set(self, **attributes: object) -> None:
-        for name, value in attributes.items():
-            object.__setattr__(self, name, value)
-
-    def _set_values(self, values: Float) -> None:
-        # Takes over the caller's array without a copy: a batch may be large.
-        array = np.asarray(values, dtype=np.float64, order="C")
-        array.flags.writeable = False
-        self._set(_values=array, _known_signs=KnownSigns(math.prod(array.shape[1:])))
-
-    @classmethod
-    def _make(
-        cls, description: Description, values: Float | None, core: Core | None = None
-    ) -> Mechanism:
-        mechanism = object.__new__(Mechanism)
-        mechanism._initialise(description, values, core)
-        return mechanism
-
-    def _moved_as(self, other: Mechanism) -> Mechanism:
-        """Return self, a mechanism of the other's drawing."""
-        self._set(_moved=other._moved)
-        return self
-
-    def _with_values(self, values: Float) -> Mechanism:
-        """Return the mechanism with other values of its dimensions; the rest is shared."""
-        other = object.__new__(Mechanism)
-        other._share(self, values)
-        return other
-
-    def _drawn_at(self, place: Place, core: Core) -> Mechanism:
-        """Return the mechanism drawn at a place of one of its designs."""
-        other = object.__new__(Mechanism)
-        other._share(self, self._values)
-        other._set(_core=core, _place=place, _signs=[sign for _, sign in core.assembly])
-        return other
-
-    def _share(self, other: Mechanism, values: Float) -> None:
-        """Become the other mechanism with other values of its dimensions."""
-        for name in ("_core", "_description", "_moved", "_structure", "_names", "_place", "_signs"):
-            object.__setattr__(self, name, getattr(other, name))
-        self._set(_joints=None)
-        self._set_values(values)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
-        raise AttributeError(message)
-
-    def __delattr__(self, name: str) -> None:
-        message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
-        raise AttributeError(message)
-
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild, (self._description, np.array(self._values), self._place, self._moved))
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Mechanism):
-            return NotImplemented
-        return (
-            self._description == other._description
-            and self._place == other._place
-            and self._values.shape == other._values.shape
-            and self._values.tobytes() == other._values.tobytes()
-        )
-
-    def __hash__(self) -> int:
-        return hash((self._description, self._values.shape, self._values.tobytes()))
-
-    def __repr__(self) -> str:
-        batch = f", {self.shape} designs" if self.shape else ""
-        return f"<assur.Mechanism {self._core.formula}{batch}>"
+        return (_rebuild, (self.description, np.array(self.values), self.place, self._moved))
 
     # -- what it is ---------------------------------------------------------
 
     @property
-    def shape(self) -> tuple[int, ...]:
-        """Design shape S: ``()`` for one mechanism."""
-        return self._values.shape[1:]
-
-    @property
-    def joints(self) -> Mapping[str, Any]:
-        """Positions of the joints at `q0`, m: (x, y), or arrays S + (2,) for a batch.
-
-        NaN for designs that cannot be assembled at `q0`.
-        """
-        if self._joints is None:
-            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self._description.joints}
-            if not self._is_as_drawn:
-                motion = self.solve(self._q0_array(), order=0, on_error="nan")
-                arrays = {name: motion.joint(name).value for name in drawn}
-                single = not self.shape
-                drawn = {
-                    name: _as_typed(at, drawn[name]) if single else at
-                    for name, at in arrays.items()
-                }
-            object.__setattr__(self, "_joints", MappingProxyType(drawn))
-        assert self._joints is not None
-        return self._joints
-
-    @property
-    def _is_as_drawn(self) -> bool:
-        """Whether this is the drawing, not with another assembly or adjusted redundant links."""
-        return (
-            self._place is None
-            and self._values.tolist() == self._core.drawing
-            and not self._description.assembly
-            and self._core.adjustment == 0.0
-        )
-
-    @property
-    def _joint_names(self) -> tuple[str, ...]:
-        """Names of the joints: unlike `joints`, without solving a design."""
-        return tuple(name for name, _, _ in self._description.joints)
-
-    @property
-    def links(self) -> Mapping[str, tuple[str, ...]]:
-        """Joints of each link."""
-        return MappingProxyType(dict(self._description.links))
-
-    @property
-    def slides(self) -> Mapping[str, Slide]:
-        """Sliding pairs by name."""
-        return MappingProxyType(dict(self._description.slides))
-
-    @property
-    def driver(self) -> DriverLike | tuple[DriverLike, ...]:
-        """The driver, or a tuple of drivers."""
-        drivers = self._description.drivers
-        return drivers[0] if len(drivers) == 1 else drivers
-
-    @property
-    def q0(self) -> float | Float:
-        """Coordinate of the driver in the drawing, rad or m; an array (n,) for n drivers."""
-        q0 = self._q0_array()
-        return float(q0) if q0.ndim == 0 else q0
-
-    @property
-    def _driver_count(self) -> int:
-        return len(self._description.drivers)
-
-    @property
-    def _indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Indices of joints, links and slides by name; not to be modified."""
-        if self._names is None:
-            own = self._description
-            named = own.joints, own.links, own.slides
-            names = tuple({one[0]: i for i, one in enumerate(of)} for of in named)
-            object.__setattr__(self, "_names", names)
-        assert self._names is not None
-        return self._names
-
-    def _q0_array(self) -> Float:
-        q0 = np.array(self._core.q0)
-        return q0[0] if len(q0) == 1 else q0
-
-    @property
-    def structure(self) -> Structure:
-        """Mobility, structural formula, Assur groups, redundant links."""
-        if self._structure is None:
-            real, drawn, counted = self._core.mobility
-            links, slides = self._core.redundant
-            groups = tuple(
-                Group(
-                    cls=one["cls"],
-                    order=one["order"],
-                    kind=one["kind"],
-                    artobolevsky_kind=one["artobolevsky_kind"],
-                    links=tuple(one["links"]),
-                    joints=tuple(one["joints"]),
-                    slides=tuple(one["slides"]),
-                )
-                for one in self._core.groups
-            )
-            named = dict(self._description.links)
-            at_joints = [joint for on in named.values() for joint in on]
-            pins = [at_joints.count(joint) - 1 for joint in dict.fromkeys(at_joints)]
-            structure = Structure(
-                mobility=real,
-                mobility_at_drawing=drawn,
-                mobility_counted=counted,
-                cls=self._core.cls,
-                formula=self._core.formula,
-                groups=groups,
-                redundant=(*links, *slides),
-                moving_links=len(named) - ("ground" in named),
-                turning_pairs=sum(pins),
-                sliding_pairs=len(self._description.slides),
-                adjustment=max(self._core.adjustment, self._moved),
-            )
-            object.__setattr__(self, "_structure", structure)
-        assert self._structure is not None
-        return self._structure
-
-    @property
     def assembly(self) -> Assembly:
         """The assembly shown by the drawing."""
-        return Assembly(dict(self._core.assembly))
+        return Assembly(dict(self.core.assembly))
 
     def with_assembly(self, assembly: Assembly) -> Mechanism:
         """Return the mechanism drawn in another assembly, as `assemblies` found it.
@@ -451,40 +212,7 @@ class Mechanism:
         >>> crossed.assembly
         Assembly({'C': -1})
         """
-        return self._in_assembly(assembly)
-
-    def _in_assembly(self, assembly: Mapping[str, int] | None) -> Mechanism:
-        """Return the mechanism drawn in an assembly, itself in its own."""
-        if assembly is None:
-            return self
-        drawn = drawn_in(self, assembly)
-        if drawn is not self:
-            return drawn
-        return self._in_signs(solver.checked_assembly(self, assembly))
-
-    def _in_signs(self, signs: list[int]) -> Mechanism:
-        """Return the mechanism drawn with these signs of all its dyads."""
-        if signs == self._signs:
-            return self
-        if self._place is not None:
-            return with_signs(self, self._place, signs)
-        named = zip((name for name, _ in self._core.assembly), signs, strict=True)
-        description = self._description._replace(assembly=tuple(named))
-        return self._make(description, np.array(self._values))._moved_as(self)
-
-    @property
-    def dimensions(self) -> Dimensions:
-        """The dimensions by name, m or rad: floats, or arrays of shape S.
-
-        Examples
-        --------
-        >>> import assur
-        >>> dict(assur.SliderCrank(1.0, 3.0).dimensions)["rod.length"]
-        3.0
-        """
-        names = self._core.dimension_names
-        values = self._values if self.shape else self._values.tolist()
-        return Dimensions(dict(zip(names, values, strict=True)))
+        return in_assembly(self, assembly)
 
     # -- other mechanisms ---------------------------------------------------
 
@@ -525,23 +253,7 @@ class Mechanism:
         >>> m.with_dimensions({"coupler.length": np.linspace(2.8, 3.2, 5)}).shape
         (5,)
         """
-        given = dimensions_by_name(dimensions, self._core.dimension_names)
-        wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
-        indices = [self._core.dimension(name) for name in wanted]
-        new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
-        try:
-            shape = np.broadcast_shapes(self.shape, *(array.shape for array in new))
-        except ValueError as error:
-            shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(wanted, new, strict=True))
-            message = f"dimensions do not broadcast: {shapes}, designs {self.shape}"
-            raise InputError(message) from error
-        replaced = dict(zip(indices, new, strict=True))
-        values = np.empty((len(self._values), *shape))
-        for index, old in enumerate(self._values):
-            values[index] = replaced.get(index, old)
-        if not shape:
-            self._core.check_dimensions(values.tolist())
-        return self._with_values(values)
+        return with_dimensions(self, dimensions, by_name)
 
     def with_driver(
         self,
@@ -579,15 +291,6 @@ class Mechanism:
         """
         drivers, signs = encode.drivers(driver), checked_signs(assembly, strict=False)
         return redrive(self, drivers, signs, q)._moved_as(self)
-
-    def __len__(self) -> int:
-        if not self.shape:
-            message = "one mechanism has no length: it is no batch of designs"
-            raise TypeError(message)
-        return self.shape[0]
-
-    def __bool__(self) -> bool:
-        return True
 
     def __iter__(self) -> Iterator[Mechanism]:
         return (self[i] for i in range(len(self)))
@@ -631,9 +334,9 @@ class Mechanism:
         ((3,), 3.2)
         """
         entry = checked_index(index, self.shape, "design")
-        values = np.array(np.moveaxis(self._values, 0, -1)[entry])
-        self._core.check_dimensions(values.tolist())
-        return self._with_values(values)
+        values = np.array(np.moveaxis(self.values, 0, -1)[entry])
+        self.core.check_dimensions(values.tolist())
+        return with_values(self, values)
 
     # -- moving -------------------------------------------------------------
 
@@ -701,7 +404,7 @@ class Mechanism:
         """
         is_typed = deg is None and q is not None
         if deg is not None or q is None:
-            q = solver.in_radians(self, q, deg)
+            q = in_radians(self, q, deg)
         return solver.solve(self, q, order, outputs, assembly, on_error, threads, out, is_typed)
 
     def follow(
@@ -1081,10 +784,7 @@ class Mechanism:
         >>> assur.load(path) == m
         True
         """
-        import assur
-
-        # Through the package: files are a floor above.
-        assur.files.save(self, path)
+        save(self, path)
 
     def plot(
         self,
@@ -1197,7 +897,7 @@ class Mechanism:
             self, path, q=q, speed=omega, paths=paths, diagrams=diagrams, title=title, dark=dark
         )
 
-    def explore(self, height: int = 640) -> Explorer:
+    def explore(self, height: int = 640) -> Any:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: dragging changes ``view.mechanism``, assigning ``view.mechanism`` redraws. Needs
@@ -1225,8 +925,6 @@ class Mechanism:
         >>> view.mechanism.structure.mobility
         1
         """
-        from assur._later import explorer
-
         return explorer(self, height)
 
     def to_drawing(
@@ -1316,6 +1014,10 @@ class Mechanism:
         return notebook_html(self)
 
 
+# What is made of a named mechanism is a plain one.
+Mechanism._plain = Mechanism
+
+
 def _rebuild(
     description: Description, values: Float, place: Place | None = None, moved: float = 0.0
 ) -> Mechanism:
@@ -1324,14 +1026,5 @@ def _rebuild(
     if place is None:
         return mechanism
     own = place.mechanism
-    core = own._core.drawn_in(own._values.tolist(), list(place.q), place.numbers)
-    return mechanism._drawn_at(place, core)
-
-
-def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
-    """Return a place; coordinates that differ from the drawing's by rounding alone are those."""
-    size = float(np.abs(solved).max())
-    return tuple(
-        own if abs(x - own) <= TYPED * size else x
-        for x, own in zip(solved.tolist(), drawn, strict=True)
-    )
+    core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
+    return at_place(mechanism, place, core)

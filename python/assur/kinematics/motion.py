@@ -9,25 +9,29 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import flag, short
-from assur._validate import checked_index, checked_name, real_array, refuse_without_speed
+from assur._validate import (
+    checked_index,
+    checked_name,
+    real_array,
+    refuse_without_speed,
+    require_one_driver,
+)
 from assur.errors import InputError
 from assur.kinematics import transmission
-from assur.kinematics.quantity import Analogues
+from assur.kinematics.motion_model import MotionModel
 from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
     from os import PathLike
 
     from assur._arrays import Float
-    from assur.kinematics.held import Results
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.request import SolveRequest
+    from assur.kinematics.quantity import Analogues
 
 __all__ = ["Motion"]
 
 
-class Motion:
+class Motion(MotionModel):
     """Positions and analogues of a mechanism; made by `Mechanism.solve`.
 
     Attributes
@@ -48,176 +52,6 @@ class Motion:
     >>> motion["rocker"].value.round(6)  # rad
     array([1.696124, 1.554646, 1.894736])
     """
-
-    def __init__(
-        self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
-    ) -> None:
-        self._replace_with(request, results, status)
-
-    def _replace_with(
-        self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
-    ) -> None:
-        self._mechanism: Mechanism | None = None
-        self.q = request.q
-        self.order = request.order
-        self._status = status
-        self._request = request
-        self._stored = results
-        self._drivers = request.mechanism._driver_count
-        self._reference_points: dict[str, tuple[Float, ...]] = {}
-        self._diagnostics: tuple[Float, Float] | None = None
-        self.kept: npt.NDArray[np.intp] | None = None
-
-    @property
-    def mechanism(self) -> Mechanism:
-        """The mechanism solved, drawn in the assembly that was solved."""
-        request = self._request
-        if request.signs == request.mechanism._signs:
-            return request.mechanism
-        # Made when first needed: solving need not compile it.
-        if self._mechanism is None:
-            self._mechanism = request.mechanism._in_signs(request.signs)
-        return self._mechanism
-
-    @property
-    def _results(self) -> Results:
-        """The arrays held, by name."""
-        self._require_complete()
-        return self._stored
-
-    def _require_complete(self) -> None:
-        """Raise if a solve(out=) overwrites this motion or was stopped while doing so."""
-        buffers = self._stored.buffers
-        if buffers is not None and not buffers.complete:
-            message = (
-                "this motion is incomplete: a call that overwrites it (out=) is running, was "
-                "interrupted or failed; solve it again"
-            )
-            raise InputError(message)
-
-    @property
-    def status(self) -> npt.NDArray[np.uint8]:
-        """`Status` of each position, S + (N,)."""
-        self._require_complete()
-        return self._status
-
-    def __getstate__(self) -> dict[str, Any]:
-        # A copy has no buffers: only the original may be overwritten.
-        return {**self.__dict__, "_stored": self._results.without_buffers(copy=False)}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        stored = self._stored
-        held = (stored.joints, stored.links, stored.slides, self._reference_points)
-        for array in (a for kind in held for arrays in kind.values() for a in arrays):
-            array.flags.writeable = False
-        for array in (self.q, self._status, *(self._diagnostics or ())):
-            array.flags.writeable = False
-
-    def __copy__(self) -> Motion:
-        # Copies its arrays, which solve(out=) may overwrite; q never is.
-        own = Motion.__new__(Motion)
-        state = self.__getstate__()
-        own.__setstate__(
-            {
-                **state,
-                "_stored": self._results.without_buffers(copy=True),
-                "_status": self.status.copy(),
-            }
-        )
-        return own
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Shape S + (N,): designs, then positions."""
-        return self._status.shape
-
-    def __repr__(self) -> str:
-        formula = self._request.mechanism._core.formula
-        return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
-
-    def _find(
-        self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str
-    ) -> tuple[Float, ...]:
-        name = checked_name(name, kind)
-        if name not in held:
-            self._request.mechanism._core.require(kind, name)
-            message = f"{kind} {name!r} was not among the outputs of this motion"
-            raise InputError(message, **{kind: name})  # type: ignore[arg-type]
-        return held[name]
-
-    def joint(self, name: str | Sequence[str]) -> Analogues:
-        """Return the position of a joint, m, with its analogues.
-
-        Of a sequence of names, arrays are stacked along a new first axis.
-
-        Parameters
-        ----------
-        name : str or sequence of str
-            The joint, or several.
-
-        Returns
-        -------
-        Analogues
-            Values of shape S + (N, 2).
-
-        Examples
-        --------
-        >>> import assur, numpy as np
-        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, np.pi / 2])
-        >>> motion.joint("A").value  # m
-        array([[0.1, 0. ],
-               [0. , 0.1]])
-        """
-        return self._quantity("joint", self._results.joints, name)
-
-    def link(self, name: str | Sequence[str]) -> Analogues:
-        """Return the angle of a link, rad, continuous along q, with its analogues.
-
-        Of a sequence of names, arrays are stacked along a new first axis.
-
-        Parameters
-        ----------
-        name : str or sequence of str
-            The link, or several.
-
-        Returns
-        -------
-        Analogues
-            Values of shape S + (N,).
-
-        Examples
-        --------
-        >>> import assur
-        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, 7.0])
-        >>> motion.link("crank").value  # rad; not reduced to a turn
-        array([0., 7.])
-        """
-        return self._quantity("link", self._results.links, name)
-
-    def slide(self, name: str | Sequence[str]) -> Analogues:
-        """Return the value of a slide, m, with its analogues.
-
-        Of a sequence of names, arrays are stacked along a new first axis.
-
-        Parameters
-        ----------
-        name : str or sequence of str
-            The slide, or several.
-
-        Returns
-        -------
-        Analogues
-            Values of shape S + (N,).
-
-        Examples
-        --------
-        >>> import assur, numpy as np
-        >>> motion = assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, np.pi])
-        >>> motion.slide("bore").value  # m
-        array([0.5, 0.3])
-        """
-        return self._quantity("slide", self._results.slides, name)
 
     def point(self, link: str, local: npt.ArrayLike) -> Analogues:
         """Return a point of a link that has no joint there, m, with its analogues.
@@ -249,19 +83,6 @@ class Motion:
 
         return point_of(self, link, local)
 
-    def _quantity(
-        self, kind: str, held: Mapping[str, tuple[Float, ...]], name: str | Sequence[str]
-    ) -> Analogues:
-        is_point = kind == "joint"
-        if isinstance(name, str):
-            return Analogues(name, self._find(kind, held, name), self._drivers, is_point)
-        if not isinstance(name, list | tuple) or not name:
-            message = f"{kind}: {short(name)} is not a name or a list of names"
-            raise InputError(message)
-        several = [self._find(kind, held, one) for one in name]
-        arrays = tuple(np.stack(order) for order in zip(*several, strict=True))
-        return Analogues(", ".join(name), arrays, self._drivers, is_point)
-
     @overload
     def __getitem__(self, index: str) -> Analogues: ...
     @overload
@@ -284,7 +105,7 @@ class Motion:
             from assur.kinematics.select import part_of
 
             return part_of(self, index)
-        kinds = self._request.mechanism._indices
+        kinds = self.request.mechanism.indices
         for names, of in zip(kinds, (self.joint, self.link, self.slide), strict=True):
             if index in names:
                 return of(index)
@@ -292,39 +113,8 @@ class Motion:
         message = f"[{short(index)}]: nothing is called so; there are {known}"
         raise InputError(message)
 
-    def __len__(self) -> int:
-        if not self.shape:
-            message = "a motion of one position has no length"
-            raise TypeError(message)
-        return self.shape[0]
-
-    def __bool__(self) -> bool:
-        return True
-
     def __iter__(self) -> Iterator[Motion]:
         return (self[i] for i in range(len(self)))
-
-    def _held_indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
-        """Return the core's indices of the joints, links and slides held."""
-        held = (self._results.joints, self._results.links, self._results.slides)
-        require = self._request.mechanism._core.require
-        joints, links, slides = (
-            {name: require(kind, name) for name in of}
-            for kind, of in zip(("joint", "link", "slide"), held, strict=True)
-        )
-        return joints, links, slides
-
-    def _reference_point(self, link: str) -> Analogues:
-        link = checked_name(link, "link")
-        # Rarely needed, so solved on request.
-        if link not in self._reference_points:
-            self._reference_points[link] = self._request.reference_point(link)
-        return Analogues(link, self._reference_points[link], self._drivers, True)
-
-    def _require_one_driver(self, what: str) -> None:
-        if self._drivers > 1:
-            message = f"{what} is defined for one driver; this mechanism has {self._drivers}"
-            raise InputError(message)
 
     def curvature(self, joint: str) -> Float:
         """Return the curvature of a joint's path, 1/m, positive where it turns left as q grows.
@@ -349,7 +139,7 @@ class Motion:
         >>> assur.SliderCrank(crank=0.1, rod=0.4).solve([0.0, 1.0]).curvature("A")
         array([10., 10.])
         """
-        self._require_one_driver("curvature")
+        require_one_driver(self.driver_count, "curvature")
         point = self.joint(checked_name(joint, "curvature"))
         values = _core.curvature(point.d1.reshape(-1), point.d2.reshape(-1))
         return values.reshape(self.shape)
@@ -379,11 +169,11 @@ class Motion:
         >>> motion.instant_centre("rod")
         array([8., 0.])
         """
-        self._require_one_driver("instant_centre")
+        require_one_driver(self.driver_count, "instant_centre")
         parts = [
             (
-                self._reference_point(name).value.reshape(-1),
-                self._reference_point(name).d1.reshape(-1),
+                self.reference_points[name].value.reshape(-1),
+                self.reference_points[name].d1.reshape(-1),
                 self.link(name).d1.reshape(-1),
             )
             for name in (link, other)
@@ -415,8 +205,8 @@ class Motion:
         >>> motion.mechanical_advantage("bore").round(6)
         np.float64(-10.0)
         """
-        self._require_one_driver("mechanical_advantage")
-        is_slide = checked_name(name, "mechanical_advantage") in self._request.mechanism.slides
+        require_one_driver(self.driver_count, "mechanical_advantage")
+        is_slide = checked_name(name, "mechanical_advantage") in self.request.mechanism.slides
         output = self.slide(name) if is_slide else self.link(name)
         with np.errstate(divide="ignore"):
             ratio: Float = 1.0 / output.d1
@@ -506,8 +296,8 @@ class Motion:
 
     def _diagnose(self) -> tuple[Float, Float]:
         if self._diagnostics is None:
-            residual, condition = self._request.mechanism._core.diagnostics(
-                *self._request.flat(), self._request.signs
+            residual, condition = self.request.mechanism.core.diagnostics(
+                *self.request.flat(), self.request.signs
             )
             self._diagnostics = (residual.reshape(self.shape), condition.reshape(self.shape))
             for array in self._diagnostics:
@@ -535,9 +325,9 @@ class Motion:
         2.0
         """
         entry = checked_index(index, self.shape, "index")
-        designs = 0 if self._request.per_design else len(self._request.mechanism.shape)
-        q = self.q[entry[designs:]] if self._request.positions else self.q
-        return float(q) if self._drivers == 1 else tuple(float(x) for x in q)
+        designs = 0 if self.request.per_design else len(self.request.mechanism.shape)
+        q = self.q[entry[designs:]] if self.request.positions else self.q
+        return float(q) if self.driver_count == 1 else tuple(float(x) for x in q)
 
     def explain(self, index: int | tuple[int, ...] = ()) -> str:
         """Return the status of one position as a sentence, as ``on_error="raise"`` words it.
@@ -561,10 +351,10 @@ class Motion:
         """
         entry = checked_index(index, self.shape, "index")
         q = self.coordinate(entry)
-        mechanism = self._request.mechanism
-        values = np.moveaxis(mechanism._values, 0, -1)[entry[: len(mechanism.shape)]]
+        mechanism = self.request.mechanism
+        values = np.moveaxis(mechanism.values, 0, -1)[entry[: len(mechanism.shape)]]
         one = [q] if isinstance(q, float) else list(q)
-        return mechanism._core.explain(values.tolist(), one, self._request.signs)
+        return mechanism.core.explain(values.tolist(), one, self.request.signs)
 
     def to_dataframe(
         self,

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping
-from typing import Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from assur._arrays import short
+from assur._validate import checked_name, real_array
 from assur.errors import InputError
+from assur.kinematics.model import with_values
 
-__all__ = ["columns_of_designs", "dimensions_by_name"]
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur.kinematics.model import AnyMechanism
+
+__all__ = ["columns_of_designs", "dimensions_by_name", "with_dimensions"]
 
 # Columns of this package's own tables of results that are no dimensions.
 LABELS = re.compile(r"design\d*|status|kept")
@@ -83,3 +93,28 @@ def columns_of_designs(names: Iterable[Any], known: Iterable[str]) -> list[Any]:
             or (place > metrics and not str(name).endswith(ENDINGS))
         )
     ]
+
+
+def with_dimensions(
+    mechanism: AnyMechanism,
+    dimensions: Any = None,
+    by_name: Mapping[str, npt.ArrayLike] = MappingProxyType({}),
+) -> AnyMechanism:
+    """See `Mechanism.with_dimensions`."""
+    given = dimensions_by_name(dimensions, mechanism.core.dimension_names)
+    wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
+    indices = [mechanism.core.dimension(name) for name in wanted]
+    new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
+    try:
+        shape = np.broadcast_shapes(mechanism.shape, *(array.shape for array in new))
+    except ValueError as error:
+        shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(wanted, new, strict=True))
+        message = f"dimensions do not broadcast: {shapes}, designs {mechanism.shape}"
+        raise InputError(message) from error
+    replaced = dict(zip(indices, new, strict=True))
+    values = np.empty((len(mechanism.values), *shape))
+    for index, old in enumerate(mechanism.values):
+        values[index] = replaced.get(index, old)
+    if not shape:
+        mechanism.core.check_dimensions(values.tolist())
+    return with_values(mechanism, values)

@@ -10,9 +10,8 @@ from assur._trig import sin_cos
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.assembly import AssemblyNumbers
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.model import AssemblyNumbers, MechanismModel
+    from assur.kinematics.motion_model import MotionModel
 
 
 def place_vector(joints: Float, angles: Float, slides: Float, size: float) -> Float:
@@ -31,7 +30,7 @@ def place_of(numbers: AssemblyNumbers, size: float) -> Float:
     return place_vector(joints, angles, np.array(numbers["slides"]), size)
 
 
-def places_along(motion: Motion, size: float) -> Float:
+def places_along(motion: MotionModel, size: float) -> Float:
     """Return the places of a motion of one design, shape (…, n)."""
     own = motion.mechanism
     shape = motion.shape
@@ -40,7 +39,7 @@ def places_along(motion: Motion, size: float) -> Float:
         return np.stack(values, axis=axis) if values else np.empty((*shape, 0, *tail))
 
     return place_vector(
-        stacked([motion.joint(name).value for name in own._joint_names], -2, (2,)),
+        stacked([motion.joint(name).value for name in own.joint_names], -2, (2,)),
         stacked([motion.link(name).value for name in own.links], -1),
         stacked([motion.slide(name).value for name in own.slides], -1),
         size,
@@ -58,17 +57,17 @@ def nearest(places: Float, place: Float) -> float:
     return float(np.where(np.isnan(apart), np.inf, apart).min())
 
 
-def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
+def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
     """Return the lengths of one design, wherever it stands: distances, not places on the ground.
 
     Or those of the drawing.
     """
-    own = mechanism._description
+    own = mechanism.description
     free = {name for name, slide in own.slides if slide.on == "ground" and slide.origin is None}
     found: list[float] = []
     fixed: dict[str, list[float]] = {"x": [], "y": []}
-    values = mechanism._core.drawing if drawn else mechanism._values.tolist()
-    for name, value in zip(mechanism._core.dimension_names, values, strict=True):
+    values = mechanism.core.drawing if drawn else mechanism.values.tolist()
+    for name, value in zip(mechanism.core.dimension_names, values, strict=True):
         thing, _, what = name.rpartition(".")
         if thing.startswith("ground."):
             fixed[what].append(value)
@@ -77,9 +76,9 @@ def lengths(mechanism: Mechanism, drawn: bool = False) -> list[float]:
     return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
 
 
-def size_of(mechanism: Mechanism, drawn: bool = False) -> float:
+def size_of(mechanism: MechanismModel, drawn: bool = False) -> float:
     """Return a length of one design, or of the drawing, that its size is of the order of, m."""
     known = [length for length in lengths(mechanism, drawn) if np.isfinite(length)]
-    at = np.array([point for _, *point in mechanism._description.joints])
+    at = np.array([point for _, *point in mechanism.description.joints])
     width = float(np.ptp(at, axis=0).max()) if len(at) else 0.0
     return max(known, default=0.0) or width or 1.0

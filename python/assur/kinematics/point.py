@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.motion_model import MotionModel
 
 
-def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
+def point_of(motion: MotionModel, link: str, local: npt.ArrayLike) -> Analogues:
     """See `Motion.point`."""
     at = real_array(local, "local")
     if at.shape[-1:] != (2,) or at.ndim > 2 or not np.isfinite(at).all():
@@ -26,24 +26,24 @@ def point_of(motion: Motion, link: str, local: npt.ArrayLike) -> Analogues:
         raise InputError(message)
     angle = motion.link(link)
     # The ground's frame is the drawing's, whichever joint is listed first.
-    origin = None if link == "ground" else motion._reference_point(link)
+    origin = None if link == "ground" else motion.reference_points[link]
     sine, cosine = sin_cos(angle.value)
     # For each point; axes: points, those of the motion, components.
     points = at.reshape(-1, 2)
     lead = (len(points), *(1,) * angle.value.ndim)
     x, y = points[:, 0].reshape(lead), points[:, 1].reshape(lead)
     arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
-    drivers = motion._drivers
+    drivers = motion.driver_count
     # With one driver too an axis for each order, to be dropped again.
     rates = [
         one.reshape(angle.value.shape + (drivers,) * order)
-        for order, one in enumerate(angle._arrays)
+        for order, one in enumerate(angle.arrays)
     ]
     arrays = []
     for order in range(motion.order + 1):
         turned = _derivative(arm, rates, order)
         turned = turned.reshape(arm.shape + ((drivers,) * order if drivers > 1 else ()))
-        whole = turned if origin is None else origin._arrays[order] + turned
+        whole = turned if origin is None else origin.arrays[order] + turned
         whole = whole if at.ndim == 2 else whole[0]
         whole.flags.writeable = False
         arrays.append(whole)

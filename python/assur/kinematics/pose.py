@@ -1,4 +1,4 @@
-"""Mechanisms driven otherwise from a position on: the position and its assembly are kept."""
+"""Poses, and mechanisms that are drawn in them."""
 
 from __future__ import annotations
 
@@ -9,15 +9,12 @@ import numpy as np
 
 from assur import _core
 from assur.description.words import is_reached
-from assur.errors import InputError, StructureError
-from assur.kinematics.assembly import Place
+from assur.kinematics.model import Place, at_place
+from assur.kinematics.request import at_position
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from assur.description.encode import Description, DriverLike
-    from assur.kinematics.assembly import AssemblyNumbers
-    from assur.kinematics.mechanism import Mechanism
+    from assur.description.encode import Description
+    from assur.kinematics.model import AnyMechanism, AssemblyNumbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,26 +24,6 @@ class Pose:
     joints: list[tuple[float, float]]
     angles: list[float]
     slides: list[float]
-
-    @classmethod
-    def of(cls, mechanism: Mechanism, q: npt.ArrayLike) -> Pose:
-        """Return the pose of one design at a coordinate."""
-        if mechanism.shape:
-            message = (
-                f"with_driver(q=...) is for one design, this is a batch {mechanism.shape}: "
-                "take one with design(i)"
-            )
-            raise InputError(message)
-        motion = mechanism.solve(q, order=0)
-        if motion.shape:
-            message = f"q has shape {motion.shape}: one position is needed"
-            raise InputError(message)
-        joints = [motion.joint(name).value.tolist() for name in mechanism._joint_names]
-        return cls(
-            [(x, y) for x, y in joints],
-            [float(motion.link(name).value) for name in mechanism.links],
-            [float(motion.slide(name).value) for name in mechanism.slides],
-        )
 
     @classmethod
     def found(cls, numbers: AssemblyNumbers) -> Pose:
@@ -64,48 +41,38 @@ def bare_core(description: Description) -> _core.Mechanism:
     )
 
 
-def drawn_at(mechanism: Mechanism, description: Description, pose: Pose) -> Mechanism:
+def drawn_at(mechanism: AnyMechanism, description: Description, pose: Pose) -> AnyMechanism:
     """Return a design with another description (of its drivers), drawn in a pose."""
     bare = bare_core(description)
     q, numbers = bare.at_pose(pose.joints, pose.angles, pose.slides)
     names = (name for name, _ in bare.assembly)
     signs = tuple(zip(names, numbers["signs"], strict=True))
-    plain = mechanism._make(description._replace(assembly=signs), np.array(mechanism._values))
-    core = plain._core.drawn_in(plain._values.tolist(), q, numbers)
-    return plain._drawn_at(Place(plain, tuple(q), numbers), core)
+    plain = mechanism._make(description._replace(assembly=signs), np.array(mechanism.values))
+    core = plain.core.drawn_in(plain.values.tolist(), q, numbers)
+    return at_place(plain, Place(plain, tuple(q), numbers), core)
 
 
-def with_signs(mechanism: Mechanism, place: Place, signs: list[int]) -> Mechanism:
+def with_signs(mechanism: AnyMechanism, place: Place, signs: list[int]) -> AnyMechanism:
     """Return a mechanism that is drawn at a place, with other signs of its dyads there."""
     own = place.mechanism
-    q, values = list(place.q), own._values.tolist()
     numbers: AssemblyNumbers = {**place.numbers, "signs": signs, "is_double": False}
-    core = own._core.drawn_in(values, q, numbers)
+    core = own.core.drawn_in(own.values.tolist(), list(place.q), numbers)
     found = Place(own, place.q, numbers)
-    motion = own._drawn_at(found, core).solve(q[0] if len(q) == 1 else q, order=0, on_error="nan")
-    if is_reached(motion.status):
+    arrays, status = at_position(at_place(own, found, core), place.q)
+    if is_reached(status):
         # The joints of the place move with the signs.
-        joints = [motion.joint(name).value.tolist() for name in own._joint_names]
+        joints = [arrays.joints[name][0].tolist() for name in own.joint_names]
         numbers["joints"] = [(x, y) for x, y in joints]
-        numbers["angles"] = [float(motion.link(name).value) for name in own.links]
-    return mechanism._drawn_at(found, core)
+        numbers["angles"] = [float(arrays.links[name][0]) for name in own.links]
+    return at_place(mechanism, found, core)
 
 
-def redrive(
-    mechanism: Mechanism,
-    drivers: tuple[DriverLike, ...],
-    signs: tuple[tuple[str, int], ...],
-    q: npt.ArrayLike | None,
-) -> Mechanism:
-    """See `Mechanism.with_driver`."""
-    description = mechanism._description._replace(drivers=drivers, assembly=signs)
-    if q is None and mechanism._place is None:
-        try:
-            return mechanism._make(description, np.array(mechanism._values))
-        except StructureError as error:
-            # The drawing of a named mechanism has other dimensions than its design.
-            if mechanism.shape or error.kind != "flat_dyad" or mechanism._is_as_drawn:
-                raise
-    if q is None:
-        q = mechanism.q0
-    return drawn_at(mechanism, description, Pose.of(mechanism, q))
+def in_signs(mechanism: AnyMechanism, signs: list[int]) -> AnyMechanism:
+    """Return a mechanism drawn with these signs of all its dyads."""
+    if signs == mechanism.signs:
+        return mechanism
+    if mechanism.place is not None:
+        return with_signs(mechanism, mechanism.place, signs)
+    named = zip((name for name, _ in mechanism.core.assembly), signs, strict=True)
+    description = mechanism.description._replace(assembly=tuple(named))
+    return mechanism._make(description, np.array(mechanism.values))._moved_as(mechanism)

@@ -36,22 +36,22 @@ class Analogues:
     ((2, 2), 1.0)
     """
 
-    __slots__ = ("_arrays", "_drivers", "_name", "_point")
+    __slots__ = ("_drivers", "_name", "_point", "arrays")
 
     def __init__(self, name: str, arrays: tuple[Float, ...], drivers: int, point: bool) -> None:
         self._name = name
-        self._arrays = arrays
+        self.arrays = arrays
         self._drivers = drivers
         self._point = point
 
     def _order(self, order: int) -> Float:
-        if order >= len(self._arrays):
+        if order >= len(self.arrays):
             message = (
-                f"{self._name!r}: this motion was solved to order {len(self._arrays) - 1}; "
+                f"{self._name!r}: this motion was solved to order {len(self.arrays) - 1}; "
                 f"solve(q, order={order}) has d{order}"
             )
             raise InputError(message)
-        return self._arrays[order]
+        return self.arrays[order]
 
     @property
     def value(self) -> Float:
@@ -197,4 +197,4 @@ class Analogues:
         return array
 
     def __repr__(self) -> str:
-        return f"<{self._name}: shape {self.value.shape}, order {len(self._arrays) - 1}>"
+        return f"<{self._name}: shape {self.value.shape}, order {len(self.arrays) - 1}>"

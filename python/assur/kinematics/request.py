@@ -12,8 +12,10 @@ import numpy.typing as npt
 from assur.kinematics.held import Buffers, Layout, Names, Results
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from assur.errors import AssurError
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 Float: TypeAlias = npt.NDArray[np.float64]
 # Indices of joints, links (angles), links (reference points), slides.
@@ -24,7 +26,7 @@ Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 class SolveRequest:
     """Everything a motion depends on."""
 
-    mechanism: Mechanism
+    mechanism: MechanismModel
     q: Float
     positions: tuple[int, ...]
     per_design: bool
@@ -63,21 +65,21 @@ class SolveRequest:
 
     def layout(self, joints: Names, links: Names, slides: Names) -> Layout:
         """Return what the columns of a result are."""
-        return Layout(joints, links, slides, self.shape, self.mechanism._driver_count, self.order)
+        return Layout(joints, links, slides, self.shape, self.mechanism.driver_count, self.order)
 
     def reference_point(self, link: str) -> tuple[Float, ...]:
         """Solve for a link's reference point, the origin of its frame."""
-        index = self.mechanism._core.require("link", link)
+        index = self.mechanism.core.require("link", link)
         buffers, _ = self._solve(([], [], [index], []))
         # Its columns are as those of a joint.
         return self.layout({link: index}, {}, {}).held("joint", buffers)[link]
 
     def flat(self) -> tuple[Float, Float, bool]:
         """Return flat dimensions and coordinates, and whether each design has its own."""
-        values = self.mechanism._values.reshape(-1)
+        values = self.mechanism.values.reshape(-1)
         if self.per_design and 0 in self.mechanism.shape:
             # With no designs the number of coordinates per design is undefined.
-            drivers = self.mechanism._driver_count
+            drivers = self.mechanism.driver_count
             return values, np.zeros(drivers * math.prod(self.positions)), False
         return values, self.q.reshape(-1), self.per_design
 
@@ -89,7 +91,7 @@ class SolveRequest:
         report: bool = False,
     ) -> tuple[Buffers, AssurError | None]:
         shape = list(self.mechanism.shape) if report else None
-        arrays, status, failure = self.mechanism._core.solve(
+        arrays, status, failure = self.mechanism.core.solve(
             *self.flat(),
             self.signs,
             self.order,
@@ -98,6 +100,16 @@ class SolveRequest:
             buffers,
             dimension,
             shape,
-            self.mechanism._known_signs if self.own_signs else None,
+            self.mechanism.known_signs if self.own_signs else None,
         )
         return buffers or Buffers(arrays, status), failure
+
+
+def at_position(
+    mechanism: MechanismModel, q: Sequence[float]
+) -> tuple[Results, npt.NDArray[np.uint8]]:
+    """Solve one design at one position, with a coordinate for each driver: NaN where it is open."""
+    own = np.array(q[0] if len(q) == 1 else q)
+    request = SolveRequest(mechanism, own, (), False, 0, mechanism.signs, True, None)
+    results, status, _ = request.arrays(*mechanism.indices)
+    return results, status

@@ -10,20 +10,21 @@ import numpy as np
 
 from assur._arrays import short
 from assur.errors import InputError
+from assur.kinematics.model import with_values
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.model import AnyMechanism
+    from assur.kinematics.motion_model import AnyMotion
 
 FORMS = "an integer, a slice, a mask or indices are needed for each axis"
 
 
-def designs_of(mechanism: Mechanism, index: Any) -> Mechanism:
+def designs_of(mechanism: AnyMechanism, index: Any) -> AnyMechanism:
     """See `Mechanism.__getitem__`."""
     if not mechanism.shape:
         message = f"[{short(index)}]: this is one mechanism, not a batch of designs"
         raise InputError(message)
-    designs = np.moveaxis(mechanism._values, 0, -1)
+    designs = np.moveaxis(mechanism.values, 0, -1)
     if isinstance(index, np.ndarray) and index.dtype == np.bool_ and index.ndim > 1:
         if index.shape != mechanism.shape:
             message = f"a mask of shape {index.shape} for designs {mechanism.shape}"
@@ -32,20 +33,20 @@ def designs_of(mechanism: Mechanism, index: Any) -> Mechanism:
     else:
         values = _taken(designs, _entries(index, mechanism.shape))
     if values.ndim == 1:
-        mechanism._core.check_dimensions(values.tolist())
-    return mechanism._with_values(np.array(np.moveaxis(values, -1, 0)))
+        mechanism.core.check_dimensions(values.tolist())
+    return with_values(mechanism, np.array(np.moveaxis(values, -1, 0)))
 
 
-def part_of(motion: Motion, index: Any) -> Motion:
+def part_of(motion: AnyMotion, index: Any) -> AnyMotion:
     """See `Motion.__getitem__`."""
     entries = _entries(index, motion.shape)
-    request = motion._request
+    request = motion.request
     mechanism = request.mechanism
     designs = entries[: len(mechanism.shape)]
     positions = entries[len(designs) :]
     if designs:
-        values = _taken(np.moveaxis(mechanism._values, 0, -1), designs)
-        mechanism = mechanism._with_values(np.array(np.moveaxis(values, -1, 0)))
+        values = _taken(np.moveaxis(mechanism.values, 0, -1), designs)
+        mechanism = with_values(mechanism, np.array(np.moveaxis(values, -1, 0)))
 
     def part(array: Any) -> Any:
         return _own(_taken(array, entries))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur.kinematics.held import Arrays
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.motion_model import MotionModel
 
 __all__ = ["Sensitivity"]
 
@@ -36,12 +36,12 @@ class Sensitivity:
     np.float64(-0.485247)
     """
 
-    def __init__(self, motion: Motion, dimension: str) -> None:
-        index = motion.mechanism._core.dimension(checked_name(dimension, "sensitivity"))
-        outputs = motion._held_indices()
+    def __init__(self, motion: MotionModel, dimension: str) -> None:
+        index = motion.mechanism.core.dimension(checked_name(dimension, "sensitivity"))
+        outputs = motion.held_indices
         self.dimension = dimension
-        self._drivers = motion.mechanism._driver_count
-        self._results, self.status, _ = motion._request.arrays(*outputs, dimension=index)
+        self._drivers = motion.mechanism.driver_count
+        self._results, self.status, _ = motion.request.arrays(*outputs, dimension=index)
 
     def joint(self, name: str) -> Analogues:
         """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2).

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.model import MechanismModel
+    from assur.kinematics.motion_model import MotionModel
     from assur.kinematics.quantity import Analogues
 
 # Of a joint's components, an angle and a slide: value, velocity, acceleration, jerk.
@@ -45,7 +45,7 @@ class _Quantity(NamedTuple):
     analogues: Analogues
 
 
-def motion_columns(motion: Motion, options: Options) -> list[Column]:
+def motion_columns(motion: MotionModel, options: Options) -> list[Column]:
     """Return the columns of a motion's table, rows over designs and positions."""
     flag(options.degrees, "degrees")
     flag(options.moving, "moving")
@@ -62,7 +62,7 @@ def motion_columns(motion: Motion, options: Options) -> list[Column]:
     return columns
 
 
-def _rows(motion: Motion, degrees: bool) -> list[Column]:
+def _rows(motion: MotionModel, degrees: bool) -> list[Column]:
     """Designs, coordinates and statuses."""
     angles = driven_angles(motion.mechanism)
     return [
@@ -72,14 +72,14 @@ def _rows(motion: Motion, degrees: bool) -> list[Column]:
     ]
 
 
-def driven_angles(mechanism: Mechanism) -> list[bool]:
+def driven_angles(mechanism: MechanismModel) -> list[bool]:
     """Whether each driver is an angle, not a slide."""
     slides = mechanism.slides
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     return [not isinstance(one, str) or one not in slides for one in drivers]
 
 
-def _quantities(motion: Motion, taken: set[str]) -> Iterator[_Quantity]:
+def _quantities(motion: MotionModel, taken: set[str]) -> Iterator[_Quantity]:
     """Joints, links, slides; a link or slide whose name is taken is shown with its kind."""
     results = motion._results
     for name in results.joints:
@@ -101,10 +101,10 @@ def _moves(analogues: Analogues) -> bool:
         first = np.take(value, [0], axis=-1 - point)
         if bool(((value != first) & ~np.isnan(value) & ~np.isnan(first)).any()):
             return True
-    elif len(analogues._arrays) == 1:
+    elif len(analogues.arrays) == 1:
         # One position without analogues does not tell.
         return True
-    rates = analogues._arrays[1:2]
+    rates = analogues.arrays[1:2]
     return any(bool((np.nan_to_num(rate) != 0.0).any()) for rate in rates)
 
 
@@ -112,12 +112,12 @@ def _components(kind: str) -> list[str]:
     return ["x", "y"] if kind == "joint" else [""]
 
 
-def _analogues(motion: Motion, quantity: _Quantity, degrees: bool) -> Iterator[Column]:
-    drivers, size = motion._drivers, motion.status.size
+def _analogues(motion: MotionModel, quantity: _Quantity, degrees: bool) -> Iterator[Column]:
+    drivers, size = motion.driver_count, motion.status.size
     unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
     angles = driven_angles(motion.mechanism)
-    for order, array in enumerate(quantity.analogues._arrays):
+    for order, array in enumerate(quantity.analogues.arrays):
         indices = list(product(range(drivers), repeat=order))
         flat = array.reshape(size, len(parts), len(indices))
         for c, part in enumerate(parts):
@@ -134,7 +134,7 @@ def _analogues(motion: Motion, quantity: _Quantity, degrees: bool) -> Iterator[C
                     yield Column(name + tail, values, unit + per, quantity.shown)
 
 
-def _velocities(motion: Motion, quantity: _Quantity, options: Options) -> Iterator[Column]:
+def _velocities(motion: MotionModel, quantity: _Quantity, options: Options) -> Iterator[Column]:
     forms = {"joint": POINT, "link": ANGLE, "slide": SLIDE}[quantity.kind]
     unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
@@ -164,14 +164,14 @@ def _velocities(motion: Motion, quantity: _Quantity, options: Options) -> Iterat
                 yield Column(name, flat[:, c], unit + per, quantity.shown)
 
 
-def dataset(motion: Motion) -> Any:
+def dataset(motion: MotionModel) -> Any:
     """See `Motion.to_xarray`."""
     try:
         import xarray as xr
     except ImportError as error:  # pragma: no cover
         message = "to_xarray needs xarray: pip install assur[xarray]"
         raise ImportError(message) from error
-    designs, drivers = len(motion.mechanism.shape), motion._drivers
+    designs, drivers = len(motion.mechanism.shape), motion.driver_count
     rows = ["design"] if designs == 1 else [f"design{axis}" for axis in range(designs)]
     rows += ["position"] * (len(motion.shape) - designs)
     angles = driven_angles(motion.mechanism)
@@ -181,14 +181,14 @@ def dataset(motion: Motion) -> Any:
     for quantity in _quantities(motion, taken):
         unit = "rad" if quantity.kind == "link" else "m"
         point = ["component"] if quantity.kind == "joint" else []
-        for order, array in enumerate(quantity.analogues._arrays):
+        for order, array in enumerate(quantity.analogues.arrays):
             by = [f"driver{k}" for k in range(order)] if drivers > 1 else []
             clashes = quantity.kind == "joint" and quantity.shown in taken
             shown = f"joint {quantity.shown}" if clashes else quantity.shown
             name = f"{shown}.d{order}" if order else shown
             per = f"/{units[0]}" * order if drivers == 1 else "/unit of the driver" * order
             named[name] = ([*rows, *point, *by], array, {"units": unit + per})
-    q_rows = rows if motion._request.per_design else rows[designs:]
+    q_rows = rows if motion.request.per_design else rows[designs:]
     q_units = {"units": units[0] if drivers == 1 else ", ".join(units)}
     coordinates: dict[str, Any] = {
         "q": ([*q_rows, *(["driver"] if drivers > 1 else [])], motion.q, q_units),
@@ -197,8 +197,8 @@ def dataset(motion: Motion) -> Any:
     }
     if motion.kept is not None and designs:
         coordinates["design"] = ("design", motion.kept)
-    names, values = motion.mechanism._core.dimension_names, motion.mechanism._values
+    names, values = motion.mechanism.core.dimension_names, motion.mechanism.values
     for name, value in zip(names, values, strict=True):
         if designs and (value != value.flat[:1]).any():
             coordinates[name] = (rows[:designs], value)
-    return xr.Dataset(named, coordinates, {"mechanism": motion.mechanism._core.formula})
+    return xr.Dataset(named, coordinates, {"mechanism": motion.mechanism.core.formula})

@@ -11,6 +11,7 @@ from assur._summary import summary
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
+from assur.kinematics.solve import solve
 from assur.kinematics.table import Options, motion_columns
 from assur.laws import Law
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
     from assur.kinematics.quantity import Analogues
 
@@ -81,7 +82,7 @@ class TimedMotion(Tabular):
 
     def __repr__(self) -> str:
         count = self.t.size
-        return f"<assur.TimedMotion of {self.motion.mechanism._core.formula}, {count} times>"
+        return f"<assur.TimedMotion of {self.motion.mechanism.core.formula}, {count} times>"
 
     def joint(self, name: str | Sequence[str]) -> InTime:
         """Return a joint over time (of several, stacked along a new first axis).
@@ -288,14 +289,14 @@ class TimedMotion(Tabular):
 
 
 def follow(
-    mechanism: Mechanism, laws: Law | Sequence[Law | float], t: npt.ArrayLike, on_error: Any
+    mechanism: MechanismModel, laws: Law | Sequence[Law | float], t: npt.ArrayLike, on_error: Any
 ) -> TimedMotion:
     """See `Mechanism.follow`."""
     one_of(on_error, ("raise", "nan"), "on_error")
     if mechanism.shape:
         message = f"follow() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     listed: Any = [laws] if isinstance(laws, Law) else laws
     if not isinstance(listed, list | tuple) or len(listed) != drivers:
         message = f"laws is {short(laws)}: one law (assur.laws) for each driver is needed"
@@ -309,7 +310,7 @@ def follow(
         each[0][k] if drivers == 1 else np.stack([one[k] for one in each], axis=-1)
         for k in range(4)
     )
-    motion = mechanism.solve(q, order=3, on_error=on_error)
+    motion = solve(mechanism, q, order=3, on_error=on_error, is_typed=True)
     return TimedMotion(times, (q, speed, acceleration, jerk), motion)
 
 

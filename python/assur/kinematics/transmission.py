@@ -13,8 +13,8 @@ from assur._validate import checked_name
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur.kinematics.model import MechanismModel
+    from assur.kinematics.motion_model import MotionModel
 
 
 class JointLine(NamedTuple):
@@ -34,7 +34,7 @@ class GuideLine(NamedTuple):
 Line: TypeAlias = JointLine | GuideLine
 
 
-def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
+def angle(motion: MotionModel, name: str, between: tuple[str, ...] | None) -> Float:
     """See `Motion.transmission_angle`."""
     pair, complement = lines(motion.mechanism, name, between)
     first, second = (_direction(motion, line) for line in pair)
@@ -42,7 +42,7 @@ def angle(motion: Motion, name: str, between: tuple[str, ...] | None) -> Float:
     return 0.5 * np.pi - acute if complement else acute
 
 
-def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bool]:
+def lines(mechanism: MechanismModel, name: str, between: Any) -> tuple[list[Line], bool]:
     """Return the two lines, and whether the complement of their angle is wanted."""
     name = checked_name(name, "transmission_angle")
     if between is not None:
@@ -52,12 +52,12 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
             message = f"between={short(between)}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
         for joint in joints:
-            mechanism._core.require("joint", joint)
+            mechanism.core.require("joint", joint)
         return [JointLine(name, other) for other in joints[1:]], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)
     if slide is not None:
         return _at_slide(mechanism, slide), True
-    mechanism._core.require("joint", name)
+    mechanism.core.require("joint", name)
     meeting = [link for link, on in mechanism.links.items() if name in on]
     if len(meeting) == 1:
         message = f"joint {name!r} is on link {meeting[0]!r} alone: pass between=(joint, joint)"
@@ -68,13 +68,13 @@ def lines(mechanism: Mechanism, name: str, between: Any) -> tuple[list[Line], bo
     return [JointLine(name, _other_joint(mechanism, link, name)) for link in meeting], False
 
 
-def _acute(motion: Motion, a: Float, b: Float) -> Float:
+def _acute(motion: MotionModel, a: Float, b: Float) -> Float:
     shape = (*motion.shape, 2)
     flat = [np.ascontiguousarray(np.broadcast_to(x, shape)).reshape(-1) for x in (a, b)]
     return _core.acute(flat[0], flat[1]).reshape(motion.shape)
 
 
-def _direction(motion: Motion, line: Line) -> Float:
+def _direction(motion: MotionModel, line: Line) -> Float:
     """Return the direction of a line, S + (N, 2), not normalised."""
     mechanism = motion.mechanism
     if isinstance(line, JointLine):
@@ -88,11 +88,11 @@ def _direction(motion: Motion, line: Line) -> Float:
     return np.stack([cosine, sine], axis=-1)
 
 
-def _pairs(mechanism: Mechanism, joint: str) -> int:
+def _pairs(mechanism: MechanismModel, joint: str) -> int:
     return sum(joint in on for on in mechanism.links.values())
 
 
-def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
+def _other_joint(mechanism: MechanismModel, link: str, joint: str) -> str:
     """Return the only other joint at which the link meets other links."""
     others = [j for j in mechanism.links[link] if j != joint]
     joined = [j for j in others if _pairs(mechanism, j) > 1]
@@ -105,7 +105,7 @@ def _other_joint(mechanism: Mechanism, link: str, joint: str) -> str:
     raise InputError(message, link=link, joint=joint)
 
 
-def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
+def _slide_at(mechanism: MechanismModel, joint: str) -> str | None:
     """Return the slide of a link that has this joint only, or None."""
     for name, slide in mechanism.slides.items():
         if tuple(mechanism.links[slide.link]) == (joint,):
@@ -113,7 +113,7 @@ def _slide_at(mechanism: Mechanism, joint: str) -> str | None:
     return None
 
 
-def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
+def _at_slide(mechanism: MechanismModel, name: str) -> list[Line]:
     """Return the lines whose acute angle is the pressure angle.
 
     Fixed guide: the pushing link and the guide. Turning guide: the block pushes
@@ -135,7 +135,7 @@ def _at_slide(mechanism: Mechanism, name: str) -> list[Line]:
     return [JointLine(at, _other_joint(mechanism, pushing[0], at)), GuideLine(slide.on, name)]
 
 
-def _pivot(mechanism: Mechanism, link: str) -> str:
+def _pivot(mechanism: MechanismModel, link: str) -> str:
     """Return the joint about which a guide's link turns: that on the ground, or its only one."""
     joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
     fixed = [j for j in joined if j in mechanism.links["ground"]]

@@ -13,6 +13,7 @@ from assur.description import encode
 from assur.description.words import has_analogues
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.model import copy_from
 from assur.mechanisms.named import from_drawing
 
 if TYPE_CHECKING:
@@ -96,12 +97,12 @@ class ClassIV(Mechanism):
         paper = (lengths, angles, pivots, start)
         if joints is not None and all(part is None for part in paper):
             _require_names(joints, JOINTS, "joints")
-            _copy_from(self, _drawn(joints))
+            copy_from(self, _drawn(joints))
             return
         if joints is not None or any(part is None for part in paper):
             message = "ClassIV needs joints=, or lengths=, angles=, pivots= and start= together"
             raise InputError(message)
-        _copy_from(self, _from_paper(lengths, angles, pivots, start))
+        copy_from(self, _from_paper(lengths, angles, pivots, start))
 
     def paper_equations(self, motion: Motion) -> npt.NDArray[np.float64]:
         """Return the residuals of the paper's four equations at every position of a motion, m².
@@ -174,10 +175,6 @@ def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
 def _drawn(joints: Mapping[str, Sequence[float]]) -> Mechanism:
     points = [encode.joint(name, joints[name])[1:] for name in JOINTS]
     return from_drawing(_core.class_iv_drawing(points))
-
-
-def _copy_from(mechanism: Mechanism, made: Mechanism) -> None:
-    mechanism._share(made, made._values)
 
 
 def _require_names(given: Any, names: Iterable[str], what: str) -> None:

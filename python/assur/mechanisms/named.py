@@ -13,6 +13,7 @@ from assur._validate import one_of
 from assur.description.words import Slide
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.model import at_place, copy_from
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -132,7 +133,7 @@ def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.Arr
     sized = from_drawing(drawing).with_dimensions(dimensions)
     if not sized.shape:
         sized = _where_it_exists(sized)
-    mechanism._share(sized, sized._values)
+    copy_from(mechanism, sized)
 
 
 def _where_it_exists(mechanism: Mechanism) -> Mechanism:
@@ -146,10 +147,8 @@ def _where_it_exists(mechanism: Mechanism) -> Mechanism:
     end, other = min(inward, key=lambda ends: abs(math.remainder(ends[0] - q0, math.tau)))
     place_q = end + 0.25 * (other - end)
     for assembly in mechanism.assemblies(place_q):
-        place = assembly._place
+        place = assembly.place
         if assembly == mechanism.assembly and place is not None:
-            core = mechanism._core.drawn_in(
-                mechanism._values.tolist(), list(place.q), place.numbers
-            )
-            return mechanism._drawn_at(place, core)
+            core = mechanism.core.drawn_in(mechanism.values.tolist(), list(place.q), place.numbers)
+            return at_place(mechanism, place, core)
     return mechanism

@@ -140,5 +140,5 @@ def _shown(what: Any) -> tuple[Mechanism, Machine | None]:
 
 
 def _place(mechanism: Mechanism) -> Any:
-    q0 = mechanism._q0_array()
-    return float(q0) if mechanism._driver_count == 1 else q0.tolist()
+    q0 = mechanism.q0_array
+    return float(q0) if mechanism.driver_count == 1 else q0.tolist()

@@ -153,7 +153,7 @@ class Fields:
 
     def drivers(self, name: str, mechanism: Mechanism, default: float | None = None) -> Any:
         """Return a number for each driver: of one driver a number, else an array."""
-        count = mechanism._driver_count
+        count = mechanism.driver_count
         if name not in self:
             if default is None:
                 return np.asarray(mechanism.q0) if count > 1 else mechanism.q0

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.errors import AssurWarning
-from assur.kinematics.solve import LIKE_DEGREES, warn_if_degrees
+from assur.kinematics.solve_arguments import LIKE_DEGREES, warn_if_degrees
 from assur.kinematics.table import driven_angles
 from assur.sweeps.terms import Combination, Leaf
 
@@ -70,5 +70,5 @@ def _is_angle(metric: Metric, mechanism: Mechanism) -> bool:
         return True
     if metric.kind in PLACES:
         return driven_angles(mechanism)[0]
-    is_link = metric.of in dict(mechanism._description.links)
+    is_link = metric.of in dict(mechanism.description.links)
     return metric.kind in IN_ITS_UNIT and metric.order == 0 and is_link

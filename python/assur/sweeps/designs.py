@@ -10,7 +10,9 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
+from assur.kinematics.drawn import in_assembly
 from assur.kinematics.mechanism import Mechanism
+from assur.kinematics.model import with_values
 from assur.kinematics.named_dimensions import dimensions_by_name
 from assur.sweeps.grid import Grid
 
@@ -30,10 +32,10 @@ class Designs:
             message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
             raise InputError(message)
         # From here on it is drawn in the assembly: whatever is handed back is, too.
-        self.mechanism = mechanism = mechanism._in_assembly(assembly)
-        given = dimensions_by_name(dimensions, mechanism._core.dimension_names)
+        self.mechanism = mechanism = in_assembly(mechanism, assembly)
+        given = dimensions_by_name(dimensions, mechanism.core.dimension_names)
         names = [checked_name(name, "dimensions") for name in given]
-        indices = [mechanism._core.dimension(name) for name in names]
+        indices = [mechanism.core.dimension(name) for name in names]
         new = [real_array(given[n], f"dimension {n!r}", copy=False) for n in names]
         # Designs are asked for later, when the caller may have changed his arrays (no grid's).
         if not isinstance(dimensions, Grid):
@@ -45,7 +47,7 @@ class Designs:
             shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(names, new, strict=True))
             message = f"dimensions do not broadcast: {shapes}, designs {own}"
             raise InputError(message) from error
-        columns: list[Float] = list(mechanism._values)
+        columns: list[Float] = list(mechanism.values)
         for index, array in zip(indices, new, strict=True):
             columns[index] = array
         # One number, or one of each design.
@@ -53,7 +55,7 @@ class Designs:
         self.changed = dict(zip(names, indices, strict=True))
         self.count = int(np.prod(self.shape, dtype=np.int64))
         if not self.shape:
-            mechanism._core.check_dimensions([float(column) for column in columns])
+            mechanism.core.check_dimensions([float(column) for column in columns])
 
     def some(self, which: slice | npt.NDArray[np.intp], memory: Float | None = None) -> Mechanism:
         """Return a batch of some of them, by their indices in C order.
@@ -71,7 +73,7 @@ class Designs:
         values = memory[: size * count].reshape(size, count)
         for row, column in zip(values, self._columns, strict=True):
             row[:] = column[places] if np.ndim(column) else column
-        return self.mechanism._with_values(values)
+        return with_values(self.mechanism, values)
 
     @property
     def size(self) -> int:
@@ -83,7 +85,7 @@ class Designs:
         values = np.empty((len(self._columns), *self.shape))
         for index, column in enumerate(self._columns):
             values[index] = column
-        return self.mechanism._with_values(values)
+        return with_values(self.mechanism, values)
 
     def values(self, name: str) -> Float:
         """Return a dimension that the sweep changes, of all designs in C order."""

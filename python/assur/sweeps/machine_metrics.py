@@ -15,6 +15,7 @@ from assur.dynamics.kinetostatics import reaction_squares, reactions
 from assur.dynamics.reaction_key import Key
 from assur.dynamics.reactions import key_of_joint
 from assur.errors import AssurError, InputError
+from assur.kinematics.model import with_values
 from assur.sweeps.terms import OfMachine
 
 if TYPE_CHECKING:
@@ -138,7 +139,7 @@ class Effort(Driven):
 
     def keys(self, machine: Machine) -> list[Key]:
         """The efforts of all drivers."""
-        return [Key("driver", driver) for driver in range(machine._drivers)]
+        return [Key("driver", driver) for driver in range(machine.driver_count)]
 
     def of_squares(self, machine: Machine, q: Float, squares: dict[Key, Float]) -> Float:
         """Its values for the designs of a machine; with several drivers of the greatest."""
@@ -147,16 +148,16 @@ class Effort(Driven):
         missing = np.flatnonzero(np.isnan(greatest))
         if missing.size:
             assert machine.mechanism is not None
-            few = machine.mechanism._with_values(machine.mechanism._values[:, missing])
+            few = with_values(machine.mechanism, machine.mechanism.values[:, missing])
             greatest[missing] = self._by_power(machine.of(few), q)
         return greatest
 
     def _by_power(self, machine: Machine, q: Float) -> Float:
         """Its values where a position has no forces: at a change point the effort has a value."""
         motion, keys = motion_of(q, self.speed, self.acceleration, 0.0), self.keys(machine)
-        found = reactions(machine, motion, None, "nan", keys)._found
+        found = reactions(machine, motion, None, "nan", keys).by_key
         known = machine.effort(q, self.speed, self.acceleration, on_error="nan")
-        every = [known] if machine._drivers == 1 else list(np.moveaxis(known, -1, 0))
+        every = [known] if machine.driver_count == 1 else list(np.moveaxis(known, -1, 0))
         each = [
             np.where(np.isnan(found[key]), b, found[key])
             for key, b in zip(keys, every, strict=True)
@@ -176,8 +177,8 @@ class Inertia(ByValue, OfMachine):
 
     def check(self, machine: Machine) -> None:
         """Raise InputError with several drivers, which have a matrix."""
-        if machine._drivers > 1:
-            message = f"{self!r}: with {machine._drivers} drivers the inertia is a matrix"
+        if machine.driver_count > 1:
+            message = f"{self!r}: with {machine.driver_count} drivers the inertia is a matrix"
             raise InputError(message)
 
     def why(self, _machine: Machine, _q: Float) -> str:

@@ -17,8 +17,8 @@ from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
+    from assur.sweeps._measured import Asked
     from assur.sweeps.designs import Designs
-    from assur.sweeps.measuring import Measuring
 
 __all__ = ["Measures"]
 
@@ -65,7 +65,7 @@ class Measures(Mapping[str, Float]):
         status: npt.NDArray[np.uint8],
         kept: npt.NDArray[np.intp],
         designs: Designs,
-        measuring: Measuring,
+        measuring: Asked,
     ) -> None:
         self._values = values
         self.status = status
@@ -132,7 +132,7 @@ class Measures(Mapping[str, Float]):
         values = self._values[by].reshape(-1)
         indices = np.flatnonzero(~np.isnan(values))
         if len(indices) == 0:
-            message = f"best: no design has a value of {by!r}: {self._counts()}"
+            message = f"best: no design has a value of {by!r}: {counts_text(self)}"
             raise InputError(message)
         some = -values[indices] if flag(greatest, "greatest") else values[indices]
         if wanted < len(some):
@@ -140,14 +140,6 @@ class Measures(Mapping[str, Float]):
             few = np.flatnonzero(some <= np.partition(some, wanted - 1)[wanted - 1])
             indices, some = indices[few], some[few]
         return indices[np.argsort(some, kind="stable")[:wanted]]
-
-    def _counts(self) -> str:
-        kept, missed = len(self.kept), len(self.missed)
-        without = int(np.count_nonzero(self.status == Status.NO_VALUE))
-        fail = self.status.size - kept - missed - without
-        of = f"of {self.status.size} designs {fail} do not move"
-        undefined = f"{without} lack a metric, " if without else ""
-        return f"{of}, {missed} miss a condition, {undefined}{kept} are kept"
 
     def explain(self, index: int | tuple[int, ...]) -> str | None:
         """Return why a design is not kept, or None if it is.
@@ -345,7 +337,7 @@ class Measures(Mapping[str, Float]):
         for axis, index in enumerate(np.indices(self.shape, sparse=True)):
             name = "design" if axes == 1 else f"design{axis}"
             columns[name] = np.broadcast_to(index, self.shape).reshape(-1)
-        columns.update({name: self._designs.values(name) for name in self._designs.changed})
+        columns.update(changed_dimensions(self))
         columns["status"] = self.status.reshape(-1)
         columns["kept"] = np.isin(np.arange(self.status.size), self.kept)
         for name, values in self._values.items():
@@ -436,3 +428,18 @@ class Measures(Mapping[str, Float]):
     def __repr__(self) -> str:
         names = ", ".join(map(repr, self._values))
         return f"<assur.Measures of {names}, shape {self.shape}, {len(self.kept)} kept>"
+
+
+def counts_text(found: Measures) -> str:
+    """Say how many designs are kept, and what the others lack."""
+    kept, missed = len(found.kept), len(found.missed)
+    without = int(np.count_nonzero(found.status == Status.NO_VALUE))
+    fail = found.status.size - kept - missed - without
+    of = f"of {found.status.size} designs {fail} do not move"
+    undefined = f"{without} lack a metric, " if without else ""
+    return f"{of}, {missed} miss a condition, {undefined}{kept} are kept"
+
+
+def changed_dimensions(found: Measures) -> dict[str, Float]:
+    """Return the dimensions that a sweep changed, of all designs in C order."""
+    return {name: found._designs.values(name) for name in found._designs.changed}

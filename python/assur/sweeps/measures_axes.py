@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from assur._arrays import Float
-    from assur.sweeps.measures import Measures
+    from assur.sweeps._measured import Measured
 
 # A value of `at` is one of the sweep's, to this part of their range.
 SAME = 1e-9
@@ -23,7 +23,7 @@ MOST = 2
 
 
 def shown_axes(
-    found: Measures, at: Mapping[str, float] | None
+    found: Measured, at: Mapping[str, float] | None
 ) -> tuple[list[tuple[str, Float]], np.ndarray[tuple[int, ...], np.dtype[np.intp]]]:
     """Return one or two dimensions with ascending values, and the designs' indices over them.
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
+    from assur.sweeps._measured import Measured
     from assur.sweeps.designs import Designs
-    from assur.sweeps.measures import Measures
 
 
-def dataset(found: Measures) -> Any:
+def dataset(found: Measured) -> Any:
     """See `Measures.to_xarray`."""
     try:
         import xarray as xr

@@ -14,6 +14,7 @@ from assur._validate import checked_name, real_array
 from assur.description.words import Status, has_analogues
 from assur.errors import InputError
 from assur.kinematics import transmission
+from assur.kinematics.model import with_values
 from assur.kinematics.solve import solve
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
@@ -82,7 +83,7 @@ class Measuring:
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
         for one in self.leaves:
             located = _with_lines(one, mechanism)
-            refusal = mechanism._core.refusal_of_metric(self.q.reshape(-1), located)
+            refusal = mechanism.core.refusal_of_metric(self.q.reshape(-1), located)
             if refusal is not None:
                 message = f"{one!r}: {refusal}"
                 raise InputError(message)
@@ -115,10 +116,10 @@ class Measuring:
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
-        found, status, kept = some._core.measure(
-            some._values.reshape(-1),
+        found, status, kept = some.core.measure(
+            some.values.reshape(-1),
             self.q.reshape(-1),
-            some._signs,
+            some.signs,
             self.asked,
             self.early,
             self.threads,
@@ -143,7 +144,7 @@ class Measuring:
 
     def without_value(self, design: Mechanism) -> str:
         """Return which metric of a design has no value, and why."""
-        some = design._with_values(design._values[:, None])
+        some = with_values(design, design.values[:, None])
         asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
         for name, metric in asked.items():
             for part in (*metric.leaves(), metric):
@@ -166,7 +167,7 @@ class Measuring:
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
-            batch = some._with_values(some._values[:, few])
+            batch = with_values(some, some.values[:, few])
             for function, numbers in self._numbers(batch):
                 if numbers.shape != few.shape:
                     message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
@@ -239,7 +240,7 @@ def _conditions(where: Any) -> list[Condition]:
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> Float:
     array = real_array(q, "q")
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     if array.ndim != (1 if drivers == 1 else 2) or (drivers > 1 and array.shape[-1] != drivers):
         shape = "(N,)" if drivers == 1 else f"(N, {drivers})"
         message = f"q has shape {array.shape}: metrics need {shape}, the same for all designs"

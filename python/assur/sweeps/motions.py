@@ -13,6 +13,8 @@ from assur.description.words import is_reached
 from assur.kinematics import solve as solver
 from assur.kinematics.held import Buffers, Results
 from assur.kinematics.motion import Motion
+from assur.kinematics.motion_model import overwrite
+from assur.kinematics.solve_arguments import checked_coordinates
 from assur.sweeps.engine import results
 from assur.sweeps.measuring import blocks
 
@@ -62,7 +64,7 @@ class Course:
     """The coordinates of some designs: the same for all, or of each its own."""
 
     def __init__(self, every: Mechanism, q: npt.ArrayLike) -> None:
-        array, positions, self.is_own = solver.checked_coordinates(every, q)
+        array, positions, self.is_own = checked_coordinates(every, q)
         array.flags.writeable = False
         self.whole = array
         axes = len(every.shape)
@@ -120,15 +122,15 @@ def in_blocks(
             own[:] = column
         report(of.stop)
 
-    buffers = motion._stored.buffers
+    buffers = motion.stored.buffers
     assert buffers is not None
     # What is interrupted cannot be read.
     buffers.complete = False
     store(block, _arrays(first))
     if engine is None:
-        wanted = first._held_indices()
+        wanted = first.held_indices
         for of, (some, own_q) in tasks:
-            request = replace(first._request, mechanism=some, q=own_q)
+            request = replace(first.request, mechanism=some, q=own_q)
             request.arrays(*wanted, buffers=Buffers(*rows(of)))
             report(of.stop)
     else:
@@ -140,21 +142,21 @@ def in_blocks(
 
 def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) -> Motion:
     """Return a motion of all designs as that of the first ones is, with arrays to be written."""
-    request = replace(first._request, mechanism=every, q=course.whole)
-    wanted = first._held_indices()
+    request = replace(first.request, mechanism=every, q=course.whole)
+    wanted = first.held_indices
     if out is None:
         columns, status = _arrays(first)
         designs, count = first.shape[0], math.prod(every.shape)
         columns = [np.empty(len(column) // designs * count) for column in columns]
         buffers = Buffers(columns, np.empty(len(status) // designs * count, dtype=np.uint8))
     else:
-        buffers = solver._buffers(out, request, wanted)
+        buffers = solver.buffers_of(out, request, wanted)
     status = buffers.status.reshape(request.shape)
     status.flags.writeable = False
     whole = Results(request.layout(*wanted), buffers)
     if out is None:
         return Motion(request, whole, status)
-    out._replace_with(request, whole, status)
+    overwrite(out, request, whole, status)
     return out
 
 
@@ -165,6 +167,6 @@ def _rows(column: npt.NDArray[Number], block: slice, count: int) -> npt.NDArray[
 
 
 def _arrays(motion: Motion) -> Arrays:
-    stored = motion._stored
+    stored = motion.stored
     assert stored.buffers is not None
     return stored.columns(), stored.buffers.status

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.sweeps.measures import Measures
+    from assur.sweeps._measured import Measured
     from assur.sweeps.terms import Condition
 
 Flags = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
@@ -30,7 +30,7 @@ WORDS = {
 }
 
 
-def reasons(found: Measures, values: Float) -> list[tuple[str, Flags]]:
+def reasons(found: Measured, values: Float) -> list[tuple[str, Flags]]:
     """Return every reason that occurs, with the designs that have it, in C order.
 
     Every design without a value has one.
@@ -58,7 +58,7 @@ def _conditions(conditions: Sequence[Condition]) -> str:
     return " or ".join(wrong).replace("'", "")
 
 
-def _words(found: Measures, code: Status) -> str:
+def _words(found: Measured, code: Status) -> str:
     text = WORDS[code]
     if code == Status.NO_VALUE and (found.status == code).any():
         # "loads[0], the Force at 'B': its table …": what has none.
@@ -68,7 +68,7 @@ def _words(found: Measures, code: Status) -> str:
     return f"{_driver(found)} stops" if code == Status.LOST else text
 
 
-def explained(found: Measures, index: npt.NDArray[np.intp]) -> str | None:
+def explained(found: Measured, index: npt.NDArray[np.intp]) -> str | None:
     """See `Measures.explain`."""
     if index.ndim:
         message = "explain() is of one design: an integer, or a tuple of integers, is needed"
@@ -90,18 +90,18 @@ def explained(found: Measures, index: npt.NDArray[np.intp]) -> str | None:
     return motion.explain(int(wanted[0] if wanted.size else failed[0]))
 
 
-def _driver(found: Measures) -> str:
+def _driver(found: Measured) -> str:
     driver = found._designs.mechanism.driver
     return driver if isinstance(driver, str) else "the driver"
 
 
-def _unreachable(found: Measures, which: Flags) -> list[tuple[str, Flags]]:
+def _unreachable(found: Measured, which: Flags) -> list[tuple[str, Flags]]:
     """Tell designs that cannot be assembled at all from those whose driver stops on its way."""
     mechanism = found._designs.mechanism
     indices = np.flatnonzero(which)
     if not indices.size:
         return []
-    if mechanism._driver_count > 1 or mechanism._core.cls > 2:
+    if mechanism.driver_count > 1 or mechanism.core.cls > 2:
         # Limits of a higher class take too long.
         return [("out of reach", which)]
     limits = found._designs.some(indices).limits()

@@ -95,7 +95,7 @@ class Geometry:
         out = np.zeros((motion.q.size, len(system.names), 3))
         for i, (name, own) in enumerate(zip(system.names, system.joint_lists, strict=True)):
             if i:
-                place = motion.joint(own[0]) if own else motion._reference_point(name)
+                place = motion.joint(own[0]) if own else motion.reference_points[name]
                 out[:, i, :2] = place.value.reshape(-1, 2) / system.size
                 out[:, i, 2] = motion.link(name).value.reshape(-1) - system.angle0[i]
         return out

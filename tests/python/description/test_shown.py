@@ -48,7 +48,7 @@ def test_an_assembly_shows_joints_in_which_it_differs() -> None:
     assert len(found) > 1
     shown = [repr(one) for one in found]
     assert len(set(shown)) == len(found)
-    fixed = set(found[0]._place.mechanism.links["ground"]) if found[0]._place else {""}
+    fixed = set(found[0].place.mechanism.links["ground"]) if found[0].place else {""}
     named = [part.partition("=(")[0] for part in shown[0].split(", ") if "=(" in part]
     assert len(named) == 2
     for name in named:

@@ -91,7 +91,7 @@ def frictions(parts: RigidParts, mechanism: assur.Mechanism) -> tuple[Any, Any]:
     """Friction in all pairs, and in those whose links do not all move as one."""
     friction: dict[str, Any] = {}
     between: dict[str, Any] = {}
-    for name in mechanism._joint_names:
+    for name in mechanism.joint_names:
         links = [link for link, joints in mechanism.links.items() if name in joints]
         if len(links) > 1:
             friction[name] = JointFriction(0.01, 0.05)

@@ -108,7 +108,7 @@ def test_momentum_and_energy(seed: int) -> None:
         energy = [0.5 * v @ inertia @ v for v in (before, after)]
         assert abs(energy[0] - energy[1] - hit.energy_lost) <= 1e-12 * max(energy)
         # The drives are free.
-        sizes = [np.abs(x).max() for x in hit.reactions._found.values() if np.isfinite(x).all()]
+        sizes = [np.abs(x).max() for x in hit.reactions.by_key.values() if np.isfinite(x).all()]
         assert np.abs(hit.reactions.driver).max() <= 1e-10 * max(sizes)
 
 

@@ -36,7 +36,7 @@ def again(mechanism: assur.Mechanism, path: Path) -> assur.Mechanism:
     mechanism.save(path)
     loaded: assur.Mechanism = assur.load(path)
     assert loaded == mechanism
-    assert loaded._values.tobytes() == mechanism._values.tobytes()
+    assert loaded.values.tobytes() == mechanism.values.tobytes()
     # Saving is a function of the mechanism alone.
     assert text_of(loaded) == path.read_text(encoding="utf-8")
     return loaded
@@ -44,7 +44,7 @@ def again(mechanism: assur.Mechanism, path: Path) -> assur.Mechanism:
 
 def assert_same_motion(one: assur.Mechanism, other: assur.Mechanism) -> None:
     q = np.asarray(one.q0) + np.array([0.0, 0.01, -0.02]).reshape(
-        (3,) + (1,) * (one._driver_count > 1)
+        (3,) + (1,) * (one.driver_count > 1)
     )
     a, b = (m.solve(q, on_error="nan") for m in (one, other))
     assert a.status.tobytes() == b.status.tobytes()
@@ -82,8 +82,8 @@ def test_an_assembly_found_from_another(tmp_path: Path) -> None:
     loom = next(m for m in (make() for make in HIGHER.values()) if len(m.assemblies(m.q0)) > 1)
     first = loom.with_assembly(loom.assemblies(loom.q0)[-1])
     second = first.with_assembly(first.assemblies(float(first.q0) + 0.01)[0])
-    assert second._place is not None
-    assert second._place.mechanism._place is not None
+    assert second.place is not None
+    assert second.place.mechanism.place is not None
     sized = {n: x * 1.001 for n, x in loom.dimensions.items() if n.endswith("length")}
     for mechanism in (first, second, second.with_dimensions(sized)):
         assert_same_motion(mechanism, again(mechanism, tmp_path / "m.toml"))
@@ -121,7 +121,7 @@ def test_an_endless_chain_of_assemblies_is_refused(tmp_path: Path) -> None:
 def test_a_four_bar_drawn_where_it_exists(tmp_path: Path) -> None:
     """Its drawing's q is outside its motion; one at a dead point is double."""
     m = assur.FourBar(3.0, 2.5, 2.0, 4.0)
-    assert m._place is not None
+    assert m.place is not None
     assert_same_motion(m, again(m, tmp_path / "m.toml"))
     assert "[dimensions]" in text_of(m)
     end = float(m.limits().intervals[0, 1])

@@ -208,7 +208,7 @@ ENTRIES: dict[str, Entry] = {
     ),
     "Workspace.contains.points": Entry(SPACE.contains, (np.ones((3, 2)), np.ones(2))),
     "Motion.point.local": Entry(
-        lambda at: MOTION.point("coupler", at)._arrays, (np.ones(2), np.ones((3, 2)))
+        lambda at: MOTION.point("coupler", at).arrays, (np.ones(2), np.ones((3, 2)))
     ),
     **each_of("Motion.to_dataframe", written("frame"), omega=2.0, alpha=1.0),
     **each_of("Motion.to_excel", written("xlsx"), omega=2.0, alpha=1.0),
@@ -225,9 +225,9 @@ ENTRIES: dict[str, Entry] = {
     **each_of("Analogues.velocity", MOTION.joint("C").velocity, omega=1.0),
     **each_of("Analogues.acceleration", MOTION.joint("C").acceleration, omega=1.0, alpha=2.0),
     **each_of("Analogues.jerk", MOTION.link("rocker").jerk, omega=1.0, alpha=2.0, beta=3.0),
-    **each_of("MachineModel.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
-    **each_of("MachineModel.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
-    **each_of("MachineModel.potential", MACHINE.potential, q=0.0),
+    **each_of("Machine.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
+    **each_of("Machine.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
+    **each_of("Machine.potential", MACHINE.potential, q=0.0),
     **each_of("Machine.reactions", reactions, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     **each_of("Machine.internal_loads", inside, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     "Machine.internal_loads.density": Entry(

@@ -98,7 +98,7 @@ INSIDE: dict[type, Any] = {
         one._results.slides,
     ),
     assur.Mechanism: lambda one: dict(one.dimensions),
-    assur.Analogues: lambda one: one._arrays,
+    assur.Analogues: lambda one: one.arrays,
     assur.Machine: lambda one: one._rebuild_with[1],
     assur.SteadyState: lambda one: (one.run, one.mean_speed, one.delta),
     assur.Run: lambda one: (one.t, one.q, one.speed, one.acceleration),

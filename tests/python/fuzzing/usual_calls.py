@@ -152,8 +152,6 @@ def _of_motions() -> Iterable[tuple[str, Call]]:
         diagram={"name": "rocker", "orders": 1, **rates},
         explain={"index": 0},
         instant_centre={"link": "coupler"},
-        joint={"name": "C"},
-        link={"name": "crank"},
         mechanical_advantage={"name": "rocker"},
         plot={"joint": "C", "vectors": "velocity", **rates},
         point=point,
@@ -165,7 +163,8 @@ def _of_motions() -> Iterable[tuple[str, Call]]:
         to_html={"path": "m.html"},
         transmission_angle={"name": "C"},
     )
-    yield from named("Motion", press, slide={"name": "bore"})
+    yield from named("MotionModel", motion, joint={"name": "C"}, link={"name": "crank"})
+    yield from named("MotionModel", press, slide={"name": "bore"})
     pin = motion.joint("C")
     yield from named("Analogues", pin, velocity=rates, acceleration=rates, jerk=rates)
     yield from named("Sensitivity", sensitive, joint={"name": "C"}, link={"name": "rocker"})
@@ -200,6 +199,9 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         impact={"load": assur.Force("B", (-1.0, 0.0)), "q": 0.5, "speed": -5.0, "restitution": 0.3},
         internal_loads={**AT, "link": "rod", "n": 5},
         run={"t_end": 0.1, "speed0": 1.0, "rtol": 1e-6, **QUICK},
+        potential=AT,
+        reduced_inertia=AT,
+        reduced_moment=AT,
         steady_state={"rtol": 1e-6, **QUICK},
         with_counterweights={"weights": []},
     )
@@ -210,9 +212,6 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         from_table={**COLUMNS, "spline": "linear"},
         design={"index": ()},
         of={"mechanism": own.mechanism},
-        potential=AT,
-        reduced_inertia=AT,
-        reduced_moment=AT,
         save={"path": "m.toml"},
     )
     run, steady = own.run(0.1, speed0=1.0), table.steady_state(9.0)

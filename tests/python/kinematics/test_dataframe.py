@@ -39,7 +39,7 @@ def slider_crank(slide: str) -> assur.Mechanism:
 
 def width(motion: assur.Motion, designs: int) -> int:
     """Columns: the bookkeeping, and a value with its analogues of each quantity."""
-    m, n = motion.mechanism, motion._drivers
+    m, n = motion.mechanism, motion.driver_count
     each = sum(n**order for order in range(motion.order + 1))
     quantities = 2 * len(m.joints) + len(m.links) + len(m.slides)
     return designs + n + 1 + int(each) * quantities

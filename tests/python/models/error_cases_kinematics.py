@@ -214,7 +214,7 @@ REQUEST: dict[str, Case] = {
     "too_many_assemblies": Case(
         StructureError,
         lambda: RING.assemblies(RING.q0),
-        {"group": RING._core.formula.partition("→ ")[2]},
+        {"group": RING.core.formula.partition("→ ")[2]},
     ),
     "bad_dimension": Case(
         DimensionError,

@@ -25,7 +25,7 @@ def rubbing_case(seed: int) -> tuple[Case, assur.Machine]:
     mechanism, part = case.mechanism, 10.0 ** rng.uniform(-2.5, 0.0)
     size = max(abs(x) for x in (*mechanism.dimensions.values(), 1e-3))
     friction: dict[str, Any] = {}
-    names, rubs = [*mechanism._joint_names, *mechanism.slides], 0
+    names, rubs = [*mechanism.joint_names, *mechanism.slides], 0
     for name in rng.sample(names, len(names)):
         links = [link for link, joints in mechanism.links.items() if name in joints]
         own = 1 if name in mechanism.slides else len(links) - 1

@@ -191,10 +191,10 @@ class Units:
 
     def numbers(self, run: Run) -> dict[str, Any]:
         """Every number of a run in the new units, in the old ones."""
-        by = np.ones(1) if run._mechanism is None else np.array(self.coordinates(run._mechanism))
+        by = np.ones(1) if run.mechanism is None else np.array(self.coordinates(run.mechanism))
         by = by if by.size > 1 else by[0]
         energy = run.energy
-        along = by if run._along_q else self.time
+        along = by if run.along_q else self.time
         steps = (run.statistics.smallest_step, run.statistics.largest_step)
         return {
             "t": run.t / self.time,

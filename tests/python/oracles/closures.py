@@ -45,7 +45,7 @@ class Places:
         return cls(
             {n: point(motion.joint(n).value) for n in description.joints},
             {n: motion.link(n).value for n in description.links if n != GROUND},
-            {n: point(motion._reference_point(n).value) for n in bare},
+            {n: point(motion.reference_points[n].value) for n in bare},
             {n: motion.slide(n).value for n in description.slides},
         )
 

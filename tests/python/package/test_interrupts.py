@@ -69,7 +69,7 @@ def test_a_motion_whose_overwriting_was_stopped_cannot_be_read() -> None:
         motion: Any = m.solve([0.3], order=0, on_error="nan")
         with suppress(StoppedError), signal_after(0.05):
             m.solve([0.4], order=0, on_error="nan", out=motion)
-        if not motion._stored.buffers.complete:
+        if not motion.stored.buffers.complete:
             break
     else:
         pytest.fail("the signal is never heard before the work is done")

@@ -59,7 +59,7 @@ def calls_of_method(
     if not needed:
         yield f"{name}()", method
     elif needed[0] in ("name", "joint", "slide", "link") and set(needed[1:]) <= {"on"}:
-        for given in (*mechanism._joint_names, *mechanism.links, *mechanism.slides):
+        for given in (*mechanism.joint_names, *mechanism.links, *mechanism.slides):
             if "on" not in needed:
                 yield f"{name}({given})", partial(method, given)
             if "on" in parameters:
@@ -104,7 +104,7 @@ def cases(seed: int) -> Iterator[tuple[assur.Machine, Any, Any]]:
         return
     friction: dict[str, Any] = {
         name: assur.JointFriction(0.1, 0.05, viscous=0.1 * (seed % 2))
-        for name in mechanism._joint_names
+        for name in mechanism.joint_names
         if sum(name in joints for joints in mechanism.links.values()) > 1
     }
     # All of them, or those that rest alone.

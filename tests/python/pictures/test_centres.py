@@ -154,7 +154,7 @@ def test_points_of_the_inflection_circle_go_straight(name: str, link: str) -> No
     ax = inflection_circle(motion, link)
     circle = one(ax, "inflection circle")
     centre, radius = np.array(circle.get_center()), circle.get_radius()
-    frame, turn = motion._reference_point(link).value, float(motion.link(link).value)
+    frame, turn = motion.reference_points[link].value, float(motion.link(link).value)
     angles = np.linspace(0.3, 6.0, 9)
     points = centre + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1) - frame
     cosine, sine = np.cos(turn), np.sin(turn)

@@ -70,7 +70,7 @@ MACHINES: dict[str, Any] = {
 def test_polygons_close(name: str) -> None:
     """Of every link, every group and all links; the moments about any point balance too."""
     found = MACHINES[name]()
-    mechanism = found._mechanism
+    mechanism = found.mechanism
     sets = [(link,) for link in mechanism.links if link != "ground"]
     sets += [group.links for group in mechanism.structure.groups]
     for links in [*sets, tuple(link for link in mechanism.links if link != "ground")]:
@@ -101,7 +101,7 @@ KINDS = {"load", "weight", "inertia", "drive", "reaction"}
 def test_polygon_of_a_group() -> None:
     """Its sides follow each other; the last ends where the first begins."""
     found = _engine().reactions(1.1, speed=60.0)
-    group = found._mechanism.structure.groups[0]
+    group = found.mechanism.structure.groups[0]
     ax = found.polygon(group)
     order = [line.get_gid() for line in ax.lines if str(line.get_gid()).split()[0] in KINDS]
     assert order == [
@@ -127,7 +127,7 @@ def test_polygon_of_a_group() -> None:
 def test_forces_in_their_places() -> None:
     found = _engine().reactions([0.4, 1.1], speed=60.0)
     ax = found.plot(at=1)
-    motion = found._mechanism.solve(1.1)
+    motion = found.mechanism.solve(1.1)
     forces = {
         "reaction O on crank": (motion["O"].value, found.joint("O", on="crank")[1]),
         "reaction A on crank": (motion["A"].value, found.joint("A", on="crank")[1]),

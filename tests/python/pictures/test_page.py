@@ -129,7 +129,7 @@ def test_rows_of_several_drivers_have_velocities_in_time() -> None:
     span = motion.q[40] - motion.q[0]
     omega = 2.0 * np.pi / 8.0
     speed = span * omega / 2.0 * np.sin(omega * t)[:, None]
-    exact = np.einsum("ncd,nd->nc", motion.joint("tip")._arrays[1].reshape(81, 2, 3), speed)
+    exact = np.einsum("ncd,nd->nc", motion.joint("tip").arrays[1].reshape(81, 2, 3), speed)
     i = turn.frames.links.index("bucket")
     angle, spin = turn.frames.values[0][:, i, 2], turn.frames.values[1][:, i]
     x, y = turn.frames.local["bucket"]["tip"]
@@ -289,7 +289,7 @@ def test_positions_that_do_not_exist_leave_gaps(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", sorted(assur.examples.ALL))
 def test_every_example_has_a_page(name: str, tmp_path: Path) -> None:
     mechanism = example(name)
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         low, high = np.array(assur.examples.RANGES[name])
         mechanism.solve(np.linspace(low, high, 21)).to_html(tmp_path / "x.html")
         assert mechanism._repr_html_() is None
@@ -430,7 +430,7 @@ def test_what_cannot_be_played_has_a_repr_alone() -> None:
 def test_a_turn_that_passes_is_the_whole_one_or_none(name: str) -> None:
     """Where the driver is seen to go round, its limits need not be looked for."""
     made = example(name)
-    if made._driver_count > 1:
+    if made.driver_count > 1:
         assert passing_turn(made, 0.0, 61) is None
         return
     passing, whole = (f(made, float(made.q0), 61) for f in (passing_turn, turn_of))

@@ -28,7 +28,7 @@ def _example(name: str) -> tuple[assur.Motion, Any, Any]:
     """Return a position of an example away from its ends, a speed and an acceleration."""
     mechanism = _mechanism(name)
     low, high = (np.asarray(end) for end in assur.examples.RANGES[name])
-    n = mechanism._driver_count
+    n = mechanism.driver_count
     speed = 3.0 if n == 1 else np.array([1.0, -2.0, 1.5])[:n]
     return mechanism.solve((low + 0.29 * (high - low)).tolist()), speed, 0.7 * speed
 

@@ -266,7 +266,7 @@ def test_the_driver_of_a_motor_that_cannot_start_is_named(
 ) -> None:
     table = assur.Table([5.0, 10.0, 20.0], [3.0, 2.0, 1.0])
     five = assur.examples.five_bar()
-    names = [str(one) for one in five._description.drivers]
+    names = [str(one) for one in five.description.drivers]
     bodies = {link: assur.Body(inertia=1.0) for link in names}
     own = [table if motor else None for motor in motors]
     machine = assur.Machine(five, bodies, motor=own)

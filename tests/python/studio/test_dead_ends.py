@@ -57,7 +57,7 @@ def turning_dyads() -> list[tuple[str, str]]:
     for example, make in assur.examples.ALL.items():
         what: Any = make()
         mechanism = getattr(what, "mechanism", what)
-        if mechanism._driver_count == 1:
+        if mechanism.driver_count == 1:
             found += [(example, name) for name, _, _ in dyads(mechanism)]
     return found
 

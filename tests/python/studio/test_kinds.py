@@ -48,7 +48,7 @@ def check_rows(reply: Reply, mechanism: assur.Mechanism) -> None:
     if grid["kind"] == "cosine":
         own = grid["middle"] - grid["half"] * np.cos(own)
     q: Any = own
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         q = np.repeat(np.asarray(mechanism.q0)[None], len(own), axis=0)
         q[:, 0] = own
     motion = mechanism.solve(q, order=1, on_error="nan")

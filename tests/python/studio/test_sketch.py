@@ -91,7 +91,7 @@ def test_parts_are_those_of_the_server(drawn: dict[str, Any]) -> None:
             continue
         what: Any = make()
         mechanism: Mechanism = getattr(what, "mechanism", what)
-        frames = frames_of(mechanism.solve(mechanism._q0_array(), order=0))
+        frames = frames_of(mechanism.solve(mechanism.q0_array, order=0))
         scene = scene_of(mechanism, frames)
         links = ["ground", *(link for link in scene.links if link != "ground")]
         index = {link: i for i, link in enumerate(links)}

@@ -9,6 +9,7 @@ import pytest
 
 import assur
 from assur import Force, Machine, Status, Table, metric
+from assur.sweeps.measures import counts_text
 
 Q = np.linspace(0.0, 2.0 * np.pi, 36, endpoint=False)
 CRANKS = {"crank.length": [0.04, 0.05, 0.06, 0.5]}
@@ -46,7 +47,7 @@ def test_a_table_that_ends(name: str) -> None:
         assert "0.46, at q = 0, is not in it; extend the table" in why
     assert found.explain(1) is None
     assert "q = " in str(found.explain((3,)))
-    assert "1 do not move, 0 miss a condition, 1 lack a metric, 2 are kept" in found._counts()
+    assert "1 do not move, 0 miss a condition, 1 lack a metric, 2 are kept" in counts_text(found)
 
 
 def test_a_condition_without_a_value_is_not_missed() -> None:

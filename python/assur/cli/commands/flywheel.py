@@ -61,7 +61,9 @@ def run(given: argparse.Namespace) -> None:
     output = Output(given.out, given.file)
     found = _of_machine(given) if _is_machine(given.file) else _of_table(given)
     if given.out is not None:
-        output.write(found._columns(given.degrees))
+        from assur._table import columns_of
+
+        output.write(columns_of(found, given.degrees))
     if given.out != "-":
         _print(found)
     if given.plot:

@@ -68,11 +68,13 @@ def run(given: argparse.Namespace) -> int:
     asked.update({name: value for name, value in flags.items() if value is not None})
     place = coordinates(mechanism, given.q, wanted or contents.wanted.get("solve", {}))
     if "deg" in place:
-        from assur.kinematics.solve import in_radians
+        from assur.kinematics.solve_arguments import in_radians
 
         place = {"q": in_radians(mechanism, None, place["deg"])}
+    from assur._table import columns_of
+
     found = machine.reactions(**place, **{**asked, "on_error": "nan"})
-    output.write(found._columns(given.degrees))
+    output.write(columns_of(found, given.degrees))
     without = found.status == Status.NO_VALUE
     unknown = np.isnan(found.driver).reshape(*found.status.shape, -1).any(axis=-1)
     failed = report(np.where(without, 0, found.status), Status.SINGULAR)

@@ -74,7 +74,7 @@ def run(given: argparse.Namespace) -> int:
 
 
 def _motion(contents: Contents, given: argparse.Namespace, output: Output) -> Motion:
-    from assur.kinematics.solve import in_radians
+    from assur.kinematics.solve_arguments import in_radians
     from assur.sweeps.sweep import sweep
 
     mechanism, wanted = contents.mechanism, contents.wanted.get("solve", {})
@@ -84,7 +84,7 @@ def _motion(contents: Contents, given: argparse.Namespace, output: Output) -> Mo
     if given.outputs is not None:
         asked["outputs"] = [name.strip() for name in given.outputs.split(",")]
     place = coordinates(mechanism, given.q, wanted)
-    drivers = mechanism._driver_count
+    drivers = mechanism.driver_count
     size = np.size(place["q"] if "q" in place else place["deg"])
     output.require_few(size // drivers * math.prod(mechanism.shape))
     if not mechanism.shape:

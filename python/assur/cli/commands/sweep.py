@@ -102,6 +102,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> int:
     """Run the command."""
     from assur.cli.metrics import condition, named_metric
+    from assur.sweeps.measures import counts_text
     from assur.sweeps.sweep import sweep
 
     if given.best is None and (given.by is not None or given.greatest):
@@ -119,7 +120,7 @@ def run(given: argparse.Namespace) -> int:
     where = [condition(text) for text in given.where]
     contents = read(given)
     require_one(contents.mechanism, given.file)
-    dimensions = _dimensions(given, contents.mechanism._core.dimension_names)
+    dimensions = _dimensions(given, contents.mechanism.core.dimension_names)
     rows = math.prod(np.broadcast_shapes(*map(np.shape, dimensions.values())))
     output.require_few(rows if given.best is None else min(rows, given.best))
     found: Measures = sweep(
@@ -133,7 +134,7 @@ def run(given: argparse.Namespace) -> int:
     )
     if not len(found.kept):
         output.write(_columns(found, None))
-        note(f"no design is left: {found._counts()}")
+        note(f"no design is left: {counts_text(found)}")
         return INCOMPLETE
     best = None if given.best is None else found.best(given.best, by, given.greatest)
     output.write(_columns(found, best))
@@ -173,7 +174,7 @@ def _dimensions(given: argparse.Namespace, known: Sequence[str]) -> Mapping[str,
 
 
 def _positions(contents: Contents, given: argparse.Namespace) -> Any:
-    from assur.kinematics.solve import in_radians
+    from assur.kinematics.solve_arguments import in_radians
     from assur.kinematics.table import driven_angles
 
     mechanism = contents.mechanism
@@ -194,13 +195,14 @@ def _positions(contents: Contents, given: argparse.Namespace) -> Any:
 def _columns(found: Measures, best: npt.NDArray[np.intp] | None) -> list[Column]:
     """Return the columns of `Measures.to_dataframe`, of the best designs or of all."""
     from assur._table import Column, design_columns
+    from assur.sweeps.measures import changed_dimensions
 
     size = found.status.size
     which = np.arange(size) if best is None else best
     columns = [*design_columns(found.shape, len(found.shape))]
-    for name in found._designs.changed:
+    for name, values in changed_dimensions(found).items():
         unit = "m" if kind_of(name) == LENGTH else "rad"
-        columns.append(Column(name, found._designs.values(name), unit, None))
+        columns.append(Column(name, values, unit, None))
     columns.append(Column("status", found.status.reshape(-1), "", None))
     columns.append(Column("kept", np.isin(np.arange(size), found.kept), "", None))
     taken = {column.name for column in columns}

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from assur.kinematics.assemblies import assemblies
 from assur.kinematics.curve.parts import SAME, Branch, has_driven_angle
+from assur.kinematics.limits import limits
 from assur.kinematics.place import nearest, place_of, places_along, size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,7 +20,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.limits import Limits
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 
 @dataclass(slots=True)
@@ -27,7 +30,7 @@ class Branches:
     Each branch is solved once for all of `coordinates`, those that will be asked for.
     """
 
-    mechanism: Mechanism
+    mechanism: MechanismModel
     coordinates: list[float] = field(default_factory=list)
     branches: list[Branch] = field(default_factory=list)
     groups: list[tuple[str | None, str | None]] = field(default_factory=list)
@@ -48,26 +51,27 @@ class Branches:
 
     def places(self, assembly: Mapping[str, int], q: Float) -> Float:
         """Return the places of an assembly at coordinates, shape (N, n)."""
-        motion = self.mechanism.solve(q, order=0, assembly=assembly, on_error="nan")
+        motion = solve(self.mechanism, q, order=0, assembly=assembly, on_error="nan")
         return places_along(motion, self.size)
 
     def look_at(self, q: float) -> int:
         """Add the branches of all assemblies at a coordinate; return how many assemblies it has."""
-        found = list(self.mechanism.assemblies(q))
+        found = list(assemblies(self.mechanism, q))
         for assembly in found:
             self.add(assembly, q)
         return len(found)
 
     def add(self, assembly: Assembly, q: float) -> None:
         """Add the branch of an assembly, if it is a new one."""
-        assert assembly._place is not None
-        own = place_of(assembly._place.numbers, self.size)
+        assert assembly.place is not None
+        own = place_of(assembly.place.numbers, self.size)
         if self.has(own, q):
             return
-        limits = self.limits(assembly)
-        dead = {one.q: one.group for one in limits.dead_points}
+        own_limits = self.limits(assembly)
+        dead = {one.q: one.group for one in own_limits.dead_points}
         intervals = [
-            Branch(assembly, low, high, limits.period) for low, high in limits.intervals.tolist()
+            Branch(assembly, low, high, own_limits.period)
+            for low, high in own_limits.intervals.tolist()
         ]
         # An angle may be in several of them, each in other turns.
         there = [self._solve(branch, [q])[q] for branch in intervals]
@@ -81,11 +85,11 @@ class Branches:
 
     def limits(self, assembly: Mapping[str, int]) -> Limits:
         """Return the limits of an assembly."""
-        if self.mechanism._core.cls > 2:
-            return self.mechanism.limits(assembly)
+        if self.mechanism.core.cls > 2:
+            return limits(self.mechanism, assembly)
         signs = frozenset(assembly.items())
         if signs not in self._limits:
-            self._limits[signs] = self.mechanism.limits(assembly)
+            self._limits[signs] = limits(self.mechanism, assembly)
         return self._limits[signs]
 
     def has(self, place: Float, q: float) -> bool:

@@ -14,6 +14,7 @@ from assur.description.words import is_reached
 from assur.kinematics.curve.defects import defects_of
 from assur.kinematics.curve.parts import ends_of, has_driven_angle
 from assur.kinematics.place import size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.curve.defects import Defects
     from assur.kinematics.curve.parts import Branch, Circuit, Fold
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
 
 __all__ = ["CircuitMotion", "ConfigurationCurve"]
@@ -100,11 +101,12 @@ class ConfigurationCurve:
     folds: tuple[Fold, ...]
     circuits: tuple[Circuit, ...]
     fan: Float
-    _mechanism: Mechanism
+    # A `Mechanism`, whose file stands above.
+    mechanism: Any
 
     def __repr__(self) -> str:
         folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
-        of = self._mechanism._core.formula
+        of = self.mechanism.core.formula
         return f"<assur.ConfigurationCurve of {of}, {circuits}, {folds}>"
 
     def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:
@@ -196,33 +198,33 @@ class ConfigurationCurve:
         parts = []
         for number, direction in self.circuits[index].branches:
             branch = self.branches[number]
-            low, high = ends_of(branch, self._mechanism)
+            low, high = ends_of(branch, self.mechanism)
             part = 0.5 - 0.5 * sin_cos(np.linspace(0.0, np.pi, samples))[1]
             if branch.period is not None:
                 part = np.linspace(0.0, 1.0, samples)
             q = low + (high - low) * part
             parts.append((number, q if direction > 0 else q[::-1]))
-        return _along(self._mechanism, self.branches, parts)
+        return _along(self.mechanism, self.branches, parts)
 
 
-def _beside_dead_points(mechanism: Mechanism, branch: Branch, q: Float) -> Motion:
+def _beside_dead_points(mechanism: MechanismModel, branch: Branch, q: Float) -> Motion:
     """Solve a branch, beside a dead point in place of on it: there rounding decides."""
     unit = 1.0 if has_driven_angle(mechanism) else size_of(mechanism)
     finite = [abs(end) for end in (branch.low, branch.high) if np.isfinite(end)]
-    motion = mechanism.solve(q, order=0, assembly=branch.assembly, on_error="nan")
+    motion = solve(mechanism, q, order=0, assembly=branch.assembly, on_error="nan")
     for margin in MARGINS if branch.period is None else ():
         beside = margin * max([unit, *finite])
         inside = np.clip(q, branch.low + beside, branch.high - beside)
-        motion = mechanism.solve(inside, order=0, assembly=branch.assembly, on_error="nan")
+        motion = solve(mechanism, inside, order=0, assembly=branch.assembly, on_error="nan")
         if is_reached(motion.status[[0, -1]]).all():
             break
     return motion
 
 
 def _along(
-    mechanism: Mechanism, branches: tuple[Branch, ...], parts: list[tuple[int, Float]]
+    mechanism: MechanismModel, branches: tuple[Branch, ...], parts: list[tuple[int, Float]]
 ) -> CircuitMotion:
-    names = mechanism._joint_names, tuple(mechanism.links), tuple(mechanism.slides)
+    names = mechanism.joint_names, tuple(mechanism.links), tuple(mechanism.slides)
     rows: list[tuple[Float, Float, list[list[Float]]]] = []
     for index, (number, part) in enumerate(parts):
         # The end of one branch is the beginning of the next.

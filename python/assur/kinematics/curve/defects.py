@@ -13,12 +13,13 @@ from assur._validate import real_number
 from assur.errors import InputError
 from assur.kinematics.curve.parts import SAME, ends_of, has_driven_angle
 from assur.kinematics.place import nearest, places_along, size_of
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from assur._faces import ConfigurationCurve
     from assur.kinematics.assembly import Assembly
-    from assur.kinematics.curve.curve import ConfigurationCurve
 
 __all__ = ["Defects"]
 
@@ -76,9 +77,9 @@ def defects_of(curve: ConfigurationCurve, places: Sequence[tuple[float, Assembly
 
 def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[int, float]:
     """Return the branch of a position, and its q in the branch's counted turns."""
-    mechanism = curve._mechanism
+    mechanism = curve.mechanism
     size = size_of(mechanism)
-    own = places_along(mechanism.solve(q, order=0, assembly=assembly), size)
+    own = places_along(solve(mechanism, q, order=0, assembly=assembly, is_typed=True), size)
     is_angle = has_driven_angle(mechanism)
     for number, branch in enumerate(curve.branches):
         low, high = ends_of(branch, mechanism) if is_angle else (branch.low, branch.high)
@@ -89,7 +90,7 @@ def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[i
             there = q + math.tau * turn
             if not low <= there <= high:
                 continue
-            motion = mechanism.solve(there, order=0, assembly=branch.assembly, on_error="nan")
+            motion = solve(mechanism, there, order=0, assembly=branch.assembly, on_error="nan")
             if nearest(places_along(motion, size)[np.newaxis], own) <= SAME:
                 return number, there
     message = f"no branch goes through q = {q!r} in {assembly!r}: give the curve more positions"
@@ -102,7 +103,7 @@ def _is_in_order(curve: ConfigurationCurve, circuit: int, found: list[tuple[int,
     places = []
     for number, q in found:
         step = next(i for i, (own, _) in enumerate(ways) if own == number)
-        low, high = ends_of(curve.branches[number], curve._mechanism)
+        low, high = ends_of(curve.branches[number], curve.mechanism)
         part = (q - low) / (high - low)
         places.append(step + (part if ways[step][1] > 0 else 1.0 - part))
     # Rounded, so that the same place twice is no step backward by a whole round.

@@ -11,7 +11,9 @@ import numpy as np
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
+from assur.kinematics.assemblies import assemblies
 from assur.kinematics.curve.search import curve_through, require_one_driver
+from assur.kinematics.model import with_values
 from assur.kinematics.place import place_of, size_of
 
 if TYPE_CHECKING:
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.kinematics.assembly import Assembly
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["Defect"]
 
@@ -53,7 +55,7 @@ class Defect(IntFlag):
 
 
 def design_defects(
-    mechanism: Mechanism, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]
+    mechanism: MechanismModel, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]
 ) -> Any:
     """See `Mechanism.defects`."""
     require_one_driver(mechanism, "defects")
@@ -63,7 +65,7 @@ def design_defects(
         raise InputError(message)
     coordinates = real_array(q, "q")
     for name in joints:
-        mechanism._core.require("joint", checked_name(name, "joints"))
+        mechanism.core.require("joint", checked_name(name, "joints"))
     wanted = {name: real_array(places, name) for name, places in joints.items()}
     unknown = next((name for name, at in wanted.items() if not np.isfinite(at).all()), None)
     if unknown is not None:
@@ -87,13 +89,13 @@ def design_defects(
         raise InputError(message)
     found = np.empty(mechanism.shape, dtype=np.uint8)
     for index in np.ndindex(mechanism.shape):
-        own = mechanism._with_values(mechanism._values[(slice(None), *index)])
+        own = with_values(mechanism, mechanism.values[(slice(None), *index)])
         places = {name: at[index] for name, at in there.items()}
         found[index] = _of_one(own, rows[index].tolist(), places)
     return found if mechanism.shape else Defect(int(found))
 
 
-def _of_one(mechanism: Mechanism, q: list[float], wanted: dict[str, Float]) -> Defect:
+def _of_one(mechanism: MechanismModel, q: list[float], wanted: dict[str, Float]) -> Defect:
     places = []
     for k, at in enumerate(q):
         assembly = _nearest(mechanism, at, {name: points[k] for name, points in wanted.items()})
@@ -106,17 +108,17 @@ def _of_one(mechanism: Mechanism, q: list[float], wanted: dict[str, Float]) -> D
     return defect | (Defect.ORDER if found.order else Defect.NONE)
 
 
-def _nearest(mechanism: Mechanism, q: float, wanted: dict[str, Float]) -> Assembly | None:
+def _nearest(mechanism: MechanismModel, q: float, wanted: dict[str, Float]) -> Assembly | None:
     """Return the assembly whose joints are where they are wanted."""
     size = size_of(mechanism)
     found: list[tuple[float, Assembly]] = []
-    for assembly in mechanism.assemblies(q):
+    for assembly in assemblies(mechanism, q):
         joints = assembly.joints
         assert joints is not None
         apart = max(float(np.abs(np.array(joints[name]) - at).max()) for name, at in wanted.items())
         if apart <= THERE * size:
             found.append((apart, assembly))
-    places = [place_of(one._place.numbers, size) for _, one in found if one._place is not None]
+    places = [place_of(one.place.numbers, size) for _, one in found if one.place is not None]
     if any(np.abs(place - places[0]).max() > APART for place in places[1:]):
         message = f"joints: {', '.join(wanted)} do not tell which assembly is meant: add others"
         raise InputError(message, value=q)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.kinematics.curve.branches import Branches
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 # Of a step, how far the first coordinate is to either side of the drawing's: off the values that
 # people draw at, where things may be special, and in a mirror the same.
@@ -100,7 +100,7 @@ class Fan:
         return (low < turned) & (turned < high)
 
 
-def around_drawing(mechanism: Mechanism, positions: int, is_angle: bool) -> list[float]:
+def around_drawing(mechanism: MechanismModel, positions: int, is_angle: bool) -> list[float]:
     """Return coordinates over a turn, or as far as all lengths together, about the drawing's."""
     q0 = float(np.ravel(mechanism.q0)[0])
     step = 2.0 * (math.pi if is_angle else sum(lengths(mechanism))) / positions
@@ -114,10 +114,10 @@ def look_within_intervals(known: Branches) -> bool:
     It is in class II.
     """
     mechanism = known.mechanism
-    drawn = dict(mechanism._core.assembly)
+    drawn = dict(mechanism.core.assembly)
     slides = mechanism.slides
     free = [name for name in drawn if not (name in slides and slides[name].length)]
-    if mechanism._core.cls > 2 or 2 ** len(free) > MOST_SIGNS:
+    if mechanism.core.cls > 2 or 2 ** len(free) > MOST_SIGNS:
         return False
     for signs in product((1, -1), repeat=len(free)):
         assembly = drawn | dict(zip(free, signs, strict=True))

@@ -12,7 +12,7 @@ from assur.kinematics.place import lengths
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["Branch", "Circuit", "Fold"]
 
@@ -106,7 +106,7 @@ class Circuit:
     is_closed: bool
 
 
-def ends_of(branch: Branch, mechanism: Mechanism) -> tuple[float, float]:
+def ends_of(branch: Branch, mechanism: MechanismModel) -> tuple[float, float]:
     """Return where a branch begins and ends: one that closes at the drawing's coordinate.
 
     A slide that nothing stops goes as far as the sum of all lengths from there.
@@ -120,7 +120,7 @@ def ends_of(branch: Branch, mechanism: Mechanism) -> tuple[float, float]:
     return low, high
 
 
-def has_driven_angle(mechanism: Mechanism) -> bool:
+def has_driven_angle(mechanism: MechanismModel) -> bool:
     """Whether the driver is an angle, not a slide."""
-    driver = mechanism._description.drivers[0]
+    driver = mechanism.description.drivers[0]
     return not isinstance(driver, str) or driver not in mechanism.slides

@@ -18,7 +18,7 @@ from assur.kinematics.curve.folds import Folds
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.curve.parts import Fold
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 # A fan of so many takes minutes, and 100 MB; its time grows faster than its positions.
 MOST_POSITIONS = 100_000
@@ -26,7 +26,7 @@ MOST_POSITIONS = 100_000
 MOST_HALVINGS = 12
 
 
-def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCurve:
+def configuration_curve(mechanism: MechanismModel, positions: int) -> ConfigurationCurve:
     """See `Mechanism.configuration_curve`."""
     if mechanism.shape:
         message = f"configuration_curve() is for one design, this is a batch {mechanism.shape}"
@@ -50,7 +50,9 @@ def configuration_curve(mechanism: Mechanism, positions: int) -> ConfigurationCu
     return _curve_of(known, found, fan.q)
 
 
-def curve_through(mechanism: Mechanism, places: list[tuple[float, Assembly]]) -> ConfigurationCurve:
+def curve_through(
+    mechanism: MechanismModel, places: list[tuple[float, Assembly]]
+) -> ConfigurationCurve:
     """Return the circuits of a design that go through positions, as they were found."""
     known = Branches(mechanism)
     for q, assembly in places:
@@ -58,10 +60,10 @@ def curve_through(mechanism: Mechanism, places: list[tuple[float, Assembly]]) ->
     return _curve_of(known, Folds(known).find(), [])
 
 
-def require_one_driver(mechanism: Mechanism, what: str) -> None:
+def require_one_driver(mechanism: MechanismModel, what: str) -> None:
     """Refuse a mechanism with several drivers."""
-    if mechanism._driver_count > 1:
-        message = f"{what}() is for one driver; this mechanism has {mechanism._driver_count}"
+    if mechanism.driver_count > 1:
+        message = f"{what}() is for one driver; this mechanism has {mechanism.driver_count}"
         raise InputError(message)
 
 

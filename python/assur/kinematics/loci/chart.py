@@ -15,12 +15,13 @@ import numpy as np
 
 from assur.description.words import Drive, has_analogues
 from assur.errors import AssurError
-from assur.kinematics.assembly import Place
+from assur.kinematics.model import Place, at_place
 from assur.kinematics.pose import Pose, bare_core
+from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 # How far (rad, or of the size) a chart is followed before it is drawn anew.
 REACH = 0.5
@@ -32,7 +33,7 @@ class Surface:
 
     Attributes
     ----------
-    mechanism : Mechanism
+    mechanism : MechanismModel
         A design with two or more drivers.
     free : tuple of int
         The two drivers that move; the others are held.
@@ -42,7 +43,7 @@ class Surface:
         A length of the mechanism, m.
     """
 
-    mechanism: Mechanism
+    mechanism: MechanismModel
     free: tuple[int, int]
     q: tuple[float, ...]
     size: float
@@ -104,17 +105,17 @@ class Chart:
 
     def __init__(self, surface: Surface, pose: Pose, pair: tuple[int, int] | None = None) -> None:
         own = surface.mechanism
-        drivers = own._description.drivers
+        drivers = own.description.drivers
         held = [driver for i, driver in enumerate(drivers) if i not in surface.free]
         free = [drivers[i] for i in surface.free]
         if pair is not None:
             free = [surface.names[index] for index in pair]
-        description = own._description._replace(drivers=(*free, *held), assembly=())
+        description = own.description._replace(drivers=(*free, *held), assembly=())
         core = bare_core(description)
         q, numbers = core.at_pose(pose.joints, pose.angles, pose.slides)
-        plain = own._make(description, np.array(own._values), core)
-        drawn = core.drawn_in(plain._values.tolist(), q, numbers)
-        self._mechanism = plain._drawn_at(Place(plain, tuple(q), numbers), drawn)
+        plain = own._make(description, np.array(own.values), core)
+        drawn = core.drawn_in(plain.values.tolist(), q, numbers)
+        self._mechanism = at_place(plain, Place(plain, tuple(q), numbers), drawn)
         self._surface = surface
         self._held = q[2:]
         is_length = [isinstance(one, str) and one in own.slides for one in free]
@@ -126,14 +127,14 @@ class Chart:
         """Return the position at two coordinates; None if the chart does not lead there."""
         if np.abs(where - self.start).max() > REACH:
             return None
-        motion = self._mechanism.solve([*(where * self.unit), *self._held], on_error="nan")
+        motion = solve(self._mechanism, [*(where * self.unit), *self._held], on_error="nan")
         if not has_analogues(motion.status):
             return None
         own, surface = self._mechanism, self._surface
         angles = {name: motion.link(name) for name in own.links}
         slides = {name: motion.slide(name) for name in own.slides}
         pose = Pose(
-            [tuple(motion.joint(name).value.tolist()) for name in own._joint_names],
+            [tuple(motion.joint(name).value.tolist()) for name in own.joint_names],
             [float(one.value) for one in angles.values()],
             [float(one.value) for one in slides.values()],
         )
@@ -152,7 +153,7 @@ class Chart:
                 first, second = link.d1 - base.d1, link.d2 - base.d2
             return first[:2] * self.unit, second[:2, :2] * np.outer(self.unit, self.unit)
 
-        drivers = surface.mechanism._description.drivers
+        drivers = surface.mechanism.description.drivers
         (u, du), (v, dv) = (derivatives(drivers[i]) for i in surface.free)
         gradient = du[0] * v[1] + u[0] * dv[1] - du[1] * v[0] - u[1] * dv[0]
         return Point(pose, where, np.array(rates), float(u[0] * v[1] - u[1] * v[0]), gradient)

@@ -58,7 +58,7 @@ def all_poses(surface: Surface, places: Float) -> list[list[Pose]]:
     own = surface.mechanism
     q = np.tile(np.array(surface.q), (len(places), 1))
     q[:, surface.free] = places
-    found: list[FoundAssemblies] = own._core.assemblies(own._values.ravel(), q.ravel(), False, None)
+    found: list[FoundAssemblies] = own.core.assemblies(own.values.ravel(), q.ravel(), False, None)
     return [[Pose.found(numbers) for numbers in one["assemblies"]] for one in found]
 
 

@@ -11,7 +11,10 @@ import numpy as np
 from assur._arrays import short
 from assur._validate import one_of, real_array
 from assur.errors import InputError
+from assur.kinematics.assemblies import assemblies
+from assur.kinematics.limits import limits
 from assur.kinematics.loci.bisection import Edge, bisected
+from assur.kinematics.named_dimensions import with_dimensions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,7 +22,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
 
 __all__ = ["Boundary", "DesignMap"]
 
@@ -133,7 +136,7 @@ class DesignMap:
 
 
 def design_map(
-    mechanism: Mechanism, of: str, dimensions: Mapping[str, npt.ArrayLike], q: Any
+    mechanism: MechanismModel, of: str, dimensions: Mapping[str, npt.ArrayLike], q: Any
 ) -> DesignMap:
     """See `Mechanism.map`."""
     one_of(of, ("assemblies", "full_rotation"), "of")
@@ -151,10 +154,10 @@ def design_map(
     )
 
     def look_at(places: Float) -> list[int]:
-        batch = mechanism.with_dimensions({first: places[:, 0], second: places[:, 1]})
+        batch = with_dimensions(mechanism, {first: places[:, 0], second: places[:, 1]})
         if of == "full_rotation":
-            return [int(whole) for whole in batch.limits().full_rotation.tolist()]
-        return [len(one) for one in batch.assemblies(where)]
+            return [int(whole) for whole in limits(batch).full_rotation.tolist()]
+        return [len(one) for one in assemblies(batch, where)]
 
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     values = np.array(look_at(places.reshape(-1, 2)), dtype=np.intp).reshape(len(x), len(y))
@@ -166,14 +169,14 @@ def design_map(
     return DesignMap(of, (first, second), x, y, values, tuple(boundaries))
 
 
-def _checked_place(mechanism: Mechanism, of: str, q: Any) -> Any:
+def _checked_place(mechanism: MechanismModel, of: str, q: Any) -> Any:
     """Return the coordinate at which assemblies are counted."""
     if q is None:
         return mechanism.q0
     if of != "assemblies":
         message = f"q is {short(q)}: full rotation is about all coordinates, q is for assemblies"
         raise InputError(message)
-    where, drivers = real_array(q, "q"), mechanism._driver_count
+    where, drivers = real_array(q, "q"), mechanism.driver_count
     if where.shape != ((drivers,) if drivers > 1 else ()) or not np.isfinite(where).all():
         message = f"q is {short(q)}: one finite position is needed"
         raise InputError(message)

@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.description.encode import DriverLike
+    from assur.description.words import DriverLike
     from assur.kinematics.loci.trace import Traced
-    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.pose import Pose
 
 __all__ = ["SingularLocus", "Workspace"]
@@ -101,7 +101,8 @@ class SingularLocus:
     joints: Mapping[str, Float]
     is_closed: bool
     is_complete: bool
-    _mechanism: Mechanism
+    # A `Mechanism`, whose file stands above.
+    mechanism: Any
 
     def plot(self, joint: str | None = None, ax: Any = None, dark: bool = False) -> Any:
         """Draw the curve of a joint, or of the drivers' coordinates (needs matplotlib).
@@ -141,7 +142,7 @@ class SingularLocus:
         from assur.pictures.maps.loci import locus_picture
 
         if joint is not None:
-            self._mechanism._core.require("joint", checked_name(joint, "plot"))
+            self.mechanism.core.require("joint", checked_name(joint, "plot"))
         return locus_picture(self, joint, ax, dark)
 
     def __repr__(self) -> str:
@@ -185,7 +186,8 @@ class Workspace:
     boundary: tuple[SingularLocus, ...]
     _surface: Surface
     _base: tuple[float, float]
-    _mechanism: Mechanism
+    # A `Mechanism`, whose file stands above.
+    mechanism: Any
 
     def plot(self, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False) -> Any:
         """Draw where the joint can be, and in how many ways (needs matplotlib).
@@ -256,7 +258,7 @@ class Workspace:
         flat = (array - np.array(self._base)).reshape(-1, 2)
         # Farther than all lengths together; the core follows nothing that far.
         inside = np.abs(flat).max(axis=1, initial=0.0) <= FAR * self._surface.size
-        if self._surface.mechanism._description.slides[2:]:
+        if self._surface.mechanism.description.slides[2:]:
             inside[:] = True
         inside[inside] = [len(poses) > 0 for poses in all_poses(self._surface, flat[inside])]
         inside = inside.reshape(array.shape[:-1])
@@ -280,14 +282,14 @@ def _checked_loci(loci: Any, joint: str) -> list[SingularLocus]:
 
 
 def singular_loci(
-    mechanism: Mechanism,
+    mechanism: MechanismModel,
     joint: str | None,
     drivers: Sequence[DriverLike] | None,
     positions: int,
 ) -> tuple[SingularLocus, ...]:
     """See `Mechanism.singular_loci`."""
     if joint is not None:
-        mechanism._core.require("joint", checked_name(joint, "singular_loci"))
+        mechanism.core.require("joint", checked_name(joint, "singular_loci"))
     surface, grid = _over_drivers(mechanism, "singular_loci", drivers, positions)
     found = _loci(surface, mechanism, grid, 2)
     if joint is not None and grid.counts.any():
@@ -296,10 +298,10 @@ def singular_loci(
 
 
 def workspace(
-    mechanism: Mechanism, joint: str, drivers: Sequence[DriverLike] | None, positions: int
+    mechanism: MechanismModel, joint: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> Workspace:
     """See `Mechanism.workspace`."""
-    mechanism._core.require("joint", checked_name(joint, "workspace"))
+    mechanism.core.require("joint", checked_name(joint, "workspace"))
     surface, grid = _over_drivers(mechanism, "workspace", drivers, positions)
     return _workspace_of(surface, grid, joint)
 
@@ -307,7 +309,7 @@ def workspace(
 def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     """Return the workspace, given all assemblies over the drivers."""
     own = surface.mechanism
-    index = own._joint_names.index(joint)
+    index = own.joint_names.index(joint)
     seen = np.array([pose.joints[index] for row in grid.poses for poses in row for pose in poses])
     positions = len(grid.axes[0])
     if not len(seen):
@@ -316,8 +318,8 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     low, high = seen.min(axis=0), seen.max(axis=0)
     margin = MARGIN * np.maximum(high - low, 1e-3 * surface.size)
     axes = [np.linspace(a, b, positions) for a, b in zip(low - margin, high + margin, strict=True)]
-    held = [i for i in range(own._driver_count) if i not in surface.free]
-    other, base = driven_by_joint(own, joint, [own._description.drivers[i] for i in held])
+    held = [i for i in range(own.driver_count) if i not in surface.free]
+    other, base = driven_by_joint(own, joint, [own.description.drivers[i] for i in held])
     at = (0.0, 0.0, *(surface.q[i] for i in held))
     inverse = Surface(other, (0, 1), at, surface.size)
     over = grid_of(inverse, (axes[0] - base[0], axes[1] - base[1]), (False, False))
@@ -326,7 +328,7 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
 
 
 def _over_drivers(
-    mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None, positions: int
+    mechanism: MechanismModel, what: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> tuple[Surface, Grid]:
     if mechanism.shape:
         message = f"{what}() is for one design, this is a batch {mechanism.shape}: use design(i)"
@@ -334,7 +336,7 @@ def _over_drivers(
     free = _free_drivers(mechanism, what, drivers)
     needed = f"from {FEWEST} to {MOST} are needed"
     positions = whole_number(positions, "positions", FEWEST, MOST, needed)
-    own = mechanism._description.drivers
+    own = mechanism.description.drivers
     is_angle = [not isinstance(own[i], str) or own[i] not in mechanism.slides for i in free]
     axes = []
     for angle in is_angle:
@@ -346,10 +348,10 @@ def _over_drivers(
 
 
 def _free_drivers(
-    mechanism: Mechanism, what: str, drivers: Sequence[DriverLike] | None
+    mechanism: MechanismModel, what: str, drivers: Sequence[DriverLike] | None
 ) -> tuple[int, int]:
     """Return the indices of the two drivers that move."""
-    own = mechanism._description.drivers
+    own = mechanism.description.drivers
     if len(own) < 2:
         message = f"{what}() is for two drivers or more; this mechanism has one: see limits()"
         raise InputError(message)
@@ -363,7 +365,9 @@ def _free_drivers(
     return indices[0], indices[1]
 
 
-def _loci(surface: Surface, own: Mechanism, grid: Grid, kind: int) -> tuple[SingularLocus, ...]:
+def _loci(
+    surface: Surface, own: MechanismModel, grid: Grid, kind: int
+) -> tuple[SingularLocus, ...]:
     """Return the loci of a surface, as positions of the mechanism."""
     traced, lost = _traced(surface, grid)
     lost += sum(not one.is_complete for one in traced)
@@ -407,7 +411,7 @@ def _within(surface: Surface, grid: Grid) -> Callable[[Pose], bool]:
     slides = list(surface.mechanism.slides)
     ranges = {}
     for i, axis, is_angle in zip(surface.free, grid.axes, grid.is_angle, strict=True):
-        driver = surface.mechanism._description.drivers[i]
+        driver = surface.mechanism.description.drivers[i]
         if not is_angle and isinstance(driver, str):
             ranges[slides.index(driver)] = (float(axis[0]), float(axis[-1]))
 
@@ -443,7 +447,7 @@ def _round(traced: Traced) -> list[Pose]:
     return [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
 
 
-def _coordinates(mechanism: Mechanism, traced: Traced) -> Float:
+def _coordinates(mechanism: MechanismModel, traced: Traced) -> Float:
     """Return the coordinates of a mechanism's drivers along a locus, angles continuous."""
     poses = _round(traced)
     angles = np.unwrap([pose.angles for pose in poses], axis=0)
@@ -457,12 +461,12 @@ def _coordinates(mechanism: Mechanism, traced: Traced) -> Float:
         one: Float = links[driver.link] - links[driver.relative_to]
         return one
 
-    return np.stack([coordinate(one) for one in mechanism._description.drivers], axis=-1)
+    return np.stack([coordinate(one) for one in mechanism.description.drivers], axis=-1)
 
 
-def _named(mechanism: Mechanism, traced: Traced, kind: int) -> SingularLocus:
+def _named(mechanism: MechanismModel, traced: Traced, kind: int) -> SingularLocus:
     """Return a locus with the coordinates of the mechanism's drivers and its joints."""
     q = _coordinates(mechanism, traced)
     joints = np.array([pose.joints for pose in _round(traced)])
-    named = {name: joints[:, i] for i, name in enumerate(mechanism._joint_names)}
+    named = {name: joints[:, i] for i, name in enumerate(mechanism.joint_names)}
     return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete, mechanism)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -13,9 +13,10 @@ from assur.pictures.style import style_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import numpy.typing as npt
+
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
-    from assur.papers.crank_rocker.jamming import JammingRun
     from assur.pictures.style import Style
 
 # Positions are drawn at every 15°.
@@ -25,7 +26,30 @@ NAMES = {"jam": "C jams", "return": "D is back"}
 ROOM = 0.3
 
 
-def jamming_picture(run: JammingRun, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
+class _Jamming(Protocol):
+    """What is drawn: see `assur.crank_rocker.JammingRun`."""
+
+    @property
+    def t(self) -> Float: ...
+    @property
+    def phi1(self) -> Float: ...
+    @property
+    def gamma(self) -> Float: ...
+    @property
+    def l4(self) -> Float: ...
+    @property
+    def B(self) -> Float: ...
+    @property
+    def C(self) -> Float: ...
+    @property
+    def D(self) -> Float: ...
+    @property
+    def sliding(self) -> npt.NDArray[np.bool_]: ...
+    @property
+    def events(self) -> Any: ...
+
+
+def jamming_picture(run: _Jamming, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
     """See `JammingRun.plot`."""
     own = style_of(dark)
     if what == "positions":
@@ -33,7 +57,7 @@ def jamming_picture(run: JammingRun, what: str, ax: Any, degrees: bool, dark: bo
     return _diagram(run, what, ax, degrees, own)
 
 
-def mechanism_of(run: JammingRun) -> Mechanism:
+def mechanism_of(run: _Jamming) -> Mechanism:
     """Return the mechanism with its support on a slide: of two drivers, the crank and the slide."""
     joints: dict[str, tuple[float, float]] = {"A": (0.0, 0.0)}
     for name, points in (("B", run.B), ("C", run.C), ("D", run.D)):
@@ -56,7 +80,7 @@ def with_sliding_support(joints: Mapping[str, Any]) -> Mechanism:
     return Mechanism(joints, links, ["crank", "line"], slides)
 
 
-def _positions(run: JammingRun, ax: Any, dark: bool, own: Style) -> Any:
+def _positions(run: _Jamming, ax: Any, dark: bool, own: Style) -> Any:
     """Draw the first position with its symbols, the others as lines, in colour while D slides."""
     turned = np.abs(run.phi1 - run.phi1[0])
     last = min(float(turned[-1]), 2.0 * math.pi)
@@ -92,7 +116,7 @@ def _positions(run: JammingRun, ax: Any, dark: bool, own: Style) -> Any:
     return ax
 
 
-def _misleads(artist: Any, run: JammingRun, ax: Any) -> bool:
+def _misleads(artist: Any, run: _Jamming, ax: Any) -> bool:
     """Whether an artist shows what is not so: the rod, not a drive, moves D; the crank turns."""
     gid = artist.get_gid()
     if gid == "limit crank":
@@ -104,7 +128,7 @@ def _misleads(artist: Any, run: JammingRun, ax: Any) -> bool:
     return bool(np.square(middle - support).sum() < np.square(middle - pivot).sum())
 
 
-def _diagram(run: JammingRun, what: str, ax: Any, degrees: bool, own: Style) -> Any:
+def _diagram(run: _Jamming, what: str, ax: Any, degrees: bool, own: Style) -> Any:
     """Draw the ground or the transmission angle over the crank's angle, with the events."""
     from assur.pictures import chart
     from assur.pictures.diagrams.notes import Note, write_notes

@@ -413,6 +413,7 @@ def plot_deviation(
     from assur.pictures import chart
     from assur.pictures.diagrams.notes import Note, write_notes
     from assur.pictures.diagrams.peaks import peaks
+    from assur.pictures.diagrams.quantities import ORDERS
     from assur.pictures.numerals import degrees_text, number
     from assur.pictures.points import settle
     from assur.pictures.style import style_of
@@ -439,7 +440,9 @@ def plot_deviation(
                 stroke(np.radians(x), 1.0, 1.0 / ratio, method, n=which)
                 for method in ("fraction", "exact")
             )
-            return 100.0 * (near._order(order) / exact._order(order) - 1.0)
+            name = ORDERS[order]
+            percent: Float = 100.0 * (getattr(near, name) / getattr(exact, name) - 1.0)
+            return percent
 
         x = np.degrees(phi)
         values = off(x)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from assur._validate import checked_index, checked_name
+from assur._validate import checked_index, checked_name, require_one_driver
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.position import NamedPoint, draw_position, free_name
@@ -20,7 +20,7 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
 # Positions of a whole motion: the curves are smooth, and far branches end far off.
@@ -80,9 +80,9 @@ def centrodes(
     ['fixed centrode', 'moving centrode']
     """
     motion = checked_motion(motion)
-    motion._require_one_driver("centrodes")
+    require_one_driver(motion.driver_count, "centrodes")
     for name in (link, other):
-        motion.mechanism._core.require("link", checked_name(name, "link"))
+        motion.mechanism.core.require("link", checked_name(name, "link"))
     if link == other:
         message = f"link and other are both {link!r}: give two links"
         raise InputError(message, link=link)

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
 from assur._arrays import flag
-from assur._validate import checked_index, checked_name
+from assur._validate import checked_index, checked_name, require_one_driver
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.linkage.position import NamedPoint, draw_position, free_name
@@ -22,7 +22,7 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
 DOT = 5.5
@@ -89,8 +89,8 @@ def inflection_circle(
     0.0
     """
     motion, second = checked_motion(motion), flag(bresse, "bresse")
-    motion._require_one_driver("inflection_circle")
-    motion.mechanism._core.require("link", checked_name(link, "link"))
+    require_one_driver(motion.driver_count, "inflection_circle")
+    motion.mechanism.core.require("link", checked_name(link, "link"))
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
     pole, change, ratio = _pole_motion(one, link)
     diameter = float(np.hypot(*change))
@@ -127,7 +127,7 @@ def inflection_circle(
 
 def _pole_motion(one: Motion, link: str) -> tuple[Float, Float, float]:
     """Return the pole, its derivative by the link's angle, and φ″/φ′² of the link's angle φ(q)."""
-    point, angle = one._reference_point(link), one.link(link)
+    point, angle = one.reference_points[link], one.link(link)
     rate, second = float(angle.d1), float(angle.d2)
     if not (np.isfinite(rate) and np.isfinite(second)):
         message = f"no inflection circle: {one.explain()}"

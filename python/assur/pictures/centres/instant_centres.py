@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import flag
-from assur._validate import checked_index, checked_names
+from assur._validate import checked_index, checked_names, require_one_driver
 from assur.errors import InputError
 from assur.pictures.axes import scale_bar
 from assur.pictures.centres.marks import CentreMarks
@@ -21,7 +21,8 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, link_numbers, wrapped, w
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
+
 
 # Centres farther from the mechanism than this part of its size are shown at the border.
 SIGHT = 0.75
@@ -81,7 +82,7 @@ def instant_centres(
     1
     """
     motion = checked_motion(motion)
-    motion._require_one_driver("instant_centres")
+    require_one_driver(motion.driver_count, "instant_centres")
     one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
     chosen = _checked_links(one, links)
     subject = Subject(one)
@@ -121,7 +122,7 @@ def _checked_links(one: Motion, links: Sequence[str] | None) -> list[str]:
         return known
     chosen = checked_names(links, "links")
     for link in chosen:
-        one.mechanism._core.require("link", link)
+        one.mechanism.core.require("link", link)
     if len(set(chosen)) < 2:
         message = f"links is {chosen}: instant centres need two links"
         raise InputError(message)

@@ -13,8 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
 
 
 class Centre(NamedTuple):
@@ -64,7 +63,7 @@ def _centre(motion: Motion, one: str, other: str) -> Centre | None:
     if sliding is None and np.isnan(at).all():
         return None
     # A translation: the centre is infinitely far across it.
-    first, second = motion._reference_point(one), motion._reference_point(other)
+    first, second = motion.reference_points[one], motion.reference_points[other]
     arm = first.value - second.value
     turn = motion.link(other).d1
     relative = first.d1 - second.d1 - turn * np.array([-arm[1], arm[0]])
@@ -92,7 +91,7 @@ def _sliding(mechanism: Mechanism, one: str, other: str) -> str | None:
 def _sliding_point(motion: Motion, name: str) -> Float:
     link = motion.mechanism.slides[name].link
     joints = motion.mechanism.links[link]
-    point: Float = (motion.joint(joints[0]) if joints else motion._reference_point(link)).value
+    point: Float = (motion.joint(joints[0]) if joints else motion.reference_points[link]).value
     return point
 
 

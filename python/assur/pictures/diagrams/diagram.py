@@ -21,8 +21,7 @@ from assur.pictures.text import name_font, printable, shortened
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
-    from assur.kinematics.timed import TimedMotion
+    from assur._faces import Motion, TimedMotion
     from assur.pictures.diagrams.quantities import Line, Quantity
     from assur.pictures.diagrams.sources import Source
     from assur.pictures.style import Style

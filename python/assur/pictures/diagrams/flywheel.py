@@ -19,7 +19,7 @@ from assur.pictures.style import blend, style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.flywheel import Flywheel
+    from assur._faces import Flywheel
     from assur.pictures.style import Style
 
 # Areas of less than that part of the greatest are not labelled.
@@ -95,11 +95,11 @@ def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own:
 
 def areas(flywheel: Flywheel, q: Float) -> list[tuple[float, float, float]]:
     """Return where the motor has a surplus or a deficit: start, end, energy of each, J."""
-    sign = np.sign(np.asarray(flywheel._surplus(q)))
+    sign = np.sign(np.asarray(flywheel.surplus(q)))
     at = np.flatnonzero(sign[:-1] * sign[1:] < 0.0)
 
     def has_sign(middle: Float) -> Any:
-        return np.asarray(flywheel._surplus(middle)) * sign[at] > 0.0
+        return np.asarray(flywheel.surplus(middle)) * sign[at] > 0.0
 
     low, high = bisected(has_sign, q[at], q[at + 1], HALVINGS)
     ends = [float(q[0]), *((low + high) / 2.0).tolist(), float(q[-1])]
@@ -115,7 +115,7 @@ def moment_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: S
     axes = chart.chart_axes(ax, own)
     start(axes, over, own)
     resistance = -np.asarray(flywheel.reduced_moment(q))
-    motor = np.asarray(flywheel._surplus(q)) + resistance
+    motor = np.asarray(flywheel.surplus(q)) + resistance
     x = over.values
     for gid, colour, where in (
         ("surplus", own.driver, motor >= resistance),

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
 
 AXES = ("x", "y")
 KINDS = ("joint", "link", "slide")
+# Attributes of analogues, by their order.
+ORDERS = ("value", "d1", "d2", "d3")
 
 
 @dataclass(frozen=True)
@@ -78,11 +80,11 @@ def quantities(motion: Motion, name: Any) -> list[Quantity]:
 
 def _quantity(motion: Motion, name: Any) -> Quantity:
     if isinstance(name, str):
-        for kind, names in zip(KINDS, motion.mechanism._indices, strict=True):
+        for kind, names in zip(KINDS, motion.mechanism.indices, strict=True):
             if name in names:
                 return Quantity(kind, name)
         joint, dot, axis = name.rpartition(".")
-        if dot and axis in AXES and joint in motion.mechanism._joint_names:
+        if dot and axis in AXES and joint in motion.mechanism.joint_names:
             return Quantity("joint", joint, AXES.index(axis))
     # It says what there is.
     motion[name if isinstance(name, str) else short(name)]

@@ -16,8 +16,7 @@ from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.run import EventRecord, Run
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import EventRecord, Mechanism, Run
     from assur.pictures.style import Style
 
 # Points of a curve over a run.
@@ -93,14 +92,14 @@ def _energies(run: Run, own: Style) -> tuple[Float, list[Any]]:
 
 def _motions(run: Run, what: str, own: Style) -> tuple[Float, list[Any], str]:
     """Return a quantity of every driver over the time, and its unit."""
-    if run._along_q:
+    if run.along_q:
         state: Any = run
         t = np.asarray(run.t)
     else:
         t = np.linspace(run.t[0], run.t[-1], POINTS)
         state = run.at(t)
     values = np.asarray(getattr(state, what)).reshape(len(t), -1)
-    names, units = drivers(run._mechanism, values.shape[1])
+    names, units = drivers(run.mechanism, values.shape[1])
     per = {"q": "", "speed": "/s", "acceleration": "/s²"}[what]
     mixed = len(set(units)) > 1
     alone = values.shape[1] == 1
@@ -122,7 +121,7 @@ def drivers(mechanism: Mechanism | None, count: int) -> tuple[list[str], list[st
     if mechanism is None:
         return ["driver"] * count, ["rad"] * count
     names, units = [], []
-    for one in mechanism._description.drivers:
+    for one in mechanism.description.drivers:
         name = one if isinstance(one, str) else f"{one.link} on {one.relative_to}"
         names.append(name)
         units.append("m" if name in mechanism.slides else "rad")
@@ -135,7 +134,7 @@ def _extremes(run: Run, what: str, t: Float, curves: list[Any], power: float) ->
         return []
     slopes = None
     if what == "speed":
-        state: Any = run if run._along_q else run.at(t)
+        state: Any = run if run.along_q else run.at(t)
         slopes = np.asarray(state.acceleration).reshape(len(t), -1)
     notes = []
     for k, curve in enumerate(curves):

@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.diagrams.quantities import components
+from assur.pictures.diagrams.quantities import ORDERS, components
 from assur.pictures.numerals import degrees_text, number, radians_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
-    from assur.kinematics.timed import TimedMotion
+    from assur._faces import Motion, TimedMotion
     from assur.pictures.diagrams.quantities import Line, Quantity
 
 TITLES = {
@@ -76,10 +75,10 @@ class AlongDriver:
         self, motion: Motion, speeds: tuple[Float, Float, Float] | None, degrees: bool
     ) -> None:
         self.motion, self.degrees, self._speeds = motion, degrees, speeds
-        if motion._drivers > 1:
+        if motion.driver_count > 1:
             message = (
-                f"diagram is over one driver's coordinate, this mechanism has {motion._drivers}: "
-                "follow() gives its motion over time, with a diagram"
+                f"diagram is over one driver's coordinate, this mechanism has "
+                f"{motion.driver_count}: follow() gives its motion over time, with a diagram"
             )
             raise InputError(message)
         designs = len(motion.mechanism.shape)
@@ -149,7 +148,7 @@ class AlongDriver:
     def _rate(self, motion: Motion, of: Quantity, order: int) -> Float:
         analogues = getattr(motion, of.kind)(of.name)
         if order == 0 or self._speeds is None:
-            rate: Float = analogues._order(order)
+            rate: Float = getattr(analogues, ORDERS[order])
             return rate
         omega, alpha, beta = self._speeds
         shown: list[Callable[[], Float]] = [
@@ -214,7 +213,7 @@ def _at(motion: Motion, design: int, q: Float) -> Motion:
     if mechanism.shape:
         mechanism = mechanism.design(np.unravel_index(design, mechanism.shape))  # type: ignore[arg-type]
     request = replace(
-        motion._request, mechanism=mechanism, q=q, positions=q.shape, per_design=False, threads=1
+        motion.request, mechanism=mechanism, q=q, positions=q.shape, per_design=False, threads=1
     )
-    results, status, _ = request.arrays(*motion._held_indices())
+    results, status, _ = request.arrays(*motion.held_indices)
     return type(motion)(request, results, status)

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from assur._arrays import Float
-    from assur.dynamics.steady import SteadyState
-    from assur.flywheel import Flywheel
+    from assur._faces import Flywheel, SteadyState
     from assur.pictures.style import Style
 
 # Points of a curve over a period.

@@ -17,7 +17,7 @@ from assur.pictures.text import plain_size
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.flywheel import Flywheel
+    from assur._faces import Flywheel
     from assur.pictures.style import Style
 
 # Beside the loop, relative to it: left for the intercept, right, and above and below.
@@ -105,7 +105,7 @@ def _sentence(flywheel: Flywheel, corner: tuple[float, float]) -> str:
 
 
 def _point(flywheel: Flywheel, q: Float) -> tuple[Float, Float]:
-    first = float(flywheel.reduced_inertia(flywheel._turn[0]))
+    first = float(flywheel.reduced_inertia(flywheel.turn[0]))
     energy = np.asarray(flywheel.work(q)) + first * flywheel.speed0**2 / 2.0
     return np.asarray(flywheel.reduced_inertia(q)), energy
 

@@ -22,11 +22,10 @@ from assur.pictures.scene.extent import usual_link
 from assur.pictures.scene.slides import Slides
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
-    from assur.kinematics.assembly import Assembly
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.drawing.marks import Mark
 
 FORMATS = (".dxf", ".svg", ".pdf")
@@ -48,7 +47,7 @@ def write_drawing(
     show_outlines: bool,
     width: Any,
     hole: Any,
-    assembly: Assembly | None,
+    assembly: Mapping[str, int] | None,
 ) -> float:
     """See `Mechanism.to_drawing`."""
     target = checked_path(path, FORMATS)
@@ -117,7 +116,7 @@ def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:
         found = [name for name in mechanism.links if _has_shape(mechanism, name)]
         return found or list(mechanism.links)
     link = checked_name(link, "link")
-    mechanism._core.require("link", link)
+    mechanism.core.require("link", link)
     if not _has_shape(mechanism, link):
         message = f"link {link!r} has no joint and no slide: there is nothing to draw"
         raise InputError(message)
@@ -145,9 +144,9 @@ def _checked_scale(scale: Any) -> float:
     return value
 
 
-def _position(mechanism: Mechanism, q: Any, assembly: Assembly | None) -> Motion:
+def _position(mechanism: Mechanism, q: Any, assembly: Mapping[str, int] | None) -> Motion:
     found = getattr(assembly, "q", None)
-    at = next(one for one in (q, found, mechanism._q0_array()) if one is not None)
+    at = next(one for one in (q, found, mechanism.q0_array) if one is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if motion.shape:
         message = f"q has positions {motion.shape}: a drawing shows one"

@@ -24,8 +24,9 @@ from assur.pictures.scene.geometry import left_of, unit_vector
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.pictures.scene.axis import Axis
     from assur.pictures.scene.frames import Frames
-    from assur.pictures.scene.slides import Axis, Slides
+    from assur.pictures.scene.slides import Slides
 
 MM = 1000.0
 # Blocks and slots, relative to the width of links; a barrel, a rod.

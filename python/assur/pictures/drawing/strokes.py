@@ -9,7 +9,7 @@ import numpy as np
 from assur.errors import AssurError
 
 if TYPE_CHECKING:
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.linkage.subject import Subject
 
 Stroke = tuple[float, float]
@@ -22,14 +22,14 @@ def strokes(subject: Subject, motion: Motion) -> dict[str, Stroke]:
     have no limit, or where a part is out of sight, are left out.
     """
     mechanism = subject.mechanism
-    if mechanism._driver_count > 1 or not subject.is_all_seen:
+    if mechanism.driver_count > 1 or not subject.is_all_seen:
         return {}
-    signs = [subject.assembly[name] for name, _ in mechanism._core.assembly]
-    values, q = mechanism._values.tolist(), float(motion.q)
+    signs = [subject.assembly[name] for name, _ in mechanism.core.assembly]
+    values, q = mechanism.values.tolist(), float(motion.q)
     found = {}
     for name in mechanism.slides:
         try:
-            ends = mechanism._core.extremes(values, signs, name, 0, q)
+            ends = mechanism.core.extremes(values, signs, name, 0, q)
         except AssurError:
             # Not every assembly of a higher group can be followed to its ends.
             continue

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.dynamics.force_system import ForceSystem, PlacedForce
+    from assur._faces import ForceSystem, PlacedForce
     from assur.pictures.axes import Canvas
 
 # The longest vector, relative to the greater side of the frame; the least one that is drawn.

@@ -26,7 +26,7 @@ from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.bearing import Bearing
+    from assur._faces import Bearing
     from assur.pictures.axes import Canvas
     from assur.pictures.style import Style
 
@@ -41,20 +41,20 @@ LINE, DOT = 1.8, 4.0
 
 def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
     """See `Bearing.plot`."""
-    if bearing._designs:
+    if bearing.designs:
         message = (
-            f"a load diagram is of one design, this is a batch {bearing._designs}: take the "
+            f"a load diagram is of one design, this is a batch {bearing.designs}: take the "
             "reactions of one with machine.of(mechanism.design(i))"
         )
         raise InputError(message)
     force = np.asarray(bearing.force).reshape(-1, 2)
     sizes = np.hypot(*force.T)
     if not np.nanmax(sizes, initial=0.0) > 0.0:
-        joint, on = bearing._what
+        joint, on = bearing.what
         message = f"there is no force on {on!r} at joint {joint!r}: there is nothing to draw"
         raise InputError(message, joint=joint)
     style = style_of(dark)
-    link, angle = bearing._frame
+    link, angle = bearing.frame
     turn = np.broadcast_to(np.asarray(angle).reshape(-1), sizes.shape)
     cosine, sine = np.cos(turn), np.sin(turn)
     x, y = force.T
@@ -79,7 +79,7 @@ def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
 
 
 def _draw(ax: Any, bearing: Bearing, frame: str, ends: Float, style: Style) -> None:
-    joint, on_link = bearing._what
+    joint, on_link = bearing.what
     known = ends[np.isfinite(ends).all(axis=1)]
     radius = float(np.hypot(*known.T).max())
     corner = np.full(2, radius)
@@ -195,7 +195,7 @@ def _places(bearing: Bearing) -> list[str]:
     for i, row in enumerate(rows):
         if several:
             texts.append(str(i))
-        elif bearing._is_angle:
+        elif bearing.is_angle:
             texts.append(true_minus(f"{np.degrees(row[0]):.4g}°"))
         else:
             texts.append(f"{number(float(row[0]))} m")

@@ -21,7 +21,7 @@ from assur.pictures.vectors.dots import dots
 from assur.pictures.vectors.heading import LINE_HEIGHT, place_text, write_heading
 
 if TYPE_CHECKING:
-    from assur.dynamics.force_system import ForceSystem, PlacedForce
+    from assur._faces import ForceSystem, PlacedForce
 
 # The order of the sides; forces smaller than this part of the greatest are not drawn.
 ORDER, LEAST = ("load", "weight", "inertia", "drive", "reaction"), 1e-9
@@ -70,14 +70,15 @@ def bar_text(force: float) -> str:
 
 def polygon_sides(system: ForceSystem) -> list[PlacedForce]:
     """Return the outer forces in their order; on pins of several links cut free their sum."""
-    outer: dict[tuple[str, str], PlacedForce] = {}
+    outer: dict[tuple[str, str], Any] = {}
     for force in system.forces:
         if force.inner:
             continue
         own = force.name if force.kind == "reaction" else str(len(outer))
         before = outer.get((force.kind, own))
         total = force.force if before is None else before.force + force.force
-        outer[force.kind, own] = (before or force)._replace(force=total)
+        first: Any = before or force
+        outer[force.kind, own] = first._replace(force=total)
     greatest = max(float(np.hypot(*force.force)) for force in outer.values())
     kept = [f for f in outer.values() if np.hypot(*f.force) > LEAST * greatest]
     return sorted(kept, key=lambda force: ORDER.index(force.kind))

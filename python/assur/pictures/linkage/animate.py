@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from os import PathLike
     from pathlib import Path
 
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
+
 
 SUFFIXES = (".gif", ".webp", ".mp4")
 # A thousand frames of the usual size take 1 GiB.

@@ -16,7 +16,9 @@ from assur.pictures.style import style_of
 from assur.pictures.text import plain_size, printable
 
 if TYPE_CHECKING:
-    from assur.kinematics.assembly import Assemblies, Assembly
+    from collections.abc import Sequence
+
+    from assur._faces import Assembly
     from assur.pictures.axes import Canvas
 
 # Of a picture: its width, inches; the limits of its height.
@@ -28,7 +30,7 @@ MOST = 24
 LONGEST = 3
 
 
-def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
+def assemblies_picture(found: Sequence[Assembly], ax: Any, dark: bool) -> Any:
     """See `Assemblies.plot`."""
     if not len(found):
         message = "there is no assembly at this coordinate: nothing to draw"
@@ -38,7 +40,7 @@ def assemblies_picture(found: Assemblies, ax: Any, dark: bool) -> Any:
     subjects = []
     shown = list(found)[: MOST if ax is None else None]
     for assembly in shown:
-        place = assembly._place
+        place = assembly.place
         assert place is not None
         q = np.array(place.q) if len(place.q) > 1 else place.q[0]
         motion = place.mechanism.solve(q, order=0, assembly=assembly)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.style import Style
 
 DOTS_PER_INCH = 100

@@ -15,8 +15,9 @@ from assur.pictures.linkage.subject import Subject
 from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
-    from assur.kinematics.assembly import Assembly
-    from assur.kinematics.mechanism import Mechanism
+    from collections.abc import Mapping
+
+    from assur._faces import Mechanism
 
 LABELS = ("first", "all", "none")
 
@@ -25,7 +26,7 @@ def mechanism_picture(
     mechanism: Mechanism,
     q: Any,
     ax: Any,
-    assembly: Assembly | None,
+    assembly: Mapping[str, int] | None,
     labels: str,
     groups: bool,
     dark: bool,
@@ -38,7 +39,7 @@ def mechanism_picture(
         raise InputError(message)
     one_of(labels, LABELS, "labels")
     found = getattr(assembly, "q", None)
-    places = (q, found, mechanism._q0_array())
+    places = (q, found, mechanism.q0_array)
     at = next(place for place in places if place is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if 0 in motion.shape:

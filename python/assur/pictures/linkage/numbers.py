@@ -82,7 +82,7 @@ def _crank(subject: Subject) -> tuple[str, str, str] | None:
 
 def _driven_point(subject: Subject, frames: Float) -> Float:
     """Return a joint that moves with the first driver, or any moving joint."""
-    first = subject.mechanism._description.drivers[0]
+    first = subject.mechanism.description.drivers[0]
     slide = subject.mechanism.slides.get(first) if isinstance(first, str) else None
     link = slide.link if slide is not None else str(getattr(first, "link", first))
     of_link = [name for name in subject.scene.names if name.text in subject.whole.local[link]]

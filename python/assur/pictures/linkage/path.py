@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
 # Dots on a path stand at equal steps of q: far apart is fast.

@@ -13,7 +13,7 @@ from assur.pictures.scene.course import course
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
 
 # Positions of a curve, at least.
 ROWS = 361
@@ -21,7 +21,7 @@ ROWS = 361
 
 def checked_motion(motion: Any) -> Motion:
     """Return a motion; what is none is refused."""
-    if not hasattr(motion, "_require_one_driver"):
+    if not hasattr(motion, "instant_centre"):
         message = f"motion is {short(motion)}: an assur.Motion is needed, as solve() gives"
         raise InputError(message)
     own: Motion = motion
@@ -44,7 +44,7 @@ def refined(motion: Motion, what: str, order: int, rows: int = ROWS) -> tuple[Mo
         message = f"{what} needs a position: this motion has none"
         raise InputError(message)
     count = motion.shape[0] - 1
-    if motion._drivers > 1 or not 0 < count < rows - 1 or not np.isfinite(motion.q).all():
+    if motion.driver_count > 1 or not 0 < count < rows - 1 or not np.isfinite(motion.q).all():
         return motion, 1
     steps = -(-(rows - 1) // count)
     parts = np.arange(count * steps + 1) / steps
@@ -53,10 +53,10 @@ def refined(motion: Motion, what: str, order: int, rows: int = ROWS) -> tuple[Mo
 
 def _solved(motion: Motion, q: Float, order: int) -> Motion:
     """Solve in the assembly of a motion; positions that do not exist are NaN."""
-    drivers = motion._drivers
+    drivers = motion.driver_count
     positions = q.shape if drivers == 1 else q.shape[:-1]
     request = replace(
-        motion._request, q=q, positions=positions, per_design=False, order=max(order, motion.order)
+        motion.request, q=q, positions=positions, per_design=False, order=max(order, motion.order)
     )
-    results, status, _ = request.arrays(*motion._held_indices())
+    results, status, _ = request.arrays(*motion.held_indices)
     return type(motion)(request, results, status)

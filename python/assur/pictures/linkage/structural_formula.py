@@ -11,7 +11,7 @@ from assur.pictures.axes import TEXT
 from assur.pictures.text import printable, text_size
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.axes import Canvas
 
 ARROW = " → "

@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.scene.parts import Part, Scene, Vertex
     from assur.pictures.style import Style
 
@@ -142,8 +141,8 @@ class Subject:
 
 def assembly_of(motion: Motion) -> dict[str, int]:
     """Return the assembly in which a motion was solved."""
-    names = (name for name, _ in motion.mechanism._core.assembly)
-    return dict(zip(names, motion._request.signs, strict=True))
+    names = (name for name, _ in motion.mechanism.core.assembly)
+    return dict(zip(names, motion.request.signs, strict=True))
 
 
 def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | None:

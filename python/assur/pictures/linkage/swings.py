@@ -16,7 +16,7 @@ from assur.pictures.text import printable, text_size
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.axes import Canvas
     from assur.pictures.linkage.subject import Subject
 
@@ -36,7 +36,7 @@ class Swing(NamedTuple):
 
 def swings(mechanism: Mechanism, assembly: dict[str, int]) -> list[Swing]:
     """Return the links that turn about the ground; of several drivers none is known."""
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         return []
     ground = set(mechanism.links.get("ground", ()))
     found = []

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.loci.maps import DesignMap
+    from assur._faces import DesignMap
     from assur.pictures.style import Style
 
 # Of the hue: of the least number that is not 0, and of the greatest.

@@ -18,8 +18,7 @@ from assur.pictures.text import shortened
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.curve.curve import CircuitMotion, ConfigurationCurve
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import CircuitMotion, ConfigurationCurve, Mechanism
 
 SAMPLES = 240
 DIAMOND = 9.0
@@ -37,7 +36,7 @@ ALIKE = 0.008
 
 def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> Any:
     """See `ConfigurationCurve.plot`."""
-    mechanism = curve._mechanism
+    mechanism = curve.mechanism
     name = _output(mechanism) if name is None else name
     of_angle = isinstance(name, str) and name in mechanism.links
     driver = mechanism.driver

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from assur._arrays import Float
-    from assur.kinematics.loci.singular import SingularLocus, Workspace
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism, SingularLocus, Workspace
     from assur.pictures.axes import Canvas
     from assur.pictures.style import Style
 
@@ -41,7 +40,7 @@ def workspace_picture(found: Workspace, loci: Sequence[SingularLocus], ax: Any, 
     lines = [locus.joints[found.joint] for locus in found.boundary]
     corners = np.array([[found.x[0], found.y[0]], [found.x[-1], found.y[-1]]])
     seen = [np.clip(line, corners[0], corners[1]) for line in lines]
-    subject, on = _canvas(found._mechanism, [*(seen or [corners])], ax, style)
+    subject, on = _canvas(found.mechanism, [*(seen or [corners])], ax, style)
 
     def named(number: int) -> str:
         return "" if number == 0 else "1 way" if number == 1 else f"{number} ways"
@@ -68,7 +67,7 @@ def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) 
         # Into a picture that has the mechanism.
         _draw(ax, line, locus.kind, style)
     else:
-        subject, on = _canvas(locus._mechanism, [line], ax, style)
+        subject, on = _canvas(locus.mechanism, [line], ax, style)
         ax = on.ax
         _draw(ax, line, locus.kind, style)
         _lightly(subject, on, [line])
@@ -80,7 +79,7 @@ def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) 
 def _canvas(
     mechanism: Mechanism, lines: list[Float], ax: Any, style: Style
 ) -> tuple[Subject, Canvas]:
-    subject = Subject(mechanism.solve(mechanism._q0_array(), order=0))
+    subject = Subject(mechanism.solve(mechanism.q0_array, order=0))
     on = subject.canvas(ax, style, lines)
     return subject, on
 
@@ -127,7 +126,7 @@ def _name_lines(ax: Any, kinds: dict[int, list[Float]], style: Style) -> None:
 
 def _over_drivers(locus: SingularLocus, ax: Any, style: Style) -> Any:
     """Draw the coordinates of two drivers along a locus."""
-    drivers = locus._mechanism.driver
+    drivers = locus.mechanism.driver
     assert isinstance(drivers, tuple)
     moving = np.flatnonzero(np.ptp(locus.q, axis=0) > 0.0).tolist()
     if len(moving) > 2:
@@ -145,7 +144,7 @@ def _over_drivers(locus: SingularLocus, ax: Any, style: Style) -> Any:
     )  # fmt: skip
     for axis, i, k in ((ax.xaxis, first, 0), (ax.yaxis, second, 1)):
         driver = drivers[i]
-        is_angle = not isinstance(driver, str) or driver not in locus._mechanism.slides
+        is_angle = not isinstance(driver, str) or driver not in locus.mechanism.slides
         low, high = float(line[:, k].min()), float(line[:, k].max())
         if limits is not None:
             low, high = min(low, limits[k][0]), max(high, limits[k][1])

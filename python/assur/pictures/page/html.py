@@ -22,8 +22,7 @@ from assur.pictures.style import DARK, LIGHT
 if TYPE_CHECKING:
     from os import PathLike
 
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.page.payload import Played
     from assur.pictures.style import Style
 
@@ -184,7 +183,7 @@ def _turn(of: Any, q: Any, duration: float | None) -> Turn:
         return of
     if not hasattr(of, "solve"):
         return turn_of_rows(of, duration)
-    several = of._driver_count > 1
+    several = of.driver_count > 1
     q = None if q is None else real_array(q, "q")
     if q is None or (q.ndim == 0 and not several):
         return turn_of(of, q)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.page.turn import Turn
     from assur.pictures.scene.parts import Part, Scene, Stroke, Vertex
 
@@ -144,7 +144,7 @@ def _ground(frames: Frames) -> list[float]:
 
 
 def _driver(mechanism: Mechanism) -> str:
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     return ", ".join(d if isinstance(d, str) else f"{d.link} − {d.relative_to}" for d in drivers)
 
 
@@ -198,11 +198,11 @@ def _slides(played: Played, index: dict[str, int]) -> Iterable[dict[str, Any]]:
 def _drawn_value(played: Played, name: str, own: Float, angle: float) -> float:
     """Return what the projection gives where the slide's value is zero."""
     mechanism = played.mechanism
-    motion = mechanism.solve(mechanism._q0_array(), order=0)
+    motion = mechanism.solve(mechanism.q0_array, order=0)
     slide = mechanism.slides[name]
     places = []
     for link in (slide.link, slide.on):
-        place = motion._reference_point(link).value.reshape(2)
+        place = motion.reference_points[link].value.reshape(2)
         places.append((place, float(motion.link(link).value)))
     (at, turned), (base, guide) = places
     cosine, sine = np.cos(turned), np.sin(turned)

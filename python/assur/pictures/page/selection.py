@@ -11,7 +11,8 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
+
 
 OF_JOINT = ("x", "y", "v", "a", "vx", "vy", "ax", "ay")
 OF_LINK = ("omega", "alpha")
@@ -69,7 +70,7 @@ def _require(wanted: Iterable[str], known: list[str], what: str, noun: str) -> N
 
 def _output(mechanism: Mechanism) -> list[str]:
     """Return what the driver moves last: a slide of the ground, else the last link."""
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     free = {n: slide for n, slide in mechanism.slides.items() if n not in drivers}
     slides = [n for n, slide in free.items() if slide.on == "ground"]
     groups = mechanism.structure.groups

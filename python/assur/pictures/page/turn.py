@@ -15,9 +15,7 @@ from assur.pictures.scene.frames import FAR, Frames, frames_of
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Limits, Mechanism, Motion
 
 ROWS = 181
 # Motions that close only after more turns than this are shown over one, to and fro.
@@ -78,13 +76,13 @@ class Turn:
 def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
     """Return the whole turn of the driver, or what can be reached from the drawing."""
     require_one(mechanism)
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         message = (
-            f"to_html plays one coordinate, this mechanism has {mechanism._driver_count} drivers: "
+            f"to_html plays one coordinate, this mechanism has {mechanism.driver_count} drivers: "
             "solve its positions, then motion.to_html()"
         )
         raise InputError(message)
-    q0 = float(mechanism._q0_array()) if at is None else real_number(at, "q")
+    q0 = float(mechanism.q0_array) if at is None else real_number(at, "q")
     turns = mechanism.driver not in mechanism.slides
     limits = mechanism.limits()
     low, high = interval_at(limits, q0, turns)
@@ -121,7 +119,7 @@ def passing_turn(mechanism: Mechanism, at: float, rows: int) -> Turn | None:
     Limits are not looked for: what cannot be reached between two rows is not seen. So it is for
     pictures that pass, while a hand moves a joint.
     """
-    if mechanism._driver_count > 1 or mechanism.driver in mechanism.slides:
+    if mechanism.driver_count > 1 or mechanism.driver in mechanism.slides:
         return None
     frames = _linear(mechanism, 0.0, TURN, rows, order=1)
     if frames is None or not _comes_back(frames):
@@ -149,12 +147,12 @@ def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
         message = f"to_html plays positions (N,), at least 2; this motion has shape {motion.shape}"
         raise InputError(message)
     signs: dict[str, int] | None = None
-    if motion._request.signs != mechanism._signs:
-        names = (name for name, _ in mechanism._core.assembly)
-        signs = dict(zip(names, motion._request.signs, strict=True))
+    if motion.request.signs != mechanism.signs:
+        names = (name for name, _ in mechanism.core.assembly)
+        signs = dict(zip(names, motion.request.signs, strict=True))
     q = motion.q
     steps = np.diff(q, axis=0)
-    along_q = mechanism._driver_count == 1 and ((steps > 0).all() or (steps < 0).all())
+    along_q = mechanism.driver_count == 1 and ((steps > 0).all() or (steps < 0).all())
     if along_q and steps[0] < 0:
         q = q[::-1]
     # Again: this motion may keep fewer outputs and orders.
@@ -191,12 +189,12 @@ def _slope(values: Float, t: Float) -> Float:
 
 def frames_in_time(motion: Motion, speed: Float, acceleration: Float) -> Frames:
     """Return frames with derivatives by time, of drivers with these speeds and accelerations."""
-    rows, drivers = len(motion.q), motion.mechanism._driver_count
+    rows, drivers = len(motion.q), motion.mechanism.driver_count
     speed, acceleration = speed.reshape(rows, drivers), acceleration.reshape(rows, drivers)
     position = frames_of(motion)
     first, second = np.zeros_like(position.values[0]), np.zeros_like(position.values[0])
     for i, link in enumerate(position.links):
-        origin, angle = motion._reference_point(link)._arrays, motion.link(link)._arrays
+        origin, angle = motion.reference_points[link].arrays, motion.link(link).arrays
         for columns, arrays in ((slice(0, 2), origin), (slice(2, 3), angle)):
             d1 = arrays[1].reshape(rows, -1, drivers)
             d2 = arrays[2].reshape(rows, -1, drivers, drivers)

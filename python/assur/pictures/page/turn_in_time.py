@@ -11,9 +11,7 @@ from assur.pictures.page.turn import Turn, frames_in_time, require_one
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.dynamics.run import Run
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.timed import TimedMotion
+    from assur._faces import Mechanism, Run, TimedMotion
 
 # Rows to a turn of the driver, and in all.
 ROWS_PER_TURN, LEAST_ROWS, MOST_ROWS = 48, 181, 721
@@ -23,7 +21,7 @@ PLACES = 4001
 
 def turn_of_run(run: Run) -> Turn:
     """Return the positions of a run at equal steps of time."""
-    mechanism = run._mechanism
+    mechanism = run.mechanism
     if mechanism is None:
         message = "this run is that of a machine of tables: there is no mechanism to play"
         raise InputError(message)
@@ -43,7 +41,7 @@ def course_of_run(run: Run, rows: int | None = None) -> tuple[Float, Float, Floa
         turns = float(np.abs(run.q[-1] - run.q[0]).max()) / (2.0 * np.pi)
         rows = int(np.clip(ROWS_PER_TURN * turns, LEAST_ROWS, MOST_ROWS))
     t = np.linspace(run.t[0], run.t[-1], rows)
-    if run._along_q:
+    if run.along_q:
         fine = run.at(q=np.linspace(run.q[0], run.q[-1], PLACES))
         q, speed, acceleration = (
             np.interp(t, fine.t, values) for values in (fine.q, fine.speed, fine.acceleration)

@@ -23,7 +23,7 @@ from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
 # About so many positions of a curve have a dot.
@@ -81,7 +81,7 @@ def hodograph(
     True
     """
     motion = checked_motion(motion)
-    motion.mechanism._core.require("joint", checked_name(joint, "joint"))
+    motion.mechanism.core.require("joint", checked_name(joint, "joint"))
     order = whole_number(order, "order", 1, 2, needed="1 for velocities, 2 for accelerations")
     omega, alpha = finite_array(omega, "omega"), finite_array(alpha, "alpha")
     rows, steps = refined(motion, "a hodograph", order)

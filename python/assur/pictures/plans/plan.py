@@ -13,8 +13,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
-    from assur.kinematics.quantity import Analogues
+    from assur._faces import Analogues, Motion
 
 Part = Literal["absolute", "relative", "normal", "tangential", "sliding", "coriolis"]
 # Vectors shorter than this part of the greatest are not drawn.
@@ -97,7 +96,7 @@ class _Builder:
             for joint in joints:
                 self._states[joint] = self._state(motion.joint(joint))
             if not joints:
-                self._states[link] = self._state(motion._reference_point(link))
+                self._states[link] = self._state(motion.reference_points[link])
         for slide in self._m.slides.values():
             if slide.on != "ground" and slide.link != "ground":
                 self._add_under(slide.link, slide.on)
@@ -122,7 +121,7 @@ class _Builder:
         return Plan(images, self._links, self._fixed, driven, self._under, kept)
 
     def _driven(self) -> frozenset[str]:
-        drivers = self._m._description.drivers
+        drivers = self._m.description.drivers
         points: set[str] = set()
         for driver in drivers:
             if isinstance(driver, str):
@@ -146,7 +145,7 @@ class _Builder:
         """Add the point of a guide where another link slides."""
         point = self._links[sliding][0]
         place = self._states[point].value
-        origin = self._state(self._motion._reference_point(guide))
+        origin = self._state(self._motion.reference_points[guide])
         turn = self._state(self._motion.link(guide))
         arm = place - origin.value
         left = np.array([-arm[1], arm[0]])

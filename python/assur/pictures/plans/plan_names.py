@@ -10,7 +10,7 @@ from assur.pictures.numerals import number
 from assur.pictures.vectors.heading import link_numbers, listed, place_text
 
 if TYPE_CHECKING:
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.plans.plan import Plan
 
 
@@ -46,7 +46,7 @@ def heading(one: Motion, plan: Plan, what: str, omega: Any, alpha: Any) -> list[
     """Return the lines above a plan: what it is, at which position and speed."""
     noun = {"velocity": "velocities", "acceleration": "accelerations"}[what]
     mechanism = one.mechanism
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     angles = [driver not in mechanism.slides for driver in drivers]
     parts = [place_text(one), _rates("ω", omega, angles, "/s")]
     if what == "acceleration" and np.any(np.asarray(alpha)):

@@ -26,7 +26,7 @@ from assur.pictures.vectors.symbols import symbol
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
     from assur.pictures.axes import Canvas
     from assur.pictures.style import Style
 
@@ -39,7 +39,7 @@ TOGETHER = 4.0
 
 def _of_one(one: Motion, given: Any, name: str) -> Any:
     """Return a speed or acceleration of one position: a number, of several drivers one each."""
-    own, drivers = real_array(given, name), one.mechanism._driver_count
+    own, drivers = real_array(given, name), one.mechanism.driver_count
     if own.size not in (1, drivers) or own.ndim > 1:
         message = f"{name} has shape {own.shape}: a plan is of one position, with one {name}"
         raise InputError(message)

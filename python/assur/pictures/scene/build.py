@@ -15,7 +15,7 @@ from assur.pictures.scene.slides import Slides
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.scene.frames import Frames
 
 
@@ -65,7 +65,7 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
 
 def _drivers(mechanism: Mechanism) -> tuple[list[tuple[str, str]], list[str]]:
     """Return the driven links, each with the one it is measured from, and the driven slides."""
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     sliding = [one for one in drivers if isinstance(one, str) and one in mechanism.slides]
     angles = [
         (one, "ground") if isinstance(one, str) else (one.link, one.relative_to)

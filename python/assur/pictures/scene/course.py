@@ -12,9 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Limits, Mechanism, Motion
 
 # Every five degrees of a turn.
 ROWS = 73
@@ -37,8 +35,8 @@ def course(
 
     Positions that do not exist are NaN.
     """
-    q0 = mechanism._q0_array()
-    if mechanism._driver_count > 1:
+    q0 = mechanism.q0_array
+    if mechanism.driver_count > 1:
         return mechanism.solve(q0, order=order, assembly=assembly, on_error="nan")
     turns = mechanism.driver not in mechanism.slides
     if turns:

@@ -13,7 +13,7 @@ from assur.pictures.scene.parts import Colour, Line, Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.pictures.scene.slides import Axis
+    from assur.pictures.scene.axis import Axis
 
 # The barrel is so much of the least length; the piston keeps so far from its ends.
 BARREL_OF_LEAST, CLEARANCE = 0.86, 0.07

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.kinematics.motion import Motion
+    from assur._faces import Motion
 
 # Joints farther from the middle of the drawing than so many times its size are out of sight.
 FAR = 4.0
@@ -95,16 +95,16 @@ def frames_of(motion: Motion) -> Frames:
         raise InputError(message)
     links = tuple(mechanism.links)
     # Derivatives by several coordinates are not of frames along a motion.
-    orders = motion.order + 1 if mechanism._driver_count == 1 else 1
+    orders = motion.order + 1 if mechanism.driver_count == 1 else 1
     values = tuple(np.zeros((motion.status.size, len(links), 3)) for _ in range(orders))
     for i, (link, joints) in enumerate(mechanism.links.items()):
         # The ground's frame is the drawing's.
         if link == "ground":
             continue
         # A link's frame is at its first joint; without one it takes another solution.
-        origin = motion.joint(joints[0]) if joints else motion._reference_point(link)
+        origin = motion.joint(joints[0]) if joints else motion.reference_points[link]
         angle = motion.link(link)
-        for own, place, turned in zip(values, origin._arrays, angle._arrays, strict=False):
+        for own, place, turned in zip(values, origin.arrays, angle.arrays, strict=False):
             own[:, i, :2] = place.reshape(-1, 2)
             own[:, i, 2] = turned.reshape(-1)
     frames = Frames(links, values, {})

@@ -12,7 +12,7 @@ from assur.pictures.scene.parts import Disc, Hatching, Part, Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.pictures.scene.slides import Axis
+    from assur.pictures.scene.axis import Axis
 
 # From the driven link to the arrow's tail and to its head, rad.
 ARROW_TAIL, ARROW_TIP = 0.44, 1.5

@@ -6,13 +6,14 @@ is the link whose one joint lies on the axis; a link without joints is a rod.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from assur.pictures import sizes
+from assur.pictures.scene.axis import Axis
 from assur.pictures.scene.cylinders import cylinder_parts
 from assur.pictures.scene.geometry import ON_LINE, about, at, left_of, unit_vector
 from assur.pictures.scene.parts import Hatching, Line, Stroke, Vertex
@@ -21,35 +22,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from assur._arrays import Float
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
     from assur.pictures.scene.frames import Frames
 
 # What of a guide is seen beyond the block at the ends of its stroke, px.
 BEYOND = 8.0
 # Of a driven slide whose stroke is not known both ways, relative to the mechanism's size.
 FREE_STROKE = 0.15
-
-
-@dataclass(frozen=True, eq=False)
-class Axis:
-    """The line of a sliding pair.
-
-    `angle` is its direction in either link's frame. The point `block` is fixed to `sliding`;
-    seen from `guide` it goes from `low` to `high` along the line, `off` to its left.
-    """
-
-    name: str
-    sliding: str
-    guide: str
-    block: Float
-    angles: tuple[float, float]
-    low: float
-    high: float
-    off: float
-
-    def on_guide(self, along: float) -> Float:
-        """Return a point of the line in the guide's frame."""
-        return unit_vector(self.angles[1]) * along + left_of(self.angles[1]) * self.off
 
 
 def _axis(

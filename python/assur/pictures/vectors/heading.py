@@ -17,8 +17,7 @@ from assur.pictures.text import printable, text_size
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.axes import Canvas
 
 # Height of a line of the heading, points.
@@ -47,7 +46,7 @@ def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
 def place_text(one: Motion) -> str:
     """Write the coordinates of a position."""
     mechanism = one.mechanism
-    drivers = mechanism._description.drivers
+    drivers = mechanism.description.drivers
     q = np.atleast_1d(np.asarray(one.coordinate(())))
     places = [
         f"{number(float(x))} m"

@@ -36,7 +36,7 @@ def assemblies(data: dict[str, Any], session: Session) -> Answer:
     if most > MOST_LISTED:
         listed = _neighbours(mechanism, q)
         # Other solutions of a group above class II are not looked for.
-        is_complete = mechanism._core.cls <= 2
+        is_complete = mechanism.core.cls <= 2
         rest: dict[str, Any] = {"failures": [], "is_complete": is_complete, "complex_count": []}
     else:
         found = mechanism.assemblies(q)
@@ -92,7 +92,7 @@ def _is_current(mechanism: Mechanism, joints: dict[str, Any], q: Any) -> bool:
 
 def _reach(mechanism: Mechanism, one: Assembly) -> dict[str, Any] | None:
     """Return where the driver can move it; None with several drivers."""
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         return None
     try:
         return reach_of(mechanism.limits(one))

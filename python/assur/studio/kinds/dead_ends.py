@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 from assur.description.structure import roman
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
-    from assur.kinematics.motion import Motion
+    from assur._faces import Mechanism, Motion
     from assur.pictures.page.turn import Turn
 
 # Sine of the angle at the inner joint: the legs of a dyad are in line at a dead point, and nearly

@@ -107,13 +107,13 @@ def _ways(
     zeros = {f"{name}.origin.{axis}" for name in slides for axis in ("x", "y")}
     floating = [
         isinstance(one, str) and one in slides and slides[one].origin is None
-        for one in mechanism._description.drivers
+        for one in mechanism.description.drivers
     ]
     own, given = np.atleast_1d(drawn.q0), np.atleast_1d(q)
     angles = np.array(driven_angles(drawn))
     # Angles are those of the turn that the present one is in.
     near = np.where(angles, own + TURN * np.round((given - own) / TURN), own)
-    several = drawn._driver_count > 1
+    several = drawn.driver_count > 1
     if any(floating) or zeros & set(changed):
         kept = np.where(floating, given, near)
         others = {name: value for name, value in changed.items() if name not in zeros}

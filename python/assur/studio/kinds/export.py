@@ -81,7 +81,7 @@ def _csv(mechanism: Mechanism, fields: Fields) -> bytes:
 
 def _motion(mechanism: Mechanism, fields: Fields, default: int, order: int) -> Motion:
     rows = fields.rows(default)
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         q = np.asarray(fields.drivers("q", mechanism))[None]
     else:
         q = turn_of(mechanism, None, rows).coordinates()
@@ -102,9 +102,9 @@ def _drawing(mechanism: Mechanism, fields: Fields, ending: str) -> bytes:
 
 
 def _html(mechanism: Mechanism, fields: Fields) -> bytes:
-    q = fields.optional("q") if mechanism._driver_count == 1 else None
+    q = fields.optional("q") if mechanism.driver_count == 1 else None
     speed, paths = fields.optional("speed"), fields["paths"]
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         message = "a page plays one driver; this mechanism has several"
         raise InputError(message)
     return _written(

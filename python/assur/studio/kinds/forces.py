@@ -97,7 +97,7 @@ def _pins(mechanism: Mechanism) -> Any:
 
 
 def _rows(fields: Fields, mechanism: Mechanism) -> Float:
-    if "q" in fields or mechanism._driver_count > 1:
+    if "q" in fields or mechanism.driver_count > 1:
         return np.asarray(fields.drivers("q", mechanism))[None]
     begin, rows = fields.drivers("begin", mechanism), fields.rows(ROWS)
     return reached_turn(mechanism, begin, rows).coordinates()

@@ -88,7 +88,7 @@ def axis(node: Node, mechanism: Mechanism, n: int) -> tuple[str, Float]:
 def measured_coordinates(fields: Fields, mechanism: Mechanism, usual: int) -> Float:
     """Return the positions that are measured: a turn, or from low to high."""
     rows = fields.rows(usual)
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         message = "a metric is of the turn of one driver; this mechanism has several"
         raise InputError(message)
     if "low" in fields or "high" in fields:

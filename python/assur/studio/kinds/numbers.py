@@ -80,5 +80,5 @@ def _output(fields: Fields, mechanism: Mechanism) -> tuple[str, str, int | None]
 
 
 def _component(of: Analogues, order: int, component: int | None) -> Any:
-    values = of._arrays[order]
+    values = of.arrays[order]
     return values if component is None else values[component]

@@ -12,9 +12,8 @@ from assur.studio import document
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
-    from assur.description.encode import DriverLike
-    from assur.description.remedy import Remedy
-    from assur.description.words import Slide
+    from assur._remedy import Remedy
+    from assur.description.words import DriverLike, Slide
 
 Table = dict[str, Any]
 WITHOUT_MOTOR: Table = {"type": NO_MOTOR}

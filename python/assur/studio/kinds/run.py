@@ -80,7 +80,7 @@ def _at_speed(mechanism: Mechanism, fields: Fields) -> tuple[Float, Float, Float
 def _by_laws(mechanism: Mechanism, fields: Fields) -> tuple[Float, Float, Float, Float]:
     node = fields.node("law")
     laws: Any
-    if mechanism._driver_count > 1:
+    if mechanism.driver_count > 1:
         laws = [
             one.number() if isinstance(one.value, int | float) else law(one)
             for one in node.entries()

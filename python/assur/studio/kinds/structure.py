@@ -8,7 +8,7 @@ from assur.description.structure import roman
 from assur.pictures.page.payload import ARROW
 
 if TYPE_CHECKING:
-    from assur.kinematics.mechanism import Mechanism
+    from assur._faces import Mechanism
 
 
 def structure_of(mechanism: Mechanism) -> dict[str, Any]:

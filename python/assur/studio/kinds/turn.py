@@ -22,7 +22,7 @@ from assur.studio.session import Answer
 
 if TYPE_CHECKING:
     from assur._arrays import Float
-    from assur.kinematics.limits import Limits
+    from assur._faces import Limits
     from assur.kinematics.mechanism import Mechanism
     from assur.pictures.page.turn import Unit
     from assur.studio.session import Session
@@ -46,8 +46,8 @@ def turn(data: dict[str, Any], session: Session) -> Answer:
 def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
     """Return a turn with the scene, as the fields want it, that begins at q."""
     rows, orders = fields.rows(ROWS), fields.whole("orders", 3, 2, 3)
-    axis = fields.whole("axis", 0, 0, mechanism._driver_count - 1)
-    one = mechanism._driver_count == 1
+    axis = fields.whole("axis", 0, 0, mechanism.driver_count - 1)
+    one = mechanism.driver_count == 1
     own = passing_turn(mechanism, q, rows) if one and orders < 3 else None
     if own is None:
         own = (

@@ -1,0 +1,387 @@
+"""Mechanisms as what is computed needs them: the core's handle, dimensions, names, the drawing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, TypeVar
+
+import numpy as np
+
+from assur._core import KnownSigns
+from assur.description import encode
+from assur.description.structure import Group, Structure
+from assur.kinematics.dimensions import Dimensions
+from assur.kinematics.held import Buffers, Layout
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from typing_extensions import Self
+
+    from assur._arrays import Float
+    from assur._core import Mechanism as Core
+    from assur.description.encode import Description
+    from assur.description.words import DriverLike, Slide
+
+__all__ = [
+    "AnyMechanism",
+    "AssemblyNumbers",
+    "MechanismModel",
+    "Place",
+    "at_place",
+    "copy_from",
+    "with_values",
+]
+
+# Four units in the last place: by so much a solved place differs from the drawing's by rounding.
+TYPED = 1e-15
+
+AnyMechanism = TypeVar("AnyMechanism", bound="MechanismModel")
+
+
+class AssemblyNumbers(TypedDict):
+    """An assembly as the core knows it."""
+
+    signs: list[int]
+    class_angles: list[float]
+    slides: list[float]
+    joints: list[tuple[float, float]]
+    angles: list[float]
+    is_double: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where an assembly was found: a design, its coordinates, and the core's numbers."""
+
+    mechanism: MechanismModel
+    q: tuple[float, ...]
+    numbers: AssemblyNumbers
+
+    @property
+    def is_traced(self) -> bool:
+        """Whether the assembly is what can be reached from here, not signs alone."""
+        return self.mechanism.core.cls > 2
+
+
+class MechanismModel:
+    """What a mechanism is: immutable, equal by value."""
+
+    __slots__ = (
+        "__weakref__",
+        "_joints",
+        "_moved",
+        "_names",
+        "_structure",
+        "core",
+        "description",
+        "known_signs",
+        "place",
+        "signs",
+        "values",
+    )
+    core: Core
+    # Designs that earlier calls found to have constant signs.
+    known_signs: KnownSigns
+    description: Description
+    # By how much joints were moved within the tolerance that was given, m.
+    _moved: float
+    # Dimensions, shape (number of dimensions, *S).
+    values: Float
+    _structure: Structure | None
+    _joints: MappingProxyType[str, Any] | None
+    # Where it is drawn, if not in the drawing.
+    place: Place | None
+    # Of all dyads, in the drawing; not to be modified.
+    signs: list[int]
+    # Indices of joints, links and slides by name.
+    _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
+    # The class of what is made of it: of `FourBar` and others a plain mechanism.
+    _plain: ClassVar[type[Any]]
+
+    def _initialise(
+        self, description: Description, values: Float | None, core: Core | None = None
+    ) -> None:
+        core = core or encode.core_of(description)
+        self._set(
+            core=core,
+            description=description,
+            _structure=None,
+            _joints=None,
+            _moved=0.0,
+            _names=None,
+            place=None,
+            signs=[sign for _, sign in core.assembly],
+        )
+        self._set_values(np.array(core.drawing) if values is None else values)
+
+    @classmethod
+    def _make(
+        cls, description: Description, values: Float | None, core: Core | None = None
+    ) -> Self:
+        mechanism = cls._blank()
+        mechanism._initialise(description, values, core)
+        return mechanism
+
+    @classmethod
+    def _blank(cls) -> Self:
+        blank: Self = object.__new__(cls._plain)
+        return blank
+
+    def _set(self, **attributes: object) -> None:
+        for name, value in attributes.items():
+            object.__setattr__(self, name, value)
+
+    def _set_values(self, values: Float) -> None:
+        # Takes over the caller's array without a copy: a batch may be large.
+        array = np.asarray(values, dtype=np.float64, order="C")
+        array.flags.writeable = False
+        self._set(values=array, known_signs=KnownSigns(math.prod(array.shape[1:])))
+
+    def _moved_as(self, other: MechanismModel) -> Self:
+        """Return self, a mechanism of the other's drawing."""
+        self._set(_moved=other._moved)
+        return self
+
+    def _share(self, other: MechanismModel, values: Float) -> None:
+        """Become the other mechanism with other values of its dimensions."""
+        for name in ("core", "description", "_moved", "_structure", "_names", "place", "signs"):
+            object.__setattr__(self, name, getattr(other, name))
+        self._set(_joints=None)
+        self._set_values(values)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
+        raise AttributeError(message)
+
+    def __delattr__(self, name: str) -> None:
+        message = f"Mechanism is immutable ({name!r}): use with_dimensions() or with_driver()"
+        raise AttributeError(message)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, MechanismModel):
+            return NotImplemented
+        return (
+            self.description == other.description
+            and self.place == other.place
+            and self.values.shape == other.values.shape
+            and self.values.tobytes() == other.values.tobytes()
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.description, self.values.shape, self.values.tobytes()))
+
+    def __repr__(self) -> str:
+        batch = f", {self.shape} designs" if self.shape else ""
+        return f"<assur.Mechanism {self.core.formula}{batch}>"
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Design shape S: ``()`` for one mechanism."""
+        return self.values.shape[1:]
+
+    @property
+    def joints(self) -> Mapping[str, Any]:
+        """Positions of the joints at `q0`, m: (x, y), or arrays S + (2,) for a batch.
+
+        NaN for designs that cannot be assembled at `q0`.
+        """
+        if self._joints is None:
+            drawn: dict[str, Any] = {name: (x, y) for name, x, y in self.description.joints}
+            if not self._is_as_drawn:
+                arrays = self._solved_joints()
+                single = not self.shape
+                drawn = {
+                    name: _as_typed(at, drawn[name]) if single else at
+                    for name, at in arrays.items()
+                }
+            object.__setattr__(self, "_joints", MappingProxyType(drawn))
+        assert self._joints is not None
+        return self._joints
+
+    def _solved_joints(self) -> dict[str, Float]:
+        """Solve for the joints at `q0`: NaN of designs that cannot be assembled there."""
+        joints = self.indices[0]
+        outputs: tuple[list[int], list[int], list[int], list[int]] = (
+            [*joints.values()],
+            [],
+            [],
+            [],
+        )
+        numbers, status, _ = self.core.solve(
+            self.values.reshape(-1),
+            self.q0_array.reshape(-1),
+            False,
+            self.signs,
+            0,
+            outputs,
+            None,
+            None,
+            None,
+            None,
+            self.known_signs,
+        )
+        layout = Layout(joints, {}, {}, self.shape, self.driver_count, 0)
+        return {n: one for n, (one,) in layout.held("joint", Buffers(numbers, status)).items()}
+
+    @property
+    def _is_as_drawn(self) -> bool:
+        """Whether this is the drawing, not with another assembly or adjusted redundant links."""
+        return (
+            self.place is None
+            and self.values.tolist() == self.core.drawing
+            and not self.description.assembly
+            and self.core.adjustment == 0.0
+        )
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints: unlike `joints`, without solving a design.
+
+        :meta private:
+        """
+        return tuple(name for name, _, _ in self.description.joints)
+
+    @property
+    def links(self) -> Mapping[str, tuple[str, ...]]:
+        """Joints of each link."""
+        return MappingProxyType(dict(self.description.links))
+
+    @property
+    def slides(self) -> Mapping[str, Slide]:
+        """Sliding pairs by name."""
+        return MappingProxyType(dict(self.description.slides))
+
+    @property
+    def driver(self) -> DriverLike | tuple[DriverLike, ...]:
+        """The driver, or a tuple of drivers."""
+        drivers = self.description.drivers
+        return drivers[0] if len(drivers) == 1 else drivers
+
+    @property
+    def q0(self) -> float | Float:
+        """Coordinate of the driver in the drawing, rad or m; an array (n,) for n drivers."""
+        q0 = self.q0_array
+        return float(q0) if q0.ndim == 0 else q0
+
+    @property
+    def q0_array(self) -> Float:
+        """The same, of one driver an array ().
+
+        :meta private:
+        """
+        q0 = np.array(self.core.q0)
+        return q0[0] if len(q0) == 1 else q0
+
+    @property
+    def driver_count(self) -> int:
+        """Number of drivers.
+
+        :meta private:
+        """
+        return len(self.description.drivers)
+
+    @property
+    def indices(self) -> tuple[dict[str, int], dict[str, int], dict[str, int]]:
+        """Indices of joints, links and slides by name; not to be modified.
+
+        :meta private:
+        """
+        if self._names is None:
+            own = self.description
+            named = own.joints, own.links, own.slides
+            names = tuple({one[0]: i for i, one in enumerate(of)} for of in named)
+            object.__setattr__(self, "_names", names)
+        assert self._names is not None
+        return self._names
+
+    @property
+    def structure(self) -> Structure:
+        """Mobility, structural formula, Assur groups, redundant links."""
+        if self._structure is None:
+            real, drawn, counted = self.core.mobility
+            links, slides = self.core.redundant
+            groups = tuple(
+                Group(
+                    cls=one["cls"],
+                    order=one["order"],
+                    kind=one["kind"],
+                    artobolevsky_kind=one["artobolevsky_kind"],
+                    links=tuple(one["links"]),
+                    joints=tuple(one["joints"]),
+                    slides=tuple(one["slides"]),
+                )
+                for one in self.core.groups
+            )
+            named = dict(self.description.links)
+            at_joints = [joint for on in named.values() for joint in on]
+            pins = [at_joints.count(joint) - 1 for joint in dict.fromkeys(at_joints)]
+            structure = Structure(
+                mobility=real,
+                mobility_at_drawing=drawn,
+                mobility_counted=counted,
+                cls=self.core.cls,
+                formula=self.core.formula,
+                groups=groups,
+                redundant=(*links, *slides),
+                moving_links=len(named) - ("ground" in named),
+                turning_pairs=sum(pins),
+                sliding_pairs=len(self.description.slides),
+                adjustment=max(self.core.adjustment, self._moved),
+            )
+            object.__setattr__(self, "_structure", structure)
+        assert self._structure is not None
+        return self._structure
+
+    @property
+    def dimensions(self) -> Dimensions:
+        """The dimensions by name, m or rad: floats, or arrays of shape S.
+
+        Examples
+        --------
+        >>> import assur
+        >>> dict(assur.SliderCrank(1.0, 3.0).dimensions)["rod.length"]
+        3.0
+        """
+        names = self.core.dimension_names
+        values = self.values if self.shape else self.values.tolist()
+        return Dimensions(dict(zip(names, values, strict=True)))
+
+    def __len__(self) -> int:
+        if not self.shape:
+            message = "one mechanism has no length: it is no batch of designs"
+            raise TypeError(message)
+        return self.shape[0]
+
+    def __bool__(self) -> bool:
+        return True
+
+
+def with_values(mechanism: AnyMechanism, values: Float) -> AnyMechanism:
+    """Return a mechanism with other values of its dimensions; the rest is shared."""
+    other = mechanism._blank()
+    other._share(mechanism, values)
+    return other
+
+
+def at_place(mechanism: AnyMechanism, place: Place, core: Core) -> AnyMechanism:
+    """Return a mechanism drawn at a place of one of its designs."""
+    other = with_values(mechanism, mechanism.values)
+    other._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
+    return other
+
+
+def copy_from(mechanism: MechanismModel, made: MechanismModel) -> None:
+    """Make a named mechanism, which is being constructed, another one that was made for it."""
+    mechanism._share(made, made.values)
+
+
+def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
+    """Return a place; coordinates that differ from the drawing's by rounding alone are those."""
+    size = float(np.abs(solved).max())
+    return tuple(
+        own if abs(x - own) <= TYPED * size else x
+        for x, own in zip(solved.tolist(), drawn, strict=True)
+    )

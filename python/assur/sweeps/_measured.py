@@ -1,0 +1,44 @@
+"""What the tables, axes and reasons of a sweep's measures ask of these."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import ItemsView
+
+    import numpy as np
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+    from assur.sweeps.designs import Designs
+
+
+class Asked(Protocol):
+    """What was measured: see `Measuring`."""
+
+    @property
+    def conditions(self) -> Any: ...
+    @property
+    def q(self) -> Float: ...
+    def without_value(self, design: Mechanism) -> str:
+        """Return which metric of a design has no value, and why."""
+
+
+class Measured(Protocol):
+    """See `assur.Measures`."""
+
+    _designs: Designs
+    _measuring: Asked
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    @property
+    def status(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def kept(self) -> npt.NDArray[np.intp]: ...
+    @property
+    def missed(self) -> npt.NDArray[np.intp]: ...
+    def designs(self, indices: Any) -> Mechanism: ...
+    def items(self) -> ItemsView[str, Float]: ...
