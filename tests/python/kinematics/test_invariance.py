@@ -32,9 +32,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # A seed has no simpler one.
-SEEDS = settings(
-    max_examples=sample(30, 100), phases=(Phase.explicit, Phase.reuse, Phase.generate)
-)
+SEEDS = settings(max_examples=sample(30, 100), phases=(Phase.explicit, Phase.reuse, Phase.generate))
 moves = st.floats(-0.5, 0.5)
 # Dyads alone as often as dyads and higher groups in any order.
 ANY = dyad_models.sequences() | mixed_models.mixed()
