@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
@@ -15,6 +15,7 @@ import dyad_models
 import mixed_models
 from mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
 from pair_jacobian import jacobian
+from samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -104,8 +105,10 @@ def parted(own: Description, rng: random.Random) -> Description:
 
 
 seeds = st.integers(0, 2**32 - 1)
+SOME = settings(max_examples=sample(40, 10_000))
 
 
+@SOME
 @given(case=dyad_models.sequences(4), seed=seeds)
 def test_what_cannot_move(case: dyad_models.Case, seed: int) -> None:
     broken = braced(case.description, random.Random(seed))
@@ -119,6 +122,7 @@ def test_what_cannot_move(case: dyad_models.Case, seed: int) -> None:
         assert "take_out" in kinds, kinds
 
 
+@SOME
 @given(case=dyad_models.sequences(4), seed=seeds)
 def test_what_moves_too_freely(case: dyad_models.Case, seed: int) -> None:
     if len(case.description.links) - len(case.description.drivers) > 1:
@@ -129,6 +133,7 @@ def test_what_moves_too_freely(case: dyad_models.Case, seed: int) -> None:
                 assert error.remedies, error
 
 
+@SOME
 @given(seed=st.integers(0, 400))
 def test_higher_groups(seed: int) -> None:
     own = mixed_models.mixed_case(seed).description
@@ -139,6 +144,7 @@ def test_higher_groups(seed: int) -> None:
             check(error.remedies)
 
 
+@SOME
 @given(case=dyad_models.sequences(4))
 def test_drivers(case: dyad_models.Case) -> None:
     """Without a driver, and with one that is no link."""

@@ -122,14 +122,14 @@ def test_new_arrays_are_dropped_without_being_filled() -> None:
         count, how = text.split()
         return int(count), how
 
-    whole, how = run(2 * 10**5, 10**9)
+    whole, how = run(3 * 10**5, 10**9)
     assert how == "whole"
-    # Thirty times as much, most of a GB if it were filled. The signal comes at a thirtieth of the
+    # Thirty times as much, a GB and more if it were filled. The signal comes at a thirtieth of the
     # pages, but the thread that watches runs only now and then beside the one that works: half of
     # them leaves it time on a loaded machine, and a call that went on to the end would touch twice
     # as many.
     for _ in range(ATTEMPTS):
-        few, how = run(6 * 10**6, whole)
+        few, how = run(9 * 10**6, whole)
         if how == "stopped":
             break
     assert how == "stopped"
