@@ -13,12 +13,12 @@ from assur.description import encode
 from assur.description.words import Cylinder
 from assur.kinematics import assemblies as assembly_search
 from assur.kinematics import extremes as extreme_search
-from assur.kinematics import find as inverse
 from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly
 from assur.kinematics.curve import search as curves
 from assur.kinematics.drawn import in_assembly, redrive
+from assur.kinematics.inverse import find as inverse
 from assur.kinematics.model import MechanismModel, at_place, with_values
 from assur.kinematics.named_dimensions import with_dimensions
 from assur.kinematics.solve_arguments import in_radians
@@ -175,7 +175,7 @@ class Mechanism(MechanismModel):
         >>> m.dimensions["ground.D.x"], m.dimensions["coupler.length"], round(m.joints["P"][1], 6)
         (3.2, 3.0, 2.637603)
         """
-        from assur.kinematics.from_lengths import sized
+        from assur.kinematics.inverse.from_lengths import sized
 
         return sized(Mechanism(joints, links, driver, slides, assembly), lengths)
 

@@ -64,7 +64,7 @@ impl Words for Kind {
     ];
 }
 
-/// A reaction as Python names it: `assur.dynamics.reactions.Key`.
+/// A reaction as Python names it: `assur.dynamics.forces.reactions.Key`.
 #[derive(FromPyObject)]
 pub(crate) struct Key {
     kind: Word<Kind>,

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.dynamics.acting import Positions, load_on
-from assur.dynamics.loads import Force
+from assur.dynamics.forces.applied_loads import Positions, load_on
+from assur.dynamics.loads.loads import Force
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.dynamics.forces.reactions import Reactions
     from assur.dynamics.machine import Machine
-    from assur.dynamics.reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
 
 

@@ -12,7 +12,7 @@ use super::value::Values;
 use crate::detach::catch_panic;
 use crate::error_map;
 
-const MODULE: Classes = Classes("assur.dynamics.loads");
+const MODULE: Classes = Classes("assur.dynamics.loads.loads");
 
 #[derive(FromPyObject)]
 struct Gravity {
