@@ -69,8 +69,8 @@ def reduce(
         _require_within_table(machine, own.q, own.status)
     if speed is not None and on_error == "raise":
         n = machine.driver_count
-        values = np.isfinite(own.moment).reshape(-1, n).all(axis=1)
-        missing = np.flatnonzero(~values & (own.status < 2))
+        has_value = np.isfinite(own.moment).reshape(-1, n).any(axis=1)
+        missing = np.flatnonzero(~has_value & (own.status < 2))
         if missing.size:
             row = int(missing[0])
             if machine.mechanism is None:
