@@ -13,6 +13,7 @@ from assur._validate import checked_name
 from assur.description.structure import Group
 from assur.description.words import Status
 from assur.dynamics.forces import bearing as bearings
+from assur.dynamics.forces.force_system import force_system
 from assur.dynamics.forces.joint_places import links_at
 from assur.errors import InputError
 from assur.kinematics.table import driven_angles
@@ -479,7 +480,6 @@ class Reactions(Tabular):
         >>> "reaction A on crank" in [line.get_gid() for line in axes.lines]
         True
         """
-        from assur.dynamics.forces.force_system import force_system
         from assur.pictures.forces.placed import forces_picture
 
         return forces_picture(force_system(self, links, at), links, ax, dark)
@@ -528,7 +528,6 @@ class Reactions(Tabular):
         >>> [a.get_gid() for a in axes.lines if "head" not in a.get_gid()][:3]
         ['load B on piston', 'reaction A on rod', 'reaction bore on piston']
         """
-        from assur.dynamics.forces.force_system import force_system
         from assur.pictures.forces.polygon import force_polygon
 
         own = links.links if isinstance(links, Group) else links
