@@ -54,8 +54,8 @@ if TYPE_CHECKING:
         metric,
         pictures,
     )
-    from assur.dynamics.friction import JointFriction, SlideFriction
-    from assur.dynamics.loads import (
+    from assur.dynamics.loads.friction import JointFriction, SlideFriction
+    from assur.dynamics.loads.loads import (
         Body,
         Damper,
         Force,
@@ -68,10 +68,10 @@ if TYPE_CHECKING:
         TorsionDamper,
         TorsionSpring,
     )
+    from assur.dynamics.loads.motors import ConstantTorque, InductionMotor, LinearMotor
     from assur.dynamics.machine import Machine
-    from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
-    from assur.dynamics.run import Run
-    from assur.dynamics.steady import SteadyState
+    from assur.dynamics.motion.run import Run
+    from assur.dynamics.motion.steady import SteadyState
     from assur.files.contents import load
     from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.loci.maps import DesignMap
@@ -164,8 +164,8 @@ _LATER = {
         "metric",
         "pictures",
     ),
-    "assur.dynamics.friction": ("JointFriction", "SlideFriction"),
-    "assur.dynamics.loads": (
+    "assur.dynamics.loads.friction": ("JointFriction", "SlideFriction"),
+    "assur.dynamics.loads.loads": (
         "Body",
         "Damper",
         "Force",
@@ -179,9 +179,9 @@ _LATER = {
         "TorsionSpring",
     ),
     "assur.dynamics.machine": ("Machine",),
-    "assur.dynamics.motors": ("ConstantTorque", "InductionMotor", "LinearMotor"),
-    "assur.dynamics.run": ("Run",),
-    "assur.dynamics.steady": ("SteadyState",),
+    "assur.dynamics.loads.motors": ("ConstantTorque", "InductionMotor", "LinearMotor"),
+    "assur.dynamics.motion.run": ("Run",),
+    "assur.dynamics.motion.steady": ("SteadyState",),
     "assur.files.contents": ("load",),
     "assur.kinematics.curve.design_defects": ("Defect",),
     "assur.kinematics.loci.maps": ("DesignMap",),

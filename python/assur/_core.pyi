@@ -6,19 +6,19 @@ import numpy.typing as npt
 from typing_extensions import Self
 
 from assur.description.words import Drive, Slide
-from assur.dynamics.friction import PairFriction
-from assur.dynamics.loads import Body, Load, Table
+from assur.dynamics.forces.reaction_key import Key
+from assur.dynamics.loads.friction import PairFriction
+from assur.dynamics.loads.load_values import Function
+from assur.dynamics.loads.loads import Body, Load, Table
+from assur.dynamics.loads.motors import Motor
 from assur.dynamics.machine import Method
-from assur.dynamics.motors import Motor
-from assur.dynamics.reaction_key import Key
-from assur.dynamics.values import Function
 from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
 from assur.kinematics.assembly import FoundAssemblies
-from assur.kinematics.held import Buffers
 from assur.kinematics.limits import FoundLimits
 from assur.kinematics.model import AssemblyNumbers
+from assur.kinematics.result_columns import Buffers
 from assur.sweeps.terms import Metric
 
 __all__ = [

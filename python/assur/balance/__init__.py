@@ -3,7 +3,7 @@
 from assur.balance.fit import MomentBounds, fit
 from assur.balance.harmonics import Harmonics, RotatingParts, harmonics, rotating_parts
 from assur.balance.weights import four_bar, slider_crank
-from assur.dynamics.counterweight import Counterweight
+from assur.dynamics.forces.counterweight import Counterweight
 
 __all__ = [
     "Counterweight",

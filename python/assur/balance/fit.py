@@ -13,11 +13,11 @@ from assur._arrays import not_negative, real_array, real_number, short, two_numb
 from assur._validate import checked_name
 from assur.balance.bounded import bounded_least_squares
 from assur.balance.weights import checked_mechanism
-from assur.dynamics.counterweight import Counterweight, counterweight
-from assur.dynamics.loads import Body
+from assur.dynamics.forces.counterweight import Counterweight, counterweight
+from assur.dynamics.forces.joint_places import joint_place
+from assur.dynamics.loads.loads import Body
+from assur.dynamics.loads.table import replace_fields
 from assur.dynamics.machine import Machine
-from assur.dynamics.places import joint_place
-from assur.dynamics.table import replace_fields
 from assur.errors import InputError, MotionError
 
 if TYPE_CHECKING:

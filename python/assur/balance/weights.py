@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 from assur._arrays import real_number, short
 from assur.balance.chains import find_four_bar, find_slider_crank
-from assur.dynamics.counterweight import counterweight
+from assur.dynamics.forces.counterweight import counterweight
+from assur.dynamics.forces.joint_places import joint_place, mass_centre
 from assur.dynamics.machine import Machine
-from assur.dynamics.options import one_design, positive_number
-from assur.dynamics.places import joint_place, mass_centre
+from assur.dynamics.preconditions import one_design, positive_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur.dynamics.counterweight import Counterweight
+    from assur.dynamics.forces.counterweight import Counterweight
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["four_bar", "slider_crank"]

@@ -5,40 +5,34 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
-from assur.dynamics import (
-    counterweight,
-    duty,
-    equilibria,
-    impact,
-    integrate,
-    kinetostatics,
-    locking,
-    reduce,
-    size_flywheel,
-)
-from assur.dynamics import internal_loads as inside
-from assur.dynamics.along import motion_of
-from assur.dynamics.jumps import driven_motion
+from assur.dynamics.flywheel import size as flywheel_size
+from assur.dynamics.forces import counterweight, duty, impact, kinetostatics
+from assur.dynamics.forces import self_locking as locking
+from assur.dynamics.internal import internal_loads as inside
 from assur.dynamics.model import MachineModel
-from assur.dynamics.run import Run
-from assur.dynamics.steady import SteadyState
+from assur.dynamics.motion import equilibria, integrate
+from assur.dynamics.motion.discontinuities import driven_motion
+from assur.dynamics.motion.motion_input import motion_of
+from assur.dynamics.motion.run import Run
+from assur.dynamics.motion.steady import SteadyState
+from assur.dynamics.reduction import reduce
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     import numpy.typing as npt
 
-    from assur.dynamics.along import MotionLike
-    from assur.dynamics.counterweight import Counterweight
-    from assur.dynamics.duty import Duty
-    from assur.dynamics.equilibria import Equilibria
-    from assur.dynamics.impact import Impact
-    from assur.dynamics.internal_loads import InternalLoads
-    from assur.dynamics.loads import Force, Torque
-    from assur.dynamics.locking import SelfLocking
+    from assur.dynamics.forces.counterweight import Counterweight
+    from assur.dynamics.forces.duty import Duty
+    from assur.dynamics.forces.impact import Impact
+    from assur.dynamics.forces.reactions import Reactions
+    from assur.dynamics.forces.self_locking import SelfLocking
+    from assur.dynamics.internal.internal_loads import InternalLoads
+    from assur.dynamics.loads.loads import Force, Torque
     from assur.dynamics.model import OnError
-    from assur.dynamics.reactions import Reactions
-    from assur.dynamics.reduce import Reduced
+    from assur.dynamics.motion.equilibria import Equilibria
+    from assur.dynamics.motion.motion_input import MotionLike
+    from assur.dynamics.reduction.reduce import Reduced
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean
 
@@ -750,7 +744,7 @@ class Machine(MachineModel):
         >>> machine.flywheel(fluctuation=0.05, mean_speed=20.0).delta.__round__(6)
         0.05
         """
-        return size_flywheel.flywheel(self, fluctuation, mean_speed, mean, turns, on_error)
+        return flywheel_size.flywheel(self, fluctuation, mean_speed, mean, turns, on_error)
 
     def run(
         self,

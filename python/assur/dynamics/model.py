@@ -12,12 +12,12 @@ from assur._arrays import counted, flag
 from assur._by_value import key_of
 from assur._later import explorer, save
 from assur._validate import one_of
-from assur.dynamics import parts
-from assur.dynamics.friction import checked_friction
-from assur.dynamics.functions import check_functions
-from assur.dynamics.loads import checked_load
-from assur.dynamics.over import check_over
-from assur.dynamics.takers import warn_of_open_takers
+from assur.dynamics import components
+from assur.dynamics.loads.friction import checked_friction
+from assur.dynamics.loads.load_coordinate import check_over
+from assur.dynamics.loads.load_functions import check_functions
+from assur.dynamics.loads.loaded_link import warn_of_open_takers
+from assur.dynamics.loads.loads import checked_load
 from assur.errors import InputError
 from assur.flywheel import SPLINES
 from assur.flywheel.sizing import warn_if_degrees
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from typing_extensions import Self
 
-    from assur.dynamics.friction import PairFriction
-    from assur.dynamics.loads import Body, Load
-    from assur.dynamics.motors import Motor
+    from assur.dynamics.loads.friction import PairFriction
+    from assur.dynamics.loads.loads import Body, Load
+    from assur.dynamics.loads.motors import Motor
     from assur.flywheel import Spline
     from assur.kinematics.mechanism import Mechanism
 
@@ -65,12 +65,12 @@ class MachineModel:
         motor: Motor | Sequence[Motor | None] | None,
         friction: Mapping[str, PairFriction],
     ) -> None:
-        parts.check_types(mechanism, bodies)
+        components.check_types(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = MappingProxyType(
-            dict(parts.body(mechanism, link, one) for link, one in bodies.items())
+            dict(components.body(mechanism, link, one) for link, one in bodies.items())
         )
-        self.loads = tuple(parts.as_list(loads, "loads"))
+        self.loads = tuple(components.as_list(loads, "loads"))
         self.driver_count = int(np.size(mechanism.q0))
         # With one driver, the motor itself.
         self.motor: Any = tuple(motor) if isinstance(motor, list | tuple) else motor
@@ -83,10 +83,10 @@ class MachineModel:
             type(self)._made,
             (mechanism, dict(self.bodies), self.loads, self.motor, dict(self.friction)),
         )
-        motors = parts.motors(self.motor, self.driver_count)
+        motors = components.motors(self.motor, self.driver_count)
         self.core = _core.Machine(
             mechanism.core,
-            loads=[parts.load(mechanism, checked_load(load)) for load in self.loads],
+            loads=[components.load(mechanism, checked_load(load)) for load in self.loads],
             bodies=list(self.bodies.items()),
             motors=motors,
             friction=list(self.friction.items()),
@@ -174,13 +174,13 @@ class MachineModel:
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies, self.friction = MappingProxyType({}), MappingProxyType({})
         self.driver_count = 1
-        x, columns = parts.columns(phi, moment, inertia)
+        x, columns = components.columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
         periodic = flag(periodic, "periodic")
         warn_if_degrees(float(x[-1] - x[0]), periodic)
         table = x, columns["moment"], columns["inertia"]
         self._rebuild_with = cls.from_table, (*table, motor, spline, periodic)
-        motors = parts.motors(motor, 1)
+        motors = components.motors(motor, 1)
         self.core = _core.Machine.from_table(
             x, columns["moment"], columns["inertia"], spline, periodic, *motors
         )

@@ -6,9 +6,9 @@ import math
 
 from assur._trig import sin_cos
 from assur.description.words import Slide
-from assur.dynamics.loads import Body, Spring
+from assur.dynamics.loads.loads import Body, Spring
+from assur.dynamics.loads.motors import ConstantTorque
 from assur.dynamics.machine import Machine
-from assur.dynamics.motors import ConstantTorque
 from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["andrews_squeezer", "toggle_press"]

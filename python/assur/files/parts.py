@@ -5,8 +5,8 @@ from __future__ import annotations
 import inspect
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from assur.dynamics.friction import JointFriction, SlideFriction
-from assur.dynamics.loads import (
+from assur.dynamics.loads.friction import JointFriction, SlideFriction
+from assur.dynamics.loads.loads import (
     Body,
     Damper,
     Force,
@@ -16,9 +16,9 @@ from assur.dynamics.loads import (
     TorsionDamper,
     TorsionSpring,
 )
-from assur.dynamics.motors import ConstantTorque, InductionMotor, LinearMotor
-from assur.dynamics.pressure import Gas, Pressure
-from assur.dynamics.table import Table
+from assur.dynamics.loads.motors import ConstantTorque, InductionMotor, LinearMotor
+from assur.dynamics.loads.pressure import Gas, Pressure
+from assur.dynamics.loads.table import Table
 from assur.files.node import Node
 
 if TYPE_CHECKING:

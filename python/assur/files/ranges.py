@@ -10,7 +10,7 @@ import numpy as np
 
 from assur._arrays import finite_array, flag, real_number, short
 from assur._validate import whole_number
-from assur.dynamics.table import replace_fields
+from assur.dynamics.loads.table import replace_fields
 from assur.errors import InputError
 from assur.files.limits import MOST_POSITIONS
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.kinematics.assembly import SAME
+from assur.kinematics.configuration import size_of
 from assur.kinematics.model import AssemblyNumbers, Place, at_place
-from assur.kinematics.place import size_of
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from assur.dynamics.friction import JointFriction, SlideFriction
-from assur.dynamics.loads import Body
+from assur.dynamics.loads.friction import JointFriction, SlideFriction
+from assur.dynamics.loads.loads import Body
 from assur.dynamics.machine import Machine
 from assur.errors import AssurError
 from assur.files.limits import MOST_ITEMS

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import finite_array
-from assur.dynamics.pressure import Gas
-from assur.dynamics.table import Table
+from assur.dynamics.loads.pressure import Gas
+from assur.dynamics.loads.table import Table
 from assur.errors import InputError
 from assur.files.limits import MOST_ITEMS
 from assur.files.parts import PARTS, ROWS
@@ -20,8 +20,8 @@ from assur.files.wanted import RANGE, WANTED
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from assur.dynamics.loads.motors import Motor
     from assur.dynamics.model import MachineModel
-    from assur.dynamics.motors import Motor
 
 
 def machine_tree(machine: MachineModel) -> dict[str, Any]:

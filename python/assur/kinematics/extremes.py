@@ -10,8 +10,8 @@ from assur._arrays import short
 from assur._validate import checked_name, real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.configuration import size_of
 from assur.kinematics.limits import limits
-from assur.kinematics.place import size_of
 from assur.kinematics.solve_arguments import checked_assembly
 
 if TYPE_CHECKING:

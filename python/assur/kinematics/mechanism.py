@@ -13,11 +13,9 @@ from assur.description import encode
 from assur.description.words import Cylinder
 from assur.kinematics import assemblies as assembly_search
 from assur.kinematics import extremes as extreme_search
-from assur.kinematics import find as inverse
 from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly
-from assur.kinematics.curve import search as curves
 from assur.kinematics.drawn import in_assembly, redrive
 from assur.kinematics.model import MechanismModel, at_place, with_values
 from assur.kinematics.named_dimensions import with_dimensions
@@ -175,7 +173,7 @@ class Mechanism(MechanismModel):
         >>> m.dimensions["ground.D.x"], m.dimensions["coupler.length"], round(m.joints["P"][1], 6)
         (3.2, 3.0, 2.637603)
         """
-        from assur.kinematics.from_lengths import sized
+        from assur.kinematics.inverse.from_lengths import sized
 
         return sized(Mechanism(joints, links, driver, slides, assembly), lengths)
 
@@ -566,7 +564,9 @@ class Mechanism(MechanismModel):
         >>> [(round(q, 6), dict(assembly)) for q, assembly in engine.find("bore", 3.0)]
         [(-1.403348, {'B': 1}), (1.403348, {'B': 1})]
         """
-        return inverse.find(self, name, value)
+        from assur.kinematics.inverse.find import find
+
+        return find(self, name, value)
 
     def configuration_curve(self, positions: int = 32) -> ConfigurationCurve:
         """Return all positions of a design as a curve: branches, folds, circuits.
@@ -592,7 +592,9 @@ class Mechanism(MechanismModel):
         >>> len(curve.circuits), [round(fold.q, 6) for fold in curve.folds]
         (1, [-1.371564, 1.371564])
         """
-        return curves.configuration_curve(self, positions)
+        from assur.kinematics.curve.search import configuration_curve
+
+        return configuration_curve(self, positions)
 
     def defects(self, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]) -> Any:
         """Return what keeps designs from going through given positions one after another.

@@ -13,7 +13,7 @@ from assur._core import KnownSigns
 from assur.description import encode
 from assur.description.structure import Group, Structure
 from assur.kinematics.dimensions import Dimensions
-from assur.kinematics.held import Buffers, Layout
+from assur.kinematics.result_columns import Buffers, Layout
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

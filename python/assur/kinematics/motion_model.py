@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from assur._arrays import Float
-    from assur.kinematics.held import Results
     from assur.kinematics.model import MechanismModel
     from assur.kinematics.request import SolveRequest
+    from assur.kinematics.result_columns import Results
 
 __all__ = ["AnyMotion", "MotionModel"]
 

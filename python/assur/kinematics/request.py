@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from assur.kinematics.held import Buffers, Layout, Names, Results
+from assur.kinematics.result_columns import Buffers, Layout, Names, Results
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

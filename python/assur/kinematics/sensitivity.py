@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from assur.kinematics.held import Arrays
     from assur.kinematics.motion_model import MotionModel
+    from assur.kinematics.result_columns import Arrays
 
 __all__ = ["Sensitivity"]
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from assur.kinematics.held import Buffers
     from assur.kinematics.model import MechanismModel
+    from assur.kinematics.result_columns import Buffers
 
 # Names and indices of joints, links, slides.
 Names: TypeAlias = tuple[dict[str, int], dict[str, int], dict[str, int]]

@@ -10,10 +10,10 @@ import numpy as np
 from assur._arrays import finite_array
 from assur._by_value import ByValue
 from assur._validate import checked_name, one_of, real_number
-from assur.dynamics.along import motion_of
-from assur.dynamics.kinetostatics import reaction_squares, reactions
-from assur.dynamics.reaction_key import Key
-from assur.dynamics.reactions import key_of_joint
+from assur.dynamics.forces.kinetostatics import reaction_squares, reactions
+from assur.dynamics.forces.reaction_key import Key
+from assur.dynamics.forces.reactions import key_of_joint
+from assur.dynamics.motion.motion_input import motion_of
 from assur.errors import AssurError, InputError
 from assur.kinematics.model import with_values
 from assur.sweeps.terms import OfMachine

@@ -14,6 +14,9 @@ from assur._arrays import flag, short
 from assur._validate import one_of, whole_number
 from assur.description.words import Status, is_reached
 from assur.errors import InputError
+from assur.sweeps.measures_axes import shown_axes
+from assur.sweeps.measures_dataset import dataset
+from assur.sweeps.reasons import explained, reasons
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
@@ -171,8 +174,6 @@ class Measures(Mapping[str, Float]):
         T: loads[0], the Force at 'B': a table over 'bore' covers 0.3 to 0.5: 0.52, at q = 0,
         is not in it; extend the table
         """
-        from assur.sweeps.reasons import explained
-
         return explained(self, self._flat(index))
 
     def designs(
@@ -293,8 +294,6 @@ class Measures(Mapping[str, Float]):
         ['crank stops']
         """
         from assur.pictures.maps.map import metric_picture
-        from assur.sweeps.measures_axes import shown_axes
-        from assur.sweeps.reasons import reasons
 
         values = self[name]
         one_of(best, ("both", "least", "greatest", "none"), "best")
@@ -368,8 +367,6 @@ class Measures(Mapping[str, Float]):
         >>> round(float(data["stroke"].sel({"crank.length": 0.2, "rod.length": 0.5})), 6)
         0.4
         """
-        from assur.sweeps.measures_dataset import dataset
-
         return dataset(self)
 
     # As a mapping it would compare arrays.

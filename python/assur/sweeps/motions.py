@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from assur.description.words import is_reached
 from assur.kinematics import solve as solver
-from assur.kinematics.held import Buffers, Results
 from assur.kinematics.motion import Motion
 from assur.kinematics.motion_model import overwrite
+from assur.kinematics.result_columns import Buffers, Results
 from assur.kinematics.solve_arguments import checked_coordinates
 from assur.sweeps.engine import results
 from assur.sweeps.measuring import blocks

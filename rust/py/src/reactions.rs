@@ -69,7 +69,7 @@ impl Words for Kind {
     ];
 }
 
-/// A reaction as Python names it: `assur.dynamics.reaction_key.Key`.
+/// A reaction as Python names it: `assur.dynamics.forces.reaction_key.Key`.
 #[derive(FromPyObject)]
 pub(crate) struct Key {
     kind: Word<Kind>,

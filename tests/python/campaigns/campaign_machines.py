@@ -19,7 +19,7 @@ from machine_energy import Balance
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from assur.dynamics.run import Run
+    from assur.dynamics.motion.run import Run
     from machine_models import Case
 
 RTOL = 1e-9

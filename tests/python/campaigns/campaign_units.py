@@ -23,7 +23,7 @@ from machine_units import Units, in_units, with_friction
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from assur.dynamics.reactions import Reactions
+    from assur.dynamics.forces.reactions import Reactions
     from machine_models import Case
 
 RTOL = 1e-8

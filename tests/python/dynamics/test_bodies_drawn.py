@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur import Body, Gravity, Machine
-from assur.dynamics.places import mass_centre
+from assur.dynamics.forces.joint_places import mass_centre
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur import Body, Gravity, InputError
-from assur.dynamics.steady_flywheel import SteadyFlywheel
+from assur.dynamics.flywheel.steady import SteadyFlywheel
 from machines import press
 
 TURN = math.tau

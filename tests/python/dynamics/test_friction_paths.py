@@ -11,7 +11,7 @@ import assur
 from assur import Body, Force, JointFriction, Machine, SlideFriction
 
 if TYPE_CHECKING:
-    from assur.dynamics.friction import PairFriction
+    from assur.dynamics.loads.friction import PairFriction
 
 
 def press(times: float) -> Machine:

@@ -9,8 +9,8 @@ import pytest
 
 import assur
 from assur import Force, Gravity, Machine, Pressure, Spring, Torque
-from assur.dynamics.force_system import force_system
-from assur.dynamics.load_forces import loads_of
+from assur.dynamics.forces.force_system import force_system
+from assur.dynamics.forces.load_forces import loads_of
 from multipliers import Reactions, unit_roundoff
 from reaction_machines import reaction_case
 

@@ -13,7 +13,7 @@ import pytest
 
 import assur
 from assur import Damper, Force, JointFriction, Machine, Slide, SlideFriction, Spring
-from assur.dynamics.force_system import force_system
+from assur.dynamics.forces.force_system import force_system
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -21,7 +21,7 @@ from assur import (
     TorsionSpring,
     events,
 )
-from assur.dynamics import integrate
+from assur.dynamics.motion import integrate
 from machines import five_bar, pendulum, press, wheel
 from oracle_dae import Dae
 

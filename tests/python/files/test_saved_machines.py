@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.dynamics import friction, loads, motors, pressure
+from assur.dynamics.loads import friction, loads, motors, pressure
 from assur.files.parts import PARTS, ROWS, SHAFT
 from assur.files.write import text_of
 from file_machines import one_part_machines, whole_machines

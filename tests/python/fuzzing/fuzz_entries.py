@@ -12,7 +12,7 @@ from unittest import mock
 
 import assur
 from assur import crank_rocker, slider_crank
-from assur.dynamics import size_flywheel
+from assur.dynamics.flywheel import size as size_flywheel
 from fuzz_kinematics import assemblies, change, construct, describe, move
 from fuzz_machines import balanced, harmonics, inside, reduce, run, steady, wheel
 from fuzz_values import Choices

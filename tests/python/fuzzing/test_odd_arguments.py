@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from matplotlib import pyplot as plt
 
 import assur
-from assur.dynamics.bearing import Bearing
-from assur.dynamics.reactions import Reactions
+from assur.dynamics.forces.bearing import Bearing
+from assur.dynamics.forces.reactions import Reactions
 from assur.kinematics.extremes import Extremes
 from assur.kinematics.timed import TimedMotion
 from fuzz_entries import LONGEST, LONGEST_MESSAGE, give_up

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from assur.dynamics.force_system import force_system
+from assur.dynamics.forces.force_system import force_system
 from assur.pictures.forces.polygon import polygon_sides
 from assur.pictures.style import DARK
 from picture_reading import gids, named, one, overlapping, texts, vector

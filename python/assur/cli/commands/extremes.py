@@ -69,8 +69,8 @@ def run(given: argparse.Namespace) -> None:
 
 def _instead(mechanism: Mechanism, link: str, found: Extremes) -> list[str]:
     """Return, of a link that does not turn, which of its slides move."""
+    from assur.kinematics.configuration import size_of
     from assur.kinematics.extremes import STANDS
-    from assur.kinematics.place import size_of
 
     if found.stroke > STANDS:
         return []

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur.kinematics.assemblies import assemblies
-from assur.kinematics.curve.parts import SAME, Branch, has_driven_angle
+from assur.kinematics.configuration import nearest, place_of, places_along, size_of
+from assur.kinematics.curve.elements import SAME, Branch, has_driven_angle
 from assur.kinematics.limits import limits
-from assur.kinematics.place import nearest, place_of, places_along, size_of
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from assur.kinematics.curve.parts import Circuit
+from assur.kinematics.curve.elements import Circuit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from assur.kinematics.curve.parts import Branch, Fold
+    from assur.kinematics.curve.elements import Branch, Fold
 
 # Index of a branch, and the direction of q along it.
 Step = tuple[int, int]

@@ -11,9 +11,9 @@ from assur._arrays import counted
 from assur._trig import sin_cos
 from assur._validate import MAX_POINTS, checked_index, whole_number
 from assur.description.words import is_reached
+from assur.kinematics.configuration import size_of
 from assur.kinematics.curve.defects import defects_of
-from assur.kinematics.curve.parts import ends_of, has_driven_angle
-from assur.kinematics.place import size_of
+from assur.kinematics.curve.elements import ends_of, has_driven_angle
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.curve.defects import Defects
-    from assur.kinematics.curve.parts import Branch, Circuit, Fold
+    from assur.kinematics.curve.elements import Branch, Circuit, Fold
     from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
 

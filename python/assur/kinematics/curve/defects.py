@@ -11,8 +11,8 @@ import numpy as np
 from assur._arrays import short
 from assur._validate import real_number
 from assur.errors import InputError
-from assur.kinematics.curve.parts import SAME, ends_of, has_driven_angle
-from assur.kinematics.place import nearest, places_along, size_of
+from assur.kinematics.configuration import nearest, places_along, size_of
+from assur.kinematics.curve.elements import SAME, ends_of, has_driven_angle
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:

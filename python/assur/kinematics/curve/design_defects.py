@@ -12,9 +12,9 @@ from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
 from assur.kinematics.assemblies import assemblies
+from assur.kinematics.configuration import place_of, size_of
 from assur.kinematics.curve.search import curve_through, require_one_driver
 from assur.kinematics.model import with_values
-from assur.kinematics.place import place_of, size_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.kinematics.curve.parts import SAME
-from assur.kinematics.place import lengths
+from assur.kinematics.configuration import lengths
+from assur.kinematics.curve.elements import SAME
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.kinematics.curve.parts import SAME, Fold
+from assur.kinematics.curve.elements import SAME, Fold
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.kinematics.curve.branches import Branches
-    from assur.kinematics.curve.parts import Branch
+    from assur.kinematics.curve.elements import Branch
 
 # How far from a dead point, as a part of the branch, positions are taken to extrapolate it …
 BESIDE = 1e-6

@@ -17,7 +17,7 @@ from assur.kinematics.curve.folds import Folds
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
-    from assur.kinematics.curve.parts import Fold
+    from assur.kinematics.curve.elements import Fold
     from assur.kinematics.model import MechanismModel
 
 # A fan of so many takes minutes, and 100 MB; its time grows faster than its positions.

@@ -18,7 +18,8 @@ from assur._arrays import short
 from assur._validate import checked_name, real_array, whole_number
 from assur.description.words import Drive
 from assur.errors import AssurWarning, InputError
-from assur.kinematics.find import driven_by_joint
+from assur.kinematics.configuration import lengths, size_of
+from assur.kinematics.inverse.find import driven_by_joint
 from assur.kinematics.loci.chart import Surface
 from assur.kinematics.loci.folds import (
     Grid,
@@ -29,7 +30,6 @@ from assur.kinematics.loci.folds import (
     poses_beside_folds,
 )
 from assur.kinematics.loci.trace import start_beside, trace
-from assur.kinematics.place import lengths, size_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

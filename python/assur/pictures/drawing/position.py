@@ -23,12 +23,12 @@ from assur.pictures.scene.extent import usual_link, vertices
 from assur.pictures.scene.geometry import left_of
 from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
 from assur.pictures.scene.labels import along
-from assur.pictures.scene.parts import Disc, Hatching, Stroke
+from assur.pictures.scene.shapes import Disc, Hatching, Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.linkage.subject import Subject
-    from assur.pictures.scene.parts import Part
+    from assur.pictures.scene.shapes import Part
 
 # A px of the symbols, mm of the paper.
 PX = 25.4 / 96.0

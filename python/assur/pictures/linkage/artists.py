@@ -13,13 +13,13 @@ from matplotlib.transforms import Affine2D
 
 from assur.pictures import sizes
 from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
-from assur.pictures.scene.parts import Disc, Hatching, Stroke
+from assur.pictures.scene.shapes import Disc, Hatching, Stroke
 from assur.pictures.style import blend
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.axes import Canvas
-    from assur.pictures.scene.parts import Part, Scene, Vertex
+    from assur.pictures.scene.shapes import Part, Scene, Vertex
 
 TINT = 0.10
 HATCH_INK = 0.38

@@ -11,7 +11,7 @@ from matplotlib.text import Text
 
 from assur.pictures.axes import TEXT
 from assur.pictures.scene.labels import along, placed
-from assur.pictures.scene.parts import Vertex
+from assur.pictures.scene.shapes import Vertex
 from assur.pictures.text import STEP, text_size
 
 if TYPE_CHECKING:

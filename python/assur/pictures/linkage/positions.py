@@ -14,7 +14,7 @@ from assur.pictures.linkage.position import draw_position
 from assur.pictures.linkage.subject import outline
 from assur.pictures.linkage.swings import draw_traces, swings, write_swings
 from assur.pictures.scene.labels import along, placed
-from assur.pictures.scene.parts import Stroke
+from assur.pictures.scene.shapes import Stroke
 from assur.pictures.text import STEP, name_font, printable, text_size
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.course import course
 from assur.pictures.scene.extent import corners, line_vertices, usual_link
 from assur.pictures.scene.frames import Frames, frames_of, nearby
-from assur.pictures.scene.parts import Disc
+from assur.pictures.scene.shapes import Disc
 from assur.pictures.text import name_font, printable, text_size
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur._faces import Mechanism, Motion
-    from assur.pictures.scene.parts import Part, Scene, Vertex
+    from assur.pictures.scene.shapes import Part, Scene, Vertex
     from assur.pictures.style import Style
 
 # Between names and the border, points.

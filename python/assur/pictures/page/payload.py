@@ -13,7 +13,7 @@ from assur.pictures.page.selection import checked_diagrams, checked_paths
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.extent import corners, usual_link
 from assur.pictures.scene.frames import Frames
-from assur.pictures.scene.parts import Disc, Hatching
+from assur.pictures.scene.shapes import Disc, Hatching
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur._faces import Mechanism
     from assur.pictures.page.turn import Turn
-    from assur.pictures.scene.parts import Part, Scene, Stroke, Vertex
+    from assur.pictures.scene.shapes import Part, Scene, Stroke, Vertex
 
 # Of the float32 that a page has.
 GREATEST_NUMBER = float(np.finfo(np.float32).max)

@@ -11,13 +11,13 @@ from assur.pictures import sizes
 from assur.pictures.scene.extent import line_vertices, usual_link
 from assur.pictures.scene.hatching import DEPTH, hatched_area, hatched_line
 from assur.pictures.scene.labels import along, placed
-from assur.pictures.scene.parts import Disc, Hatching
+from assur.pictures.scene.shapes import Disc, Hatching
 from assur.pictures.style import DARK, LIGHT
 
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.page.payload import Played
-    from assur.pictures.scene.parts import Part, Stroke, Vertex
+    from assur.pictures.scene.shapes import Part, Stroke, Vertex
     from assur.pictures.style import Style
 
 WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT, MARGIN = 640.0, 220.0, 480.0, 44.0

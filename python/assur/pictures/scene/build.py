@@ -10,7 +10,7 @@ from assur.pictures import sizes
 from assur.pictures.scene.geometry import at
 from assur.pictures.scene.links import link_parts
 from assur.pictures.scene.pairs import joint_part, pivot_parts, sliding_arrow, turning_arrow
-from assur.pictures.scene.parts import Line, Name, Part, Scene, Stroke
+from assur.pictures.scene.shapes import Line, Name, Part, Scene, Stroke
 from assur.pictures.scene.slides import Slides
 
 if TYPE_CHECKING:

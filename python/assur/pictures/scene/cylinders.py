@@ -9,7 +9,7 @@ import numpy as np
 
 from assur.pictures import sizes
 from assur.pictures.scene.geometry import at, unit_vector
-from assur.pictures.scene.parts import Colour, Line, Stroke
+from assur.pictures.scene.shapes import Colour, Line, Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures.scene.parts import Disc, Hatching, Stroke
+from assur.pictures.scene.shapes import Disc, Hatching, Stroke
 
 if TYPE_CHECKING:
     from assur.pictures.scene.frames import Frames
-    from assur.pictures.scene.parts import Part, Scene, Vertex
+    from assur.pictures.scene.shapes import Part, Scene, Vertex
 
 
 def corners(scene: Scene) -> set[tuple[str, float, float]]:

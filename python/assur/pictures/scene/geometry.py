@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from assur.pictures.scene.parts import Vertex
+from assur.pictures.scene.shapes import Vertex
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -8,7 +8,7 @@ import numpy as np
 
 from assur.pictures import sizes
 from assur.pictures.scene.geometry import ON_LINE, about, arc, at, hull
-from assur.pictures.scene.parts import Stroke
+from assur.pictures.scene.shapes import Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float

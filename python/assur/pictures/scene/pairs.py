@@ -8,7 +8,7 @@ import numpy as np
 
 from assur.pictures import sizes
 from assur.pictures.scene.geometry import about, arc, at, unit_vector
-from assur.pictures.scene.parts import Disc, Hatching, Part, Stroke
+from assur.pictures.scene.shapes import Disc, Hatching, Part, Stroke
 
 if TYPE_CHECKING:
     from assur._arrays import Float

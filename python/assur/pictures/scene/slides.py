@@ -16,7 +16,7 @@ from assur.pictures import sizes
 from assur.pictures.scene.axis import Axis
 from assur.pictures.scene.cylinders import cylinder_parts
 from assur.pictures.scene.geometry import ON_LINE, about, at, left_of, unit_vector
-from assur.pictures.scene.parts import Hatching, Line, Stroke, Vertex
+from assur.pictures.scene.shapes import Hatching, Line, Stroke, Vertex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

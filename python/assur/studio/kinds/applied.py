@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.dynamics.load_forces import loads_of
-from assur.dynamics.loads import Force
+from assur.dynamics.forces.load_forces import loads_of
+from assur.dynamics.loads.loads import Force
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.dynamics.forces.reactions import Reactions
     from assur.dynamics.machine import Machine
-    from assur.dynamics.reactions import Reactions
 
 
 def applied_forces(machine: Machine, found: Reactions) -> tuple[list[dict[str, Any]], Float]:

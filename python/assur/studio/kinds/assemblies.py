@@ -13,7 +13,7 @@ import numpy as np
 from assur.description.words import has_analogues
 from assur.errors import AssurError
 from assur.kinematics.assembly import SAME, Assembly
-from assur.kinematics.place import size_of
+from assur.kinematics.configuration import size_of
 from assur.studio import document
 from assur.studio.kinds.turn import reach_of
 from assur.studio.request import Fields

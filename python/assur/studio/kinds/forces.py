@@ -16,8 +16,8 @@ from assur.studio.session import Answer
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.dynamics.forces.reactions import Reactions
     from assur.dynamics.machine import Machine
-    from assur.dynamics.reactions import Reactions
     from assur.kinematics.mechanism import Mechanism
     from assur.studio.session import Session
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.dynamics.run import State
+from assur.dynamics.motion.run import State
 from assur.pictures.page.turn_in_time import course_of_run, turn_over_time
 from assur.studio import document
 from assur.studio.kinds.applied import applied_forces

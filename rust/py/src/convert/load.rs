@@ -10,7 +10,7 @@ use super::point::{PointLike, link};
 use super::value::Values;
 use crate::error_map;
 
-const MODULE: Classes = Classes("assur.dynamics.loads");
+const MODULE: Classes = Classes("assur.dynamics.loads.loads");
 
 #[derive(FromPyObject)]
 struct Gravity {

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use super::Classes;
 use super::value::{self, TableFields, Values};
 
-const MODULE: Classes = Classes("assur.dynamics.motors");
+const MODULE: Classes = Classes("assur.dynamics.loads.motors");
 
 /// The fields of every motor.
 #[derive(FromPyObject)]

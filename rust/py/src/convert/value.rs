@@ -10,7 +10,7 @@ use super::Classes;
 use super::word::Word;
 use crate::{detach, error, error_map, reserve};
 
-pub(crate) const MODULE: Classes = Classes("assur.dynamics.table");
+pub(crate) const MODULE: Classes = Classes("assur.dynamics.loads.table");
 
 /// The tables and functions of a machine, in the order of their indices, and the coordinates whose
 /// direction loads follow.

@@ -1,0 +1,1 @@
+"""Flywheels of machines."""

@@ -1,0 +1,1 @@
+"""Forces in joints, slides and drives, and what follows from them."""

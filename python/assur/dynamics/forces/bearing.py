@@ -1,0 +1,259 @@
+"""A pin as a bearing: its force as polar data in a link's frame, pressure and velocity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur import _trig
+from assur._arrays import in_range, real_number, short
+from assur._extreme import Extreme
+from assur._validate import checked_name
+from assur.dynamics.preconditions import positive_number
+from assur.errors import InputError
+from assur.kinematics.table import driven_angles
+
+if TYPE_CHECKING:
+    from assur._arrays import Float
+    from assur.dynamics.forces._reactions import Reactions
+
+__all__ = ["Bearing"]
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """The force on a link at a pin, in the frame of one of its links, by `Reactions.bearing`.
+
+    Attributes
+    ----------
+    angle : ndarray
+        Direction of the force, counter-clockwise from the frame's x, rad, in (−π, π], S + (N,).
+        A bore in the link is pressed on this side, a pin that is fast in the link on the opposite
+        one.
+    size : ndarray
+        N, S + (N,).
+    force : ndarray
+        Components along the frame's x and y, N, S + (N, 2).
+    relative_speed : ndarray or None
+        Angular velocity of the link relative to the other one, rad/s, S + (N,); None at a pin of
+        three links or more, unless `against` names one.
+    q : ndarray
+        Coordinates, S + (N,); with n drivers (..., n).
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+    >>> pin = machine.reactions([0.0, np.pi / 2], speed=10.0).bearing("B", on="piston")
+    >>> pin.size.round(6), pin.relative_speed.round(6)  # N, rad/s
+    (array([1000., 1250.]), array([6., 0.]))
+    """
+
+    angle: Any
+    size: Any
+    force: Any
+    relative_speed: Any
+    q: Any
+    designs: tuple[int, ...] = ()
+    # Of the frame: the link, its angle; and what the force acts on.
+    frame: tuple[str, Any] = ("ground", 0.0)
+    what: tuple[str, str] = ("", "")
+    is_angle: bool = True
+
+    @property
+    def mean(self) -> Any:
+        """Mean size over the positions, each of the same weight, N, of shape S."""
+        return np.mean(self._rows("a mean"), axis=-1)[()]
+
+    @property
+    def least(self) -> Extreme:
+        """The least size, and the position where it is; of shape S."""
+        return self._extreme(1.0)
+
+    @property
+    def greatest(self) -> Extreme:
+        """The greatest size, and the position where it is; of shape S."""
+        return self._extreme(-1.0)
+
+    def pressure(self, diameter: float, width: float) -> Any:
+        """Return the mean pressure on the projected area, size / (diameter × width), Pa.
+
+        Parameters
+        ----------
+        diameter, width : float
+            Of the bearing, m.
+
+        Returns
+        -------
+        ndarray
+            Pa, S + (N,).
+
+        Examples
+        --------
+        >>> import assur
+        >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> pin = machine.reactions(0.0, speed=10.0).bearing("B", on="piston")
+        >>> pin.pressure(diameter=0.02, width=0.05).round(1)  # Pa
+        np.float64(1000000.0)
+        """
+        d, b = (
+            real_number(positive_number(value, name), name)
+            for value, name in ((diameter, "diameter"), (width, "width"))
+        )
+        with in_range("a pressure"):
+            return (self.size / d) / b
+
+    def pv(self, diameter: float, width: float) -> Any:
+        """Return pressure times sliding velocity, Pa·m/s: the bearing's load for heat and wear.
+
+        Parameters
+        ----------
+        diameter, width : float
+            Of the bearing, m.
+
+        Returns
+        -------
+        ndarray
+            ``pressure × |relative speed| × diameter / 2``, S + (N,).
+
+        Raises
+        ------
+        InputError
+            A diameter or width that is not positive; a pin of three links or more without
+            `against`.
+
+        References
+        ----------
+        J. E. Shigley, C. R. Mischke, *Mechanical Engineering Design*, on boundary-lubricated
+        bearings.
+
+        Examples
+        --------
+        >>> import assur
+        >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
+        >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
+        >>> pin = machine.reactions(0.0, speed=10.0).bearing("B", on="piston")
+        >>> pin.pv(diameter=0.02, width=0.05).round(1)  # 1e6 Pa at 6 rad/s · 0.01 m
+        np.float64(60000.0)
+        """
+        pressure = self.pressure(diameter, width)
+        if self.relative_speed is None:
+            message = "three links or more meet here: say with bearing(against=) which one rubs"
+            raise InputError(message)
+        with in_range("pressure times velocity"):
+            return pressure * np.abs(self.relative_speed) * (float(diameter) / 2.0)
+
+    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+        """Draw the polar load diagram: the ends of the forces laid off from one pole.
+
+        Once as the ground sees them, once as the link does in whose frame they are given; the
+        greatest force is drawn and written (needs matplotlib).
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes or sequence of two, optional
+            Where to draw: on one only the own frame's diagram; a new figure by default.
+        dark : bool
+            Light lines on a dark ground.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or ndarray of two
+            Those drawn on; one if the frame is the ground's. Artists are named ``force``,
+            ``greatest``, ``position 3``.
+
+        Raises
+        ------
+        InputError
+            A batch of designs, no position with a force.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> found = machine.reactions(np.linspace(0.0, 2 * np.pi, 73), speed=10.0)
+        >>> axes = found.bearing("A", on="crank").plot()
+        >>> axes.shape
+        (2,)
+        """
+        from assur.pictures.forces.polar_load import polar_load
+
+        return polar_load(self, ax, dark)
+
+    def _rows(self, what: str) -> Float:
+        """Return the sizes with positions on the last axis, also of one coordinate."""
+        size = np.asarray(self.size)
+        if size.ndim == len(self.designs):
+            size = size[..., np.newaxis]
+        if size.shape[-1] == 0:
+            message = f"no positions: {what} needs one"
+            raise InputError(message)
+        return size
+
+    def _extreme(self, sign: float) -> Extreme:
+        size = self._rows("an extreme")
+        one = np.ndim(self.q) == np.ndim(self.size)
+        q = np.reshape(self.q, (*size.shape, 1 if one else self.q.shape[-1]))
+        # NaN only where all are.
+        index = np.argmin(np.where(np.isnan(size), np.inf, sign * size), axis=-1)[..., np.newaxis]
+        value = np.take_along_axis(size, index, -1)[..., 0][()]
+        at = np.take_along_axis(q, index[..., np.newaxis], -2)[..., 0, :]
+        return Extreme(at[..., 0][()] if one else at, value)
+
+
+def bearing(
+    found: Reactions, name: str, on: str, frame: str | None, against: str | None
+) -> Bearing:
+    """Return a pin's force as polar data; see `Reactions.bearing`."""
+    name, on = checked_name(name, "joint"), checked_name(on, "on")
+    force = found.joint(name, on)
+    links = [link for link, joints in found.mechanism.links.items() if name in joints]
+    if len(links) == 1:
+        message = f"joint {name!r} is on link {on!r} alone: nothing bears on it"
+        raise InputError(message, joint=name, link=on)
+    others = [link for link in links if link != on]
+    for what, link in (("frame", frame), ("against", against)):
+        known = links if what == "frame" else others
+        allowed = (*known, *(["ground"] if what == "frame" else []))
+        # An array equals each of them part by part.
+        if link is not None and not (type(link) in (str, np.str_) and link in allowed):
+            message = f"{what} is {short(link)}: at joint {name!r} it is one of {', '.join(known)}"
+            raise InputError(message, joint=name)
+    other = against or (others[0] if len(others) == 1 else None)
+    own_frame = on if frame is None else frame
+    angles, speeds = _motion_of(found, [one for one in (own_frame, on, other) if one is not None])
+    sine, cosine = _trig.sin_cos(angles[own_frame])
+    x, y = force[..., 0], force[..., 1]
+    with in_range("the force"):
+        turned = np.stack([cosine * x + sine * y, cosine * y - sine * x], axis=-1)
+        size = np.sqrt(x * x + y * y)
+    return Bearing(
+        angle=_trig.arctan2(turned[..., 1], turned[..., 0])[()],
+        size=size[()],
+        force=turned,
+        relative_speed=None if other is None else (speeds[on] - speeds[other])[()],
+        q=found.q,
+        designs=found.mechanism.shape,
+        frame=(own_frame, angles[own_frame]),
+        what=(name, on),
+        is_angle=driven_angles(found.mechanism)[0],
+    )
+
+
+def _motion_of(found: Reactions, links: list[str]) -> tuple[dict[str, Float], dict[str, Float]]:
+    """Return angles and angular velocities of links at the positions of reactions."""
+    mechanism, q, speed = found.mechanism, found.q, found.speed
+    shape = found.status.shape
+    # Of a batch the coordinates need an axis of their own.
+    alone = bool(mechanism.shape) and shape == mechanism.shape
+    if alone:
+        axis = len(shape)
+        q, speed = np.expand_dims(q, axis), np.expand_dims(speed, axis)
+    motion = mechanism.solve(q, order=1, outputs=sorted(set(links)), on_error="nan")
+    quantities = {link: motion.link(link) for link in links}
+    angles = {link: one.value.reshape(shape) for link, one in quantities.items()}
+    return angles, {link: one.velocity(speed).reshape(shape) for link, one in quantities.items()}

@@ -1,0 +1,286 @@
+"""The effort of a drive over a cycle: extremes, rms, power, energy."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur._arrays import real_array, require_finite
+from assur._extreme import Extreme
+from assur._summary import summary
+from assur.dynamics.forces import kinetostatics
+from assur.dynamics.forces.piecewise_cubic import Pieces
+from assur.dynamics.motion.discontinuities import jumps_between
+from assur.dynamics.motion.motion_input import DrivenMotion, times
+from assur.errors import AssurWarning, InputError, MotionError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Float
+    from assur.dynamics.model import MachineModel, OnError
+
+__all__ = ["Duty"]
+
+# Coordinates are evenly spaced, and cover whole turns, to this part of the step and of the turns:
+# they may be typed with nine digits.
+SPACING_RTOL = 1e-9
+# The effort at the end of whole turns is that at their start, to this part of the greatest.
+CLOSING_RTOL = 1e-9
+# Columns of the table from which a duty is made.
+NUMBERS = 13
+
+
+class Duty(NamedTuple):
+    """The effort of a drive over the positions of a cycle, by `Machine.duty`.
+
+    Numbers of a batch of designs are arrays of its shape S; all are NaN for a design of which a
+    position fails.
+
+    Attributes
+    ----------
+    effort : ndarray
+        Torque (driven slide: force) of the drive at q, N·m or N, S + (N,).
+    greatest, least : Extreme
+        Its extreme values and the q where they are, also between the positions.
+    rms : float or ndarray
+        Root mean square of the effort over time, N·m or N.
+    power : ndarray
+        effort × speed, W, S + (N,): positive where the drive gives energy to the machine.
+    mean_power : float or ndarray
+        energy / time, W.
+    greatest_power, least_power : Extreme
+        Extreme values of the power, W, and q there.
+    energy : float or ndarray
+        Energy that the drive gives, ∫ effort dq, J: `work_in` − `work_out`.
+    work_in, work_out : float or ndarray
+        Energy that it gives, and that it takes back, J; neither is negative.
+    time : float or ndarray
+        Time that the motion takes, s.
+    lost : float or ndarray
+        Energy that friction takes, J: what the drive gives beyond what it would give without.
+    efficiency : float or ndarray
+        1 − lost/max(energy, lost − energy): what comes out of what goes in, whichever way energy
+        flows over the cycle; NaN if none flows.
+
+    Examples
+    --------
+    A constant force takes as much on the way out as it gives on the way back:
+
+    >>> import assur, numpy as np
+    >>> force = assur.Force("B", (-1000.0, 0.0))
+    >>> machine = assur.Machine(assur.SliderCrank(crank=0.1, rod=0.4), loads=[force])
+    >>> duty = machine.duty(np.linspace(0, 2 * np.pi, 72, endpoint=False), speed=10.0)
+    >>> round(float(duty.work_in), 2), round(float(duty.work_out), 2)  # J: 1000 N · 0.2 m
+    (200.0, 200.0)
+    """
+
+    effort: Any
+    greatest: Extreme
+    least: Extreme
+    rms: Any
+    power: Any
+    mean_power: Any
+    greatest_power: Extreme
+    least_power: Extreme
+    energy: Any
+    work_in: Any
+    work_out: Any
+    time: Any
+    lost: Any
+    efficiency: Any
+
+    def __repr__(self) -> str:
+        return summary(self)
+
+
+def duty(
+    machine: MachineModel,
+    motion: DrivenMotion,
+    on_error: OnError,
+) -> Duty:
+    """Return the duty of a drive; see `Machine.duty`."""
+    if machine.driver_count > 1:
+        message = (
+            f"the machine has {machine.driver_count} drivers: a duty is that of one, whose "
+            "coordinate and speed give the time; machine.effort gives the efforts of all"
+        )
+        raise InputError(message)
+    x, v, a, shape = kinetostatics.broadcast_motion(machine, motion)
+    t = times(motion.t, shape)
+    require_finite(x, "q")
+    x, v, a = (np.broadcast_to(one, shape) for one in (x, v, a))
+    senses = None if motion.senses is None else motion.senses.reshaped(shape)
+    # Without a speed only the times of a run say how long it takes.
+    is_timed = senses is not None and bool(senses.sense.any())
+    _check_path(x, v if senses is None else senses.creeping(v, with_begins=True))
+    effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t, senses), on_error))
+    rows = [one.reshape(-1, shape[-1]) for one in (x, v, effort)]
+    if is_timed:
+        rows.append(t.reshape(-1, shape[-1]))
+    numbers = np.empty((len(rows[0]), NUMBERS))
+    is_closed, lacks_end, turn = _closing(machine, rows[0])
+    lacks_end &= (t == t[..., :1]).all(axis=-1).reshape(-1)
+    if lacks_end.any():
+        # The first position again, whole turns later, with its speed and acceleration.
+        ends = rows[0][:, :1] + turn[:, None]
+        after = np.where(lacks_end[:, None], ends, rows[0][:, :1]).reshape(*shape[:-1], 1)
+        effort_after = kinetostatics.effort(
+            machine, DrivenMotion(after, v[..., :1], a[..., :1], t[..., :1]), "nan"
+        )
+        last = [ends, rows[1][:, :1], np.reshape(effort_after, (-1, 1))]
+        longer = [np.concatenate(pair, axis=1) for pair in zip(rows, last, strict=True)]
+        lacks_end &= _ends_agree(longer[2])
+        numbers[lacks_end] = _numbers([one[lacks_end] for one in longer], closed=True)
+    is_closed &= _ends_agree(rows[2])
+    for chosen, closed in ((is_closed, True), (~(is_closed | lacks_end), False)):
+        if chosen.any():
+            numbers[chosen] = _numbers([one[chosen] for one in rows], closed=closed)
+    with np.errstate(over="ignore", invalid="ignore"):
+        power = effort * v
+    _require_finite(numbers, effort, on_error)
+    columns = [numbers[:, k].reshape(shape[:-1])[()] for k in range(NUMBERS)]
+    greatest, least, most, fewest = (Extreme(*columns[k : k + 2]) for k in (0, 2, 4, 6))
+    rms, energy, work_in, work_out, time = columns[8:]
+    lost = 0.0 * energy
+    if machine.friction and machine.mechanism is not None:
+        free = type(machine)(machine.mechanism, machine.bodies, machine.loads, machine.motor)
+        lost = energy - duty(free, DrivenMotion(x, v, a, t, senses), on_error).energy
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        mean_power = energy / time
+        efficiency = 1.0 - lost / np.maximum(energy, lost - energy)
+    return Duty(
+        effort,
+        greatest,
+        least,
+        rms,
+        power,
+        mean_power,
+        most,
+        fewest,
+        energy,
+        work_in,
+        work_out,
+        time,
+        lost,
+        efficiency,
+    )
+
+
+def warn_of_jumps(machine: MachineModel, motion: DrivenMotion) -> None:
+    """Warn if loads jump between the positions of a motion given by numbers."""
+    if machine.driver_count > 1 or not (machine.core.follows[0] or any(machine.core.jumps)):
+        return
+    x = real_array(motion.q, "q")
+    if not (x.size and np.isfinite(x).all()):
+        return
+    place = ""
+    if not machine.shape:
+        jumps = jumps_between(machine, float(x.min()), float(x.max()))
+        if not jumps.size:
+            return
+        place = f" at q = {jumps[0]:.9g}"
+    message = (
+        f"loads may jump{place}, between positions: the duty is no more accurate than these are "
+        "close there; a run and a steady state have positions at the jumps"
+    )
+    warnings.warn(message, AssurWarning, stacklevel=3)
+
+
+def _check_path(x: Float, speed: Float) -> None:
+    """Raise InputError unless q goes one way, with the speed."""
+    if x.ndim == 0 or x.shape[-1] < 2:
+        message = f"q has the shape {x.shape}: a duty needs two positions or more along the motion"
+        raise InputError(message)
+    steps = np.diff(x, axis=-1)
+    direction = np.sign(steps[..., :1])
+    back = np.argwhere(~(steps * direction > 0.0))
+    if back.size:
+        index = tuple(back[0])
+        here, there = float(x[index]), float(x[(*index[:-1], index[-1] + 1)])
+        message = (
+            f"q goes from {here:.15g} to {there:.15g}: it must ascend, or descend, without "
+            "repeats; give one stroke at a time"
+        )
+        raise InputError(message, q=there, value=there)
+    against = np.argwhere(~(speed * direction > 0.0))
+    if against.size:
+        index = tuple(against[0])
+        here, value = float(x[index]), float(speed[index])
+        way = "ascends" if direction[(*index[:-1], 0)] > 0.0 else "descends"
+        message = (
+            f"speed is {value:g} at q = {here:.15g}, though q {way}: give q in the order of the "
+            "motion, with a speed that is not 0 (machine.effort gives efforts at rest)"
+        )
+        raise InputError(message, q=here, value=value)
+
+
+def _closing(
+    machine: MachineModel, x: Float
+) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_], Float]:
+    """Return which rows of q cover whole turns, which do so but for their end, and these turns."""
+    nothing = np.zeros(len(x), dtype=bool)
+    mechanism = machine.mechanism
+    if mechanism is None:
+        knots, is_periodic = machine.core.tables[0]
+        turn = knots[-1] - knots[0] if is_periodic else 0.0
+    else:
+        turn = 0.0 if mechanism.driver in mechanism.slides else math.tau
+    if turn == 0.0:
+        return nothing, nothing.copy(), np.zeros(len(x))
+    span, steps = x[:, -1] - x[:, 0], np.diff(x, axis=1)
+    mean = span / steps.shape[1]
+    whole, wider = np.round(span / turn) * turn, np.round((span + mean) / turn) * turn
+    covers = (whole != 0.0) & (np.abs(span - whole) <= CLOSING_RTOL * np.abs(whole))
+    is_even = (np.abs(steps - mean[:, None]) <= SPACING_RTOL * np.abs(mean)[:, None]).all(axis=1)
+    lacks = np.abs(span + mean - wider) <= CLOSING_RTOL * np.abs(wider)
+    return covers, is_even & lacks & (wider != 0.0) & ~covers, wider
+
+
+def _ends_agree(effort: Float) -> npt.NDArray[np.bool_]:
+    """Return for which rows the effort ends as it began."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        most = np.abs(effort).max(axis=1)
+        agree: npt.NDArray[np.bool_] = np.abs(effort[:, -1] - effort[:, 0]) <= CLOSING_RTOL * most
+    return agree
+
+
+def _numbers(samples: list[Float], closed: bool) -> Float:
+    """Return the numbers of each row, in the order in which `duty` reads them.
+
+    With times behind the efforts means are over these.
+    """
+    x, speed, effort, *clock = samples
+    with np.errstate(all="ignore"):
+        curve, power = Pieces(x, effort, closed), Pieces(x, effort * speed, closed)
+        time = Pieces(x, 1.0 / speed, closed).integral()
+        for t in clock:
+            time = t[:, -1] - t[:, 0]
+        # Squares are those of parts of the greatest: they stay within range.
+        most = np.abs(effort).max(axis=1)
+        parts = np.where(most > 0.0, most, 1.0)[:, None]
+        squares = Pieces(x, (effort / parts) ** 2 / speed, closed).integral()
+        for t in clock:
+            squares = Pieces(t, (effort / parts) ** 2, closed).integral()
+        rms = parts[:, 0] * np.sqrt(np.maximum(squares / time, 0.0))
+        energy, size = curve.integral(), curve.integral_of_size()
+        # Where the effort has one sign, the difference is rounding, perhaps negative.
+        given = np.maximum(0.5 * (size + energy), 0.0)
+        taken = np.maximum(0.5 * (size - energy), 0.0)
+        extremes = [*curve.extreme(1.0), *curve.extreme(-1.0)]
+        extremes += [*power.extreme(1.0), *power.extreme(-1.0)]
+    numbers = np.stack([*extremes, rms, energy, given, taken, time], axis=1)
+    numbers[np.isnan(effort).any(axis=1)] = np.nan
+    return numbers
+
+
+def _require_finite(numbers: Float, effort: Float, on_error: OnError) -> None:
+    if on_error == "raise" and not np.isfinite(numbers).all():
+        message = (
+            f"the work or power of efforts up to {np.abs(effort).max():.3g} is beyond the greatest "
+            "number: a load, a speed or a mass is too great, or a speed too near 0"
+        )
+        raise MotionError(message, kind="not_finite")

@@ -1,0 +1,1 @@
+"""Bodies, loads, motors and friction of a machine, checked as they are made."""

@@ -1,0 +1,1 @@
+"""Motions of a machine in time, and where it rests."""

@@ -1,0 +1,1 @@
+"""Inertia and moment referred to the drivers."""

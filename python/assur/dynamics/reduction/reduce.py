@@ -1,0 +1,148 @@
+"""Reduced inertia and moment at many coordinates, and the error of the first without a value."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import Float, real_array
+from assur._summary import summary
+from assur._validate import one_of
+from assur.description.words import has_analogues
+from assur.dynamics.reduction.reduced import answer
+from assur.dynamics.reduction.undefined_load import EXTEND, Moment, without_value
+from assur.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur.dynamics.model import MachineModel
+
+
+class Reduced(NamedTuple):
+    """The reduced inertia and its exact derivative.
+
+    Attributes
+    ----------
+    value : ndarray
+        kg·m² (driven slide: kg); for n drivers the mass matrix, (..., n, n).
+    d1 : ndarray
+        Its derivative by the coordinate; for n drivers (..., n, n, n), the last axis that of the
+        coordinate.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+    >>> reduced = machine.reduced_inertia(np.pi / 2)  # the piston moves as fast as the pin
+    >>> reduced.value.round(6), reduced.d1.round(6)  # kg·m², kg·m²/rad
+    (np.float64(0.2), np.float64(-0.10328))
+    """
+
+    value: Any
+    d1: Any
+
+    def __repr__(self) -> str:
+        return summary(self)
+
+
+def reduce(
+    machine: MachineModel,
+    q: npt.ArrayLike,
+    speed: npt.ArrayLike | None,
+    on_error: str,
+    t: npt.ArrayLike = 0.0,
+    sense: float | Sequence[float] | None = None,
+) -> tuple[Float, Float, Float, Float]:
+    """Return mass matrices, their derivatives, moments and potential energies.
+
+    Without a speed no function is called, and the moments are not valid.
+    """
+    one_of(on_error, ("raise", "nan"), "on_error")
+    own = answer(machine, q, speed, t, sense)
+    if on_error == "raise":
+        if own.failure is not None:
+            raise own.failure
+        _require_within_table(machine, own.q, own.status)
+    if speed is not None and on_error == "raise":
+        n = machine.driver_count
+        has_value = np.isfinite(own.moment).reshape(-1, n).any(axis=1)
+        missing = np.flatnonzero(~has_value & has_analogues(own.status))
+        if missing.size:
+            row = int(missing[0])
+            if machine.mechanism is None:
+                raise _beyond_table(float(own.q[row]), machine.core.tables[0][0])
+            one, design = single(machine, row, own.status.size)
+            place = own.q.reshape(-1, n)[row], own.speed.reshape(-1, n)[row]
+            time = float(np.broadcast_to(np.asarray(t), own.shape).ravel()[row])
+            failed = without_value(one, Moment(*place, time, sense), "the moment is")
+            failed.design = design
+            raise failed
+    return own.inertia, own.rates, own.moment, own.potential
+
+
+def reduced_inertia(machine: MachineModel, q: npt.ArrayLike, on_error: str = "raise") -> Reduced:
+    """See `Machine.reduced_inertia`."""
+    inertia, rates, _, _ = reduce(machine, q, None, on_error)
+    if machine.driver_count == 1:
+        return Reduced(inertia[..., 0, 0][()], rates[..., 0, 0, 0][()])
+    return Reduced(inertia, np.moveaxis(rates, -3, -1))
+
+
+def reduced_moment(
+    machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: str = "raise"
+) -> Any:
+    """See `Machine.reduced_moment`."""
+    moment = reduce(machine, q, real_array(speed, "speed"), on_error)[2]
+    return moment[..., 0][()] if machine.driver_count == 1 else moment
+
+
+def potential(machine: MachineModel, q: npt.ArrayLike, on_error: str = "raise") -> Any:
+    """See `Machine.potential`."""
+    found = reduce(machine, q, None, on_error)[3]
+    if on_error == "raise":
+        _require_potential(machine, q, found)
+    return found[()]
+
+
+def _require_potential(machine: MachineModel, q: npt.ArrayLike, found: Float) -> None:
+    """Raise the error of the first position without a potential energy: beyond a load's table."""
+    missing = np.flatnonzero(np.isnan(found))
+    if not missing.size:
+        return
+    n, row = machine.driver_count, int(missing[0])
+    x = real_array(q, "q")
+    places = np.broadcast_to(x, found.shape if n == 1 else (*found.shape, n))
+    one, design = single(machine, row, found.size)
+    # At no speed the loads of one sense only need none.
+    moment = Moment(places.reshape(-1, n)[row], np.zeros(n), 0.0, [1.0] * n if n > 1 else 1.0)
+    failed = without_value(one, moment, "the potential energy is")
+    failed.design = design
+    raise failed
+
+
+def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineModel, Any]:
+    """Return the machine of one design, and the design's index in a batch, of a flat position."""
+    if not machine.shape or machine.mechanism is None:
+        return machine, None
+    design = row // max(1, positions // math.prod(machine.shape))
+    index = tuple(int(i) for i in np.unravel_index(design, machine.shape))
+    own = machine.mechanism.design(index)
+    return type(machine)(own, machine.bodies, machine.loads, machine.motor), index
+
+
+def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
+    beyond = np.flatnonzero(~has_analogues(status))
+    if machine.mechanism is None and beyond.size:
+        raise _beyond_table(float(q[beyond[0]]), machine.core.tables[0][0])
+
+
+def _beyond_table(q: float, knots: list[float]) -> InputError:
+    hint = EXTEND
+    message = (
+        f"a table over q covers {knots[0]:.9g} to {knots[-1]:.9g}: {q:.9g} is not in it; {hint}"
+    )
+    return InputError(message, kind="table_ends", hint=hint, q=q, value=q)

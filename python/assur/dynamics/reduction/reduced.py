@@ -1,0 +1,126 @@
+"""What the core finds of reduced inertia and moment: checks of shapes, then its answer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from assur._arrays import Float, finite_array, real_array, short
+from assur.dynamics.loads.load_values import function_values
+from assur.errors import InputError
+from assur.kinematics.solve_arguments import warn_if_degrees
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from assur.dynamics.model import MachineModel
+    from assur.errors import AssurError
+
+
+class Answer(NamedTuple):
+    """Mass matrices, their derivatives, moments and potential energies, of a shape."""
+
+    inertia: Float
+    rates: Float
+    moment: Float
+    potential: Float
+    shape: tuple[int, ...]
+    # Of all positions, flat.
+    q: Float
+    speed: Float
+    status: npt.NDArray[np.uint8]
+    # The first position that does not exist.
+    failure: AssurError | None
+
+
+def answer(
+    machine: MachineModel,
+    q: npt.ArrayLike,
+    speed: npt.ArrayLike | None,
+    t: npt.ArrayLike = 0.0,
+    sense: float | Sequence[float] | None = None,
+) -> Answer:
+    """Ask the core; without a speed no function is called, and the moments are not valid."""
+    n, designs = machine.driver_count, machine.shape
+    x, v = real_array(q, "q"), finite_array(0.0 if speed is None else speed, "speed")
+    if machine.mechanism is not None:
+        warn_if_degrees(machine.mechanism, x)
+    if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
+        message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
+        raise InputError(message)
+    positions = x.shape if n == 1 else x.shape[:-1]
+    shape = with_designs(positions, designs)
+    full = shape if n == 1 else (*shape, n)
+    try:
+        x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
+    except ValueError as error:
+        message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
+        raise InputError(message) from error
+    flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
+    given, senses = np.empty(0), list[float]()
+    if speed is not None:
+        senses = checked_senses(machine, flat.reshape(-1, n), speeds.reshape(-1, n), sense)
+        functions = machine.core.load_functions
+        at = np.broadcast_to(np.asarray(t), shape).ravel()
+        given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
+    values = np.empty(0) if machine.mechanism is None else machine.mechanism.values
+    *arrays, status, failure = machine.core.reduce(
+        values.reshape(-1), flat, speeds, given, senses, None, list(designs)
+    )
+    inertia, rates, moment, potential = arrays
+    return Answer(
+        inertia.reshape(*shape, n, n),
+        rates.reshape(*shape, n, n, n),
+        moment.reshape(*shape, n),
+        potential.reshape(shape),
+        shape,
+        flat,
+        speeds,
+        status,
+        failure,
+    )
+
+
+def checked_senses(
+    machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
+) -> list[float]:
+    """Return in which sense each driver is about to move at rest, which some loads need."""
+    if sense is not None:
+        senses = real_array(sense, "sense").ravel()
+        if senses.size != machine.driver_count or not np.isin(senses, (-1.0, 1.0)).all():
+            wanted = (
+                "+1 or −1" if machine.driver_count == 1 else f"{machine.driver_count} of +1 or −1"
+            )
+            message = f"sense is {short(sense)}: {wanted} is needed"
+            raise InputError(message)
+        found: list[float] = senses.tolist()
+        return found
+    rests = ~speeds.any(axis=1)
+    has_ways = machine.core.follows[1]
+    if (machine.friction or has_ways) and rests.any():
+        shown = ", ".join(f"{number:.9g}" for number in q[np.argmax(rests)])
+        what = "friction needs" if machine.friction else "a load with while_= needs a speed, or"
+        message = (
+            f"speed is 0 at q = {shown}: {what} sense=+1 or −1, the way in which the drive is "
+            "about to move"
+        )
+        raise InputError(message, value=0.0)
+    return []
+
+
+def with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the shape of the result: q is a number, (N,) or S + (N,)."""
+    if not designs:
+        return positions
+    if len(positions) <= 1:
+        return (*designs, *positions)
+    try:
+        np.broadcast_to(np.empty(positions[:-1]), designs)
+    except ValueError as error:
+        message = (
+            f"q has the shape {positions}: with designs {designs} it is a number, (N,) or S + (N,)"
+        )
+        raise InputError(message) from error
+    return (*designs, positions[-1])

@@ -1,0 +1,1 @@
+"""What leads to a motion that is given: coordinates, dimensions."""

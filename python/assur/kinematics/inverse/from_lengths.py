@@ -1,0 +1,212 @@
+"""A mechanism from a rough sketch and lengths that are measured between its joints."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from assur._arrays import short
+from assur._callers import level_of_caller
+from assur._validate import real_number
+from assur.errors import AssurWarning, InputError, PositionError
+from assur.kinematics.assemblies import assemblies
+from assur.kinematics.configuration import size_of
+from assur.kinematics.drawn import in_assembly
+from assur.kinematics.named_dimensions import with_dimensions
+from assur.kinematics.solve import solve
+
+if TYPE_CHECKING:
+    from assur.kinematics.model import AnyMechanism, MechanismModel
+
+# How far (relative to the length) a distance that others decide may be from the one that is given.
+AGREES = 1e-6
+
+# Sines of the angle at which a sketch shows a joint beside a line: below the one it does not, for
+# typed numbers are rounded; below the other, a degree, a hand may have meant the other side.
+ON_LINE, HARDLY = 1e-9, 0.0175
+
+# The joints of a link in its own frame: complex numbers.
+Shape = dict[str, complex]
+
+
+def sized(sketch: AnyMechanism, lengths: Any) -> AnyMechanism:
+    """Return the sketched mechanism with lengths between joints, in the assembly nearest to it."""
+    given = _checked(sketch, lengths)
+    dimensions: dict[str, float] = {}
+    for link, joints in sketch.links.items():
+        own = {pair: length for pair, (of, length) in given.items() if of == link}
+        if own:
+            dimensions.update(_dimensions(sketch, link, joints, own))
+    return _nearest(with_dimensions(sketch, dimensions), sketch)
+
+
+def _checked(sketch: MechanismModel, lengths: Any) -> dict[frozenset[str], tuple[str, float]]:
+    """Return for every pair of joints the link that has both, and the length."""
+    if not isinstance(lengths, Mapping):
+        message = f"lengths is {short(lengths)}: a mapping of pairs of joints to lengths is needed"
+        raise InputError(message)
+    found: dict[frozenset[str], tuple[str, float]] = {}
+    for pair, length in lengths.items():
+        names = tuple(pair) if isinstance(pair, str | tuple | list) else ()
+        if len(names) != 2 or not all(isinstance(name, str) for name in names):
+            message = (
+                f'lengths: {short(pair)} is not a pair of joints: "AB" or ("A", "B") is needed'
+            )
+            raise InputError(message)
+        for name in names:
+            sketch.core.require("joint", name)
+        link = next((link for link, on in sketch.links.items() if set(names) <= set(on)), None)
+        if link is None or names[0] == names[1]:
+            slide = _between(sketch, names)
+            if slide is not None:
+                message = (
+                    f"lengths: {names[0]}-{names[1]} is the coordinate of the slide {slide!r}, "
+                    "not a length of a link: leave it out, solve() takes it or gives it"
+                )
+                raise InputError(message, slide=slide)
+            message = f"lengths: no link has both joints {names[0]!r} and {names[1]!r}"
+            raise InputError(message)
+        value = real_number(length, f"length {names[0]}-{names[1]}")
+        if not (value > 0.0 and math.isfinite(value)):
+            message = f"length {names[0]}-{names[1]} is {short(value)}: a positive length is needed"
+            raise InputError(message, value=value)
+        twice = found.get(frozenset(names))
+        if twice is not None and twice[1] != value:
+            one, other = names
+            message = (
+                f"length {other}-{one} is {twice[1]:.10g} m and {one}-{other} is {value:.10g} m: "
+                "give it once"
+            )
+            raise InputError(message, link=link, value=value)
+        found[frozenset(names)] = (link, value)
+    return found
+
+
+def _between(sketch: MechanismModel, names: tuple[str, ...]) -> str | None:
+    """Return the slide whose value is the distance of two joints, as that of a cylinder is."""
+    links = sketch.links
+    for name, slide in sketch.slides.items():
+        ends = [slide.origin, *links[slide.link][:1]]
+        if len(links[slide.on]) == 1 and sorted(map(str, ends)) == sorted(names):
+            return name
+    return None
+
+
+def _dimensions(
+    sketch: MechanismModel, link: str, joints: tuple[str, ...], lengths: dict[frozenset[str], float]
+) -> dict[str, float]:
+    """Return the dimensions of a link whose joints have some distances."""
+    at = {name: complex(x, y) for name, x, y in sketch.description.joints}
+    placed: Shape = {}
+    left = list(joints)
+    while left:
+        # The one with the most distances to those already placed; the sketch's first among equals.
+        def known(name: str) -> int:
+            return sum(frozenset((name, other)) in lengths for other in placed)
+
+        name = max(left, key=known)
+        left.remove(name)
+        placed[name] = _place(link, name, at, placed, lengths)
+    for pair, length in lengths.items():
+        one, other = sorted(pair)
+        found = abs(placed[one] - placed[other])
+        if abs(found - length) > AGREES * length:
+            message = (
+                f"link {link!r}: {one}-{other} cannot be {length:g} m; the other lengths make it "
+                f"{found:g} m"
+            )
+            raise InputError(message, link=link, value=length)
+    return _named(link, joints, placed, lengths)
+
+
+def _place(
+    link: str, name: str, at: Shape, placed: Shape, lengths: dict[frozenset[str], float]
+) -> complex:
+    """Place one more joint, on the side of the sketch."""
+    known = [(o, lengths[frozenset((name, o))]) for o in placed if frozenset((name, o)) in lengths]
+    if not placed:
+        return at[name]
+    base = next(iter(placed))
+    if not known:
+        return placed[base] + (at[name] - at[base])
+    (one, r), *others = known
+    towards = at[name] - at[one]
+    if not others:
+        return placed[one] + towards * (r / abs(towards) if towards else 0.0)
+    other, s = others[0]
+    chord = placed[other] - placed[one]
+    d = abs(chord)
+    along = (r * r - s * s + d * d) / (2.0 * d)
+    height2 = r * r - along * along
+    if height2 < -AGREES * r * r:
+        message = (
+            f"link {link!r}: {name}-{one} {r:g} m, {name}-{other} {s:g} m and {one}-{other} "
+            f"{d:g} m do not make a triangle"
+        )
+        raise InputError(message, link=link)
+    drawn = (at[other] - at[one]).conjugate() * towards
+    side = math.copysign(1.0, drawn.imag)
+    if height2 > AGREES * r * r:
+        _require_side(link, (name, one, other), drawn)
+    unit = chord / d
+    return placed[one] + unit * complex(along, side * math.sqrt(max(height2, 0.0)))
+
+
+def _require_side(link: str, names: tuple[str, str, str], drawn: complex) -> None:
+    """Refuse a sketch that does not show a joint's side of two others; warn if it hardly does."""
+    name, one, other = names
+    sine = abs(drawn.imag) / abs(drawn) if drawn else 0.0
+    if sine >= HARDLY:
+        return
+    line = f"the line {one}-{other}"
+    if sine <= ON_LINE:
+        message = (
+            f"link {link!r}: joint {name!r} is drawn on {line}, and the lengths put it beside it: "
+            "draw it on its side"
+        )
+        raise InputError(message, joint=name, link=link)
+    side = "left" if drawn.imag > 0.0 else "right"
+    message = (
+        f"link {link!r}: joint {name!r} is drawn {math.degrees(sine):.2g}° beside {line}, and is "
+        f"taken on the {side} of {one} → {other}: draw it clearly on its side"
+    )
+    warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
+
+
+def _named(
+    link: str, joints: tuple[str, ...], placed: Shape, lengths: dict[frozenset[str], float]
+) -> dict[str, float]:
+    """Return the dimensions of a link whose joints are placed."""
+    if link == "ground":
+        axes = (("x", "real"), ("y", "imag"))
+        return {f"ground.{n}.{x}": getattr(placed[n], part) for n in joints for x, part in axes}
+    first, second, *further = joints
+    axis = placed[second] - placed[first]
+    length = abs(axis)
+    # As it was given, to the last bit.
+    found = {f"{link}.length": lengths.get(frozenset((first, second)), length)}
+    for name in further:
+        local = (placed[name] - placed[first]) * axis.conjugate() / length
+        found |= {f"{link}.{name}.x": local.real, f"{link}.{name}.y": local.imag}
+    return found
+
+
+def _nearest(mechanism: AnyMechanism, sketch: AnyMechanism) -> AnyMechanism:
+    """Return the mechanism drawn in the assembly nearest to the sketch, at the sketch's q."""
+    wanted = np.array([at for _, *at in sketch.description.joints])
+    found = list(assemblies(mechanism, sketch.q0))
+    if not found:
+        where = solve(mechanism, sketch.q0, order=0, on_error="nan").explain()
+        message = f"these lengths do not fit the sketch's position: {where}"
+        raise PositionError(message)
+
+    def apart(index: int) -> float:
+        joints = found[index].joints
+        assert joints is not None
+        return float(np.abs(np.array(list(joints.values())) - wanted).max()) / size_of(mechanism)
+
+    return in_assembly(mechanism, found[min(range(len(found)), key=apart)])

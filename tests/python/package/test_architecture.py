@@ -1,0 +1,41 @@
+"""ARCHITECTURE.md names files and floors that exist."""
+
+from __future__ import annotations
+
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+FILE = re.compile(r"(?<![\w/.])[\w./-]*\w\.(?:rs|pyi?|js|toml|json|md)\b")
+FOLDERS = ("rust", "python", "tests", "docs", "tools")
+
+
+def files() -> set[str]:
+    """Every file by its path, in the folders of the repository and beside them."""
+    found = {path.name for path in ROOT.iterdir() if path.is_file()}
+    for folder in FOLDERS:
+        paths = (ROOT / folder).rglob("*")
+        found |= {path.relative_to(ROOT).as_posix() for path in paths if path.is_file()}
+    return found
+
+
+def test_every_file_that_is_named_exists() -> None:
+    """By its path, or by the end of it where the page says in which folder it is."""
+    ends = {"/" + path for path in files()}
+    named = {path.removeprefix("./") for path in FILE.findall(PAGE)}
+    assert len(named) > 100
+    missing = sorted(one for one in named if not any(end.endswith("/" + one) for end in ends))
+    assert not missing, f"ARCHITECTURE.md names what does not exist: {missing}"
+
+
+@pytest.mark.parametrize("floor", runpy.run_path(str(ROOT / "tools" / "check_floors"))["FLOORS"])
+def test_every_floor_is_drawn(floor: tuple[str, ...]) -> None:
+    """Of those with underscores, which hold what all parts need, some stand for the others."""
+    drawn = PAGE.partition("## The Python package")[2].partition("\n## ")[0]
+    public = [part for part in floor if not part.startswith("_")]
+    missing = [part for part in public if f"`{part}`" not in drawn]
+    assert not missing
