@@ -222,12 +222,13 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if !(has_kernels && (traced == Traced::Surveyed || self.needs_no_checks())) {
             return Path::Checked;
         }
-        match traced {
-            Traced::Surveyed => Path::UncheckedByReference,
-            Traced::AtKnots => Path::UncheckedByKnots,
-            Traced::No | Traced::Whole if self.find_references() => Path::UncheckedByKnots,
-            Traced::No | Traced::Whole => Path::UncheckedByReference,
-        }
+        // A survey has set the references; else the traced angles may give them.
+        let by_knots = match traced {
+            Traced::Surveyed => false,
+            Traced::AtKnots => true,
+            Traced::No | Traced::Whole => self.find_references(),
+        };
+        if by_knots { Path::UncheckedByKnots } else { Path::UncheckedByReference }
     }
 
     /// Solves the positions in blocks of lanes.
