@@ -396,7 +396,7 @@ impl Machine {
         let mut event_functions = Vec::new();
         let events = events
             .iter()
-            .map(|object| event(core, object, &mut event_functions))
+            .map(|object| event(core, &dimensions, object, &mut event_functions))
             .collect::<PyResult<Vec<_>>>()?;
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;

@@ -5,7 +5,7 @@ use assur::dynamics::{Angle, EventKind, EventSpec};
 use pyo3::prelude::*;
 
 use super::Classes;
-use super::point::line;
+use super::point::LineOf;
 use super::word::Word;
 
 const MODULE: Classes = Classes("assur.events");
@@ -29,8 +29,8 @@ struct Speed {
 
 /// A `TransmissionAngle` with the lines that Python found for it.
 #[derive(FromPyObject)]
-struct AngleLimit<'py> {
-    lines: [Bound<'py, PyAny>; 2],
+struct AngleLimit {
+    lines: [LineOf; 2],
     complement: bool,
     limit: f64,
 }
@@ -46,16 +46,18 @@ struct Obstacle<'py> {
     restitution: f64,
 }
 
-/// Reads an event; its function, if it has one, is added to the list.
+/// Reads an event of the design with these dimensions; its function, if it has one, is added to
+/// the list.
 pub(crate) fn event(
     mechanism: Option<&Mechanism>,
+    dimensions: &[f64],
     object: &Bound<'_, PyAny>,
     functions: &mut Vec<Py<PyAny>>,
 ) -> PyResult<EventSpec> {
     let is = |class| MODULE.is(object, class);
     if is("Obstacle")? {
         let Obstacle { at, restitution } = object.extract()?;
-        let spec = event(mechanism, &at, functions)?;
+        let spec = event(mechanism, dimensions, &at, functions)?;
         return Ok(EventSpec { rebound: Some(restitution), stops: false, ..spec });
     }
     let crossing = |object: &Bound<'_, PyAny>| {
@@ -79,7 +81,8 @@ pub(crate) fn event(
         (EventKind::Callback(functions.len() - 1), crossing(object)?)
     } else if let (true, Some(mechanism)) = (is("AngleLimit")?, mechanism) {
         let AngleLimit { lines: [first, second], complement, limit } = object.extract()?;
-        let lines = [line(mechanism, &first)?, line(mechanism, &second)?];
+        let lines =
+            [first.of_design(mechanism, dimensions)?, second.of_design(mechanism, dimensions)?];
         (EventKind::Angle(Angle { lines, complement }, limit), crossing(object)?)
     } else {
         return Err(MODULE.unknown(object));

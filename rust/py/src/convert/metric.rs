@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use assur::sweep::{
-    Combination, Condition, Deviation, Extreme, LeastTransmission, Line, Mean, Metric, Moves,
-    Operand, Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
+    Combination, Condition, Deviation, Extreme, LeastTransmission, Mean, Metric, Moves, Operand,
+    Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
 };
 use assur::{Driver, Mechanism};
 use pyo3::prelude::*;
 
 use super::Classes;
+use super::point::LineOf;
 use super::word::{Word, Words};
 use crate::error_map;
 
@@ -70,7 +71,7 @@ impl Leaf<'_> {
             Kind::Moves => Box::new(Moves),
             Kind::LeastTransmission => {
                 let (first, second, complement): (LineOf, LineOf, bool) = self.options.extract()?;
-                let lines = [first.line(mechanism)?, second.line(mechanism)?];
+                let lines = [first.of_designs(mechanism)?, second.of_designs(mechanism)?];
                 Box::new(LeastTransmission { lines, complement })
             }
             Kind::Deviation => {
@@ -91,29 +92,6 @@ impl Leaf<'_> {
         let Some((from, to)) = self.over else { return Ok(metric) };
         let is_slide = matches!(mechanism.linkage().drivers.first(), Some(Driver::Slide(_)));
         Ok(Box::new(Part { metric, from, to, period: (!is_slide).then_some(TAU) }))
-    }
-}
-
-/// `JointLine` or `GuideLine` of `assur.kinematics.transmission`: the fields tell which.
-#[derive(FromPyObject)]
-enum LineOf {
-    Joints { start: String, end: String },
-    Guide { link: String, slide: String },
-}
-
-impl LineOf {
-    fn line(self, mechanism: &Mechanism) -> PyResult<Line> {
-        let line = match self {
-            Self::Joints { start, end } => mechanism
-                .joint(&start)
-                .and_then(|start| Ok(Line::Joints([start, mechanism.joint(&end)?]))),
-            Self::Guide { link, slide } => {
-                let angle = format!("{slide}.angle");
-                let angle = mechanism.dimensions().iter().position(|(name, _)| name == angle);
-                mechanism.link(&link).map(|link| Line::Guide(link, angle))
-            }
-        };
-        line.map_err(error_map::solve)
     }
 }
 

@@ -2,11 +2,11 @@
 
 use assur::Mechanism;
 use assur::dynamics::{Line, Point};
+use assur::sweep;
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use super::Classes;
 use crate::error_map;
 
 /// A joint, or a link and coordinates in its frame.
@@ -44,30 +44,38 @@ pub(crate) fn link(mechanism: &Mechanism, name: &str) -> PyResult<usize> {
     mechanism.link(name).map_err(error_map::solve)
 }
 
-const MODULE: Classes = Classes("assur.kinematics.transmission");
-
-/// A line from joint to joint.
+/// `JointLine` or `GuideLine` of `assur.kinematics.transmission`: the fields tell which.
 #[derive(FromPyObject)]
-struct JointLine {
-    start: String,
-    end: String,
+pub(crate) enum LineOf {
+    Joints { start: String, end: String },
+    Guide { link: String, slide: String },
 }
 
-/// A line fixed to a link, at this angle in its frame.
-#[derive(FromPyObject)]
-struct LinkLine {
-    link: String,
-    angle: f64,
-}
+impl LineOf {
+    /// The line in every design of a mechanism.
+    pub(crate) fn of_designs(&self, mechanism: &Mechanism) -> PyResult<sweep::Line> {
+        let line = match self {
+            Self::Joints { start, end } => mechanism
+                .joint(start)
+                .and_then(|start| Ok(sweep::Line::Joints([start, mechanism.joint(end)?]))),
+            Self::Guide { link, slide } => {
+                let angle = format!("{slide}.angle");
+                let angle = mechanism.dimensions().iter().position(|(name, _)| name == angle);
+                mechanism.link(link).map(|link| sweep::Line::Guide(link, angle))
+            }
+        };
+        line.map_err(error_map::solve)
+    }
 
-pub(crate) fn line(mechanism: &Mechanism, object: &Bound<'_, PyAny>) -> PyResult<Line> {
-    if MODULE.is(object, "JointLine")? {
-        let JointLine { start, end } = object.extract()?;
-        return Ok(Line::Through(joint(mechanism, &start)?, joint(mechanism, &end)?));
+    /// The line in the design with these dimensions.
+    pub(crate) fn of_design(&self, mechanism: &Mechanism, dimensions: &[f64]) -> PyResult<Line> {
+        Ok(match self.of_designs(mechanism)? {
+            sweep::Line::Joints([start, end]) => {
+                Line::Through(Point::Joint(start), Point::Joint(end))
+            }
+            sweep::Line::Guide(link, angle) => {
+                Line::Along(link, angle.map_or(0.0, |index| dimensions[index]))
+            }
+        })
     }
-    if MODULE.is(object, "LinkLine")? {
-        let LinkLine { link: name, angle } = object.extract()?;
-        return Ok(Line::Along(link(mechanism, &name)?, angle));
-    }
-    Err(MODULE.unknown(object))
 }
