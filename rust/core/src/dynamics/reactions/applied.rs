@@ -68,6 +68,10 @@ impl<R: Real> Scene<R> {
             self.loads[index] = self.strength(plan, load, values, rows);
         }
         for action in &plan.load_actions {
+            // The ground takes all, and asks for no place.
+            if action.link == plan.ground {
+                continue;
+            }
             let strength = self.load_on(action);
             match action.at {
                 Some(point) => {
