@@ -78,7 +78,7 @@ def _section(name: str, case: dict[str, Any]) -> str:
     few = [_few(t) for t in subjects[0]["timings"] if t["designs"] < subjects[0]["designs"]]
     if notes or few:
         lines += ["", " ".join([*notes, *few])]
-    missing = [words for level, words in table.LEVELS.items() if _is_skipped(level, subjects)]
+    missing = [words for level, words in table.LEVELS.items() if level not in table.levels(subjects)]
     if missing and case["every_level"]:
         lines += ["", f"Skipped, this processor has none: {', '.join(missing)}."]
     if case["plotted"] and axis:
@@ -96,10 +96,6 @@ def _size(subject: dict[str, Any]) -> str:
 
 def _few(timing: dict[str, Any]) -> str:
     return f"{timing['name']}: timed with {table.count(timing['designs'])} designs, scaled."
-
-
-def _is_skipped(level: str, subjects: list[dict[str, Any]]) -> bool:
-    return level != "portable" and level not in table.levels(subjects)
 
 
 def _expect(cases: dict[str, Any]) -> str:

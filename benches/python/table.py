@@ -6,7 +6,7 @@ from typing import Any
 
 from subject import OURS
 
-LEVELS = {"avx512": "AVX-512", "avx2": "AVX2", "baseline": "baseline", "portable": "portable"}
+LEVELS = {"avx512": "AVX-512", "avx2": "AVX2", "baseline": "baseline"}
 
 
 def quantity(seconds: float, digits: int = 2) -> str:

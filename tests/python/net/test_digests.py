@@ -11,7 +11,7 @@ import pytest
 
 import digests
 
-LEVELS = ("portable", "baseline", "avx2", "avx512")
+LEVELS = ("baseline", "avx2", "avx512")
 
 
 @pytest.mark.parametrize("level", LEVELS)

@@ -11,7 +11,7 @@ import split_requests
 
 # Numbers of coordinates: the last blocks of all lengths.
 COUNT = 80
-LEVELS = ("portable", "baseline", "avx2")
+LEVELS = ("baseline", "avx2")
 
 
 def test_levels_sizes_threads_and_splits() -> None:

@@ -173,7 +173,7 @@ fn every_set_of_instructions_gives_the_same_bits() {
     for (class, mechanism) in cases() {
         let q: Vec<f64> = (0..200).map(|k| 0.05 * TAU * f64::from(k)).collect();
         let baseline = solve(&mechanism, &q, 3, Simd::Baseline);
-        for simd in [Simd::Portable, Simd::Avx2, Simd::Avx512] {
+        for simd in [Simd::Avx2, Simd::Avx512] {
             if simd > Simd::best() {
                 println!("skipped: this processor has no {}", simd.name());
                 continue;

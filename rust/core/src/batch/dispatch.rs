@@ -4,7 +4,7 @@ use super::worker::{Job, Worker};
 use crate::branch::lanes::uniform::Traced;
 use crate::math::lanes::Real;
 use crate::math::simd::Simd;
-use crate::state::kernel::portable::Portable;
+use crate::state::kernel::baseline::Baseline;
 use crate::state::kernel::{BLOCK, Level};
 
 /// Work compiled once for each level.
@@ -38,16 +38,14 @@ pub(crate) trait Entry: Level {
 pub(crate) fn at_level<W: ForLevel>(simd: Simd, work: W) -> W::Output {
     match simd.min(Simd::best()) {
         #[cfg(target_arch = "x86_64")]
-        Simd::Baseline => work.run::<crate::state::kernel::baseline::Baseline, { BLOCK / 4 }>(),
-        #[cfg(target_arch = "x86_64")]
         Simd::Avx2 => work.run::<crate::state::kernel::avx2::Avx2, { BLOCK / 8 }>(),
         #[cfg(target_arch = "x86_64")]
         Simd::Avx512 => work.run::<crate::state::kernel::avx512::Avx512, { BLOCK / 8 }>(),
-        _ => work.run::<Portable, { BLOCK / 2 }>(),
+        _ => work.run::<Baseline, { BLOCK / 2 }>(),
     }
 }
 
-impl Entry for Portable {
+impl Entry for Baseline {
     #[inline(never)]
     fn run<const G: usize>(worker: &mut Worker<'_, Self::Register, G>, job: &mut Job<'_, '_>) {
         worker.run::<Self>(job, Self::trace);
@@ -123,8 +121,6 @@ macro_rules! entry {
     };
 }
 
-#[cfg(target_arch = "x86_64")]
-entry!(baseline, Baseline, "sse2");
 #[cfg(target_arch = "x86_64")]
 entry!(avx2, Avx2, "avx2");
 #[cfg(target_arch = "x86_64")]

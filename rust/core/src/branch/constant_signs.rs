@@ -2,15 +2,13 @@
 //! drawing.
 
 use super::design::Design;
-use super::lanes::uniform::{Traced, UniformTracer};
-use crate::math::pair::Pair;
-use crate::state::kernel::BLOCK;
-use crate::state::kernel::portable::Portable;
+use super::lanes::uniform::Traced;
+use super::trace::BaselineTracer;
 
 /// A design with the work space for it.
 pub(crate) struct SignConstancy<'d, 'm> {
     pub design: &'d mut Design<'m>,
-    uniform: UniformTracer<Pair<f64>, { BLOCK / 2 }>,
+    uniform: BaselineTracer,
 }
 
 impl<'d, 'm> SignConstancy<'d, 'm> {
@@ -29,9 +27,7 @@ impl<'d, 'm> SignConstancy<'d, 'm> {
         design.signs.clear();
         design.signs.extend_from_slice(signs);
         let traced = design.trace_in_closed_form(&[], None) == Traced::Whole
-            || !several
-                && design.trace_in_lanes::<Portable, _>(uniform, &[], None, [f64::NAN; 2])
-                    == Traced::Whole;
+            || !several && design.trace_in_baseline_lanes(uniform, &[]) == Traced::Whole;
         traced && design.has_constant_signs()
     }
 }

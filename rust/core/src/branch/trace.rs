@@ -10,10 +10,12 @@ use super::lanes::uniform::{Traced, UniformTracer};
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
-use crate::math::pair::Pair;
-use crate::state::kernel::portable::Portable;
+use crate::state::kernel::baseline::Baseline;
 use crate::state::kernel::{BLOCK, Level};
 use crate::state::state::Context;
+
+/// Work space for tracing outside of batches.
+pub(super) type BaselineTracer = UniformTracer<<Baseline as Level>::Register, { BLOCK / 2 }>;
 
 impl Design<'_> {
     /// Traces the branch without solving a position, if all dyads are on cranks and the ground.
@@ -173,6 +175,16 @@ impl Design<'_> {
         Traced::Whole
     }
 
+    /// Traces a turn by knots in lanes, outside of batches: compiled once, for any processor.
+    #[inline(never)]
+    pub(super) fn trace_in_baseline_lanes(
+        &mut self,
+        uniform: &mut BaselineTracer,
+        classes: &[usize],
+    ) -> Traced {
+        self.trace_in_lanes::<Baseline, _>(uniform, classes, None, [f64::NAN; 2])
+    }
+
     /// The grid of the knots; `range`: values of a driven slide, m.
     fn grid(&self, range: [f64; 2]) -> Option<Grid> {
         match self.q0[..] {
@@ -213,10 +225,10 @@ impl Design<'_> {
         let mut reference = ReferenceBranch::new(plan, &drawing.branch, q0, scale)?;
         // Between knots farther apart the sign of a dyad might change unseen.
         if plan.signs() == 0 {
-            let mut uniform = drawing.uniform_tracer::<Pair<f64>, { BLOCK / 2 }>();
+            let mut uniform: BaselineTracer = drawing.uniform_tracer();
             uniform.reference(|| ReferenceBranch::new(plan, &drawing.branch, q0, scale));
             let (start, cx) = (&self.mechanism.class_angle, drawing.tracing_context());
-            uniform.solve_knots::<Portable>(&cx, Grid::wide_turn(q0), false);
+            uniform.solve_knots::<Baseline>(&cx, Grid::wide_turn(q0), false);
             reference.goes_wide = uniform.trace(&cx, &[], start, &mut Branch::default());
         }
         Some(reference)
@@ -228,13 +240,9 @@ impl Design<'_> {
     pub(crate) fn trace(&mut self, q: &[f64]) {
         if self.closed_forms && self.has_one_rotary_driver() {
             let classes: Vec<usize> = (1..self.mechanism.class_angle.len()).collect();
-            let mut uniform = self.uniform_tracer::<Pair<f64>, { BLOCK / 2 }>();
-            let mut in_lanes = |design: &mut Self| {
-                let range = [f64::NAN; 2];
-                design.trace_in_lanes::<Portable, _>(&mut uniform, &classes, None, range)
-            };
+            let mut uniform = self.uniform_tracer();
             let whole = self.trace_in_closed_form(&classes, None) == Traced::Whole
-                || in_lanes(self) == Traced::Whole;
+                || self.trace_in_baseline_lanes(&mut uniform, &classes) == Traced::Whole;
             if whole {
                 return;
             }

@@ -6,8 +6,6 @@ use std::sync::LazyLock;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Simd {
     /// Two numbers at once, on any processor.
-    Portable,
-    /// What every machine of the target architecture has.
     Baseline,
     /// x86-64 with AVX2: four numbers per instruction.
     Avx2,
@@ -40,20 +38,18 @@ impl Simd {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Portable => "portable",
             Self::Baseline => "baseline",
             Self::Avx2 => "avx2",
             Self::Avx512 => "avx512",
         }
     }
 
-    /// The best set that this machine has and `ASSUR_SIMD` allows (`portable`, `baseline` or
-    /// `avx2`; any other value sets no limit). The variable is read once.
+    /// The best set that this machine has and `ASSUR_SIMD` allows (`baseline` or `avx2`; any
+    /// other value sets no limit). The variable is read once.
     #[must_use]
     pub fn allowed() -> Self {
         static ALLOWED: LazyLock<Simd> = LazyLock::new(|| {
             let limit = match std::env::var("ASSUR_SIMD").as_deref() {
-                Ok("portable") => Simd::Portable,
                 Ok("baseline") => Simd::Baseline,
                 Ok("avx2") => Simd::Avx2,
                 _ => Simd::Avx512,

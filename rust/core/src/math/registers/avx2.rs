@@ -16,7 +16,44 @@ pub(crate) struct F64x4(__m256d);
 
 operators!(F64x4: _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd);
 bitwise!(F64x4, 4, __m256d: _mm256_and_pd, _mm256_or_pd, _mm256_xor_pd, _mm256_andnot_pd);
-wide_mask!(M64x4, F64x4, 4, _mm256_movemask_pd);
+
+/// Lanes of [`F64x4`]: all ones or all zeros.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct M64x4(F64x4);
+
+impl Mask for M64x4 {
+    const NONE: Self = Self(F64x4::ZERO);
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.bits() == 0b1111
+    }
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        self.bits() >> lane & 1 != 0
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        // SAFETY: the contract of the type.
+        unsafe { _mm256_movemask_pd(self.0.0) }.cast_unsigned()
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0.and(other.0))
+    }
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(self.0.or(other.0))
+    }
+    #[inline(always)]
+    fn not(self) -> Self {
+        let ones = F64x4::constant(f64::from_bits(u64::MAX));
+        Self(self.0.and_not(ones))
+    }
+}
 
 impl Real for F64x4 {
     type Mask = M64x4;

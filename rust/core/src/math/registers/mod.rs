@@ -1,4 +1,4 @@
-//! The vector registers of x86-64 as [`Real`]: two, four or eight numbers.
+//! The vector registers of x86-64 as [`Real`]: four or eight numbers.
 //!
 //! One file for each family; the macros here write what they have in common. Every operation is one or a few instructions, without a branch and without memory, so that code
 //! generic over [`Real`] stays in registers. The portable [`super::pair::Pair`] gives the same
@@ -204,51 +204,7 @@ macro_rules! bitwise {
     };
 }
 
-/// A mask whose lanes are all ones or all zeros.
-macro_rules! wide_mask {
-    ($mask:ident, $name:ident, $lanes:literal, $movemask:ident) => {
-        #[doc = concat!("Lanes of [`", stringify!($name), "`]: all ones or all zeros.")]
-        #[derive(Debug, Clone, Copy)]
-        pub(crate) struct $mask($name);
-
-        impl Mask for $mask {
-            const NONE: Self = Self($name::ZERO);
-            #[inline(always)]
-            fn any(self) -> bool {
-                self.bits() != 0
-            }
-            #[inline(always)]
-            fn all(self) -> bool {
-                self.bits() == (1 << $lanes) - 1
-            }
-            #[inline(always)]
-            fn lane(self, lane: usize) -> bool {
-                self.bits() >> lane & 1 != 0
-            }
-            #[inline(always)]
-            fn bits(self) -> u32 {
-                // SAFETY: the contract of the type.
-                unsafe { $movemask(self.0.0) }.cast_unsigned()
-            }
-            #[inline(always)]
-            fn and(self, other: Self) -> Self {
-                Self(self.0.and(other.0))
-            }
-            #[inline(always)]
-            fn or(self, other: Self) -> Self {
-                Self(self.0.or(other.0))
-            }
-            #[inline(always)]
-            fn not(self) -> Self {
-                let ones = $name::constant(f64::from_bits(u64::MAX));
-                Self(self.0.and_not(ones))
-            }
-        }
-    };
-}
-
 pub(crate) mod avx2;
 pub(crate) mod avx512;
-pub(crate) mod sse2;
 #[cfg(test)]
 mod tests;

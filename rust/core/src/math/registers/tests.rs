@@ -5,8 +5,8 @@ use std::mem::MaybeUninit;
 
 use super::avx2::F64x4;
 use super::avx512::F64x8;
-use super::sse2::F64x2;
 use crate::math::lanes::{Mask, Real};
+use crate::math::pair::Pair;
 use crate::math::simd::Simd;
 
 /// Numbers that meet every rule of IEEE 754.
@@ -117,7 +117,7 @@ fn avx512() {
 
 #[test]
 fn registers_do_what_single_numbers_do() {
-    compare::<F64x2>();
+    compare::<Pair<f64>>();
     for (simd, run) in [(Simd::Avx2, avx2 as unsafe fn()), (Simd::Avx512, avx512)] {
         if Simd::best() < simd {
             println!("{}: skipped, this processor has no such instructions", simd.name());
