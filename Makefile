@@ -93,16 +93,20 @@ test: lint-tools $(RUN_STAMP)
 	@$(MAKE) --no-print-directory pytest
 	@echo "All checks passed."
 
+# With both packages, so that cargo takes the very library that the extension was built from: alone,
+# the core would have dependencies with fewer features.
+CARGO_TEST_RELEASE := cargo test $(LOCKED) --release -p assur -p assur-py --features test-hooks
 # Unit tests run little of the solver and compile ten times as quickly without optimisation (which
-# wants deep stacks). `cargo test` by itself does the same tests, all with optimisation.
+# wants deep stacks). The others use the extension's library, without checks of overflow. `cargo test` by
+# itself does the same tests, all with some optimisation and all checks.
 rust-test: lint-tools $(RUN_STAMP)
 	cargo fmt --all --check
 	$(PY) tools/check_order
 	cargo clippy $(LOCKED) --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc $(LOCKED) --workspace --no-deps
 	CARGO_PROFILE_DEV_OPT_LEVEL=0 RUST_MIN_STACK=67108864 cargo test $(LOCKED) --lib
-	cargo test $(LOCKED) --test '*'
-	MAKEFLAGS= cargo test $(LOCKED) --doc # or rustdoc looks for a jobserver that make does not share
+	$(CARGO_TEST_RELEASE) --test '*'
+	MAKEFLAGS= $(CARGO_TEST_RELEASE) --doc # or rustdoc looks for a jobserver that make does not share
 
 python-test: python-lint pytest
 
