@@ -78,7 +78,9 @@ def _section(name: str, case: dict[str, Any]) -> str:
     few = [_few(t) for t in subjects[0]["timings"] if t["designs"] < subjects[0]["designs"]]
     if notes or few:
         lines += ["", " ".join([*notes, *few])]
-    missing = [words for level, words in table.LEVELS.items() if level not in table.levels(subjects)]
+    missing = [
+        words for level, words in table.LEVELS.items() if level not in table.levels(subjects)
+    ]
     if missing and case["every_level"]:
         lines += ["", f"Skipped, this processor has none: {', '.join(missing)}."]
     if case["plotted"] and axis:

@@ -49,7 +49,7 @@ def bounded_least_squares(matrix: Float, right: Float, lower: Float, upper: Floa
     while True:
         left = b - (a * x).sum(axis=1)
         gain = (a * left[:, np.newaxis]).sum(axis=0)
-        # Of a variable at its upper bound a smaller value may help.
+        # For a variable at its upper bound a smaller value may help.
         gain = np.where(x >= high, -gain, gain)
         gain[free | excluded] = -np.inf
         chosen = int(np.argmax(gain)) if n else 0

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from assur.files import Contents
 
 EXAMPLE = "example:"
-# Of an example with several drivers, along the line between the ends of its range.
+# An example with several drivers moves along the line between the ends of its range.
 POSITIONS_OF_SEVERAL = 91
 FULL_TURN = (0.0, math.tau)
 

@@ -51,7 +51,7 @@ def is_text(text: str) -> bool:
 
 def read_fields(source: Source, sketch: Sketch, scale: float) -> None:
     """Add the joints, links and inputs of an address."""
-    # Numbers are written out: their digits tell the resolution.
+    # Numbers are written out: their digits show the resolution.
     sketch.resolution = sketch.angle_resolution = None
     fields = _fields(source.text)
     rows = {name: _rows(source, fields.get(name, "")) for name in ("j", "l", "f")}

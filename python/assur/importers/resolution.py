@@ -1,4 +1,4 @@
-"""How well a file tells places: half a unit of the last decimal that it writes."""
+"""The resolution of a file: half a unit of the last decimal that it writes."""
 
 from __future__ import annotations
 

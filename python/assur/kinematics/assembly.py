@@ -83,7 +83,7 @@ class Assembly(Mapping[str, int]):
         self._complex_count: tuple[int, ...] = ()
         # The mechanism drawn in it, made when first needed.
         self._core: Core | None = None
-        # Joints that tell it from the others it was found with.
+        # Joints that distinguish it from the others it was found with.
         self._shown: tuple[str, ...] = ()
 
     @classmethod

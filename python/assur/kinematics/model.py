@@ -94,7 +94,7 @@ class MechanismModel:
     _joints: MappingProxyType[str, Any] | None
     # Where it is drawn, if not in the drawing.
     place: Place | None
-    # Of all dyads, in the drawing; not to be modified.
+    # Signs of all dyads in the drawing; not to be modified.
     signs: list[int]
     # Indices of joints, links and slides by name.
     _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None

@@ -45,7 +45,7 @@ class Layout:
     joints: Names
     links: Names
     slides: Names
-    # Of designs and positions.
+    # Axes of the designs, then of the positions.
     shape: tuple[int, ...]
     drivers: int
     order: int

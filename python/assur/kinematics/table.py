@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from assur.kinematics.motion_model import MotionModel
     from assur.kinematics.quantity import Analogues
 
-# Of a joint's components, an angle and a slide: value, velocity, acceleration, jerk.
+# Columns of a joint's components, an angle and a slide: value, velocity, acceleration, jerk.
 POINT = ("{}.{}", "{}.v{}", "{}.a{}", "{}.j{}")
 ANGLE = ("{}", "{}.omega", "{}.alpha", "{}.jerk")
 SLIDE = ("{}", "{}.v", "{}.a", "{}.j")
@@ -102,7 +102,7 @@ def _moves(analogues: Analogues) -> bool:
         if bool(((value != first) & ~np.isnan(value) & ~np.isnan(first)).any()):
             return True
     elif len(analogues.arrays) == 1:
-        # One position without analogues does not tell.
+        # One position without analogues does not show it.
         return True
     rates = analogues.arrays[1:2]
     return any(bool((np.nan_to_num(rate) != 0.0).any()) for rate in rates)

@@ -19,7 +19,7 @@ def settle(ax: Any) -> None:
     engine = figure.get_layout_engine()
     if engine is not None:
         with warnings.catch_warnings():
-            # Of figures too small for their axes.
+            # Figures too small for their axes warn.
             warnings.simplefilter("ignore")
             engine.execute(figure)
 

@@ -22,7 +22,7 @@ NAME_FONT = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 NAME_SIZE = 12.0
 # For a letter that no font has.
 MISSING = "□"
-# Of a name beside the title of a diagram, letters.
+# Letters of a name beside the title of a diagram.
 LONGEST = 40
 # Between points that stand for a line, points.
 STEP = 4.0

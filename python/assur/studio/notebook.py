@@ -48,7 +48,7 @@ class Explorer(anywidget.AnyWidget):
         Assign to move it.
     document : dict
         The description as the page has it, also while it does not move. Observe it, with
-        ``view.observe(f, "document")``, to be told of changes.
+        ``view.observe(f, "document")``, to hear of changes.
 
     Raises
     ------

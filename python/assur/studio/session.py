@@ -67,7 +67,7 @@ class Given:
 
     @property
     def id(self) -> str:
-        """What tells it from other files and examples, for what a browser keeps of it."""
+        """What distinguishes it from other files and examples, for what a browser keeps of it."""
         own = f"example:{self.example}" if self.path is None else os.path.realpath(self.path)
         return stamp_of(os.fsencode(own))
 
@@ -88,7 +88,7 @@ class Given:
 
 
 def stamp_of(raw: bytes) -> str:
-    """Return what tells one content of a file from another."""
+    """Return what distinguishes one content of a file from another."""
     return hashlib.sha256(raw).hexdigest()[:16]
 
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Single
 
 Float: TypeAlias = npt.NDArray[np.float64]
-# Of some designs: values by name, statuses, which are kept.
+# For some designs: values by name, statuses, which are kept.
 Block: TypeAlias = tuple[dict[str, Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]
 
 # Positions of a block, between two reports of progress: some ten milliseconds. Positions whose

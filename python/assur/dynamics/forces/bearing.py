@@ -58,7 +58,7 @@ class Bearing:
     relative_speed: Any
     q: Any
     designs: tuple[int, ...] = ()
-    # Of the frame: the link, its angle; and what the force acts on.
+    # The frame's link and angle, and what the force acts on.
     frame: tuple[str, Any] = ("ground", 0.0)
     what: tuple[str, str] = ("", "")
     is_angle: bool = True
@@ -248,7 +248,7 @@ def _motion_of(found: Reactions, links: list[str]) -> tuple[dict[str, Float], di
     """Return angles and angular velocities of links at the positions of reactions."""
     mechanism, q, speed = found.mechanism, found.q, found.speed
     shape = found.status.shape
-    # Of a batch the coordinates need an axis of their own.
+    # The coordinates of a batch need an axis of their own.
     alone = bool(mechanism.shape) and shape == mechanism.shape
     if alone:
         axis = len(shape)

@@ -36,7 +36,7 @@ class Branches:
     groups: list[tuple[str | None, str | None]] = field(default_factory=list)
     size: float = field(init=False)
     is_angle: bool = field(init=False)
-    # Of each branch its places at coordinates, and limits by the signs of class II.
+    # Places of each branch at coordinates, and limits by the signs of class II.
     _solved: list[dict[float, Float]] = field(default_factory=list)
     _limits: dict[frozenset[tuple[str, int]], Limits] = field(default_factory=dict)
 

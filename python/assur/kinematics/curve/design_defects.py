@@ -27,7 +27,7 @@ __all__ = ["Defect"]
 
 # How near (relative to the size) the joints of an assembly must be to those that are given.
 THERE = 1e-6
-# How far apart assemblies are that such joints should tell.
+# How far apart assemblies are that such joints should distinguish.
 APART = 1e-3
 
 

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.branches import Branches
     from assur.kinematics.model import MechanismModel
 
-# Of a step, how far the first coordinate is to either side of the drawing's: off the values that
+# How far, in steps, the first coordinate is to either side of the drawing's: off the values that
 # people draw at, where things may be special, and in a mirror the same.
 OFF = 0.4877
 # Most combinations of signs whose intervals are looked at.
 MOST_SIGNS = 512
-# Of the fan, the part that is enough where branches are.
+# The part of the fan that is enough where branches are.
 ENOUGH = 0.5
 # Where an interval is looked at, as a part of it: change points are often in its middle.
 WITHIN = 0.3813

@@ -24,7 +24,7 @@ DOT = 5.0
 BORDER_ARROW, BORDER = 22.0, 22.0
 # Centres nearer than this, points, have one name.
 TOGETHER = 4.0
-# Of more centres in one place so many are named, the others counted.
+# If more centres are in one place, so many are named and the others counted.
 NAMED = 4
 
 

@@ -68,7 +68,7 @@ def _centre(motion: Motion, one: str, other: str) -> Centre | None:
     turn = motion.link(other).d1
     relative = first.d1 - second.d1 - turn * np.array([-arm[1], arm[0]])
     if sliding is not None:
-        # Of a slide the guide tells the direction, at rest too.
+        # A slide's direction is that of its guide, at rest too.
         own = float(mechanism.dimensions.get(f"{sliding}.angle", 0.0))
         angle = float(motion.link(mechanism.slides[sliding].on).value) + own
         relative = unit_vector(angle)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # Diagrams of one figure: more are too small to be read.
 MOST_PANELS = 12
-# Of a column of diagrams one is so high, inches.
+# Height of one diagram in a column, inches.
 LOW = 2.6
 # A curve whose range is so many times that of its middle nine tenths runs to infinity.
 RUNAWAY, MIDDLE, KEPT = 12.0, (5.0, 95.0), 1.0
@@ -39,7 +39,7 @@ ROOM = 0.22
 
 
 class Shown(NamedTuple):
-    """A line of a diagram with what tells it from others."""
+    """A line of a diagram with what distinguishes it from others."""
 
     of: Quantity
     line: Line

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 # Smaller changes of a curve, relative to its values, are rounding.
 FLAT = 1e-9
-# Of many hills of a curve the highest are searched.
+# If a curve has many hills, the highest are searched.
 HILLS = 4
 # A search tries so many places between two samples, then again about the best of them, until these
 # are so much closer: four times.

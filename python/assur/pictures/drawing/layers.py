@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 # What DXF forbids in the name of a layer.
 FORBIDDEN = frozenset('<>/\\":;?*|=`,')
-# Of a name; DXF allows 255.
+# Letters of a name; DXF allows 255.
 MOST = 100
 
 

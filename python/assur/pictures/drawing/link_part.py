@@ -32,7 +32,7 @@ MM = 1000.0
 # Blocks and slots, relative to the width of links; a barrel, a rod.
 BLOCK_LENGTH, SLOT = 1.2, 0.6
 BARREL, ROD = 1.0, 0.3
-# Of the first dimension line from the outline, of the others from it, mm of the paper.
+# From the outline to the first dimension line, and from line to line, mm of the paper.
 FIRST, NEXT = 9.0, 8.0
 # Distances below this part of the link's size are 0.
 NEAR = 1e-9

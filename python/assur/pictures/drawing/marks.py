@@ -18,7 +18,7 @@ THICK, THIN = 0.5, 0.25
 TEXT_HEIGHT, NAME_HEIGHT = 2.5, 3.5
 ARROW, ARROW_WIDTH = 3.0, 1.0
 GAP, BEYOND = 1.0, 1.5
-# Of a letter, relative to its height: a bit more than any font needs.
+# Width of a letter relative to its height: a bit more than any font needs.
 LETTER = 0.75
 
 

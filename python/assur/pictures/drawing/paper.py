@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 INCH = 25.4
 POINTS = 72.0 / INCH
-# Of a font's size, the height of its capitals.
+# Height of capitals as a part of a font's size.
 CAPITALS = 0.72
 GREY = "#55616D"
 INKS = {"CENTRES": "#BE4230", "DIMENSIONS": GREY, "HATCHING": GREY, "DRIVER": "#1D5FB8"}

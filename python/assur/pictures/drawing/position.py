@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 PX = 25.4 / 96.0
 # A dimension of a link is so far from it on either side, mm of the paper.
 BESIDE = (8.0, -8.0, 14.0, -14.0, 20.0, -20.0)
-# Of such points, among which the nearest to a dimension is looked for.
+# Number of points among which the nearest to a dimension is looked for.
 MOST = 4000
 
 

@@ -114,7 +114,7 @@ def _standard_scales(largest: float) -> list[float]:
     scales = []
     for exponent in range(power, power - TRIED // 3 - 1, -1):
         for step in (5, 2, 1):
-            # Of integers, that 1:20 be 0.05 to the last bit.
+            # Quotients of integers, so that 1:20 is 0.05 to the last bit.
             if exponent >= 0:
                 scales.append(float(step * 10**exponent))
             else:

@@ -87,7 +87,7 @@ def _draw(ax: Any, bearing: Bearing, frame: str, ends: Float, style: Style) -> N
     lines = _grid(on, radius, ends)
     curve = Line2D(*ends.T, color=style.force, linewidth=LINE, zorder=2.5, gid="force")
     on.ax.add_artist(curve)
-    # Of the sizes themselves: turning them rounds, and both diagrams mark the same position.
+    # From the sizes themselves: turning them rounds, and both diagrams mark the same position.
     best = int(np.nanargmax(np.asarray(bearing.size).reshape(-1)))
     arrow(on, np.zeros(2), ends[best], LOOKS["force"]._replace(line=2.0), style.ink, "greatest")
     shaft = np.array([np.zeros(2), ends[best]])

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 SUFFIXES = (".gif", ".webp", ".mp4")
 # A thousand frames of the usual size take 1 GiB.
 MOST_FRAMES = 1000
-# Of a film, s; GIF counts hundredths of a second in 16 bits for each frame.
+# Length of a film, s; GIF counts hundredths of a second in 16 bits for each frame.
 LONGEST = 600.0
-# Of a GIF: from the ground to each colour in so many steps, for the edges of lines.
+# Steps from the ground to each colour of a GIF, for the edges of lines.
 SHADES = 18
 
 

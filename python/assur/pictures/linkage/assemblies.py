@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from assur._faces import Assembly
     from assur.pictures.axes import Canvas
 
-# Of a picture: its width, inches; the limits of its height.
+# Width of a picture, inches, and the limits of its height.
 WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 2.6, 1.8, 3.2
 COLUMNS = 4
 # More are not drawn in a figure of their own, which says how many there are.

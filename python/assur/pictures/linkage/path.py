@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 DOTS = 24
 PATH, DOT, NOW = 2.0, 2.4, 5.0
 KINDS = ("velocity", "acceleration")
-# Of the first path, the second, and so on.
+# Line styles of the first path, the second, and so on.
 DASHES: tuple[Any, ...] = ("solid", (0.0, (5.0, 3.0)), (0.0, (5.0, 2.0, 1.0, 2.0)))
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.pictures.axes import Canvas
 
 ARROW = " → "
-# Of the formula, points.
+# Size of the formula, points.
 SIZE, LINE, BORDER, GAP = TEXT + 1.0, 15.0, 10.0, 5.0
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
 
-# Of points along a line beside which its text may stand.
+# Number of points along a line beside which its text may stand.
 CANDIDATES = 48
 # About a text, points.
 PAD = 1.0

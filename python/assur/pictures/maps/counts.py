@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from assur._faces import DesignMap
     from assur.pictures.style import Style
 
-# Of the hue: of the least number that is not 0, and of the greatest.
+# Hues of the least number that is not 0, and of the greatest.
 PALEST, STRONGEST = 0.16, 0.62
 LINE = 1.6
 NAMES: dict[str, Mapping[int, str]] = {

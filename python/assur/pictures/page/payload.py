@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from assur.pictures.page.turn import Turn
     from assur.pictures.scene.shapes import Part, Scene, Stroke, Vertex
 
-# Of the float32 that a page has.
+# The greatest float32: the page stores no other numbers.
 GREATEST_NUMBER = float(np.finfo(np.float32).max)
 ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 ARROW = " → "
@@ -84,7 +84,7 @@ def payload(
     diagrams: Any = None,
     encode: Callable[[Float], Any] | None = None,
 ) -> dict[str, Any]:
-    """Return what the page is told, ready for `json.dumps`.
+    """Return what the page gets, ready for `json.dumps`.
 
     `encode` makes JSON of the array of positions; by default it becomes base64 of Float32.
     """

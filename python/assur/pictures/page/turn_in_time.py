@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 # Rows to a turn of the driver, and in all.
 ROWS_PER_TURN, LEAST_ROWS, MOST_ROWS = 48, 181, 721
-# Of a run over q: places at which its times are looked up.
+# Places at which the times of a run over q are looked up.
 PLACES = 4001
 
 

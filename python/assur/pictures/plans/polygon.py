@@ -170,7 +170,7 @@ class _Drawing:
     def _symbol(self, vector: Vector) -> str:
         names = [self._points_names[p] for p in (vector.point, vector.other) if p is not None]
         if vector.part in ("sliding", "coriolis"):
-            # Of the sliding link, relative to its guide.
+            # Motion of the sliding link relative to its guide.
             own = self._plan.under[vector.other or ""]
             names[0] = numbered(own.point, self._numbers[own.sliding])
         is_whole = vector.part == "sliding" and self._what == "velocity"

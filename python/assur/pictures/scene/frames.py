@@ -112,7 +112,7 @@ def frames_of(motion: Motion) -> Frames:
     if not known.size:
         message = f"there is no position to draw: {motion.explain(() if not motion.shape else 0)}"
         raise InputError(message)
-    # Links are rigid: one position tells where their joints are.
+    # Links are rigid: one position shows where their joints are.
     row = int(known[0])
     places = {joint: motion.joint(joint).value.reshape(-1, 2)[row] for joint in mechanism.joints}
     for i, (link, joints) in enumerate(mechanism.links.items()):

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 # What of a guide is seen beyond the block at the ends of its stroke, px.
 BEYOND = 8.0
-# Of a driven slide whose stroke is not known both ways, relative to the mechanism's size.
+# Length of a driven slide whose stroke is not known both ways, relative to the mechanism's size.
 FREE_STROKE = 0.15
 
 
@@ -100,7 +100,7 @@ class Slides:
         axis = _axis(self._frames, name, slide.link, slide.on, block, self._angle(name), stroke)
         if name not in self._sliding or axis.low < axis.high:
             return axis
-        # Of several drivers the drawing tells no stroke.
+        # With several drivers the drawing shows no stroke.
         free = FREE_STROKE * self._size
         return replace(axis, low=axis.low - free, high=axis.high + free)
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 PLAIN = re.compile(r"[A-Za-z0-9_()]+")
 # A quantity between dollar signs: letter, what stands above it and below.
 FORMULA = re.compile(r"\$([^$^_]+)(?:\^\{([^}]*)\})?(?:_\{([^}]*)\})?(?:\^\{([^}]*)\})?\$")
-# Of matplotlib's formulas: size of what is above and below, heights relative to the size.
+# Matplotlib's formulas: size of indices, and heights, relative to the size.
 SMALL, HEIGHT, HEIGHT_ABOVE = 0.7, 1.25, 1.5
 
 

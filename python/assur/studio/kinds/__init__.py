@@ -49,7 +49,7 @@ KINDS: dict[str, Callable[[dict[str, Any], Session], Answer]] = {
 }
 # What may take long is computed beside the others; some of it warns.
 LONG = ("assemblies", "run", "flywheel", "steady", "map", "find", "export")
-# Of these only the newest that waits is computed; kinds of one place replace each other.
+# Only the newest of these that waits is computed; kinds of one place replace each other.
 LIVE = {
     "turn": "picture",
     "drag": "picture",

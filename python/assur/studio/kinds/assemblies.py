@@ -1,7 +1,7 @@
 """``assemblies``: every way to put the mechanism together at one coordinate.
 
-There are 2 to the number of dyads. Of many those are listed that differ from the present one in one
-dyad: step by step all can be reached.
+There are 2 to the number of dyads. A long list is cut to those that differ from the present one in
+one dyad: step by step all can be reached.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.studio.session import Session
 
-# Of how many at most all are listed.
+# The greatest number of which all are listed.
 MOST_LISTED = 64
 
 

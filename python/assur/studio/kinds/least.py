@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def transmission_angles(motion: Motion) -> Iterator[tuple[str, Float]]:
-    """Yield the transmission angles of the inner pairs of dyads that a name tells."""
+    """Yield the transmission angles of the inner pairs of the dyads that a name selects."""
     for name in motion.mechanism.assembly:
         # Refused where more links meet than two.
         with suppress(InputError):

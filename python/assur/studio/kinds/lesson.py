@@ -137,7 +137,7 @@ def _conditions(lengths: tuple[float, float, float, float], least: float | None)
         header["message"] = f"The crank cannot turn: {sums[0]} must be less than {sums[1]}."
     if turns:
         header["gamma"] = crank_rocker.transmission_extremes(*lengths)
-    # Of a crank that does not turn too: there D must slide so that it goes on.
+    # Also for a crank that does not turn: there D must slide so that it goes on.
     if least is not None:
         header["blocked"] = crank_rocker.blocked(l1, l2, l3, l4, least)
     if turns and header["blocked"]:

@@ -201,7 +201,7 @@ def _with_moving_support(
 
     The last are second derivatives of the angles of coupler and rocker: by φ₁ and l₄, twice by l₄.
     """
-    # Of two drivers, the crank and the support on its line.
+    # Coordinates of two drivers: the crank, and the support on its line.
     places, _ = _drawing(lengths, phi1)
     value, first, second = np.full((3, len(LINKS), 3), np.nan)
     by_ground = np.full((2, 2), np.nan)

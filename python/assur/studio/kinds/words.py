@@ -19,7 +19,7 @@ LAWS: dict[str, type[Law]] = {
     for name in laws.__all__
     if name not in ("Law", "Sequence") and inspect.isclass(getattr(laws, name))
 }
-# Of what is measured without masses and with them; each takes what its function does.
+# What is measured without masses and with them; each takes what its function does.
 METRICS: dict[str, Callable[..., Metric]] = {
     name: getattr(metric, name) for name in metric.__all__ if name.islower() and name != "function"
 }

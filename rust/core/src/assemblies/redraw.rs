@@ -34,7 +34,7 @@ impl Mechanism {
         Ok(self.drawn_at(dimensions, drawing))
     }
 
-    /// Compiles a description whose drawing need not show the assembly: [`Mechanism::at_pose`] tells it.
+    /// Compiles a description whose drawing need not show the assembly: [`Mechanism::at_pose`] gives it.
     ///
     /// # Errors
     ///

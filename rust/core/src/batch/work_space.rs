@@ -32,7 +32,7 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) coordinates: CoordinateRegisters<R, G>,
     /// Location of each of their registers on the branch.
     pub(super) locations: Vec<BranchLocation<R>>,
-    /// Of a uniform branch on which these are locations, the knots per unit.
+    /// Knots per unit of the uniform branch on which these are locations.
     pub(super) locations_width: Option<f64>,
     /// The operations that the request needs.
     pub(super) tape: Tape,

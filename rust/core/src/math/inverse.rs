@@ -18,7 +18,7 @@ pub(crate) fn invert<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -
 /// 1). All minors together are σ₁ σ₂ or more, so they are good to 6 u/σ₂ ≤ 6 u ‖A⁻¹‖, as by pivots. The
 /// determinant σ₁ σ₂ σ₃ is a sum of three entries times minors, good to 8 u; so all entries of the
 /// inverse have a factor 1 + ε in common, |ε| ≤ 8 u/(σ₂ σ₃) ≤ 8 u ‖A⁻¹‖². Such a factor does nothing to
-/// Newton's iteration. Of an analogue it makes an error of 8 u κ², within the 64 u κ² of
+/// Newton's iteration. In an analogue it makes an error of 8 u κ², within the 64 u κ² of
 /// [`crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED`]; and where ε is not small, κ is beyond
 /// [`crate::math::tolerance::SINGULAR_CONDITION`], from which on a position is singular in any case.
 #[inline(always)]

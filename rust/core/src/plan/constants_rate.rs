@@ -7,15 +7,15 @@ use crate::math::vector::Vector;
 /// Derivatives of [`DesignConstants`] by one dimension (m or rad), at constant scale.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct ConstantsRate {
-    /// Of the frame's origin, m.
+    /// Rate of the frame's origin, m.
     pub origin: Vector,
-    /// Of the constant part of every edge.
+    /// Rates of the constant part of every edge.
     pub edge_vector: Vec<Vector>,
-    /// Of the guide direction of every edge with a slide.
+    /// Rates of the guide direction of every edge with a slide.
     pub guide: Vec<Vector>,
-    /// Of the points fixed to the ground.
+    /// Rates of the points fixed to the ground.
     pub fixed: Vec<Vector>,
-    /// Of the constant angle of every link relative to its class.
+    /// Rates of the constant angle of every link relative to its class.
     pub offset: Vec<f64>,
 }
 

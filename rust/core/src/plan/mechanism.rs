@@ -278,7 +278,7 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
             });
         }
     }
-    // Of a name given twice the last counts.
+    // If a name is given twice, the last counts.
     let given: HashMap<&str, i8> =
         linkage.assembly.iter().map(|(name, sign)| (name.as_str(), *sign)).collect();
     let mut signs = vec![1; plan.signs()];

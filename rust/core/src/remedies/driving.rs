@@ -24,7 +24,7 @@ pub(super) fn replace(
         _ => return Ok(()),
     };
     let drivers = &sketch.description.drivers;
-    // Of drivers that leave something free, any may be the one too many: the last is changed first.
+    // If drivers leave something free, any of them may be one too many: the last is changed first.
     let concerned = |index: &usize| {
         if !preferred.is_empty() {
             return true;

@@ -13,7 +13,7 @@ const OFFERED: usize = 3;
 /// Descriptions that are built at most.
 const TRIES: usize = 64;
 /// The same times the square of the links, with which the time to build one grows: a fraction of a
-/// second for 200 links. Of more than 565 links nothing is tried.
+/// second for 200 links. With more than 565 links nothing is tried.
 const WORK: usize = 320_000;
 /// Edits of one kind that are combined at most.
 pub(super) const COMBINED: usize = 3;

@@ -10,7 +10,7 @@ use crate::description::Linkage;
 use crate::description::error::{Interrupted, StructureError};
 use crate::structure::holding_drivers;
 
-/// Finds remedies for what cannot move. Of what is too much, the last drawn is the first suspect: a
+/// Finds remedies for what cannot move. Where there is too much, the last drawn is the first suspect: a
 /// link without which the rest moves.
 pub(super) fn free(
     search: &mut Search<'_>,

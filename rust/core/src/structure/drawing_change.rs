@@ -36,9 +36,9 @@ impl Tolerance {
 /// Greatest changes between two drawings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
-    /// Of a joint's coordinate, m.
+    /// Change of a joint's coordinate, m.
     pub length: f64,
-    /// Of a guide's direction, rad.
+    /// Change of a guide's direction, rad.
     pub angle: f64,
 }
 

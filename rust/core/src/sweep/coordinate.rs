@@ -9,7 +9,7 @@ use crate::query::extremes::tracked::Tracked;
 pub struct Coordinate {
     /// Where it is read.
     pub need: Need,
-    /// Of a joint, 0 for x and 1 for y.
+    /// For a joint, 0 for x and 1 for y.
     pub component: usize,
 }
 

@@ -9,7 +9,7 @@ const EVEN: f64 = 1.0e-9;
 /// The coordinates of a sweep.
 #[derive(Debug, Clone, Copy)]
 pub struct Course<'a> {
-    /// Of each position those of all drivers, rad or m.
+    /// The coordinates of all drivers at each position, rad or m.
     pub q: &'a [f64],
     /// Number of drivers.
     pub drivers: usize,

@@ -18,7 +18,7 @@ impl Metric for Span {
         for value in self.0.values(positions) {
             range = [range[0].min(value), range[1].max(value)];
         }
-        // Of no position it is not a number.
+        // Without positions it is not a number.
         if range[0] <= range[1] { range[1] - range[0] } else { f64::NAN }
     }
 

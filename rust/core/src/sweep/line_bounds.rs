@@ -38,7 +38,7 @@ pub(super) struct LineBounds {
 }
 
 impl LineBounds {
-    /// Of all stretches of `count` points, at least one.
+    /// The best of all stretches of `count` points, at least one.
     pub(super) fn of(path: &[Vector], count: usize) -> Self {
         let width = path.len() + 1 + LANES;
         let starts = (path.len() + 1).saturating_sub(count);

@@ -8,7 +8,7 @@ use crate::batch::outputs::Quantity;
 /// A quantity, and which of its derivatives by the driver: 0 is the value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Need {
-    /// Of which joint, link or slide.
+    /// Which joint, link or slide.
     pub quantity: Quantity,
     /// Order of the derivative.
     pub order: usize,

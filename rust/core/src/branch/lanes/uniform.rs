@@ -127,7 +127,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                 self.set_group(group, |lane| grid.at(lane));
             }
         }
-        // Of as many registers as closer scans may take, which are more than those of a short grid.
+        // Fill as many registers as closer scans may take, which are more than those of a short grid.
         for (lanes, &sign) in self.state.pose.signs.iter_mut().zip(cx.signs) {
             lanes[..(KNOTS / R::LANES).min(G)].fill(R::splat(sign));
         }

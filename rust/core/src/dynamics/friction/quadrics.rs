@@ -77,7 +77,7 @@ impl Quadrics {
             }
         }
         for _ in 0..CORRECTIONS {
-            // Of a solution far away the first coordinate is small, and wanted to many digits.
+            // The first coordinate of a solution far away is small, and needed to many digits.
             match self.newton(&point, 1.0) {
                 Some(correction) if at >= 1.0 => subtract(&mut point, &correction),
                 _ => break,

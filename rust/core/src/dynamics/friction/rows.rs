@@ -211,7 +211,7 @@ impl<R: Real> FrictionWorkspace<R> {
             let slopes = scene.pair_reactions(plan, pairs);
             self.slopes.push(slopes);
             let still = self.still[index] + self.rate_rounding(scene);
-            // Of a singular position nothing is known: the pair is not said to rest.
+            // Nothing is known of a singular position: the pair is not said to rest.
             let is_known = still.lt(R::splat(f64::INFINITY));
             self.still[index] = R::select(is_known, still, self.still[index]);
             each(scene);

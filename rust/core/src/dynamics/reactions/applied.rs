@@ -16,13 +16,13 @@ use crate::structure::closure::point_of_joint;
 /// The values of tables and callbacks at positions.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Values<'a> {
-    /// Of every table, at every position.
+    /// Values of every table, at every position.
     pub tables: &'a [Vec<f64>],
-    /// Of every curve over another coordinate.
+    /// Values of every curve over another coordinate.
     pub over: &'a [Vec<f64>],
     /// Direction of every coordinate that a load follows.
     pub ways: &'a [Vec<f64>],
-    /// Of the callbacks, `callbacks` numbers a position.
+    /// Values of the callbacks: `callbacks` numbers a position.
     pub external: &'a [f64],
     pub callbacks: usize,
 }

@@ -12,7 +12,7 @@ use crate::plan::mechanism::Mechanism;
 /// Which columns hold the orders of every quantity that a plan reads.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sources {
-    /// Of every point: its columns from order 0 on.
+    /// The columns of every point, from order 0 on.
     pub(crate) points: Vec<Option<usize>>,
     pub(crate) angles: Vec<Option<usize>>,
     pub(crate) slides: Vec<Option<usize>>,

@@ -210,7 +210,7 @@ impl ForcePlan {
                 self.need_angle(link);
             }
         }
-        // The value of a slide tells where on its guide the resultant acts.
+        // The value of a slide gives the place on its guide where the resultant acts.
         self.outputs.slides = (0..linkage.slides.len()).collect();
     }
 

@@ -20,7 +20,7 @@ pub(crate) enum JointForce {
 }
 
 impl JointForce {
-    /// Of a link at a joint.
+    /// The force on a link at a joint.
     pub(crate) fn new(
         plan: &ForcePlan,
         links_at: &[Vec<usize>],

@@ -72,7 +72,7 @@ impl Scale {
 /// shows a solution that changes within a step. The quotient of the two estimates is then too
 /// optimistic: a step of a machine with an error of 12 tolerances passed as 0.995.
 const ABRUPT_RATIO: f64 = 6.0;
-/// Least fraction of the fine estimate that then counts as the error. Of ratios from 2 to 6 and
+/// Least fraction of the fine estimate that then counts as the error. Among ratios from 2 to 6 and
 /// fractions from 0.05 to 0.3 this keeps the energy of all of 714 random machines within 0.98 of 10
 /// rtol (0.05 that of one only within 2.0), for 0.4 % more steps; with 0.3 the last steps before a dead
 /// point begin to depend on rounding.

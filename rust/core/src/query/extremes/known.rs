@@ -140,7 +140,7 @@ pub(super) struct Rounding {
 }
 
 impl Rounding {
-    /// Of entry `entry` of the values with the weight of `poles`; `unit`: the natural size.
+    /// The bound for entry `entry` of the values with the weight of `poles`; `unit`: the natural size.
     pub(super) fn new(known: &Known, (entry, poles): (usize, [usize; 2]), unit: f64) -> Self {
         let sizes: Vec<[f64; 2]> = known.sizes(entry, poles).map(|(_, size)| size).collect();
         let around = (0..sizes.len())

@@ -45,7 +45,7 @@ impl<R: Real, const G: usize> State<R, G> {
         (value * inv_size, rate * inv_size)
     }
 
-    /// Its sign tells which way a dyad that does not close is flat: with legs folded or stretched, on one
+    /// Its sign shows which way a dyad that does not close is flat: with legs folded or stretched, on one
     /// side of its guide or the other. Between two positions at which it differs the dyad closes
     /// somewhere.
     #[inline(always)]

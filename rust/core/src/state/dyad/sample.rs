@@ -12,12 +12,12 @@ pub(crate) struct DyadSample<R> {
     /// Square of the discriminant; negative where the dyad does not close. It follows from the
     /// chord alone, and a dead point is a simple root of it.
     pub square: R,
-    /// Its derivative by the driver. Of a dyad without a kernel it is unknown (NaN) where the dyad does
+    /// Its derivative by the driver. For a dyad without a kernel it is unknown (NaN) where the dyad does
     /// not close.
     pub rate: R,
     /// Determinant of the directions of two guides; 1 for any other dyad.
     pub side: R,
-    /// Its sign tells which way the dyad is flat where it does not close; see [`State::flat_side`].
+    /// Its sign shows which way the dyad is flat where it does not close; see [`State::flat_side`].
     pub flat: R,
 }
 

@@ -266,9 +266,9 @@ impl<R: Real, const N: usize> Equations<R, 1> for BinaryEquations<'_, R, N> {
 
 /// Jets of the loops, from the solved equations.
 struct Jets<R, const N: usize> {
-    /// Of the turned spans, by loop and unknown.
+    /// Jets of the turned spans, by loop and unknown.
     spans: [[VectorJet<R>; N]; N],
-    /// Of the loops' chords.
+    /// Jets of the loops' chords.
     chords: [VectorJet<R>; N],
     /// Analogues of the unknowns.
     rates: [[R; ENTRIES]; N],
