@@ -183,7 +183,11 @@ impl<R: Real> Evaluate<'_, '_, R> {
             Reaction::LoadPlace(action) => {
                 let plan = self.batch.plan;
                 let point = plan.load_actions[action].at;
-                point.map_or(Vector::ZERO, |point| scene.place(plan, point).at)
+                // Not `map_or`: the closure would not be compiled for the level.
+                match point {
+                    Some(point) => scene.place(plan, point).at,
+                    None => Vector::ZERO,
+                }
             }
         }
     }
