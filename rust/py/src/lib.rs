@@ -3,7 +3,6 @@
 
 mod assemblies;
 mod convert;
-mod crank_rocker;
 mod detach;
 mod equilibria;
 mod error;
@@ -16,13 +15,13 @@ mod mechanism;
 mod memory;
 mod metrics;
 mod named;
+mod papers;
 mod parallel_map;
 mod reactions;
 mod remedies;
 mod reserve;
 mod run;
 mod short_calls;
-mod slider_crank;
 mod solve;
 mod spline;
 mod sweep;
@@ -38,12 +37,6 @@ mod _core {
     #[pymodule_export]
     use super::convert::value::table_values;
     #[pymodule_export]
-    use super::crank_rocker::{
-        crank_rocker_blocked, crank_rocker_exact_least_gamma, crank_rocker_extremes,
-        crank_rocker_grashof, crank_rocker_ground_range, crank_rocker_least_gamma,
-        crank_rocker_run, crank_rocker_solve, crank_rocker_turns,
-    };
-    #[pymodule_export]
     use super::error_map::error_kinds;
     #[pymodule_export]
     use super::flywheel::Flywheels;
@@ -58,15 +51,21 @@ mod _core {
     #[pymodule_export]
     use super::named::{class_iv_drawing, four_bar_drawing, slider_crank_drawing};
     #[pymodule_export]
-    use super::remedies::remedies;
+    use super::papers::crank_rocker::{
+        crank_rocker_blocked, crank_rocker_exact_least_gamma, crank_rocker_extremes,
+        crank_rocker_grashof, crank_rocker_ground_range, crank_rocker_least_gamma,
+        crank_rocker_run, crank_rocker_solve, crank_rocker_turns,
+    };
     #[pymodule_export]
-    use super::run::Run;
-    #[pymodule_export]
-    use super::slider_crank::{
+    use super::papers::slider_crank::{
         slider_crank_deviation, slider_crank_fourier, slider_crank_fraction,
         slider_crank_greatest_acceleration, slider_crank_greatest_speed, slider_crank_rod_angle,
         slider_crank_rod_point, slider_crank_series, slider_crank_stroke,
     };
+    #[pymodule_export]
+    use super::remedies::remedies;
+    #[pymodule_export]
+    use super::run::Run;
     #[pymodule_export]
     use super::spline::spline_pieces;
     #[pymodule_export]

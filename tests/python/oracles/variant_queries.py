@@ -165,8 +165,8 @@ def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]
 def _rounding(p: Pairing, limits: assur.Limits, places: tuple[float, float], order: int) -> Array:
     """The law of the digits at extremes: of those at an end, a little within.
 
-    At a dead point they come from farther away, where there are digits. Where an end is no dead
-    point but the edge of rounding, there are none there either.
+    Values at a dead point come from farther away, where they have digits. An end that is not a dead
+    point but the edge of rounding has no digits to either side.
     """
     q = np.nan_to_num(np.array(places), nan=float(p.one.q0))
     for low, high in limits.intervals:

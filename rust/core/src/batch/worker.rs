@@ -58,7 +58,7 @@ enum Path {
     /// Without checks, because signs are constant and all dyads have kernels; no requested angle makes
     /// whole turns, so that one reference each unwraps it.
     UncheckedByReference,
-    /// Without checks likewise, but angles are unwrapped to those at the knots of the branch.
+    /// Without checks for the same reasons, but angles are unwrapped to those at the knots of the branch.
     UncheckedByKnots,
     /// With checks: signs may change, a dyad has no kernel, or too many blocks were uncertain.
     Checked,
