@@ -69,7 +69,7 @@ pub use assemblies::solutions::PathEnd;
 pub use batch::bench_hooks;
 pub use batch::failure_log::{FailureLog, FirstFailure};
 pub use batch::known_signs::KnownSigns;
-pub use batch::outputs::{Arrays, Column, Outputs, Quantity};
+pub use batch::request::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Series};
 pub use batch::schedule::{Checks, Control, available_threads};
 pub use batch::solve::fill;

@@ -8,7 +8,6 @@ mod equilibria;
 mod error;
 mod error_map;
 mod flywheel;
-mod known_signs;
 mod limits;
 mod machine;
 mod mechanism;
@@ -41,8 +40,6 @@ mod _core {
     #[pymodule_export]
     use super::flywheel::Flywheels;
     #[pymodule_export]
-    use super::known_signs::KnownSigns;
-    #[pymodule_export]
     use super::machine::Machine;
     #[pymodule_export]
     use super::mechanism::Mechanism;
@@ -66,6 +63,8 @@ mod _core {
     use super::remedies::remedies;
     #[pymodule_export]
     use super::run::Run;
+    #[pymodule_export]
+    use super::solve::KnownSigns;
     #[pymodule_export]
     use super::spline::spline_pieces;
     #[pymodule_export]

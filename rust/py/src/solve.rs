@@ -9,11 +9,10 @@ use assur::{
     Status, fill,
 };
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
-use pyo3::exceptions::PyBaseException;
+use pyo3::exceptions::{PyBaseException, PyMemoryError};
 use pyo3::prelude::*;
 
 use crate::detach::{self, catch_panic};
-use crate::known_signs::KnownSigns;
 use crate::memory::{Memory, as_uninitialized};
 use crate::short_calls::{is_near, is_short};
 use crate::{error, error_map};
@@ -24,6 +23,24 @@ const SMALL_RESULT: usize = 64 << 10;
 /// An array for each column, or one for all of a small result; statuses; the first failure.
 pub(crate) type Solution<'py> =
     (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Option<Py<PyBaseException>>);
+
+/// The designs of a batch that earlier calls found to have constant signs, for later calls with the
+/// same dimensions and assembly; several calls may share it.
+#[pyclass(module = "assur._core", frozen)]
+pub(crate) struct KnownSigns(pub(crate) assur::KnownSigns);
+
+#[pymethods]
+impl KnownSigns {
+    #[new]
+    fn new(designs: usize) -> PyResult<Self> {
+        let known = assur::KnownSigns::new(designs);
+        known.map(Self).map_err(|_| {
+            PyMemoryError::new_err(format!(
+                "out of memory: one byte for each of {designs} designs is needed"
+            ))
+        })
+    }
+}
 
 /// What is to be solved; see `assur.Mechanism.solve`. `outputs`: indices of joints, links (angles), links
 /// (reference points) and slides. `by`: the dimension to differentiate by. `known_signs`: valid for these

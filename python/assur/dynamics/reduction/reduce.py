@@ -135,8 +135,10 @@ def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineMode
 
 
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:
+    if machine.mechanism is not None:
+        return
     beyond = np.flatnonzero(~has_analogues(status))
-    if machine.mechanism is None and beyond.size:
+    if beyond.size:
         raise _beyond_table(float(q[beyond[0]]), machine.core.tables[0][0])
 
 

@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use super::designs::Designs;
+use super::chunks::Designs;
 use super::dispatch::{Entry, ForLevel, at_level};
 use super::request::{Coordinates, Request};
 use super::schedule::Control;

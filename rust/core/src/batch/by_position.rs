@@ -35,6 +35,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             point = self.design.branch_to(&q);
         }
         let state = &mut self.space.one;
+        self.design.prepare(state);
         let analogues = self.design.solve(state, &q, point.as_ref());
         let at = job.first + row;
         let solved = matches!(state.status, Status::Ok | Status::NearSingular | Status::Singular);
@@ -90,6 +91,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             let q = design.scaled(q);
             let point = design.branch_to(&q);
             let state = &mut self.space.one;
+            design.prepare(state);
             design.solve(state, &q, point.as_ref());
             let at = job.first + row;
             let status = state.status;

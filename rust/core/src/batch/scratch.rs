@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use super::outputs::Column;
+use super::request::Column;
 use super::schedule::{Control, available_threads};
 use super::solve::as_unwritten;
 use super::worker::Job;

@@ -3,11 +3,11 @@
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
-use super::chunks::{Chunk, Chunks};
-use super::designs::Designs;
+use super::chunks::{Chunk, Chunks, Designs};
 use super::dispatch::{self, Entry, ForLevel};
-use super::outputs::{Arrays, Quantity};
-use super::request::{Coordinates, Motion, Request, Series, Shape, check_arrays, product};
+use super::request::{
+    Arrays, Coordinates, Motion, Quantity, Request, Series, Shape, check_arrays, product,
+};
 use super::schedule::Control;
 use super::worker::{Job, Worker};
 use super::writer::{RowSlices, Writer};

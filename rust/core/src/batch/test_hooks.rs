@@ -4,7 +4,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::outputs::Outputs;
+use super::request::Outputs;
 use crate::plan::compile_tape::Needs;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::tape::Tape;

@@ -5,11 +5,10 @@ use std::mem::MaybeUninit;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::designs::DesignRow;
+use super::chunks::DesignRow;
 use super::failure_log::FailureCounter;
 use super::known_signs::KnownSigns;
-use super::outputs::Column;
-use super::request::Request;
+use super::request::{Column, Request};
 use super::schedule::{Checks, Control};
 use super::work_space::WorkSpace;
 use super::writer::{RowSlices, Writer};

@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 use std::mem::MaybeUninit;
 use std::sync::Arc;
 
-use super::outputs::{Column, Outputs, Quantity};
-use super::request::Request;
-use crate::branch::units::Units;
+use super::request::{Column, Outputs, Quantity, Request};
+use crate::branch::design::Units;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;

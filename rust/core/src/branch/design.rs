@@ -12,7 +12,6 @@ use super::knot::Taylor2;
 use super::lanes::lane_tracer::LaneTracer;
 use super::lanes::uniform::UniformTracer;
 use super::scalar_chord::may_change;
-use super::units::Units;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::constants::DesignConstants;
@@ -54,7 +53,8 @@ pub(crate) struct Design<'a> {
     crank_lengths: Vec<Option<CrankLengths>>,
     /// For every dyad of the present design, whether its sign is known to be constant.
     pub(super) settled: Vec<bool>,
-    pub(super) lane_tracer: Box<LaneTracer>,
+    /// Made for the first design that needs it.
+    pub(super) lane_tracer: Option<Box<LaneTracer>>,
     /// Range around a change point within which the motion is interpolated.
     pub change_window: ChangeWindow,
     /// Interpolants in use, by their change point.
@@ -65,6 +65,48 @@ pub(crate) struct Design<'a> {
     pub cancel: Option<&'a AtomicBool>,
 }
 
+/// Factors between the design's own unit of length and the metre: powers of two.
+#[derive(Debug, Default)]
+pub(crate) struct Units {
+    /// The unit of length that they belong to, m.
+    scale: f64,
+    /// Factor of every coordinate, into the design's unit.
+    pub coordinate: Vec<f64>,
+    /// Factor of every jet entry of a length, into metres.
+    pub length: Vec<f64>,
+    /// Factor of every jet entry of an angle.
+    pub angle: Vec<f64>,
+}
+
+impl Units {
+    fn set(&mut self, mechanism: &Mechanism, scale: f64, derivatives: &DerivativeTables) {
+        if self.scale == scale {
+            return;
+        }
+        self.scale = scale;
+        let inverse_scale = 1.0 / scale;
+        let slides = |d: usize| mechanism.plan().driven_slide(d).is_some();
+        self.coordinate.clear();
+        self.coordinate
+            .extend((0..mechanism.q0().len()).map(|d| if slides(d) { inverse_scale } else { 1.0 }));
+        self.angle.clear();
+        self.length.clear();
+        for power in &derivatives.powers {
+            // One factor at a time: a length's third analogue stays in range where the cube of the
+            // unit does not.
+            let (mut angle, mut length) = (1.0, scale);
+            for (&power, &unit) in power.iter().zip(&self.coordinate) {
+                for _ in 0..power {
+                    angle *= unit;
+                    length *= unit;
+                }
+            }
+            self.angle.push(angle);
+            self.length.push(length);
+        }
+    }
+}
+
 /// What a design fills when it is bound and traced: allocated once for all designs of a mechanism.
 #[derive(Default)]
 pub(crate) struct DesignMemory {
@@ -73,7 +115,7 @@ pub(crate) struct DesignMemory {
     branch: Branch,
     settled: Vec<bool>,
     /// Boxed: moving it would take longer than solving a position.
-    lane_tracer: Box<LaneTracer>,
+    lane_tracer: Option<Box<LaneTracer>>,
     at_drawing: Option<Box<State>>,
 }
 
@@ -103,7 +145,7 @@ impl<'a> Design<'a> {
             crank_dyads: crank_dyads(mechanism.plan()),
             crank_lengths: crank_lengths(mechanism),
             settled: Vec::new(),
-            lane_tracer: Box::default(),
+            lane_tracer: None,
             change_window: ChangeWindow::SHORT,
             interpolants: RefCell::default(),
             at_drawing: None,
@@ -224,6 +266,11 @@ impl<'a> Design<'a> {
         let mut state = State::new(self.mechanism.plan(), derivatives);
         state.prepare(self.mechanism.plan(), &self.constants, derivatives);
         state
+    }
+
+    /// Sets what all positions of the design share in a work space that others may have used.
+    pub(crate) fn prepare(&self, state: &mut State) {
+        state.prepare(self.mechanism.plan(), &self.constants, self.derivatives);
     }
 
     /// Work space for [`Design::trace_in_lanes`].

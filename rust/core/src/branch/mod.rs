@@ -21,4 +21,3 @@ mod refinement;
 pub(crate) mod scalar_chord;
 mod trace;
 pub(crate) mod tracer;
-pub(crate) mod units;

@@ -214,7 +214,8 @@ impl Design<'_> {
         Some((plan.length_step(driver)?, -value))
     }
 
-    /// Solves one position with the signs of its branch there; true if the analogues exist.
+    /// Solves one position with the signs of its branch there; true if the analogues exist. `state` is
+    /// [prepared](Self::prepare) for this design.
     pub(crate) fn solve(
         &self,
         state: &mut State,
@@ -234,8 +235,10 @@ impl Design<'_> {
             state.set_lost();
             return false;
         }
+        if state.is_interpolated {
+            self.prepare(state);
+        }
         let cx = self.context(self.derivatives);
-        state.prepare(cx.plan, cx.constants, cx.derivatives);
         self.guess(0, state, branch, &branch.locate(*at));
         state.solve(&Context { signs: branch.signs(*at), ..cx }, q);
         let not_converged = state.status == Status::NotConverged;
@@ -254,8 +257,7 @@ impl Design<'_> {
         {
             let at_change = !solved || distance.abs() <= CHANGE_WIDTH;
             let status = if at_change { Status::Singular } else { state.status };
-            *state = smooth;
-            state.status = status;
+            *state = State { is_interpolated: true, status, ..smooth };
             if at_change {
                 let flat = cx.plan.steps.iter().position(
                     |step| matches!(step, Step::Dyad(dyad) if dyad.sign == Some(change.sign)),

@@ -118,7 +118,8 @@ impl Design<'_> {
             tape: &self.tracing_tape,
             cancel: self.cancel,
         };
-        let (branch, tracer, settled) = (&mut self.branch, &mut *self.lane_tracer, &self.settled);
+        let (branch, tracer, settled) =
+            (&mut self.branch, self.lane_tracer.get_or_insert_default(), &self.settled);
         let with_angles = !classes.is_empty();
         let references = references.filter(|_| self.closed_forms && with_angles);
         let mut is_solved = false;
@@ -153,7 +154,8 @@ impl Design<'_> {
         let up_and_down = if follows_slide { self.rays(range) } else { Some([grid, Grid::NONE]) };
         let Some(up_and_down) = up_and_down else { return Traced::No };
         let mut below = Branch::default();
-        let (branch, tracer, settled) = (&mut self.branch, &mut *self.lane_tracer, &self.settled);
+        let (branch, tracer, settled) =
+            (&mut self.branch, self.lane_tracer.get_or_insert_default(), &self.settled);
         branch.set_constant_signs(start.len(), cx.signs);
         for (path, branch) in up_and_down.into_iter().zip([&mut *branch, &mut below]) {
             if path.count == 0 {

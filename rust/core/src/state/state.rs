@@ -29,6 +29,8 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Closure and condition.
     pub(crate) conditions: Conditions<R, G>,
     pub(crate) work: Workspace<R, G>,
+    /// Whether it was interpolated, so that even what all positions share carries rounding.
+    pub(crate) is_interpolated: bool,
     /// Status of a single position (with several lanes see `needs_scalar`).
     pub status: Status,
     /// The first failure of a single position.
@@ -69,6 +71,7 @@ impl<R: Real, const G: usize> State<R, G> {
             pose: Pose::new(plan, derivatives),
             conditions: Conditions::new(plan),
             work: Workspace::new(plan, derivatives),
+            is_interpolated: false,
             status: Status::Ok,
             fault: None,
         }
@@ -122,7 +125,6 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         if R::LANES == 1 {
-            // After interpolation even fixed orientations carry rounding.
             self.pose.class[0] = [Vector::ONE; G];
             self.pose.theta[..len].fill([R::ZERO; G]);
             let jets = self.pose.orient.chunks_exact_mut(len);
@@ -134,6 +136,7 @@ impl<R: Real, const G: usize> State<R, G> {
             }
         }
         self.prepare_driven_slides(plan, derivatives);
+        self.is_interpolated = false;
     }
 
     /// Whether the position has failed, so that no further step can be computed.

@@ -1,7 +1,7 @@
 //! One coordinate of a motion: of a joint, a link or a slide, or a derivative of it.
 
 use super::metric::{Need, Positions};
-use crate::batch::outputs::Quantity;
+use crate::batch::request::Quantity;
 use crate::query::extremes::tracked::Tracked;
 
 /// A coordinate, or a derivative of it by the driver's.

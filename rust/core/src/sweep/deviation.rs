@@ -4,7 +4,7 @@ use super::course::Course;
 use super::line_bounds::LineBounds;
 use super::metric::{Metric, Need, Positions};
 use super::moments::{Moments, SIDE_BY_SIDE};
-use crate::batch::outputs::Quantity;
+use crate::batch::request::Quantity;
 use crate::math::vector::Vector;
 
 /// Products of a part and a number of positions that should be whole are below that by less.

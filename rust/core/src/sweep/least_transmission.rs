@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::metric::{Growth, Metric, Need, Positions};
-use crate::batch::outputs::Quantity;
+use crate::batch::request::Quantity;
 use crate::math::lanes::LANES;
 use crate::math::trig::sin_cos;
 use crate::math::vector::Vector;

@@ -3,7 +3,7 @@
 use super::course::Course;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::batch::outputs::Quantity;
+use crate::batch::request::Quantity;
 
 /// A quantity, and which of its derivatives by the driver: 0 is the value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::evaluate_design::{Outcome, SweepBatch};
-use crate::batch::chunks::{Chunk, Chunks};
-use crate::batch::designs::{DesignRow, Designs};
+use crate::batch::chunks::{Chunk, Chunks, DesignRow, Designs};
 use crate::batch::dispatch::{Entry, ForLevel};
 use crate::batch::scratch::{Scratch, ScratchRows};
 use crate::batch::worker::Worker;

@@ -10,7 +10,7 @@
 
 use super::pairs::FrictionPair;
 use super::workspace::FrictionWorkspace;
-use crate::batch::outputs::{Column, Quantity, columns};
+use crate::batch::request::{Column, Quantity, columns};
 use crate::dynamics::kinematics::{Point, SolvedPose};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;

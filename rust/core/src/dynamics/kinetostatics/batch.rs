@@ -4,11 +4,11 @@ use super::evaluate::{Evaluate, ReactionBatch};
 use super::followed::{Drivers, Followed};
 use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
-use crate::batch::chunks::{Chunk, Chunks};
-use crate::batch::designs::Designs;
+use crate::batch::chunks::{Chunk, Chunks, Designs};
 use crate::batch::dispatch::{self, Entry, ForLevel};
-use crate::batch::outputs::{Arrays, Column, Quantity};
-use crate::batch::request::{Coordinates, Request, Shape, check_arrays, product};
+use crate::batch::request::{
+    Arrays, Column, Coordinates, Quantity, Request, Shape, check_arrays, product,
+};
 use crate::batch::schedule::Control;
 use crate::batch::scratch::Scratch;
 use crate::batch::worker::{Job, Worker};

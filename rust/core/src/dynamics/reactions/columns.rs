@@ -4,7 +4,7 @@ use std::ops::Add;
 
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
-use crate::batch::outputs::{Column, Quantity};
+use crate::batch::request::{Column, Quantity};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;

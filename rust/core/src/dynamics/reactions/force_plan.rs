@@ -2,7 +2,7 @@
 
 use super::load_actions::LoadAction;
 use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
-use crate::batch::outputs::{Outputs, Quantity};
+use crate::batch::request::{Outputs, Quantity};
 use crate::description::Driver;
 use crate::description::frame::Axis;
 use crate::dynamics::kinematics::Point;
