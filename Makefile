@@ -138,14 +138,13 @@ bench: rust-tools $(EXTENSION)
 	cargo bench $(LOCKED) --features test-hooks
 	$(PY) benches/python/run.py --write
 
-CAMPAIGN := PYTHONPATH=tests/python/models:tests/python/oracles $(PY) tests/python/campaigns/campaign.py
+CAMPAIGN := PYTHONPATH=tests/python $(PY) -m campaigns.campaign
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(CAMPAIGN) --count 100000 --out docs/campaign.md
 	$(CAMPAIGN) --higher --count 10000 --out docs/campaign-higher.md
 	$(CAMPAIGN) --mixed --count 100000 --out docs/campaign-mixed.md
 	$(CAMPAIGN) --machines --count 10000 --out docs/campaign-machines.md
-	PYTHONPATH=tests/python/models:tests/python/oracles \
-		$(PY) -W ignore tests/python/campaigns/campaign_assemblies.py
+	PYTHONPATH=tests/python $(PY) -W ignore -m campaigns.campaign_assemblies
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/test_friction_random.py \
 	  tests/python/dynamics/test_reactions_oracle.py \

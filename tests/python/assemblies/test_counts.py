@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import assur
-from assembly_checks import expected
-from assembly_models import CASES
-from mechanism_data import arguments
-from mixed_models import mixed_case
-from variants import Variant, shuffled
+from models.assembly_models import CASES
+from models.mechanism_data import arguments
+from models.mixed_models import mixed_case
+from models.variants import Variant, shuffled
+from oracles.assembly_checks import expected
 
 SAMPLE = 5  # of each kind; `make campaign` counts all
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import assur
-from assembly_models import CASES
 from assur import examples
-from refusals import refused
+from models.assembly_models import CASES
+from models.refusals import refused
 
 # Printed numbers have twelve digits.
 PRINTED = 2e-11

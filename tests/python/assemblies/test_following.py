@@ -7,23 +7,21 @@ import os
 import pickle
 import subprocess
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 import assur
-from assembly_checks import Followed, follow, places, random_cases
-from assembly_models import CASES, triad
-from refusals import refused
+from models.assembly_models import CASES, triad
+from models.refusals import refused
+from oracles.assembly_checks import Followed, follow, places, random_cases
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Float = NDArray[np.float64]
 
-TESTS = Path(__file__).parents[1]
 # The sample; `make campaign` follows ten thousand.
 FOLLOWED = 150
 
@@ -155,17 +153,16 @@ def test_refusals() -> None:
 def test_every_level_of_instructions_gives_the_same_bits() -> None:
     code = (
         "import numpy as np\n"
-        "from assembly_models import CASES\n"
+        "from models.assembly_models import CASES\n"
         "for kind in ('triad', 'IV', 'triad, two blocks'):\n"
         "    m = CASES[kind][0](np.random.default_rng(5)).mechanism\n"
         "    for q in (0.0, 0.7):\n"
         "        for one in m.assemblies(m.q0 + q):\n"
         "            print([[x.hex() for x in at] for at in one.joints.values()])\n"
     )
-    path = os.pathsep.join(str(TESTS / name) for name in ("models", "oracles"))
     texts = set()
     for level in ("baseline", "avx2", "avx512"):
-        env = {**os.environ, "ASSUR_SIMD": level, "PYTHONPATH": path}
+        env = {**os.environ, "ASSUR_SIMD": level, "PYTHONPATH": os.pathsep.join(sys.path)}
         command = [sys.executable, "-c", code]
         texts.add(subprocess.run(command, env=env, capture_output=True, check=True).stdout)
     assert len(texts) == 1

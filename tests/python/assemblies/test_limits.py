@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from test_numbers import six_bar, triad
+from assemblies.test_numbers import six_bar, triad
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

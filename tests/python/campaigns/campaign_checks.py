@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
-from agreement import POSITION
+from oracles.agreement import POSITION
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import assur
-    from campaign_geometry import Array, Bools, Sample
+    from campaigns.campaign_geometry import Array, Bools, Sample
 
 Solve: TypeAlias = "Callable[[Array], Sample]"
 Test: TypeAlias = "Callable[[Array, Array, Array, Array, Array], Bools]"

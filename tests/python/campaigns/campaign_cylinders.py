@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur import Status
-from campaign_report import Findings
+from campaigns.campaign_report import Findings
 
 if TYPE_CHECKING:
-    from cylinder_models import Case
+    from models.cylinder_models import Case
 
 POSITIONS = 300
 ASSEMBLIES = 4

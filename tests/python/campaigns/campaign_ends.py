@@ -10,12 +10,12 @@ import numpy as np
 
 import assur
 from assur import Status
-from campaign_report import Findings
-from mechanism_data import arguments
+from campaigns.campaign_report import Findings
+from models.mechanism_data import arguments
 
 if TYPE_CHECKING:
-    import dyad_models
-    from campaign_geometry import Array
+    from campaigns.campaign_geometry import Array
+    from models import dyad_models
 
 SCANNED = 1500  # positions, over a turn, or over so much of a driven slide, m
 SLIDE_REACH = 6.0

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-from agreement import POSITION
 from assur import Status
-from campaign_checks import TERMS
-from campaign_report import Findings
-from closures import Closures
-from mechanism_data import arguments
+from campaigns.campaign_checks import TERMS
+from campaigns.campaign_report import Findings
+from models.mechanism_data import arguments
+from oracles.agreement import POSITION
+from oracles.closures import Closures
 
 if TYPE_CHECKING:
-    import dyad_models
+    from models import dyad_models
 
 STEPS = 200
 REACH = math.pi

@@ -7,23 +7,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from campaign_cylinders import Cylinders
-from campaign_ends import Ends
-from campaign_flat import Flat
-from campaign_resting import Resting
-from campaign_saved import Saved
-from campaign_sweeps import Covered, Swept
-from campaign_turned import Turned
-from campaign_units import InUnits
-from campaign_variants import Variants
-from cylinder_models import cylinder_case
-from flat_models import flat_case
-from resting_models import resting_case
+from campaigns.campaign_cylinders import Cylinders
+from campaigns.campaign_ends import Ends
+from campaigns.campaign_flat import Flat
+from campaigns.campaign_resting import Resting
+from campaigns.campaign_saved import Saved
+from campaigns.campaign_sweeps import Covered, Swept
+from campaigns.campaign_turned import Turned
+from campaigns.campaign_units import InUnits
+from campaigns.campaign_variants import Variants
+from models.cylinder_models import cylinder_case
+from models.flat_models import flat_case
+from models.resting_models import resting_case
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from campaign_report import Findings
+    from campaigns.campaign_report import Findings
 
 # Most cost as much as all other checks of a mechanism, and up to ten times as much of a machine.
 ASKED: dict[str, dict[type[Any], int]] = {

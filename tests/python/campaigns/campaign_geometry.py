@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from agreement import POSITION, Tracer, U
 from assur import Status
-from mechanism_data import GROUND, Description
+from models.mechanism_data import GROUND, Description
+from oracles.agreement import POSITION, Tracer, U
 
 if TYPE_CHECKING:
     import assur

@@ -13,14 +13,14 @@ import numpy as np
 
 import assur
 from assur import Status
-from campaign_report import Findings
-from machine_energy import Balance
+from campaigns.campaign_report import Findings
+from oracles.machine_energy import Balance
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from assur.dynamics.motion.run import Run
-    from machine_models import Case
+    from models.machine_models import Case
 
 RTOL = 1e-9
 BALANCE = 10.0  # times rtol of the greatest energy

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-import campaign_checks as checks
-from agreement import POSITION
 from assur import Status
-from campaign_geometry import Sample
-from campaign_report import Findings
-from closures import Closures
-from mechanism_data import arguments
+from campaigns import campaign_checks as checks
+from campaigns.campaign_geometry import Sample
+from campaigns.campaign_report import Findings
+from models.mechanism_data import arguments
+from oracles.agreement import POSITION
+from oracles.closures import Closures
 
 if TYPE_CHECKING:
-    import dyad_models
-    from campaign_geometry import Array
+    from campaigns.campaign_geometry import Array
+    from models import dyad_models
 
 DESIGNS = 3  # beside the drawing
 CHANGES = (0.02, 0.40)  # of dimensions, up or down

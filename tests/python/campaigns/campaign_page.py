@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-import campaign_cases as cases
-import campaign_checks as checks
-import campaign_page_further as of_further
-from campaign_page_further import number
+from campaigns import campaign_cases as cases
+from campaigns import campaign_checks as checks
+from campaigns import campaign_page_further as of_further
+from campaigns.campaign_page_further import number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from campaign_report import Report
+    from campaigns.campaign_report import Report
 
 STATUSES = ("OK", "NEAR_SINGULAR", "SINGULAR", "UNREACHABLE", "LOST")
 SHOWN = 50  # failures on the page

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import campaign_cylinders as of_cylinders
-import campaign_ends as of_ends
-import campaign_turned as of_turned
-import campaign_units as of_units
-import flat_models
-from campaign_cylinders import Cylinders
-from campaign_ends import Ends
-from campaign_flat import Flat
-from campaign_further import ASKED, DRAWN
-from campaign_resting import Resting
-from campaign_sweeps import Covered, Swept
-from campaign_turned import Turned
-from campaign_variants import Variants
+from campaigns import campaign_cylinders as of_cylinders
+from campaigns import campaign_ends as of_ends
+from campaigns import campaign_turned as of_turned
+from campaigns import campaign_units as of_units
+from campaigns.campaign_cylinders import Cylinders
+from campaigns.campaign_ends import Ends
+from campaigns.campaign_flat import Flat
+from campaigns.campaign_further import ASKED, DRAWN
+from campaigns.campaign_resting import Resting
+from campaigns.campaign_sweeps import Covered, Swept
+from campaigns.campaign_turned import Turned
+from campaigns.campaign_variants import Variants
+from models import flat_models
 
 if TYPE_CHECKING:
-    from campaign_report import Report
+    from campaigns.campaign_report import Report
 
 Rows = list[tuple[str, str]]
 

@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import campaign_checks as checks
-import campaign_machines as of_machines
-import campaign_mixed as of_mixed
-import campaign_page_further as of_further
-import campaign_redundant as of_redundant
-import machine_models
-import redundant_models
-from campaign_page import greatest, motions, page, statuses
-from campaign_page_further import number
+from campaigns import campaign_checks as checks
+from campaigns import campaign_machines as of_machines
+from campaigns import campaign_mixed as of_mixed
+from campaigns import campaign_page_further as of_further
+from campaigns import campaign_redundant as of_redundant
+from campaigns.campaign_page import greatest, motions, page, statuses
+from campaigns.campaign_page_further import number
+from models import machine_models, redundant_models
 
 if TYPE_CHECKING:
-    from campaign_report import Report
+    from campaigns.campaign_report import Report
 
 LEAST, MOST = (f"{100 * part:g}" for part in of_mixed.CHANGES)
 

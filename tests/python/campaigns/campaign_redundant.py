@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-import campaign_checks as checks
 from assur import Status
-from campaign_mixed import Path
-from campaign_report import Findings
-from closures import Closures
-from mechanism_data import arguments
+from campaigns import campaign_checks as checks
+from campaigns.campaign_mixed import Path
+from campaigns.campaign_report import Findings
+from models.mechanism_data import arguments
+from oracles.closures import Closures
 
 if TYPE_CHECKING:
-    from campaign_geometry import Sample
-    from redundant_models import Rounded
+    from campaigns.campaign_geometry import Sample
+    from models.redundant_models import Rounded
 
 # Data of so many digits or more fit to rounding: they must be taken.
 FITTING = 14

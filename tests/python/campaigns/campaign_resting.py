@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from campaign_report import Findings
+from campaigns.campaign_report import Findings
 
 if TYPE_CHECKING:
-    from resting_models import Case
+    from models.resting_models import Case
 
 POSITIONS = 40
 # Friction with viscosity, of a rate that is rounding: to this part of what moves elsewhere.

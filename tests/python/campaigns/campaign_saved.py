@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import assur
-from campaign_report import Findings
-from mechanism_data import arguments
+from campaigns.campaign_report import Findings
+from models.mechanism_data import arguments
 
 if TYPE_CHECKING:
-    import dyad_models
+    from models import dyad_models
 
 
 class Saved(Findings):

@@ -11,13 +11,13 @@ import numpy as np
 
 import assur
 from assur import Status, metric
-from campaign_report import Findings
-from mechanism_data import arguments
-from turned_machines import forces
+from campaigns.campaign_report import Findings
+from models.mechanism_data import arguments
+from models.turned_machines import forces
 
 if TYPE_CHECKING:
-    import dyad_models
-    from machine_models import Case
+    from models import dyad_models
+    from models.machine_models import Case
 
 DESIGNS = 3
 SPREAD = 0.01  # of a dimension

@@ -15,14 +15,14 @@ import numpy as np
 
 import assur
 from assur import Status
-from campaign_report import Findings
-from frames import Frame
-from machine_units import with_friction
-from turned_machines import forces, ordered, turned
-from variants import Variant, framed, renamed, shuffled
+from campaigns.campaign_report import Findings
+from models.frames import Frame
+from models.machine_units import with_friction
+from models.turned_machines import forces, ordered, turned
+from models.variants import Variant, framed, renamed, shuffled
 
 if TYPE_CHECKING:
-    from machine_models import Case
+    from models.machine_models import Case
 
 POSITIONS = 12
 REACH = 0.5

@@ -16,15 +16,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from campaign_report import Findings
-from everything_asked import asked
-from machine_units import Units, in_units, with_friction
+from campaigns.campaign_report import Findings
+from models.machine_units import Units, in_units, with_friction
+from oracles.everything_asked import asked
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from assur.dynamics.forces.reactions import Reactions
-    from machine_models import Case
+    from models.machine_models import Case
 
 RTOL = 1e-8
 MAX_STEPS = 300

@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-import variant_queries as queries
 from assur import Status
-from campaign_report import Findings
-from frames import Frame
-from mechanism_data import arguments
-from variant_results import Pairing
-from variants import Variant, framed, redrawn, renamed, shuffled
+from campaigns.campaign_report import Findings
+from models.frames import Frame
+from models.mechanism_data import arguments
+from models.variants import Variant, framed, redrawn, renamed, shuffled
+from oracles import variant_queries as queries
+from oracles.variant_results import Pairing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    import dyad_models
-    from mechanism_data import Description
-    from variant_results import Array
+    from models import dyad_models
+    from models.mechanism_data import Description
+    from oracles.variant_results import Array
 
 POSITIONS = 24
 REACH = math.pi  # to either side of the drawing, rad or m

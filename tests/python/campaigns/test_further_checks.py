@@ -10,34 +10,32 @@ import numpy as np
 import pytest
 
 import assur
-import campaign_cases
-import dyad_models
-import machine_models
-import named_models
-import variant_queries
-from campaign_cylinders import Cylinders
-from campaign_ends import Ends
-from campaign_flat import Flat
-from campaign_resting import Resting
-from campaign_saved import Saved
-from campaign_sweeps import Covered, Swept
-from campaign_turned import Turned
-from campaign_units import InUnits
-from campaign_variants import Variants, variant_of
-from cylinder_models import cylinder_case
-from everything_asked import asked
-from flat_models import flat_case
-from frames import Frame
-from mechanism_data import Description, arguments
-from mixed_models import mixed_case
-from resting_models import resting_case
-from variant_results import Pairing
-from variants import Variant, framed, redrawn, renamed, shuffled
+from campaigns import campaign_cases
+from campaigns.campaign_cylinders import Cylinders
+from campaigns.campaign_ends import Ends
+from campaigns.campaign_flat import Flat
+from campaigns.campaign_resting import Resting
+from campaigns.campaign_saved import Saved
+from campaigns.campaign_sweeps import Covered, Swept
+from campaigns.campaign_turned import Turned
+from campaigns.campaign_units import InUnits
+from campaigns.campaign_variants import Variants, variant_of
+from models import dyad_models, machine_models, named_models
+from models.cylinder_models import cylinder_case
+from models.flat_models import flat_case
+from models.frames import Frame
+from models.mechanism_data import Description, arguments
+from models.mixed_models import mixed_case
+from models.resting_models import resting_case
+from models.variants import Variant, framed, redrawn, renamed, shuffled
+from oracles import variant_queries
+from oracles.everything_asked import asked
+from oracles.variant_results import Pairing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from campaign_report import Findings
+    from campaigns.campaign_report import Findings
 
 higher_case = campaign_cases.MAKE["higher"]
 # The check, how its cases are drawn, and which seeds: each about a second at most.

@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 
 import assur
-import campaign_cases as cases
-import campaign_checks as checks
-import higher_models
 from assur import Status
 from assur.examples import loom
-from campaign_geometry import Geometry, Sample
-from mechanism_data import arguments
+from campaigns import campaign_cases as cases
+from campaigns import campaign_checks as checks
+from campaigns.campaign_geometry import Geometry, Sample
+from models import higher_models
+from models.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from campaign_geometry import Array
+    from campaigns.campaign_geometry import Array
 
 SEEDS = 50  # `make campaign` asks 10 000
 

@@ -11,11 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
-import dyad_models
-import mixed_models
-from mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
-from pair_jacobian import jacobian
-from samples import sample
+from models import dyad_models, mixed_models
+from models.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
+from models.samples import sample
+from oracles.pair_jacobian import jacobian
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

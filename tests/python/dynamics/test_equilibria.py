@@ -16,9 +16,9 @@ from scipy.optimize import brentq
 
 import assur
 from assur import Body, Force, Gravity, Spring, Torque, TorsionSpring
-from machines import four_bar, pendulum
-from multipliers import Reactions
-from reaction_machines import reaction_case
+from models.machines import four_bar, pendulum
+from models.reaction_machines import reaction_case
+from oracles.multipliers import Reactions
 
 if TYPE_CHECKING:
     from assur import Machine

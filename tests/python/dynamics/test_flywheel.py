@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import assur
-import oracle_flywheel as oracle
 from assur import flywheel
 from assur.cli import main
-from oracle_flywheel import mp
+from oracles import oracle_flywheel as oracle
+from oracles.oracle_flywheel import mp
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import assur
-from friction_law import STILL, FrictionLaw
-from rubbing_machines import rubbing_case, with_friction
-from samples import sample
+from models.rubbing_machines import rubbing_case, with_friction
+from models.samples import sample
+from oracles.friction_law import STILL, FrictionLaw
 
 COUNT, CHUNK = sample(60, 1000), 20
 STARTS = 200

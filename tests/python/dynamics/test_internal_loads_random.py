@@ -9,10 +9,10 @@ import numpy as np
 
 import assur
 from assur import Body, Torque, TorsionDamper, TorsionSpring
-from cut_rod import CutRod
-from mechanism_data import GROUND
-from multipliers import unit_roundoff
-from reaction_machines import Case, reaction_case
+from models.mechanism_data import GROUND
+from models.reaction_machines import Case, reaction_case
+from oracles.cut_rod import CutRod
+from oracles.multipliers import unit_roundoff
 
 SEEDS = 40
 # As the reactions, in u κ of the largest force; moments by the machine's size.

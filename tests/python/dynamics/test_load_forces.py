@@ -11,8 +11,8 @@ import assur
 from assur import Force, Gravity, Machine, Pressure, Spring, Torque
 from assur.dynamics.forces.force_system import force_system
 from assur.dynamics.forces.load_forces import loads_of
-from multipliers import Reactions, unit_roundoff
-from reaction_machines import reaction_case
+from models.reaction_machines import reaction_case
+from oracles.multipliers import Reactions, unit_roundoff
 
 SEEDS = 30
 # In u κ of the largest force: angles and places of a position are good to u κ.

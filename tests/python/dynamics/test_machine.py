@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 import assur
-import oracle
-import oracle_guess
 from assur import (
     Body,
     Damper,
@@ -26,10 +24,11 @@ from assur import (
     slider_crank,
 )
 from assur.examples import loom
-from interruptions import is_heard
-from machines import cylinder, five_bar, four_bar
-from mechanism_data import described
-from oracle_system import MP
+from models.interruptions import is_heard
+from models.machines import cylinder, five_bar, four_bar
+from models.mechanism_data import described
+from oracles import oracle, oracle_guess
+from oracles.oracle_system import MP
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import assur
-import bits
-import design_spaces
-from reaction_machines import reaction_case
+from models.reaction_machines import reaction_case
+from net import bits, design_spaces
 
 # Squares and their products are rounded, in another order: a few units in the last place.
 ROUNDED = 8 * 2.0**-53

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import assur
-import machines
 from assur import Body, Force, Gravity
-from reaction_view import View
+from models import machines
+from oracles.reaction_view import View
 
 Q = np.array([0.3, 1.1, 2.9, 4.0])
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from multipliers import Reactions, unit_roundoff
-from reaction_machines import reaction_case, redundant_reaction_case
-from reaction_shares import Compared, Worst
-from samples import sample
+from models.reaction_machines import reaction_case, redundant_reaction_case
+from models.samples import sample
+from oracles.multipliers import Reactions, unit_roundoff
+from oracles.reaction_shares import Compared, Worst
 
 if TYPE_CHECKING:
     import assur

@@ -10,8 +10,8 @@ import pytest
 
 import assur
 from assur import Body
-from published_machines import Printed, Published, published
-from reaction_view import View
+from models.published_machines import Printed, Published, published
+from oracles.reaction_view import View
 
 PUBLISHED = {case.name: case for case in published()}
 

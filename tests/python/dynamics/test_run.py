@@ -13,8 +13,8 @@ from scipy.optimize import brentq
 import assur
 from assur import Body, Damper, Force, Gravity, Spring, Torque, TorsionDamper, TorsionSpring, events
 from assur.examples import loom
-from machines import five_bar, four_bar, pendulum
-from oracle_dae import Dae
+from models.machines import five_bar, four_bar, pendulum
+from oracles.oracle_dae import Dae
 
 if TYPE_CHECKING:
     from collections.abc import Callable

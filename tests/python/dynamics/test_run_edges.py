@@ -22,8 +22,8 @@ from assur import (
     events,
 )
 from assur.dynamics.motion import integrate
-from machines import five_bar, pendulum, press, wheel
-from oracle_dae import Dae
+from models.machines import five_bar, pendulum, press, wheel
+from oracles.oracle_dae import Dae
 
 TURN = math.tau
 ANY: Any = None  # what types would not let pass

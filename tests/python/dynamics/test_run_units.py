@@ -26,10 +26,10 @@ from assur import (
     TorsionSpring,
     events,
 )
-from higher_drawings import triad_press
-from machine_models import machine_case
-from machines import cylinder, five_bar, four_bar
-from units import Units, differences
+from models.higher_drawings import triad_press
+from models.machine_models import machine_case
+from models.machines import cylinder, five_bar, four_bar
+from models.units import Units, differences
 
 TURN = math.tau
 BODIES = {

@@ -7,12 +7,12 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
-import press_motion
 import pytest
 
 import assur
+import press_motion
 from assur import Body, InputError, Torque, flywheel
-from machines import press
+from models.machines import press
 
 TURN = math.tau
 ANY: Any = "median"  # what types would not let pass

@@ -10,11 +10,10 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import named_drawings
-import named_models
 from assur import Status, examples
-from example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
-from mechanism_data import arguments
+from models import named_drawings, named_models
+from models.mechanism_data import arguments
+from oracles.example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

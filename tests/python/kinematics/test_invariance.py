@@ -15,16 +15,13 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-import agreement
 import assur
-import dyad_models
-import mixed_models
-import named_drawings
-import named_models
 from assur import Status
-from frames import Frame
-from mechanism_data import GROUND, Description, arguments
-from samples import sample
+from models import dyad_models, mixed_models, named_drawings, named_models
+from models.frames import Frame
+from models.mechanism_data import GROUND, Description, arguments
+from models.samples import sample
+from oracles import agreement
 
 if TYPE_CHECKING:
     from collections.abc import Callable

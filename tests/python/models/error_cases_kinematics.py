@@ -7,11 +7,11 @@ import math
 from typing import Any
 
 import assur
-import higher_models
 from assur import DimensionError, InputError, PositionError, StructureError
-from error_case import Case
-from mechanism_data import arguments
-from refusals import (
+from models import higher_models
+from models.error_case import Case
+from models.mechanism_data import arguments
+from models.refusals import (
     APART,
     LOCOMOTIVE,
     RODS,
@@ -21,8 +21,8 @@ from refusals import (
     joint,
     slide,
 )
-from refused_structures import REFUSED
-from rings import ring
+from models.refused_structures import REFUSED
+from models.rings import ring
 
 nan = math.nan
 

@@ -7,8 +7,8 @@ import random
 from typing import TYPE_CHECKING
 
 import assur
-import dyad_models
-from mechanism_data import GROUND, Description, SlideSpec, arguments
+from models import dyad_models
+from models.mechanism_data import GROUND, Description, SlideSpec, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-import dyad_models
-import mixed_models
-from mechanism_data import GROUND, Description, arguments
+from models import dyad_models, mixed_models
+from models.mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

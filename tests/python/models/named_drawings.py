@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import higher_drawings
 from assur import examples
+from models import higher_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -13,12 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-import dyad_models
-import higher_models
-import mixed_models
-import redundant_models
-from machine_models import CONDITION, KINDS, Parts
-from mechanism_data import GROUND, Description, arguments
+from models import dyad_models, higher_models, mixed_models, redundant_models
+from models.machine_models import CONDITION, KINDS, Parts
+from models.mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from assur import Machine, Mechanism

@@ -12,10 +12,10 @@ import math
 import random
 from dataclasses import dataclass, replace
 
-import dyad_models
-from mechanism_data import GROUND, Description
-from mixed_models import REGULAR, TRIES, Builder
-from pair_jacobian import regularity
+from models import dyad_models
+from models.mechanism_data import GROUND, Description
+from models.mixed_models import REGULAR, TRIES, Builder
+from oracles.pair_jacobian import regularity
 
 KINDS = ("locomotive", "rods", "guides")
 DIGITS = (6, 15)

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import assur
-from refusals import (
+from models.refusals import (
     FIVE,
     FIVE_LINKS,
     FOUR,

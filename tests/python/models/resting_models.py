@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import assur
-import dyad_models
-from flat_models import Builder as FlatBuilder
-from machine_models import Parts
-from machine_units import with_friction
-from mechanism_data import GROUND, Description, arguments
+from models import dyad_models
+from models.flat_models import Builder as FlatBuilder
+from models.machine_models import Parts
+from models.machine_units import with_friction
+from models.mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,10 +7,10 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 import assur
-from reaction_machines import reaction_case
+from models.reaction_machines import reaction_case
 
 if TYPE_CHECKING:
-    from reaction_machines import Case
+    from models.reaction_machines import Case
 
 
 MOST = 6

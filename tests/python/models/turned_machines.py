@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from mechanism_data import GROUND, arguments
-from variants import KINDS
+from models.mechanism_data import GROUND, arguments
+from models.variants import KINDS
 
 if TYPE_CHECKING:
-    from mechanism_data import Description
-    from variants import Variant
+    from models.mechanism_data import Description
+    from models.variants import Variant
 
 
 def ordered(d: Description, machine: assur.Machine) -> assur.Machine:

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from frames import Frame
-from mechanism_data import GROUND, Description, SlideSpec
+from models.frames import Frame
+from models.mechanism_data import GROUND, Description, SlideSpec
 
 if TYPE_CHECKING:
     import random

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-import bits
-import campaign_cases
-import named_drawings
-from mechanism_data import arguments
-from samples import sample
+from campaigns import campaign_cases
+from models import named_drawings
+from models.mechanism_data import arguments
+from models.samples import sample
+from net import bits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

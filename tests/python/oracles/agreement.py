@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-import oracle
-from mechanism_data import GROUND, Description
-from oracle_system import MP, Pose, System
+from models.mechanism_data import GROUND, Description
+from oracles import oracle
+from oracles.oracle_system import MP, Pose, System
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

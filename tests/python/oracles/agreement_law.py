@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-import agreement
 import assur
-import oracle
-import oracle_dimension
-from mechanism_data import arguments
-from oracle_system import MP
+from models.mechanism_data import arguments
+from oracles import agreement, oracle, oracle_dimension
+from oracles.oracle_system import MP
 
 if TYPE_CHECKING:
-    from agreement import Q
-    from mechanism_data import Description
+    from models.mechanism_data import Description
+    from oracles.agreement import Q
 
 
 def along(start: Q, move: Q, t: float) -> Q:

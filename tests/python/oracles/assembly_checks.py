@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-from assembly_models import CASES, Case
-from scan import count
+from models.assembly_models import CASES, Case
+from oracles.scan import count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

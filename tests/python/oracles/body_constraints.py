@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from body_places import GROUND, Places, cross, dot
+from oracles.body_places import GROUND, Places, cross, dot
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mechanism_data import GROUND
-from oracle_system import MP
+from models.mechanism_data import GROUND
+from oracles.oracle_system import MP
 
 if TYPE_CHECKING:
     from assur import Mechanism

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 import assur
-import named_drawings
 from assur import examples
+from models import named_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import assur
-from body_places import GROUND, dot
-from friction_cases import Bearing, FrictionCase, Journal
-from multipliers import Reactions
+from models.friction_cases import Bearing, FrictionCase, Journal
+from oracles.body_places import GROUND, dot
+from oracles.multipliers import Reactions
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

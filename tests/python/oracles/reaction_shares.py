@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from body_places import GROUND, cross
-from multipliers import Reactions, unit_roundoff
+from oracles.body_places import GROUND, cross
+from oracles.multipliers import Reactions, unit_roundoff
 
 if TYPE_CHECKING:
-    from reaction_machines import Case
+    from models.reaction_machines import Case
 
 # Beyond this share the float64 oracle's own error counts: the one of 50 digits is asked.
 OWN = 4.0

@@ -10,9 +10,9 @@ import pytest
 
 import assur
 from assur import Body
-from body_places import cross, dot
-from multipliers import Reactions, unit_roundoff
-from reaction_machines import reaction_case, redundant_reaction_case
+from models.reaction_machines import reaction_case, redundant_reaction_case
+from oracles.body_places import cross, dot
+from oracles.multipliers import Reactions, unit_roundoff
 
 CLOSE = 1e-12  # of the largest force: a few operations at conditions of some ten
 # Of the float64 oracle against itself at 50 digits, in u κ of the largest force; 2 were seen.

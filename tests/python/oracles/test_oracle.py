@@ -11,13 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import dyad_models
-import named_models
-import oracle
-import oracle_guess
-from mechanism_data import Description, SlideSpec
-from oracle import solve
-from oracle_system import MP, Pose, System
+from models import dyad_models, named_models
+from models.mechanism_data import Description, SlideSpec
+from oracles import oracle, oracle_guess
+from oracles.oracle import solve
+from oracles.oracle_system import MP, Pose, System
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reaction_machines import Case, reaction_case
-from reaction_shares import Compared, Worst
-from reaction_view import View
+from models.reaction_machines import Case, reaction_case
+from oracles.reaction_shares import Compared, Worst
+from oracles.reaction_view import View
 
 SEEDS = range(3)  # with slides on moving links
 

@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from agreement import ANALOGUE, POSITION
 from assur import Status
-from mechanism_data import arguments
-from variant_rounding import moved_drawings
-from variants import KINDS
+from models.mechanism_data import arguments
+from models.variants import KINDS
+from oracles.agreement import ANALOGUE, POSITION
+from oracles.variant_rounding import moved_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from mechanism_data import Description
-    from variants import Variant
+    from models.mechanism_data import Description
+    from models.variants import Variant
 
     Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ import assur
 from assur.examples import ALL
 from assur.pictures.scene.course import course
 from assur.pictures.style import DARK, LIGHT
-from drawn_examples import mechanism
-from picture_overlaps import overlapping
-from picture_reading import named
+from pictures.drawn_examples import mechanism
+from pictures.picture_overlaps import overlapping
+from pictures.picture_reading import named
 
 CRANK_ROCKER = assur.examples.crank_rocker()
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from browsers import wait_until
+from models.browsers import wait_until
 from studio_page import chain
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from assur.pictures.scene.frames import Frames, frames_of, nearby
 from assur.pictures.scene.geometry import hull
 from assur.pictures.scene.labels import along, chosen, placed
 from assur.pictures.scene.shapes import Hatching, Scene, Stroke
-from drawn_examples import mechanism
+from pictures.drawn_examples import mechanism
 
 ONE_DRIVER = [name for name in ALL if not isinstance(mechanism(name).driver, tuple)]
 

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from asking import FOUR_BAR
 from assur.studio.answers import answered
 from assur.studio.bundle import widget_script
 from assur.studio.kinds import KINDS
 from assur.studio.request import parse
 from assur.studio.session import Deadline, Given, Session
-from browsing import Server, Window, window
+from studio.asking import FOUR_BAR
+from studio.browsing import Server, Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

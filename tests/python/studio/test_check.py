@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from asking import FOUR_BAR, PRESS, ask, refused
+from studio.asking import FOUR_BAR, PRESS, ask, refused
 
 WITHOUT_DRIVER = {key: value for key, value in FOUR_BAR.items() if key != "driver"}
 

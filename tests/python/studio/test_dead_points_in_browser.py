@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur.studio.document import document_of
-from browsing import Window, window
+from studio.browsing import Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR
-from browsing import Window, window
+from studio.asking import FOUR_BAR
+from studio.browsing import Window, window
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from asking import ask
 from assur.studio import document
-from browsing import Window, window
+from studio.asking import ask
+from studio.browsing import Window, window
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

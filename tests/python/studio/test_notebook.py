@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR
 from assur.studio import document
 from assur.studio.bundle import widget_script
 from assur.studio.frame import decode
 from assur.studio.notebook import Explorer
-from browsers import wait_until
-from node import run_node
+from models.browsers import wait_until
+from pictures.node import run_node
+from studio.asking import FOUR_BAR
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 import assur
-from asking import FOUR_BAR, PRESS
 from assur.studio import document
-from browsing import Window, window
+from studio.asking import FOUR_BAR, PRESS
+from studio.browsing import Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR
 from assur.studio import document
-from browsing import WIDTHS, Server, Window, window
-from samples import IS_CAMPAIGN
+from models.samples import IS_CAMPAIGN
+from studio.asking import FOUR_BAR
+from studio.browsing import WIDTHS, Server, Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from asking import FOUR_BAR
 from assur.studio import document
 from assur.studio.session import Given
-from browsing import Server, Window, window
+from studio.asking import FOUR_BAR
+from studio.browsing import Server, Window, window
 
 if TYPE_CHECKING:
     from pathlib import Path
