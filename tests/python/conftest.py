@@ -45,7 +45,7 @@ def browser() -> Iterator[Browser]:
 
     Its driver keeps the loop of this thread: tests run their own with `asyncio` in another thread.
     """
-    from models.browsers import chromium
+    from support.browsers import chromium
 
     with chromium() as running:
         yield running

@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assemblies.test_numbers import six_bar, triad
-from models.refusals import refused
+from models.errors.refusals import refused
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import assur
-from models.assembly_models import CASES
-from models.mechanism_data import arguments
-from models.mixed_models import mixed_case
-from models.variants import Variant, shuffled
+from models.mechanisms.assembly_models import CASES
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.variants import Variant, shuffled
 from oracles.assembly_checks import expected
 
 SAMPLE = 5  # of each kind; `make campaign` counts all

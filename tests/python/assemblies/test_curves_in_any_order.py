@@ -11,13 +11,13 @@ import pytest
 import assur
 from campaigns import campaign_cases
 from campaigns.campaign_variants import variant_of
-from models import mixed_models
-from models.mechanism_data import arguments
+from models.mechanisms import mixed_models
+from models.mechanisms.mechanism_data import arguments
 from oracles.variant_queries import same_curve
 from oracles.variant_results import Pairing
 
 if TYPE_CHECKING:
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 # Of a curve with 26 branches that once took half a minute, with a margin for slow machines.
 SECONDS = 15.0

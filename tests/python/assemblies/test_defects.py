@@ -8,7 +8,7 @@ import numpy as np
 
 import assur
 from assemblies.test_numbers import triad
-from models.refusals import refused
+from models.errors.refusals import refused
 
 NONE, CIRCUIT, BRANCH, ORDER, MISSING = (0, 1, 2, 4, 8)
 

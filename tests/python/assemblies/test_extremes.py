@@ -11,8 +11,8 @@ import pytest
 
 import assur
 from assur import examples
-from models.assembly_models import CASES
-from models.refusals import refused
+from models.errors.refusals import refused
+from models.mechanisms.assembly_models import CASES
 
 # Printed numbers have twelve digits.
 PRINTED = 2e-11

@@ -14,10 +14,10 @@ import pytest
 
 import assur
 from campaigns.campaign_cases import random_case
-from models.higher_models import higher_case
-from models.mechanism_data import Description, arguments
-from models.mixed_models import mixed_case
-from models.variants import Variant, shuffled
+from models.mechanisms.higher_models import higher_case
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.variants import Variant, shuffled
 from oracles import oracle, oracle_guess
 
 if TYPE_CHECKING:

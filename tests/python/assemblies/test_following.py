@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import assur
-from models.assembly_models import CASES, triad
-from models.refusals import refused
+from models.errors.refusals import refused
+from models.mechanisms.assembly_models import CASES, triad
 from oracles.assembly_checks import Followed, follow, places, random_cases
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ def test_refusals() -> None:
 def test_every_level_of_instructions_gives_the_same_bits() -> None:
     code = (
         "import numpy as np\n"
-        "from models.assembly_models import CASES\n"
+        "from models.mechanisms.assembly_models import CASES\n"
         "for kind in ('triad', 'IV', 'triad, two blocks'):\n"
         "    m = CASES[kind][0](np.random.default_rng(5)).mechanism\n"
         "    for q in (0.0, 0.7):\n"

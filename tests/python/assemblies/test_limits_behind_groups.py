@@ -10,9 +10,9 @@ import pytest
 
 import assur
 from assur import Status
-from models import dyad_models
-from models.mechanism_data import Description, arguments
-from models.mixed_models import REGULAR, Builder
+from models.mechanisms import dyad_models
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.mixed_models import REGULAR, Builder
 from oracles.pair_jacobian import regularity
 
 # Dead points are promised to this.

@@ -13,17 +13,17 @@ import pytest
 import assur
 from assur import Status
 from campaigns import campaign_cases
-from models import flat_models, mixed_models
-from models.frames import Frame
-from models.mechanism_data import Description, arguments
-from models.variants import Variant, framed, shuffled
+from models.mechanisms import flat_models, mixed_models
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.variants import Variant, framed, shuffled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from models import dyad_models
+    from models.mechanisms import dyad_models
 
 # Dead points are promised to this.
 DEAD_POINT = 1e-10

@@ -8,7 +8,7 @@ import numpy as np
 
 import assur
 from assemblies.test_numbers import triad
-from models.refusals import refused
+from models.errors.refusals import refused
 
 # Boundaries are found to a billionth of the distance of two neighbours.
 FOUND = 1e-9

@@ -13,7 +13,7 @@ import pytest
 
 import assur
 from assemblies.test_loci import five_bar
-from models.refusals import refused
+from models.errors.refusals import refused
 
 Slide, Mechanism = assur.Slide, assur.Mechanism
 

@@ -30,17 +30,17 @@ from campaigns.campaign_page import one_kind
 from campaigns.campaign_page_mixed import machines, mixed
 from campaigns.campaign_redundant import Overconstrained
 from campaigns.campaign_report import Findings, Report, raised
-from models.machine_models import machine_case
-from models.mechanism_data import arguments
-from models.mixed_models import mixed_case
-from models.redundant_models import redundant_case
+from models.machines.machine_models import machine_case
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.redundant_models import redundant_case
 from oracles import gap_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from campaigns.campaign_geometry import Array
-    from models import dyad_models
+    from models.mechanisms import dyad_models
 
 # Mechanisms given to a process at once.
 PORTION = 200

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from models import dyad_models, higher_models
-from models.mechanism_data import GROUND, SlideSpec
+from models.mechanisms import dyad_models, higher_models
+from models.mechanisms.mechanism_data import GROUND, SlideSpec
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

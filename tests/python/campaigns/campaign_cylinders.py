@@ -11,7 +11,7 @@ from assur import Status
 from campaigns.campaign_report import Findings
 
 if TYPE_CHECKING:
-    from models.cylinder_models import Case
+    from models.mechanisms.cylinder_models import Case
 
 POSITIONS = 300
 ASSEMBLIES = 4

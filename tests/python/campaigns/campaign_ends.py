@@ -11,11 +11,11 @@ import numpy as np
 import assur
 from assur import Status
 from campaigns.campaign_report import Findings
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from campaigns.campaign_geometry import Array
-    from models import dyad_models
+    from models.mechanisms import dyad_models
 
 SCANNED = 1500  # positions, over a turn, or over so much of a driven slide, m
 SLIDE_REACH = 6.0

@@ -11,12 +11,12 @@ import assur
 from assur import Status
 from campaigns.campaign_checks import TERMS
 from campaigns.campaign_report import Findings
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 from oracles.agreement import POSITION
 from oracles.closures import Closures
 
 if TYPE_CHECKING:
-    from models import dyad_models
+    from models.mechanisms import dyad_models
 
 STEPS = 200
 REACH = math.pi

@@ -16,9 +16,9 @@ from campaigns.campaign_sweeps import Covered, Swept
 from campaigns.campaign_turned import Turned
 from campaigns.campaign_units import InUnits
 from campaigns.campaign_variants import Variants
-from models.cylinder_models import cylinder_case
-from models.flat_models import flat_case
-from models.resting_models import resting_case
+from models.machines.resting_models import resting_case
+from models.mechanisms.cylinder_models import cylinder_case
+from models.mechanisms.flat_models import flat_case
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

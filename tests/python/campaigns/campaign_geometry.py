@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assur import Status
-from models.mechanism_data import GROUND, Description
+from models.mechanisms.mechanism_data import GROUND, Description
 from oracles.agreement import POSITION, Tracer, U
 
 if TYPE_CHECKING:

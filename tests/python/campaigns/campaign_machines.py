@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from assur.dynamics.motion.run import Run
-    from models.machine_models import Case
+    from models.machines.machine_models import Case
 
 RTOL = 1e-9
 BALANCE = 10.0  # times rtol of the greatest energy

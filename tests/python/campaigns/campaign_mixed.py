@@ -13,13 +13,13 @@ from assur import Status
 from campaigns import campaign_checks as checks
 from campaigns.campaign_geometry import Sample
 from campaigns.campaign_report import Findings
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 from oracles.agreement import POSITION
 from oracles.closures import Closures
 
 if TYPE_CHECKING:
     from campaigns.campaign_geometry import Array
-    from models import dyad_models
+    from models.mechanisms import dyad_models
 
 DESIGNS = 3  # beside the drawing
 CHANGES = (0.02, 0.40)  # of dimensions, up or down

@@ -16,7 +16,7 @@ from campaigns.campaign_resting import Resting
 from campaigns.campaign_sweeps import Covered, Swept
 from campaigns.campaign_turned import Turned
 from campaigns.campaign_variants import Variants
-from models import flat_models
+from models.mechanisms import flat_models
 
 if TYPE_CHECKING:
     from campaigns.campaign_report import Report

@@ -12,7 +12,8 @@ from campaigns import campaign_page_further as of_further
 from campaigns import campaign_redundant as of_redundant
 from campaigns.campaign_page import greatest, motions, page, statuses
 from campaigns.campaign_page_further import number
-from models import machine_models, redundant_models
+from models.machines import machine_models
+from models.mechanisms import redundant_models
 
 if TYPE_CHECKING:
     from campaigns.campaign_report import Report

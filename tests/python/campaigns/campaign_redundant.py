@@ -16,12 +16,12 @@ from assur import Status
 from campaigns import campaign_checks as checks
 from campaigns.campaign_mixed import Path
 from campaigns.campaign_report import Findings
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 from oracles.closures import Closures
 
 if TYPE_CHECKING:
     from campaigns.campaign_geometry import Sample
-    from models.redundant_models import Rounded
+    from models.mechanisms.redundant_models import Rounded
 
 # Data of so many digits or more fit to rounding: they must be taken.
 FITTING = 14

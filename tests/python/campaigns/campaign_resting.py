@@ -13,7 +13,7 @@ import assur
 from campaigns.campaign_report import Findings
 
 if TYPE_CHECKING:
-    from models.resting_models import Case
+    from models.machines.resting_models import Case
 
 POSITIONS = 40
 # Friction with viscosity, of a rate that is rounding: to this part of what moves elsewhere.

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import assur
 from campaigns.campaign_report import Findings
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
-    from models import dyad_models
+    from models.mechanisms import dyad_models
 
 
 class Saved(Findings):

@@ -12,12 +12,12 @@ import numpy as np
 import assur
 from assur import Status, metric
 from campaigns.campaign_report import Findings
-from models.mechanism_data import arguments
-from models.turned_machines import forces
+from models.machines.turned_machines import forces
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
-    from models import dyad_models
-    from models.machine_models import Case
+    from models.machines.machine_models import Case
+    from models.mechanisms import dyad_models
 
 DESIGNS = 3
 SPREAD = 0.01  # of a dimension

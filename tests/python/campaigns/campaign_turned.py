@@ -16,13 +16,13 @@ import numpy as np
 import assur
 from assur import Status
 from campaigns.campaign_report import Findings
-from models.frames import Frame
-from models.machine_units import with_friction
-from models.turned_machines import forces, ordered, turned
-from models.variants import Variant, framed, renamed, shuffled
+from models.machines.machine_units import with_friction
+from models.machines.turned_machines import forces, ordered, turned
+from models.mechanisms.frames import Frame
+from models.mechanisms.variants import Variant, framed, renamed, shuffled
 
 if TYPE_CHECKING:
-    from models.machine_models import Case
+    from models.machines.machine_models import Case
 
 POSITIONS = 12
 REACH = 0.5

@@ -17,14 +17,14 @@ import numpy as np
 
 import assur
 from campaigns.campaign_report import Findings
-from models.machine_units import Units, in_units, with_friction
+from models.machines.machine_units import Units, in_units, with_friction
 from oracles.everything_asked import asked
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from assur.dynamics.forces.reactions import Reactions
-    from models.machine_models import Case
+    from models.machines.machine_models import Case
 
 RTOL = 1e-8
 MAX_STEPS = 300

@@ -12,17 +12,17 @@ import numpy as np
 import assur
 from assur import Status
 from campaigns.campaign_report import Findings
-from models.frames import Frame
-from models.mechanism_data import arguments
-from models.variants import Variant, framed, redrawn, renamed, shuffled
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.variants import Variant, framed, redrawn, renamed, shuffled
 from oracles import variant_queries as queries
 from oracles.variant_results import Pairing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from models import dyad_models
-    from models.mechanism_data import Description
+    from models.mechanisms import dyad_models
+    from models.mechanisms.mechanism_data import Description
     from oracles.variant_results import Array
 
 POSITIONS = 24

@@ -11,7 +11,7 @@ import pytest
 import assur
 from campaigns import campaign
 from campaigns.campaign_machines import Checked
-from models import machine_models
+from models.machines import machine_models
 from oracles.machine_energy import Balance, spline
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from campaigns import campaign, campaign_mixed
 from campaigns import campaign_checks as checks
 from campaigns.campaign_mixed import Mixed
 from campaigns.campaign_redundant import Overconstrained
-from models import mixed_models, named_models, redundant_models
-from models.mechanism_data import Description, arguments
+from models.mechanisms import mixed_models, named_models, redundant_models
+from models.mechanisms.mechanism_data import Description, arguments
 from oracles.closures import Closures
 from oracles.pair_jacobian import regularity
 

@@ -20,14 +20,15 @@ from campaigns.campaign_sweeps import Covered, Swept
 from campaigns.campaign_turned import Turned
 from campaigns.campaign_units import InUnits
 from campaigns.campaign_variants import Variants, variant_of
-from models import dyad_models, machine_models, named_models
-from models.cylinder_models import cylinder_case
-from models.flat_models import flat_case
-from models.frames import Frame
-from models.mechanism_data import Description, arguments
-from models.mixed_models import mixed_case
-from models.resting_models import resting_case
-from models.variants import Variant, framed, redrawn, renamed, shuffled
+from models.machines import machine_models
+from models.machines.resting_models import resting_case
+from models.mechanisms import dyad_models, named_models
+from models.mechanisms.cylinder_models import cylinder_case
+from models.mechanisms.flat_models import flat_case
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.variants import Variant, framed, redrawn, renamed, shuffled
 from oracles import variant_queries
 from oracles.everything_asked import asked
 from oracles.variant_results import Pairing

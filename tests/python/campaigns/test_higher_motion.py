@@ -15,8 +15,8 @@ from assur.examples import loom
 from campaigns import campaign_cases as cases
 from campaigns import campaign_checks as checks
 from campaigns.campaign_geometry import Geometry, Sample
-from models import higher_models
-from models.mechanism_data import arguments
+from models.mechanisms import higher_models
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable

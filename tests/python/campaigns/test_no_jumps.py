@@ -15,8 +15,8 @@ from campaigns import campaign
 from campaigns import campaign_cases as cases
 from campaigns import campaign_checks as checks
 from campaigns.campaign_geometry import Geometry, Sample
-from models import mechanism_data, mixed_models
-from models.samples import sample
+from models.mechanisms import mechanism_data, mixed_models
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

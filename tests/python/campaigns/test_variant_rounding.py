@@ -12,11 +12,11 @@ import pytest
 import assur
 from campaigns.campaign_cases import random_case
 from campaigns.campaign_variants import Variants, variant_of
-from models.mechanism_data import arguments, described
+from models.mechanisms.mechanism_data import arguments, described
 from oracles.variant_results import Pairing
 
 if TYPE_CHECKING:
-    from models.variants import Variant
+    from models.mechanisms.variants import Variant
 
 
 # Second analogues a few percent beyond the law of digits: lengths and guides are those of a drawing

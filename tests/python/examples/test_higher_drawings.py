@@ -10,8 +10,8 @@ import pytest
 
 import assur
 from assur import Status, examples
-from models.mechanism_data import arguments, described
-from models.named_drawings import HIGHER
+from models.mechanisms.mechanism_data import arguments, described
+from models.mechanisms.named_drawings import HIGHER
 from oracles import agreement, oracle, oracle_guess
 from oracles.agreement_law import along, check_law, solve, whole_turns
 

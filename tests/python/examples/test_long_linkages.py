@@ -11,8 +11,8 @@ import pytest
 
 import assur
 from assur import Status, examples
-from models import named_drawings, named_models
-from models.mechanism_data import arguments
+from models.mechanisms import named_drawings, named_models
+from models.mechanisms.mechanism_data import arguments
 from oracles.example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
 
 Float: TypeAlias = npt.NDArray[np.float64]

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import InputError, Machine, flywheel
-from models.refusals import refused
+from models.errors.refusals import refused
 
 TURN = 2.0 * math.pi
 PHI = np.linspace(0.0, TURN, 1441)

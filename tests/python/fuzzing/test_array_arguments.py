@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import assur
 from fuzzing.array_entries import ENTRIES, PICTURES, array_parameters, public
-from models.samples import sample
+from support.samples import sample
 
 pytestmark = pytest.mark.filterwarnings("ignore::assur.AssurWarning")
 

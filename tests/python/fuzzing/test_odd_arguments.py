@@ -21,7 +21,7 @@ from assur.kinematics.timed import TimedMotion
 from fuzzing.fuzz_entries import LONGEST, LONGEST_MESSAGE, give_up
 from fuzzing.fuzz_values import ODD_NUMBERS, ODD_OBJECTS, ODD_STRINGS
 from fuzzing.usual_calls import MODULES, usual_calls
-from models.samples import sample
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -19,12 +19,12 @@ from hypothesis import strategies as st
 
 import assur
 from assur import Status
-from models import dyad_models, named_models
-from models.mechanism_data import Description, arguments
-from models.samples import IS_CAMPAIGN, sample
+from models.mechanisms import dyad_models, named_models
+from models.mechanisms.mechanism_data import Description, arguments
 from oracles import agreement, oracle, oracle_guess
 from oracles.agreement import Q
 from oracles.agreement_law import along, check_law, solve, whole_turns
+from support.samples import IS_CAMPAIGN, sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

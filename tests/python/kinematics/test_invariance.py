@@ -17,11 +17,11 @@ from hypothesis import strategies as st
 
 import assur
 from assur import Status
-from models import dyad_models, mixed_models, named_drawings, named_models
-from models.frames import Frame
-from models.mechanism_data import GROUND, Description, arguments
-from models.samples import sample
+from models.mechanisms import dyad_models, mixed_models, named_drawings, named_models
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import GROUND, Description, arguments
 from oracles import agreement
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,9 +10,9 @@ import pytest
 
 import assur
 from assur import Status
-from models import dyad_models, higher_models, named_models
-from models.class_iv_model import class_iv
-from models.mechanism_data import Description, arguments
+from models.mechanisms import dyad_models, higher_models, named_models
+from models.mechanisms.class_iv_model import class_iv
+from models.mechanisms.mechanism_data import Description, arguments
 from oracles import agreement, oracle, oracle_guess
 from oracles.oracle_dimension import changed, known
 from oracles.oracle_system import MP

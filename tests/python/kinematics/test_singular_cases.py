@@ -9,8 +9,8 @@ import pytest
 
 import assur
 from assur import Slide, Status
-from models import named_models
-from models.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
+from models.mechanisms import named_models
+from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
 from oracles import agreement, oracle, oracle_guess
 
 U = agreement.U

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 import assur
-from models import dyad_models, mechanism_data, named_drawings, named_models
+from models.mechanisms import dyad_models, mechanism_data, named_drawings, named_models
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

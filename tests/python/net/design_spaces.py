@@ -15,10 +15,10 @@ import numpy as np
 
 import assur
 from campaigns import campaign_cases
-from models import named_drawings
-from models.mechanism_data import arguments
-from models.samples import sample
+from models.mechanisms import named_drawings
+from models.mechanisms.mechanism_data import arguments
 from net import bits
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -12,7 +12,8 @@ import numpy as np
 
 import assur
 from assur import events, flywheel
-from models import dyad_models, machine_models, mixed_models, named_drawings
+from models.machines import machine_models
+from models.mechanisms import dyad_models, mixed_models, named_drawings
 from net.digest_kinematics import again, made
 
 if TYPE_CHECKING:

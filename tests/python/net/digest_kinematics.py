@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from models import (
+from models.mechanisms import (
     dyad_models,
     higher_models,
     mixed_models,
@@ -17,7 +17,7 @@ from models import (
     named_models,
     redundant_models,
 )
-from models.mechanism_data import Description, arguments
+from models.mechanisms.mechanism_data import Description, arguments
 from net import bits
 
 if TYPE_CHECKING:

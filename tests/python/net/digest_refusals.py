@@ -10,8 +10,8 @@ import numpy as np
 
 import assur
 from assur import Body, Machine, flywheel
-from models.refusals import APART, BATCH, MOTION, TWO, M, build
-from models.refused_structures import REFUSED
+from models.errors.refusals import APART, BATCH, MOTION, TWO, M, build
+from models.errors.refused_structures import REFUSED
 from net.digest_dynamics import (
     LINEAR,
     PAPER_INERTIA,

@@ -10,7 +10,7 @@ import numpy as np
 
 import assur
 from assur import metric
-from models import named_drawings
+from models.mechanisms import named_drawings
 from net import design_spaces
 from net.digest_kinematics import again
 

@@ -14,7 +14,7 @@ import numpy as np
 
 import assur
 from campaigns import campaign_cases
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 from net import bits, design_spaces
 
 if TYPE_CHECKING:

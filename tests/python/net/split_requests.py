@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from models import named_drawings
+from models.mechanisms import named_drawings
 from net import bits, design_spaces
 
 if TYPE_CHECKING:

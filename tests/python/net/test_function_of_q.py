@@ -15,9 +15,9 @@ import numpy.typing as npt
 import pytest
 
 import assur
-from models.samples import sample
 from net import bits
 from net.bits import Bits, Float, coordinates, designs, solve
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from models import named_drawings
+from models.mechanisms import named_drawings
 from net import bits
 
 if TYPE_CHECKING:

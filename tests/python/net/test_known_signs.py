@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import _core
-from models import named_drawings
+from models.mechanisms import named_drawings
 from net import bits, design_spaces
 
 NAMES = ("crank_rocker", "watt_six_bar", "stephenson_six_bar", "jansen_leg")

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from models.samples import sample
 from net import bits, partial_requests
 from net.test_function_of_q import same
+from support.samples import sample
 
 if TYPE_CHECKING:
     import assur

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from models.mechanism_data import GROUND, Description
+from models.mechanisms.mechanism_data import GROUND, Description
 from oracles import oracle
 from oracles.oracle_system import MP, Pose, System
 

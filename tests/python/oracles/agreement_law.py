@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import assur
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 from oracles import agreement, oracle, oracle_dimension
 from oracles.oracle_system import MP
 
 if TYPE_CHECKING:
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
     from oracles.agreement import Q
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-from models.assembly_models import CASES, Case
+from models.mechanisms.assembly_models import CASES, Case
 from oracles.scan import count
 
 if TYPE_CHECKING:

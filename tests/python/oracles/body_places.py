@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 from oracles.oracle_system import MP
 
 if TYPE_CHECKING:

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 from oracles.agreement import POSITION, U
 from oracles.pair_jacobian import jacobian
 
 if TYPE_CHECKING:
     import assur
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]

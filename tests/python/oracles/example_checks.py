@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 import assur
 from assur import examples
-from models import named_drawings
+from models.mechanisms import named_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import assur
-from models.friction_cases import Bearing, FrictionCase, Journal
+from models.machines.friction_cases import Bearing, FrictionCase, Journal
 from oracles.body_places import GROUND, dot
 from oracles.multipliers import Reactions
 

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator
 
 import assur
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

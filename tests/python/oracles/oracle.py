@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 from oracles.oracle_system import MP, System, as_tuple, inverted
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
     from oracles.oracle_system import Pose, Real
 
 POSITION_TOL = MP.mpf("1e-40")  # residual, relative to the size of the mechanism

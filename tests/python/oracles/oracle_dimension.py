@@ -8,13 +8,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 from oracles.oracle_system import MP, System, Vec
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 
 def changed(name: str, by: Any) -> Callable[[System], None]:

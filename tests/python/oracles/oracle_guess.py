@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
     from oracles.oracle_system import Pose, Vec
 
 FLOAT_TOL = 1e-13  # residual of `follow`: some hundred roundoffs

@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any
 import mpmath  # type: ignore[import-untyped]
 import numpy as np
 
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 MP = mpmath.MPContext()  # a context of our own: no other test can change its precision
 MP.dps = 50

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from models.mechanism_data import GROUND
+from models.mechanisms.mechanism_data import GROUND
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 
 def jacobian(

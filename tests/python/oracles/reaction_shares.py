@@ -20,7 +20,7 @@ from oracles.body_places import GROUND, cross
 from oracles.multipliers import Reactions, unit_roundoff
 
 if TYPE_CHECKING:
-    from models.reaction_machines import Case
+    from models.machines.reaction_machines import Case
 
 # Beyond this share the float64 oracle's own error counts: the one of 50 digits is asked.
 OWN = 4.0

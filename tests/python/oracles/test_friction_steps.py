@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from models.friction_cases import friction_cases
+from models.machines.friction_cases import friction_cases
 from oracles.friction_steps import WithFriction
 
 LAST = 6e-10  # numbers are given to ten digits

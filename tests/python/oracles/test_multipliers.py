@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body
-from models.reaction_machines import reaction_case, redundant_reaction_case
+from models.machines.reaction_machines import reaction_case, redundant_reaction_case
 from oracles.body_places import cross, dot
 from oracles.multipliers import Reactions, unit_roundoff
 

@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from models import dyad_models, named_models
-from models.mechanism_data import Description, SlideSpec
+from models.mechanisms import dyad_models, named_models
+from models.mechanisms.mechanism_data import Description, SlideSpec
 from oracles import oracle, oracle_guess
 from oracles.oracle import solve
 from oracles.oracle_system import MP, Pose, System

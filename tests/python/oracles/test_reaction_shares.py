@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from models.reaction_machines import Case, reaction_case
+from models.machines.reaction_machines import Case, reaction_case
 from oracles.reaction_shares import Compared, Worst
 from oracles.reaction_view import View
 

@@ -12,8 +12,8 @@ import numpy as np
 
 import assur
 from assur import Status
-from models.mechanism_data import arguments
-from models.variants import KINDS
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.variants import KINDS
 from oracles.agreement import ANALOGUE, POSITION
 from oracles.variant_rounding import moved_drawings
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from models.mechanism_data import Description
-    from models.variants import Variant
+    from models.mechanisms.mechanism_data import Description
+    from models.mechanisms.variants import Variant
 
     Array = NDArray[np.float64]
 

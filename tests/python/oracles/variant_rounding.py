@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from models.variants import Variant
+    from models.mechanisms.variants import Variant
 
 # Half units in the last place, one for each rounded operation. A drawing at another position rounds
 # what was solved; a guide's angle there is a difference of two, added. Another frame takes two

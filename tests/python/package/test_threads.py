@@ -12,9 +12,9 @@ import pytest
 
 import assur
 from assur import Status
-from models.interruptions import is_heard
 from net import bits
 from net.bits import Float, coordinates, designs, solve
+from support.interruptions import is_heard
 
 if TYPE_CHECKING:
     from collections.abc import Callable

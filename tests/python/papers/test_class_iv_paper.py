@@ -16,8 +16,8 @@ import pytest
 
 import assur
 from assur import Status
-from models.class_iv_model import class_iv
-from models.mechanism_data import Description
+from models.mechanisms.class_iv_model import class_iv
+from models.mechanisms.mechanism_data import Description
 from oracles import oracle
 
 Float: TypeAlias = npt.NDArray[np.float64]

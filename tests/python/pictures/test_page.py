@@ -22,7 +22,7 @@ from assur.pictures.page.bundle import module, script
 from assur.pictures.page.html import css
 from assur.pictures.page.payload import payload, played_of
 from assur.pictures.page.turn import passing_turn, turn_of, turn_of_rows
-from pictures.node import MODULES, run_node
+from support.node import MODULES, run_node
 
 EVIL = "</script><img/src=x/onerror=alert(1)>"
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import assur
-from models.browsers import wait_until
 from studio_page import chain
+from support.browsers import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from models.refusals import (
+from models.errors.refusals import (
     JOINTS,
     LINKS,
     Table,
@@ -19,7 +19,7 @@ from models.refusals import (
     link,
     slide,
 )
-from models.refused_structures import REFUSED
+from models.errors.refused_structures import REFUSED
 
 nan, inf = math.nan, math.inf
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import assur
-from models.refusals import FIVE, FIVE_LINKS, build, engine, joint, link, twice
+from models.errors.refusals import FIVE, FIVE_LINKS, build, engine, joint, link, twice
 
 BRACED: dict[str, Any] = {
     "joints": {

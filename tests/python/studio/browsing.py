@@ -13,7 +13,7 @@ import uvicorn
 from assur.studio import document
 from assur.studio.app import application
 from assur.studio.session import Given
-from models.browsers import wait_until
+from support.browsers import wait_until
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.studio.bundle import joined
-from models.browsers import wait_until
+from support.browsers import wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page, Route

@@ -10,8 +10,8 @@ import pytest
 
 import assur
 from assur.studio import document
-from pictures.node import MODULES, run_node
 from studio.asking import FOUR_BAR, PRESS, ask, refused
+from support.node import MODULES, run_node
 
 SPEED = math.pi / 30.0
 

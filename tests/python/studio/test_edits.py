@@ -13,9 +13,9 @@ from assur.files.node import Node
 from assur.files.parts import BODY, LOADS, MOTORS, ROWS, place, point
 from assur.files.read_mechanism import CYLINDER, SLIDE
 from assur.studio.document import document_of, read
-from models.samples import IS_CAMPAIGN
-from pictures.node import MODULES, run_node
 from studio.asking import ask
+from support.node import MODULES, run_node
+from support.samples import IS_CAMPAIGN
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism

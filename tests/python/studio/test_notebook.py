@@ -20,9 +20,9 @@ from assur.studio import document
 from assur.studio.bundle import widget_script
 from assur.studio.frame import decode
 from assur.studio.notebook import Explorer
-from models.browsers import wait_until
-from pictures.node import run_node
 from studio.asking import FOUR_BAR
+from support.browsers import wait_until
+from support.node import run_node
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

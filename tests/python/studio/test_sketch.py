@@ -14,7 +14,7 @@ from assur.pictures.page.payload import _part
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.frames import frames_of
 from assur.studio.document import document_of
-from pictures.node import MODULES, run_node
+from support.node import MODULES, run_node
 
 if TYPE_CHECKING:
     from assur._arrays import Float

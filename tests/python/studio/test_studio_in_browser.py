@@ -10,9 +10,9 @@ import pytest
 
 import assur
 from assur.studio import document
-from models.samples import IS_CAMPAIGN
 from studio.asking import FOUR_BAR
 from studio.browsing import WIDTHS, Server, Window, window
+from support.samples import IS_CAMPAIGN
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

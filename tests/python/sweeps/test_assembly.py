@@ -12,8 +12,8 @@ import pytest
 
 import assur
 from assur import metric
-from models.mechanism_data import arguments
-from models.mixed_models import mixed_case
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.mixed_models import mixed_case
 
 if TYPE_CHECKING:
     from pathlib import Path

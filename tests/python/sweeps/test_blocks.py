@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur import metric
 from assur.sweeps import measuring
-from models import named_drawings
+from models.mechanisms import named_drawings
 from net import bits, design_spaces
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import metric
-from models import named_drawings
+from models.mechanisms import named_drawings
 from oracles import textbook
 
 Float = npt.NDArray[np.float64]

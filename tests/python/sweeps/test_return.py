@@ -7,7 +7,7 @@ import pytest
 
 import assur
 from assur import Status, metric
-from models import higher_drawings
+from models.mechanisms import higher_drawings
 from net import design_spaces
 from oracles import textbook
 

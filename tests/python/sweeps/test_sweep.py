@@ -12,7 +12,7 @@ import pytest
 import assur
 from assur import metric
 from assur.sweeps import measuring
-from models import higher_drawings, named_drawings
+from models.mechanisms import higher_drawings, named_drawings
 from net import design_spaces
 
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)

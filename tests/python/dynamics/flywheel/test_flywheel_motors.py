@@ -13,7 +13,7 @@ import pytest
 import assur
 from assur import Body, Gravity, InputError
 from assur.dynamics.flywheel.steady import SteadyFlywheel
-from models.machines import press
+from models.machines.machines import press
 
 TURN = math.tau
 MEANS = ("extremes", "period")

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body, Force, InputError, Table, Torque, TorsionDamper, TorsionSpring
-from models.machines import press, wheel
+from models.machines.machines import press, wheel
 
 TURN = math.tau
 

@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 
 import assur
 from assur import Body, Force, Gravity, Machine, Spring, Torque, TorsionDamper, TorsionSpring
-from models.machines import cylinder, five_bar, four_bar, press
+from models.machines.machines import cylinder, five_bar, four_bar, press
 
 TURN = math.tau
 OPEN = np.linspace(0.0, TURN, 360, endpoint=False)  # without the end of the turn

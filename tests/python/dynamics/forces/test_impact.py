@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body, Force, Machine, Torque
-from models.reaction_machines import reaction_case
+from models.machines.reaction_machines import reaction_case
 
 
 def linkage() -> Machine:

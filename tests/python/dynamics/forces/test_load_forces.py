@@ -11,7 +11,7 @@ import assur
 from assur import Force, Gravity, Machine, Pressure, Spring, Torque
 from assur.dynamics.forces.force_system import force_system
 from assur.dynamics.forces.load_forces import loads_of
-from models.reaction_machines import reaction_case
+from models.machines.reaction_machines import reaction_case
 from oracles.multipliers import Reactions, unit_roundoff
 
 SEEDS = 30

@@ -14,7 +14,7 @@ import pytest
 
 import assur
 from assur import Body, Damper, Force, Gravity, LinearMotor, Spring
-from models.machines import four_bar
+from models.machines.machines import four_bar
 
 BODIES = {
     "crank": Body(3.0, 0.4, (0.3, 0.2)),

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body, Force, Gravity
-from models import machines
+from models.machines import machines
 from oracles.reaction_view import View
 
 Q = np.array([0.3, 1.1, 2.9, 4.0])

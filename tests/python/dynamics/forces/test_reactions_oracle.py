@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from models.reaction_machines import reaction_case, redundant_reaction_case
-from models.samples import sample
+from models.machines.reaction_machines import reaction_case, redundant_reaction_case
 from oracles.multipliers import Reactions, unit_roundoff
 from oracles.reaction_shares import Compared, Worst
+from support.samples import sample
 
 if TYPE_CHECKING:
     import assur

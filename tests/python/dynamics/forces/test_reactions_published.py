@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body
-from models.published_machines import Printed, Published, published
+from models.machines.published_machines import Printed, Published, published
 from oracles.reaction_view import View
 
 PUBLISHED = {case.name: case for case in published()}

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Force, JointFriction, Machine, Slide, SlideFriction, Torque
-from models.rigid_parts import RigidParts
+from models.mechanisms.rigid_parts import RigidParts
 
 Q = np.linspace(-3.0, 3.0, 60)
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import assur
-from models.rubbing_machines import rubbing_case, with_friction
-from models.samples import sample
+from models.machines.rubbing_machines import rubbing_case, with_friction
 from oracles.friction_law import STILL, FrictionLaw
+from support.samples import sample
 
 COUNT, CHUNK = sample(60, 1000), 20
 STARTS = 200

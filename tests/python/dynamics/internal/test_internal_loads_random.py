@@ -9,8 +9,8 @@ import numpy as np
 
 import assur
 from assur import Body, Torque, TorsionDamper, TorsionSpring
-from models.mechanism_data import GROUND
-from models.reaction_machines import Case, reaction_case
+from models.machines.reaction_machines import Case, reaction_case
+from models.mechanisms.mechanism_data import GROUND
 from oracles.cut_rod import CutRod
 from oracles.multipliers import unit_roundoff
 

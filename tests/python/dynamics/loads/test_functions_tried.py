@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import ConstantTorque, Force, Machine, Pressure, Torque
-from models.shapers import slider
+from models.machines.shapers import slider
 
 
 def test_each_is_called_once_at_the_drawing_and_at_rest() -> None:

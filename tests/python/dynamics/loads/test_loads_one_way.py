@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 import assur
 from assur import Body, Force, FourBar, LinearMotor, Machine, Table, Torque
 from assur.dynamics.forces.force_system import force_system
-from models.shapers import STROKE, TURN, place, slider
+from models.machines.shapers import STROKE, TURN, place, slider
 
 CUT = 700.0
 

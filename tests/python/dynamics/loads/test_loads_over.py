@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur import Body, Force, FourBar, Machine, Table, Torque
-from models.shapers import CRANK, ROD, STROKE, TURN, integral, place, slider, turning
+from models.machines.shapers import CRANK, ROD, STROKE, TURN, integral, place, slider, turning
 
 # A jump at 0.36 and a kink at 0.45, over the whole stroke.
 FORCE = Table([0.3, 0.36, 0.36, 0.45, 0.5], [0.0, 0.0, -900.0, -300.0, 0.0], "linear", over="bore")

@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur import Body, Gas, Machine, Pressure, Table
-from models.shapers import CRANK, STROKE, TURN, integral, place, slider
+from models.machines.shapers import CRANK, STROKE, TURN, integral, place, slider
 
 AREA, AMBIENT = 0.005, 101325.0
 # Beyond the outer dead centre: a tenth of the volume at the inner one is left.

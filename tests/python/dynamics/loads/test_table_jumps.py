@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur import Body, Force, Machine, Table, Torque
-from models.shapers import TURN, integral, place, slider
+from models.machines.shapers import TURN, integral, place, slider
 
 STEP = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -30.0, -50.0, 0.0, 0.0], "linear")
 

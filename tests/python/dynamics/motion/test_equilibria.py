@@ -16,8 +16,8 @@ from scipy.optimize import brentq
 
 import assur
 from assur import Body, Force, Gravity, Spring, Torque, TorsionSpring
-from models.machines import four_bar, pendulum
-from models.reaction_machines import reaction_case
+from models.machines.machines import four_bar, pendulum
+from models.machines.reaction_machines import reaction_case
 from oracles.multipliers import Reactions
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 import assur
 from assur import Body, Force, Gravity, Machine, Spring, Torque, TorsionSpring
-from models.machines import four_bar
+from models.machines.machines import four_bar
 
 G = 9.81
 
@@ -348,13 +348,13 @@ def test_stiffness_of_every_load() -> None:
 
 
 def five_bar_machine() -> Machine:
-    from models.machines import five_bar
+    from models.machines.machines import five_bar
 
     return Machine(five_bar(), {"b1": Body(1.0)})
 
 
 def driven_slide() -> Machine:
-    from models.machines import cylinder
+    from models.machines.machines import cylinder
 
     return Machine(cylinder(), {"arm": Body(1.0)}, [Gravity()])
 

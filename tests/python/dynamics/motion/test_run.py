@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 import assur
 from assur import Body, Damper, Force, Gravity, Spring, Torque, TorsionDamper, TorsionSpring, events
 from assur.examples import loom
-from models.machines import five_bar, four_bar, pendulum
+from models.machines.machines import five_bar, four_bar, pendulum
 from oracles.oracle_dae import Dae
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur import Body
-from models.refusals import refused
+from models.errors.refusals import refused
 
 
 def coasting(driver: str = "crank") -> assur.Machine:

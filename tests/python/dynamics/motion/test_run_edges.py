@@ -22,7 +22,7 @@ from assur import (
     events,
 )
 from assur.dynamics.motion import integrate
-from models.machines import five_bar, pendulum, press, wheel
+from models.machines.machines import five_bar, pendulum, press, wheel
 from oracles.oracle_dae import Dae
 
 TURN = math.tau

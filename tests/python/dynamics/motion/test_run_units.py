@@ -26,10 +26,10 @@ from assur import (
     TorsionSpring,
     events,
 )
-from models.higher_drawings import triad_press
-from models.machine_models import machine_case
-from models.machines import cylinder, five_bar, four_bar
-from models.units import Units, differences
+from models.machines.machine_models import machine_case
+from models.machines.machines import cylinder, five_bar, four_bar
+from models.machines.units import Units, differences
+from models.mechanisms.higher_drawings import triad_press
 
 TURN = math.tau
 BODIES = {

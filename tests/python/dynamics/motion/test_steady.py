@@ -12,7 +12,7 @@ import pytest
 import assur
 import press_motion
 from assur import Body, InputError, Torque, flywheel
-from models.machines import press
+from models.machines.machines import press
 
 TURN = math.tau
 ANY: Any = "median"  # what types would not let pass

@@ -24,11 +24,11 @@ from assur import (
     slider_crank,
 )
 from assur.examples import loom
-from models.interruptions import is_heard
-from models.machines import cylinder, five_bar, four_bar
-from models.mechanism_data import described
+from models.machines.machines import cylinder, five_bar, four_bar
+from models.mechanisms.mechanism_data import described
 from oracles import oracle, oracle_guess
 from oracles.oracle_system import MP
+from support.interruptions import is_heard
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import assur
-from models.reaction_machines import reaction_case
+from models.machines.reaction_machines import reaction_case
 from net import bits, design_spaces
 
 # Squares and their products are rounded, in another order: a few units in the last place.

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from models import dyad_models, higher_models, mixed_models, redundant_models
-from models.machine_models import CONDITION, KINDS, Parts
-from models.mechanism_data import GROUND, Description, arguments
+from models.machines.machine_models import CONDITION, KINDS, Parts
+from models.mechanisms import dyad_models, higher_models, mixed_models, redundant_models
+from models.mechanisms.mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from assur import Machine, Mechanism

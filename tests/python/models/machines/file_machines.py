@@ -7,7 +7,7 @@ from typing import Any
 
 import assur
 from assur import Body, Table
-from models.machines import TURN, cylinder, five_bar, four_bar
+from models.machines.machines import TURN, cylinder, five_bar, four_bar
 
 THIRD = 1.0 / 3.0
 WORK = Table([0.0, 3.5, 5.0, TURN], [0.0, -0.0, -1500.0 * THIRD, 0.0], "linear")

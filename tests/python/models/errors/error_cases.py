@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from models.error_case import FIELDS, Case
-from models.error_cases_dynamics import RUN, STEADY, TABLE
-from models.error_cases_kinematics import POSITION, REQUEST, STRUCTURE
-from models.error_cases_papers import JAMMING, SERIES
+from models.errors.error_case import FIELDS, Case
+from models.errors.error_cases_dynamics import RUN, STEADY, TABLE
+from models.errors.error_cases_kinematics import POSITION, REQUEST, STRUCTURE
+from models.errors.error_cases_papers import JAMMING, SERIES
 
 __all__ = ["CASES", "FIELDS", "UNREACHABLE", "Case"]
 

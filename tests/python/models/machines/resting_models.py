@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import assur
-from models import dyad_models
-from models.flat_models import Builder as FlatBuilder
-from models.machine_models import Parts
-from models.machine_units import with_friction
-from models.mechanism_data import GROUND, Description, arguments
+from models.machines.machine_models import Parts
+from models.machines.machine_units import with_friction
+from models.mechanisms import dyad_models
+from models.mechanisms.flat_models import Builder as FlatBuilder
+from models.mechanisms.mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from hypothesis import strategies as st
 
-from models.mechanism_data import GROUND, Description, DriverSpec, SlideSpec
+from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec
 
 T = TypeVar("T")
 Place = tuple[float, float]

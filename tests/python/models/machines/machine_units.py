@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from models.mechanism_data import arguments
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 
 @dataclass(frozen=True)

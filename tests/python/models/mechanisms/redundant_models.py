@@ -12,9 +12,9 @@ import math
 import random
 from dataclasses import dataclass, replace
 
-from models import dyad_models
-from models.mechanism_data import GROUND, Description
-from models.mixed_models import REGULAR, TRIES, Builder
+from models.mechanisms import dyad_models
+from models.mechanisms.mechanism_data import GROUND, Description
+from models.mechanisms.mixed_models import REGULAR, TRIES, Builder
 from oracles.pair_jacobian import regularity
 
 KINDS = ("locomotive", "rods", "guides")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from models.refusals import Table
+    from models.errors.refusals import Table
 
 
 def class_iv() -> Table:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from models.mechanism_data import GROUND, Description, DriverSpec, SlideSpec
+from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec
 
 if TYPE_CHECKING:
     from collections.abc import Callable

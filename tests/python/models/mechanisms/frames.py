@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from models.mechanism_data import Description
+from models.mechanisms.mechanism_data import Description
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from models import dyad_models, mixed_models
-from models.mechanism_data import GROUND, Description, arguments
+from models.mechanisms import dyad_models, mixed_models
+from models.mechanisms.mechanism_data import GROUND, Description, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -22,9 +22,9 @@ from assur import (
     TorsionSpring,
     flywheel,
 )
-from models.error_case import Case
-from models.error_cases_kinematics import nearly_in_line
-from models.machines import press, wheel
+from models.errors.error_case import Case
+from models.errors.error_cases_kinematics import nearly_in_line
+from models.machines.machines import press, wheel
 
 TURN = math.tau
 # P3's press.

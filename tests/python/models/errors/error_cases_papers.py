@@ -6,7 +6,7 @@ import math
 
 import assur
 from assur import InputError, PositionError
-from models.error_case import Case
+from models.errors.error_case import Case
 
 SERIES: dict[str, Case] = {
     "does_not_end": Case(

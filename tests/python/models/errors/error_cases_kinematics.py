@@ -8,10 +8,8 @@ from typing import Any
 
 import assur
 from assur import DimensionError, InputError, PositionError, StructureError
-from models import higher_models
-from models.error_case import Case
-from models.mechanism_data import arguments
-from models.refusals import (
+from models.errors.error_case import Case
+from models.errors.refusals import (
     APART,
     LOCOMOTIVE,
     RODS,
@@ -21,8 +19,10 @@ from models.refusals import (
     joint,
     slide,
 )
-from models.refused_structures import REFUSED
-from models.rings import ring
+from models.errors.refused_structures import REFUSED
+from models.mechanisms import higher_models
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.rings import ring
 
 nan = math.nan
 

@@ -7,8 +7,8 @@ import random
 from typing import TYPE_CHECKING
 
 import assur
-from models import dyad_models
-from models.mechanism_data import GROUND, Description, SlideSpec, arguments
+from models.mechanisms import dyad_models
+from models.mechanisms.mechanism_data import GROUND, Description, SlideSpec, arguments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import assur
-from models.refusals import (
+from models.errors.refusals import (
     FIVE,
     FIVE_LINKS,
     FOUR,

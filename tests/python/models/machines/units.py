@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from models.mechanism_data import arguments, described
+from models.mechanisms.mechanism_data import arguments, described
 
 if TYPE_CHECKING:
     from assur import Machine, Mechanism, Run
-    from models.mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from assur.files.write import text_of
-from models.file_machines import whole_machines
-from models.named_drawings import HIGHER
+from models.machines.file_machines import whole_machines
+from models.mechanisms.named_drawings import HIGHER
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 

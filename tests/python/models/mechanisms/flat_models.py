@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 
-from models import dyad_models
+from models.mechanisms import dyad_models
 
 # The sine of the least angle: the drawing's condition is about its inverse.
 LEAST, MOST = 1e-6, 1e-2

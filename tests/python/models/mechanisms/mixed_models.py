@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING
 
 from hypothesis import strategies as st
 
-from models import dyad_models
-from models.mechanism_data import GROUND
+from models.mechanisms import dyad_models
+from models.mechanisms.mechanism_data import GROUND
 from oracles.pair_jacobian import regularity
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from models.mechanism_data import DriverSpec
+    from models.mechanisms.mechanism_data import DriverSpec
 
 # Groups above class II, links by their joints: capitals are outer joints. The figure is how often
 # one is drawn.

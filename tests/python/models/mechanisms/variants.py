@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from models.frames import Frame
-from models.mechanism_data import GROUND, Description, SlideSpec
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import GROUND, Description, SlideSpec
 
 if TYPE_CHECKING:
     import random

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from assur import examples
-from models import higher_drawings
+from models.mechanisms import higher_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from models.mechanism_data import GROUND, arguments
-from models.variants import KINDS
+from models.mechanisms.mechanism_data import GROUND, arguments
+from models.mechanisms.variants import KINDS
 
 if TYPE_CHECKING:
-    from models.mechanism_data import Description
-    from models.variants import Variant
+    from models.mechanisms.mechanism_data import Description
+    from models.mechanisms.variants import Variant
 
 
 def ordered(d: Description, machine: assur.Machine) -> assur.Machine:

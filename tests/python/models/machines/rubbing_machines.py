@@ -7,10 +7,10 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 import assur
-from models.reaction_machines import reaction_case
+from models.machines.reaction_machines import reaction_case
 
 if TYPE_CHECKING:
-    from models.reaction_machines import Case
+    from models.machines.reaction_machines import Case
 
 
 MOST = 6
