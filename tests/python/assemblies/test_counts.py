@@ -12,7 +12,7 @@ from models.mechanisms.assembly_models import CASES
 from models.mechanisms.mechanism_data import arguments
 from models.mechanisms.mixed_models import mixed_case
 from models.mechanisms.variants import Variant, shuffled
-from oracles.assembly_checks import expected
+from oracles.kinematics.assembly_checks import expected
 
 SAMPLE = 5  # of each kind; `make campaign` counts all
 

@@ -13,8 +13,8 @@ from campaigns import campaign_cases
 from campaigns.campaign_variants import variant_of
 from models.mechanisms import mixed_models
 from models.mechanisms.mechanism_data import arguments
-from oracles.variant_queries import same_curve
-from oracles.variant_results import Pairing
+from oracles.kinematics.variant_queries import same_curve
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
     from models.mechanisms.mechanism_data import Description

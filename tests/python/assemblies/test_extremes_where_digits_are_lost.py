@@ -18,10 +18,10 @@ from models.mechanisms.higher_models import higher_case
 from models.mechanisms.mechanism_data import Description, arguments
 from models.mechanisms.mixed_models import mixed_case
 from models.mechanisms.variants import Variant, shuffled
-from oracles import oracle, oracle_guess
+from oracles.kinematics import oracle, oracle_guess
 
 if TYPE_CHECKING:
-    from oracles.oracle_system import Pose
+    from oracles.kinematics.oracle_system import Pose
 
 # Distances of the oracle's positions from an end, and how well their line gives the limit.
 BESIDE = (1e-8, 2e-8)

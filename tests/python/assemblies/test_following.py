@@ -15,7 +15,7 @@ import pytest
 import assur
 from models.errors.refusals import refused
 from models.mechanisms.assembly_models import CASES, triad
-from oracles.assembly_checks import Followed, follow, places, random_cases
+from oracles.kinematics.assembly_checks import Followed, follow, places, random_cases
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

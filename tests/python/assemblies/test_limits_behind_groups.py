@@ -13,7 +13,7 @@ from assur import Status
 from models.mechanisms import dyad_models
 from models.mechanisms.mechanism_data import Description, arguments
 from models.mechanisms.mixed_models import REGULAR, Builder
-from oracles.pair_jacobian import regularity
+from oracles.kinematics.pair_jacobian import regularity
 
 # Dead points are promised to this.
 DEAD_POINT = 1e-10

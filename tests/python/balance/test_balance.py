@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur import Body, balance
-from oracles.reaction_view import View
+from oracles.dynamics.reaction_view import View
 
 # Numbers are given to ten digits.
 LAST = 6e-10

@@ -34,7 +34,7 @@ from models.machines.machine_models import machine_case
 from models.mechanisms.mechanism_data import arguments
 from models.mechanisms.mixed_models import mixed_case
 from models.mechanisms.redundant_models import redundant_case
-from oracles import gap_steps
+from oracles.kinematics import gap_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

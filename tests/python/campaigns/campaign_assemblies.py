@@ -8,7 +8,7 @@ import time
 import numpy as np
 
 from models.mechanisms.assembly_models import CASES
-from oracles.assembly_checks import Followed, expected, follow, random_cases
+from oracles.kinematics.assembly_checks import Followed, expected, follow, random_cases
 
 FOLLOWED = 10_000
 

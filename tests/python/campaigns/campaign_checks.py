@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
-from oracles.agreement import POSITION
+from oracles.kinematics.agreement import POSITION
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,8 +12,8 @@ from assur import Status
 from campaigns.campaign_checks import TERMS
 from campaigns.campaign_report import Findings
 from models.mechanisms.mechanism_data import arguments
-from oracles.agreement import POSITION
-from oracles.closures import Closures
+from oracles.kinematics.agreement import POSITION
+from oracles.kinematics.closures import Closures
 
 if TYPE_CHECKING:
     from models.mechanisms import dyad_models

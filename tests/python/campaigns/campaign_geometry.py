@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from assur import Status
 from models.mechanisms.mechanism_data import GROUND, Description
-from oracles.agreement import POSITION, Tracer, U
+from oracles.kinematics.agreement import POSITION, Tracer, U
 
 if TYPE_CHECKING:
     import assur

@@ -14,7 +14,7 @@ import numpy as np
 import assur
 from assur import Status
 from campaigns.campaign_report import Findings
-from oracles.machine_energy import Balance
+from oracles.dynamics.machine_energy import Balance
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

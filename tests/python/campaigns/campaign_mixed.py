@@ -14,8 +14,8 @@ from campaigns import campaign_checks as checks
 from campaigns.campaign_geometry import Sample
 from campaigns.campaign_report import Findings
 from models.mechanisms.mechanism_data import arguments
-from oracles.agreement import POSITION
-from oracles.closures import Closures
+from oracles.kinematics.agreement import POSITION
+from oracles.kinematics.closures import Closures
 
 if TYPE_CHECKING:
     from campaigns.campaign_geometry import Array

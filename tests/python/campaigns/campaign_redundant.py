@@ -17,7 +17,7 @@ from campaigns import campaign_checks as checks
 from campaigns.campaign_mixed import Path
 from campaigns.campaign_report import Findings
 from models.mechanisms.mechanism_data import arguments
-from oracles.closures import Closures
+from oracles.kinematics.closures import Closures
 
 if TYPE_CHECKING:
     from campaigns.campaign_geometry import Sample

@@ -15,15 +15,15 @@ from campaigns.campaign_report import Findings
 from models.mechanisms.frames import Frame
 from models.mechanisms.mechanism_data import arguments
 from models.mechanisms.variants import Variant, framed, redrawn, renamed, shuffled
-from oracles import variant_queries as queries
-from oracles.variant_results import Pairing
+from oracles.kinematics import variant_queries as queries
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from models.mechanisms import dyad_models
     from models.mechanisms.mechanism_data import Description
-    from oracles.variant_results import Array
+    from oracles.kinematics.variant_results import Array
 
 POSITIONS = 24
 REACH = math.pi  # to either side of the drawing, rad or m

@@ -26,8 +26,8 @@ import assur
 from campaigns import campaign_cases
 from models.mechanisms.mechanism_data import arguments
 from net import bits, design_spaces
-from oracles import gap_steps
-from oracles.agreement import POSITION
+from oracles.kinematics import gap_steps
+from oracles.kinematics.agreement import POSITION
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -12,7 +12,7 @@ import assur
 from campaigns import campaign
 from campaigns.campaign_machines import Checked
 from models.machines import machine_models
-from oracles.machine_energy import Balance, spline
+from oracles.dynamics.machine_energy import Balance, spline
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -18,8 +18,8 @@ from campaigns.campaign_mixed import Mixed
 from campaigns.campaign_redundant import Overconstrained
 from models.mechanisms import mixed_models, named_models, redundant_models
 from models.mechanisms.mechanism_data import Description, arguments
-from oracles.closures import Closures
-from oracles.pair_jacobian import regularity
+from oracles.kinematics.closures import Closures
+from oracles.kinematics.pair_jacobian import regularity
 
 if TYPE_CHECKING:
     from pathlib import Path

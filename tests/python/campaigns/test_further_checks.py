@@ -29,9 +29,9 @@ from models.mechanisms.frames import Frame
 from models.mechanisms.mechanism_data import Description, arguments
 from models.mechanisms.mixed_models import mixed_case
 from models.mechanisms.variants import Variant, framed, redrawn, renamed, shuffled
-from oracles import variant_queries
 from oracles.everything_asked import asked
-from oracles.variant_results import Pairing
+from oracles.kinematics import variant_queries
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -13,7 +13,7 @@ import assur
 from campaigns.campaign_cases import random_case
 from campaigns.campaign_variants import Variants, variant_of
 from models.mechanisms.mechanism_data import arguments, described
-from oracles.variant_results import Pairing
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
     from models.mechanisms.variants import Variant

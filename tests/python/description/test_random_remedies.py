@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import assur
 from models.mechanisms import dyad_models, mixed_models
 from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
-from oracles.pair_jacobian import jacobian
+from oracles.kinematics.pair_jacobian import jacobian
 from support.samples import sample
 
 if TYPE_CHECKING:

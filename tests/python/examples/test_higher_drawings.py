@@ -12,8 +12,8 @@ import assur
 from assur import Status, examples
 from models.mechanisms.mechanism_data import arguments, described
 from models.mechanisms.named_drawings import HIGHER
-from oracles import agreement, oracle, oracle_guess
-from oracles.agreement_law import along, check_law, solve, whole_turns
+from oracles.kinematics import agreement, oracle, oracle_guess
+from oracles.kinematics.agreement_law import along, check_law, solve, whole_turns
 
 CLASSES = {
     "triad": (3, 3),

@@ -13,7 +13,7 @@ import assur
 from assur import Status, examples
 from models.mechanisms import named_drawings, named_models
 from models.mechanisms.mechanism_data import arguments
-from oracles.example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
+from oracles.kinematics.example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

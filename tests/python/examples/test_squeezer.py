@@ -11,8 +11,8 @@ from scipy.integrate import solve_ivp
 
 import assur
 from assur import examples
-from oracles import squeezer_equations
-from oracles.example_checks import mechanism_of
+from oracles.dynamics import squeezer_equations
+from oracles.kinematics.example_checks import mechanism_of
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

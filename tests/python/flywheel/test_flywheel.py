@@ -12,8 +12,8 @@ import pytest
 import assur
 from assur import flywheel
 from assur.cli import main
-from oracles import oracle_flywheel as oracle
-from oracles.oracle_flywheel import mp
+from oracles.dynamics import oracle_flywheel as oracle
+from oracles.dynamics.oracle_flywheel import mp
 
 if TYPE_CHECKING:
     from pathlib import Path

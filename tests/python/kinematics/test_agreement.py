@@ -21,9 +21,9 @@ import assur
 from assur import Status
 from models.mechanisms import dyad_models, named_models
 from models.mechanisms.mechanism_data import Description, arguments
-from oracles import agreement, oracle, oracle_guess
-from oracles.agreement import Q
-from oracles.agreement_law import along, check_law, solve, whole_turns
+from oracles.kinematics import agreement, oracle, oracle_guess
+from oracles.kinematics.agreement import Q
+from oracles.kinematics.agreement_law import along, check_law, solve, whole_turns
 from support.samples import IS_CAMPAIGN, sample
 
 if TYPE_CHECKING:

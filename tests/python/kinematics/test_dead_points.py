@@ -16,7 +16,7 @@ import pytest
 
 import assur
 from assur import Status
-from oracles import agreement
+from oracles.kinematics import agreement
 
 if TYPE_CHECKING:
     from collections.abc import Callable

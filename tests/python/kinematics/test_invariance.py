@@ -20,7 +20,7 @@ from assur import Status
 from models.mechanisms import dyad_models, mixed_models, named_drawings, named_models
 from models.mechanisms.frames import Frame
 from models.mechanisms.mechanism_data import GROUND, Description, arguments
-from oracles import agreement
+from oracles.kinematics import agreement
 from support.samples import sample
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from assur import Status
 from models.mechanisms import dyad_models, higher_models, named_models
 from models.mechanisms.class_iv_model import class_iv
 from models.mechanisms.mechanism_data import Description, arguments
-from oracles import agreement, oracle, oracle_guess
-from oracles.oracle_dimension import changed, known
-from oracles.oracle_system import MP
+from oracles.kinematics import agreement, oracle, oracle_guess
+from oracles.kinematics.oracle_dimension import changed, known
+from oracles.kinematics.oracle_system import MP
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

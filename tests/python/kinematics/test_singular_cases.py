@@ -11,7 +11,7 @@ import assur
 from assur import Slide, Status
 from models.mechanisms import named_models
 from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
-from oracles import agreement, oracle, oracle_guess
+from oracles.kinematics import agreement, oracle, oracle_guess
 
 U = agreement.U
 TURN = np.linspace(0.0, math.tau, 97)  # with the quarters, to the last bit

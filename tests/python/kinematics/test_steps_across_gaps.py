@@ -9,7 +9,7 @@ import assur
 from campaigns import campaign_cases
 from models.mechanisms.mechanism_data import arguments
 from net import bits, design_spaces, partial_requests
-from oracles import gap_steps
+from oracles.kinematics import gap_steps
 from support.samples import sample
 
 # Random mechanisms of every kind, each with a space of designs: 10, or 1000 in a campaign.

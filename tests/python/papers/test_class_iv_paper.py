@@ -18,7 +18,7 @@ import assur
 from assur import Status
 from models.mechanisms.class_iv_model import class_iv
 from models.mechanisms.mechanism_data import Description
-from oracles import oracle
+from oracles.kinematics import oracle
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import pytest
 import assur
 from assur import metric
 from models.mechanisms import named_drawings
-from oracles import textbook
+from oracles.kinematics import textbook
 
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 

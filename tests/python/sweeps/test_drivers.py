@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur import metric
 from models.mechanisms import named_drawings
-from oracles import textbook
+from oracles.kinematics import textbook
 
 Float = npt.NDArray[np.float64]
 

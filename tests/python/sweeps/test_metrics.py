@@ -12,7 +12,7 @@ import assur
 from assur import metric
 from models.mechanisms import named_drawings
 from net import design_spaces
-from oracles import textbook
+from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,7 +9,7 @@ import assur
 from assur import Status, metric
 from models.mechanisms import higher_drawings
 from net import design_spaces
-from oracles import textbook
+from oracles.kinematics import textbook
 
 Q = 0.1 + np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 

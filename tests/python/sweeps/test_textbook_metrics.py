@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import metric
-from oracles import textbook
+from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body, Force, Gravity, Torque
-from oracles.reaction_view import View
+from oracles.dynamics.reaction_view import View
 
 Q = np.linspace(0.2, 6.0, 9)
 

@@ -12,7 +12,7 @@ from assur import Force, Gravity, Machine, Pressure, Spring, Torque
 from assur.dynamics.forces.force_system import force_system
 from assur.dynamics.forces.load_forces import loads_of
 from models.machines.reaction_machines import reaction_case
-from oracles.multipliers import Reactions, unit_roundoff
+from oracles.dynamics.multipliers import Reactions, unit_roundoff
 
 SEEDS = 30
 # In u κ of the largest force: angles and places of a position are good to u κ.

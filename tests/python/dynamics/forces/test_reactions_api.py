@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur import Body, Force, Gravity
 from models.machines import machines
-from oracles.reaction_view import View
+from oracles.dynamics.reaction_view import View
 
 Q = np.array([0.3, 1.1, 2.9, 4.0])
 

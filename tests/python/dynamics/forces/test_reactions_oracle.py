@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from models.machines.reaction_machines import reaction_case, redundant_reaction_case
-from oracles.multipliers import Reactions, unit_roundoff
-from oracles.reaction_shares import Compared, Worst
+from oracles.dynamics.multipliers import Reactions, unit_roundoff
+from oracles.dynamics.reaction_shares import Compared, Worst
 from support.samples import sample
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur import Body
 from models.machines.published_machines import Printed, Published, published
-from oracles.reaction_view import View
+from oracles.dynamics.reaction_view import View
 
 PUBLISHED = {case.name: case for case in published()}
 

@@ -14,7 +14,7 @@ import pytest
 
 import assur
 from assur import Body, Force, Torque
-from oracles.reaction_view import View
+from oracles.dynamics.reaction_view import View
 
 
 def library(machine: Any, *where: Any) -> Any:

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from models.machines.rubbing_machines import rubbing_case, with_friction
-from oracles.friction_law import STILL, FrictionLaw
+from oracles.dynamics.friction_law import STILL, FrictionLaw
 from support.samples import sample
 
 COUNT, CHUNK = sample(60, 1000), 20

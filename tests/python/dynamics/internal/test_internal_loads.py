@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Body, Damper, Force, Gravity, Spring, Table
-from oracles.cut_rod import CutRod
+from oracles.dynamics.cut_rod import CutRod
 
 NAMES = ("axial", "shear", "moment")
 

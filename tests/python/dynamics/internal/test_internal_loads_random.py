@@ -11,8 +11,8 @@ import assur
 from assur import Body, Torque, TorsionDamper, TorsionSpring
 from models.machines.reaction_machines import Case, reaction_case
 from models.mechanisms.mechanism_data import GROUND
-from oracles.cut_rod import CutRod
-from oracles.multipliers import unit_roundoff
+from oracles.dynamics.cut_rod import CutRod
+from oracles.dynamics.multipliers import unit_roundoff
 
 SEEDS = 40
 # As the reactions, in u κ of the largest force; moments by the machine's size.

@@ -18,7 +18,7 @@ import assur
 from assur import Body, Force, Gravity, Spring, Torque, TorsionSpring
 from models.machines.machines import four_bar, pendulum
 from models.machines.reaction_machines import reaction_case
-from oracles.multipliers import Reactions
+from oracles.dynamics.multipliers import Reactions
 
 if TYPE_CHECKING:
     from assur import Machine

@@ -14,7 +14,7 @@ import assur
 from assur import Body, Damper, Force, Gravity, Spring, Torque, TorsionDamper, TorsionSpring, events
 from assur.examples import loom
 from models.machines.machines import five_bar, four_bar, pendulum
-from oracles.oracle_dae import Dae
+from oracles.dynamics.oracle_dae import Dae
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -23,7 +23,7 @@ from assur import (
 )
 from assur.dynamics.motion import integrate
 from models.machines.machines import five_bar, pendulum, press, wheel
-from oracles.oracle_dae import Dae
+from oracles.dynamics.oracle_dae import Dae
 
 TURN = math.tau
 ANY: Any = None  # what types would not let pass

@@ -26,8 +26,8 @@ from assur import (
 from assur.examples import loom
 from models.machines.machines import cylinder, five_bar, four_bar
 from models.mechanisms.mechanism_data import described
-from oracles import oracle, oracle_guess
-from oracles.oracle_system import MP
+from oracles.kinematics import oracle, oracle_guess
+from oracles.kinematics.oracle_system import MP
 from support.interruptions import is_heard
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-from oracles.scan import Complex, Float, Misfit, carried, circles, line
+from oracles.kinematics.scan import Complex, Float, Misfit, carried, circles, line
 
 if TYPE_CHECKING:
     from collections.abc import Callable

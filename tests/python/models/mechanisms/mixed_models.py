@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from models.mechanisms import dyad_models
 from models.mechanisms.mechanism_data import GROUND
-from oracles.pair_jacobian import regularity
+from oracles.kinematics.pair_jacobian import regularity
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from models.mechanisms import dyad_models
 from models.mechanisms.mechanism_data import GROUND, Description
 from models.mechanisms.mixed_models import REGULAR, TRIES, Builder
-from oracles.pair_jacobian import regularity
+from oracles.kinematics.pair_jacobian import regularity
 
 KINDS = ("locomotive", "rods", "guides")
 DIGITS = (6, 15)

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from oracles.body_places import GROUND, dot
-from oracles.multipliers import Reactions
+from oracles.dynamics.body_places import GROUND, dot
+from oracles.dynamics.multipliers import Reactions
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

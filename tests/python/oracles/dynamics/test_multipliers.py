@@ -11,8 +11,8 @@ import pytest
 import assur
 from assur import Body
 from models.machines.reaction_machines import reaction_case, redundant_reaction_case
-from oracles.body_places import cross, dot
-from oracles.multipliers import Reactions, unit_roundoff
+from oracles.dynamics.body_places import cross, dot
+from oracles.dynamics.multipliers import Reactions, unit_roundoff
 
 CLOSE = 1e-12  # of the largest force: a few operations at conditions of some ten
 # Of the float64 oracle against itself at 50 digits, in u κ of the largest force; 2 were seen.

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import assur
-from oracles.body_places import GROUND, dot
-from oracles.machine_energy import spline
+from oracles.dynamics.body_places import GROUND, dot
+from oracles.dynamics.machine_energy import spline
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from oracles.multipliers import Reactions
+    from oracles.dynamics.multipliers import Reactions
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ import assur
 from assur import Status
 from models.mechanisms.mechanism_data import arguments
 from models.mechanisms.variants import KINDS
-from oracles.agreement import ANALOGUE, POSITION
-from oracles.variant_rounding import moved_drawings
+from oracles.kinematics.agreement import ANALOGUE, POSITION
+from oracles.kinematics.variant_rounding import moved_drawings
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

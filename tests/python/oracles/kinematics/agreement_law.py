@@ -10,12 +10,12 @@ import pytest
 
 import assur
 from models.mechanisms.mechanism_data import arguments
-from oracles import agreement, oracle, oracle_dimension
-from oracles.oracle_system import MP
+from oracles.kinematics import agreement, oracle, oracle_dimension
+from oracles.kinematics.oracle_system import MP
 
 if TYPE_CHECKING:
     from models.mechanisms.mechanism_data import Description
-    from oracles.agreement import Q
+    from oracles.kinematics.agreement import Q
 
 
 def along(start: Q, move: Q, t: float) -> Q:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from oracles.body_places import cross
-from oracles.body_wrenches import Point, load_wrenches
-from oracles.multipliers import Reactions
+from oracles.dynamics.body_places import cross
+from oracles.dynamics.body_wrenches import Point, load_wrenches
+from oracles.dynamics.multipliers import Reactions
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

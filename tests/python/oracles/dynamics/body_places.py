@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from models.mechanisms.mechanism_data import GROUND
-from oracles.oracle_system import MP
+from oracles.kinematics.oracle_system import MP
 
 if TYPE_CHECKING:
     from assur import Mechanism

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.mechanisms.mechanism_data import GROUND
-from oracles.agreement import POSITION, U
-from oracles.pair_jacobian import jacobian
+from oracles.kinematics.agreement import POSITION, U
+from oracles.kinematics.pair_jacobian import jacobian
 
 if TYPE_CHECKING:
     import assur

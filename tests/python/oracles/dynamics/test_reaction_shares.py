@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from models.machines.reaction_machines import Case, reaction_case
-from oracles.reaction_shares import Compared, Worst
-from oracles.reaction_view import View
+from oracles.dynamics.reaction_shares import Compared, Worst
+from oracles.dynamics.reaction_view import View
 
 SEEDS = range(3)  # with slides on moving links
 

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from models.mechanisms import dyad_models, named_models
 from models.mechanisms.mechanism_data import Description, SlideSpec
-from oracles import oracle, oracle_guess
-from oracles.oracle import solve
-from oracles.oracle_system import MP, Pose, System
+from oracles.kinematics import oracle, oracle_guess
+from oracles.kinematics.oracle import solve
+from oracles.kinematics.oracle_system import MP, Pose, System
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from oracles.body_places import GROUND, cross
-from oracles.multipliers import Reactions, unit_roundoff
+from oracles.dynamics.body_places import GROUND, cross
+from oracles.dynamics.multipliers import Reactions, unit_roundoff
 
 if TYPE_CHECKING:
     from models.machines.reaction_machines import Case

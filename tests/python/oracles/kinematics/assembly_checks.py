@@ -9,7 +9,7 @@ import numpy as np
 
 import assur
 from models.mechanisms.assembly_models import CASES, Case
-from oracles.scan import count
+from oracles.kinematics.scan import count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

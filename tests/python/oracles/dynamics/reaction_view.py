@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from oracles.multipliers import Reactions
+from oracles.dynamics.multipliers import Reactions
 
 if TYPE_CHECKING:
     from assur import Machine

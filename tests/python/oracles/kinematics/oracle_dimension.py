@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from models.mechanisms.mechanism_data import GROUND
-from oracles.oracle_system import MP, System, Vec
+from oracles.kinematics.oracle_system import MP, System, Vec
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from oracles.agreement import ANALOGUE, POSITION
+from oracles.kinematics.agreement import ANALOGUE, POSITION
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from oracles.variant_results import Array, Pairing
+    from oracles.kinematics.variant_results import Array, Pairing
 
 # Ends are bisected or solved for: q to this part of a radian (or of the drawing's size).
 CLOSE_Q = 1e-7

@@ -22,13 +22,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from oracles.body_constraints import Constraints
-from oracles.body_places import GROUND, Places, cross
-from oracles.body_wrenches import inertia_wrenches, load_wrenches
+from oracles.dynamics.body_constraints import Constraints
+from oracles.dynamics.body_places import GROUND, Places, cross
+from oracles.dynamics.body_wrenches import inertia_wrenches, load_wrenches
 
 if TYPE_CHECKING:
     from assur import Machine
-    from oracles.body_wrenches import Wrench
+    from oracles.dynamics.body_wrenches import Wrench
 
 # Of a unit self-stress; it is known to some 1e-13 where lengths fit to rounding.
 DETERMINED = 1e-6

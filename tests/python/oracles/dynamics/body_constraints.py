@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from oracles.body_places import GROUND, Places, cross, dot
+from oracles.dynamics.body_places import GROUND, Places, cross, dot
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import assur
 from models.machines.friction_cases import Bearing, FrictionCase, Journal
-from oracles.body_places import GROUND, dot
-from oracles.multipliers import Reactions
+from oracles.dynamics.body_places import GROUND, dot
+from oracles.dynamics.multipliers import Reactions
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from models.machines.friction_cases import friction_cases
-from oracles.friction_steps import WithFriction
+from oracles.dynamics.friction_steps import WithFriction
 
 LAST = 6e-10  # numbers are given to ten digits
 CASES = {case.name: case for case in friction_cases()}

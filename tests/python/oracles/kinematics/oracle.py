@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from models.mechanisms.mechanism_data import GROUND
-from oracles.oracle_system import MP, System, as_tuple, inverted
+from oracles.kinematics.oracle_system import MP, System, as_tuple, inverted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from models.mechanisms.mechanism_data import Description
-    from oracles.oracle_system import Pose, Real
+    from oracles.kinematics.oracle_system import Pose, Real
 
 POSITION_TOL = MP.mpf("1e-40")  # residual, relative to the size of the mechanism
 SERIES_TOL = MP.mpf("1e-35")  # last correction, relative to the coefficient

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from models.mechanisms.mechanism_data import GROUND, Description
-from oracles import oracle
-from oracles.oracle_system import MP, Pose, System
+from oracles.kinematics import oracle
+from oracles.kinematics.oracle_system import MP, Pose, System
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from oracles.oracle_system import System, as_tuple, inverted
+from oracles.kinematics.oracle_system import System, as_tuple, inverted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from models.mechanisms.mechanism_data import Description
-    from oracles.oracle_system import Pose, Vec
+    from oracles.kinematics.oracle_system import Pose, Vec
 
 FLOAT_TOL = 1e-13  # residual of `follow`: some hundred roundoffs
 LEAST_STEP = 1e-8  # of `follow`, part of the path: below it roundoff hides that the path bends
