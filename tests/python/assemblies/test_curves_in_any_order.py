@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from campaigns import campaign_cases
-from campaigns.campaign_variants import variant_of
+from campaigns.checks.campaign_variants import variant_of
 from models.mechanisms import mixed_models
 from models.mechanisms.mechanism_data import arguments
 from oracles.kinematics.variant_queries import same_curve

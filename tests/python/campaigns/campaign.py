@@ -21,15 +21,15 @@ import numpy as np
 import assur
 from assur import Status
 from campaigns import campaign_cases as cases
-from campaigns import campaign_checks as checks
-from campaigns.campaign_further import further
-from campaigns.campaign_geometry import Geometry, Sample
-from campaigns.campaign_machines import Checked
-from campaigns.campaign_mixed import Mixed
-from campaigns.campaign_page import one_kind
-from campaigns.campaign_page_mixed import machines, mixed
-from campaigns.campaign_redundant import Overconstrained
 from campaigns.campaign_report import Findings, Report, raised
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_further import further
+from campaigns.checks.campaign_geometry import Geometry, Sample
+from campaigns.checks.campaign_machines import Checked
+from campaigns.checks.campaign_mixed import Mixed
+from campaigns.checks.campaign_redundant import Overconstrained
+from campaigns.pages.campaign_page import one_kind
+from campaigns.pages.campaign_page_mixed import machines, mixed
 from models.machines.machine_models import machine_case
 from models.mechanisms.mechanism_data import arguments
 from models.mechanisms.mixed_models import mixed_case
@@ -39,7 +39,7 @@ from oracles.kinematics import gap_steps
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from campaigns.campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
     from models.mechanisms import dyad_models
 
 # Mechanisms given to a process at once.

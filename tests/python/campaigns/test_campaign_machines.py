@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from campaigns import campaign
-from campaigns.campaign_machines import Checked
+from campaigns.checks.campaign_machines import Checked
 from models.machines import machine_models
 from oracles.dynamics.machine_energy import Balance, spline
 

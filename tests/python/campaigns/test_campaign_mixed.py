@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 import assur
-from campaigns import campaign, campaign_mixed
-from campaigns import campaign_checks as checks
-from campaigns.campaign_mixed import Mixed
-from campaigns.campaign_redundant import Overconstrained
+from campaigns import campaign
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks import campaign_mixed
+from campaigns.checks.campaign_mixed import Mixed
+from campaigns.checks.campaign_redundant import Overconstrained
 from models.mechanisms import mixed_models, named_models, redundant_models
 from models.mechanisms.mechanism_data import Description, arguments
 from oracles.kinematics.closures import Closures

@@ -11,15 +11,16 @@ import pytest
 
 import assur
 from campaigns import campaign_cases
-from campaigns.campaign_cylinders import Cylinders
-from campaigns.campaign_ends import Ends
-from campaigns.campaign_flat import Flat
-from campaigns.campaign_resting import Resting
-from campaigns.campaign_saved import Saved
-from campaigns.campaign_sweeps import Covered, Swept
-from campaigns.campaign_turned import Turned
-from campaigns.campaign_units import InUnits
-from campaigns.campaign_variants import Variants, variant_of
+from campaigns.checks.campaign_cylinders import Cylinders
+from campaigns.checks.campaign_ends import Ends
+from campaigns.checks.campaign_flat import Flat
+from campaigns.checks.campaign_resting import Resting
+from campaigns.checks.campaign_saved import Saved
+from campaigns.checks.campaign_sweeps import Covered, Swept
+from campaigns.checks.campaign_turned import Turned
+from campaigns.checks.campaign_units import InUnits
+from campaigns.checks.campaign_variants import Variants, variant_of
+from campaigns.checks.everything_asked import asked
 from models.machines import machine_models
 from models.machines.resting_models import resting_case
 from models.mechanisms import dyad_models, named_models
@@ -29,7 +30,6 @@ from models.mechanisms.frames import Frame
 from models.mechanisms.mechanism_data import Description, arguments
 from models.mechanisms.mixed_models import mixed_case
 from models.mechanisms.variants import Variant, framed, redrawn, renamed, shuffled
-from oracles.everything_asked import asked
 from oracles.kinematics import variant_queries
 from oracles.kinematics.variant_results import Pairing
 

@@ -13,15 +13,15 @@ import assur
 from assur import Status
 from assur.examples import loom
 from campaigns import campaign_cases as cases
-from campaigns import campaign_checks as checks
-from campaigns.campaign_geometry import Geometry, Sample
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_geometry import Geometry, Sample
 from models.mechanisms import higher_models
 from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from campaigns.campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
 
 SEEDS = 50  # `make campaign` asks 10 000
 

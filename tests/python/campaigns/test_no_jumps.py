@@ -13,15 +13,15 @@ import pytest
 import assur
 from campaigns import campaign
 from campaigns import campaign_cases as cases
-from campaigns import campaign_checks as checks
-from campaigns.campaign_geometry import Geometry, Sample
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_geometry import Geometry, Sample
 from models.mechanisms import mechanism_data, mixed_models
 from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from campaigns.campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
 
 COUNT = sample(100, 100_000)
 PARTS = 10

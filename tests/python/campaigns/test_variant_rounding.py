@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from campaigns.campaign_cases import random_case
-from campaigns.campaign_variants import Variants, variant_of
+from campaigns.checks.campaign_variants import Variants, variant_of
 from models.mechanisms.mechanism_data import arguments, described
 from oracles.kinematics.variant_results import Pairing
 

@@ -10,15 +10,15 @@ import numpy as np
 
 import assur
 from assur import Status
-from campaigns import campaign_checks as checks
-from campaigns.campaign_geometry import Sample
 from campaigns.campaign_report import Findings
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_geometry import Sample
 from models.mechanisms.mechanism_data import arguments
 from oracles.kinematics.agreement import POSITION
 from oracles.kinematics.closures import Closures
 
 if TYPE_CHECKING:
-    from campaigns.campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
     from models.mechanisms import dyad_models
 
 DESIGNS = 3  # beside the drawing

@@ -6,9 +6,9 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from campaigns import campaign_cases as cases
-from campaigns import campaign_checks as checks
-from campaigns import campaign_page_further as of_further
-from campaigns.campaign_page_further import number
+from campaigns.checks import campaign_checks as checks
+from campaigns.pages import campaign_page_further as of_further
+from campaigns.pages.campaign_page_further import number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import assur
-    from campaigns.campaign_geometry import Array, Bools, Sample
+    from campaigns.checks.campaign_geometry import Array, Bools, Sample
 
 Solve: TypeAlias = "Callable[[Array], Sample]"
 Test: TypeAlias = "Callable[[Array, Array, Array, Array, Array], Bools]"

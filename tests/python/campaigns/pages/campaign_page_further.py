@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from campaigns import campaign_cylinders as of_cylinders
-from campaigns import campaign_ends as of_ends
-from campaigns import campaign_turned as of_turned
-from campaigns import campaign_units as of_units
-from campaigns.campaign_cylinders import Cylinders
-from campaigns.campaign_ends import Ends
-from campaigns.campaign_flat import Flat
-from campaigns.campaign_further import ASKED, DRAWN
-from campaigns.campaign_resting import Resting
-from campaigns.campaign_sweeps import Covered, Swept
-from campaigns.campaign_turned import Turned
-from campaigns.campaign_variants import Variants
+from campaigns.checks import campaign_cylinders as of_cylinders
+from campaigns.checks import campaign_ends as of_ends
+from campaigns.checks import campaign_turned as of_turned
+from campaigns.checks import campaign_units as of_units
+from campaigns.checks.campaign_cylinders import Cylinders
+from campaigns.checks.campaign_ends import Ends
+from campaigns.checks.campaign_flat import Flat
+from campaigns.checks.campaign_further import ASKED, DRAWN
+from campaigns.checks.campaign_resting import Resting
+from campaigns.checks.campaign_sweeps import Covered, Swept
+from campaigns.checks.campaign_turned import Turned
+from campaigns.checks.campaign_variants import Variants
 from models.mechanisms import flat_models
 
 if TYPE_CHECKING:

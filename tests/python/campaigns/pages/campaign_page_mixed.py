@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from campaigns import campaign_checks as checks
-from campaigns import campaign_machines as of_machines
-from campaigns import campaign_mixed as of_mixed
-from campaigns import campaign_page_further as of_further
-from campaigns import campaign_redundant as of_redundant
-from campaigns.campaign_page import greatest, motions, page, statuses
-from campaigns.campaign_page_further import number
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks import campaign_machines as of_machines
+from campaigns.checks import campaign_mixed as of_mixed
+from campaigns.checks import campaign_redundant as of_redundant
+from campaigns.pages import campaign_page_further as of_further
+from campaigns.pages.campaign_page import greatest, motions, page, statuses
+from campaigns.pages.campaign_page_further import number
 from models.machines import machine_models
 from models.mechanisms import redundant_models
 

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from campaigns.campaign_cylinders import Cylinders
-from campaigns.campaign_ends import Ends
-from campaigns.campaign_flat import Flat
-from campaigns.campaign_resting import Resting
-from campaigns.campaign_saved import Saved
-from campaigns.campaign_sweeps import Covered, Swept
-from campaigns.campaign_turned import Turned
-from campaigns.campaign_units import InUnits
-from campaigns.campaign_variants import Variants
+from campaigns.checks.campaign_cylinders import Cylinders
+from campaigns.checks.campaign_ends import Ends
+from campaigns.checks.campaign_flat import Flat
+from campaigns.checks.campaign_resting import Resting
+from campaigns.checks.campaign_saved import Saved
+from campaigns.checks.campaign_sweeps import Covered, Swept
+from campaigns.checks.campaign_turned import Turned
+from campaigns.checks.campaign_units import InUnits
+from campaigns.checks.campaign_variants import Variants
 from models.machines.resting_models import resting_case
 from models.mechanisms.cylinder_models import cylinder_case
 from models.mechanisms.flat_models import flat_case

@@ -9,8 +9,8 @@ import numpy as np
 
 import assur
 from assur import Status
-from campaigns.campaign_checks import TERMS
 from campaigns.campaign_report import Findings
+from campaigns.checks.campaign_checks import TERMS
 from models.mechanisms.mechanism_data import arguments
 from oracles.kinematics.agreement import POSITION
 from oracles.kinematics.closures import Closures

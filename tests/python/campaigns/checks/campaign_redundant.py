@@ -13,14 +13,14 @@ import numpy as np
 
 import assur
 from assur import Status
-from campaigns import campaign_checks as checks
-from campaigns.campaign_mixed import Path
 from campaigns.campaign_report import Findings
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_mixed import Path
 from models.mechanisms.mechanism_data import arguments
 from oracles.kinematics.closures import Closures
 
 if TYPE_CHECKING:
-    from campaigns.campaign_geometry import Sample
+    from campaigns.checks.campaign_geometry import Sample
     from models.mechanisms.redundant_models import Rounded
 
 # Data of so many digits or more fit to rounding: they must be taken.

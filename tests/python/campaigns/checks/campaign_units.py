@@ -17,8 +17,8 @@ import numpy as np
 
 import assur
 from campaigns.campaign_report import Findings
+from campaigns.checks.everything_asked import asked
 from models.machines.machine_units import Units, in_units, with_friction
-from oracles.everything_asked import asked
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

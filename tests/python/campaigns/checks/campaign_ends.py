@@ -14,7 +14,7 @@ from campaigns.campaign_report import Findings
 from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
-    from campaigns.campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
     from models.mechanisms import dyad_models
 
 SCANNED = 1500  # positions, over a turn, or over so much of a driven slide, m
