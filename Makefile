@@ -151,7 +151,7 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	  tests/python/kinematics/test_agreement.py tests/python/kinematics/test_invariance.py \
 	  tests/python/kinematics/test_angles_across_gaps.py tests/python/net/test_partial_requests.py \
 	  tests/python/description/test_random_remedies.py tests/python/studio/test_edits.py \
-	  tests/python/studio/test_studio_in_browser.py
+	  tests/python/studio/browser/test_studio_in_browser.py
 
 # Flags: the targets have no magic numbers to compare with, and one unit takes minutes to compile.
 FUZZ := cargo fuzz run --sanitizer none --no-trace-compares --codegen-units 16

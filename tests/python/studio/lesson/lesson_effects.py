@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import assur
-from studio.lesson_page import DEGREE, LENGTHS
+from studio.lesson.lesson_page import DEGREE, LENGTHS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
 
-    from studio.lesson_page import LessonPage
+    from studio.lesson.lesson_page import LessonPage
 
 
 def check(

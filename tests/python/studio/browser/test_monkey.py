@@ -10,7 +10,7 @@ import pytest
 
 from assur.studio import document
 from studio.asking import ask
-from studio.browsing import Window, window
+from studio.browser.browsing import Window, window
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

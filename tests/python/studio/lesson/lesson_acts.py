@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from studio.lesson_page import DEGREE
+from studio.lesson.lesson_page import DEGREE
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
 
-    from studio.lesson_page import LessonPage
+    from studio.lesson.lesson_page import LessonPage
 
 
 def is_hidden(control: dict[str, Any]) -> bool:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from studio.lesson_page import LessonPage
+    from studio.lesson.lesson_page import LessonPage
 
 SIZES = {"wide": (1440, 900), "between": (900, 800), "narrow": (390, 844)}
 

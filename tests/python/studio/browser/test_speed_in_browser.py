@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur.studio import document
 from studio.asking import FOUR_BAR, PRESS
-from studio.browsing import Window, window
+from studio.browser.browsing import Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -10,7 +10,7 @@ import pytest
 import assur
 from assur.description.words import Status
 from assur.errors import AssurError
-from studio.browsing import Window, window
+from studio.browser.browsing import Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ import pytest
 from assur.studio import document
 from assur.studio.session import Given
 from studio.asking import FOUR_BAR
-from studio.browsing import Server, Window, window
+from studio.browser.browsing import Server, Window, window
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -15,7 +15,7 @@ from assur.studio.kinds import KINDS
 from assur.studio.request import parse
 from assur.studio.session import Deadline, Given, Session
 from studio.asking import FOUR_BAR
-from studio.browsing import Server, Window, window
+from studio.browser.browsing import Server, Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

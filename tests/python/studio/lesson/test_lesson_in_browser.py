@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 import tomllib
 
-from studio.lesson_acts import do, is_hidden
-from studio.lesson_effects import check
+from studio.lesson.lesson_acts import do, is_hidden
+from studio.lesson.lesson_effects import check
 
 if TYPE_CHECKING:
-    from studio.lesson_page import LessonPage
+    from studio.lesson.lesson_page import LessonPage
 
 TABLE = Path(__file__).with_name("lesson_controls.toml")
 CONTROLS: list[dict[str, Any]] = tomllib.loads(TABLE.read_text(encoding="utf-8"))["control"]

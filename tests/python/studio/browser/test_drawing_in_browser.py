@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from studio.asking import FOUR_BAR
-from studio.browsing import Window, window
+from studio.browser.browsing import Window, window
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

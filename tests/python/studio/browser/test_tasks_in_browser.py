@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from studio.browsing import window
+from studio.browser.browsing import window
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
 
-    from studio.browsing import Window
+    from studio.browser.browsing import Window
 
 DEGREE = np.pi / 180.0
 TURN = 2.0 * np.pi

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import assur
-from studio.lesson_page import LENGTHS
+from studio.lesson.lesson_page import LENGTHS
 
 if TYPE_CHECKING:
-    from studio.lesson_page import LessonPage
+    from studio.lesson.lesson_page import LessonPage
 
 
 def test_it_becomes_a_slider_crank_and_a_crank_rocker_again(lesson: LessonPage) -> None:

@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur.studio import document
 from studio.asking import FOUR_BAR
-from studio.browsing import WIDTHS, Server, Window, window
+from studio.browser.browsing import WIDTHS, Server, Window, window
 from support.samples import IS_CAMPAIGN
 
 if TYPE_CHECKING:

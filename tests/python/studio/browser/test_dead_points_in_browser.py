@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur.studio.document import document_of
-from studio.browsing import Window, window
+from studio.browser.browsing import Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

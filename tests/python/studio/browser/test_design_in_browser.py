@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from studio.browsing import Window, window
+from studio.browser.browsing import Window, window
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
