@@ -14,7 +14,7 @@ from assur.examples import ALL
 from assur.pictures.scene.course import course
 from assur.pictures.style import DARK, LIGHT
 from pictures.drawn_examples import mechanism
-from pictures.picture_overlaps import overlapping
+from pictures.linkage.picture_overlaps import overlapping
 from pictures.picture_reading import named
 
 CRANK_ROCKER = assur.examples.crank_rocker()

@@ -12,7 +12,7 @@ from matplotlib.colors import to_hex
 
 import assur
 from assur.pictures.style import DARK, LIGHT
-from pictures.chart_overlaps import overlapping
+from pictures.diagrams.chart_overlaps import overlapping
 
 TURN = 2.0 * math.pi
 Q = np.linspace(0.0, TURN, 61)

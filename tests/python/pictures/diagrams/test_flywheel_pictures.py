@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur import flywheel
 from assur.pictures.style import DARK
-from pictures.chart_overlaps import overlapping
+from pictures.diagrams.chart_overlaps import overlapping
 
 TURN = 2.0 * math.pi
 PHI = np.linspace(0.0, TURN, 361)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from pictures.chart_overlaps import overlapping
+from pictures.diagrams.chart_overlaps import overlapping
 
 TURN = 2.0 * math.pi
 
