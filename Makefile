@@ -52,7 +52,7 @@ help:
 	@echo "make gallery      the gallery's pages and pictures alone: docs/gallery"
 	@echo "make wheel        a wheel for release in dist/, audited, installed and tested"
 	@echo "make bench        benchmarks, beside NumPy and numba; docs/speed.md"
-	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
+	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaigns"
 	@echo "make fuzz         libFuzzer on the core, SECONDS=60 each target (fuzz/README.md)"
 	@echo "make clean        remove everything that was built, the environment too"
 
@@ -140,10 +140,10 @@ bench: rust-tools $(EXTENSION)
 
 CAMPAIGN := PYTHONPATH=tests/python $(PY) -m campaigns.campaign
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
-	$(CAMPAIGN) --count 100000 --out docs/campaign.md
-	$(CAMPAIGN) --higher --count 10000 --out docs/campaign-higher.md
-	$(CAMPAIGN) --mixed --count 100000 --out docs/campaign-mixed.md
-	$(CAMPAIGN) --machines --count 10000 --out docs/campaign-machines.md
+	$(CAMPAIGN) --count 100000 --out docs/campaigns/class_ii.md
+	$(CAMPAIGN) --higher --count 10000 --out docs/campaigns/higher.md
+	$(CAMPAIGN) --mixed --count 100000 --out docs/campaigns/mixed.md
+	$(CAMPAIGN) --machines --count 10000 --out docs/campaigns/machines.md
 	PYTHONPATH=tests/python $(PY) -W ignore -m campaigns.campaign_assemblies
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/friction/test_friction_random.py \

@@ -100,8 +100,8 @@ CLASS_II = f"""# Campaign
 `make campaign` draws random class II mechanisms (any driver, one to four dyads of any kind; one
 in ten with a dyad that has change points), moves each over {cases.TURNS} turns of its crank, or a
 range of its slide, and asks what no example can: that nothing goes wrong anywhere. This page is
-written by it; there are others on [classes III and IV](campaign-higher.md), on
-[dyads and higher groups in any order](campaign-mixed.md) and on [machines](campaign-machines.md).
+written by it; there are others on [classes III and IV](higher.md), on
+[dyads and higher groups in any order](mixed.md) and on [machines](machines.md).
 Besides what is said below, every angle must step across every gap by at most half a turn.
 
 """
@@ -111,8 +111,8 @@ HIGHER = f"""# Campaign: classes III and IV
 `make campaign` draws random mechanisms with a group of class III or IV behind a crank (triads, both
 kinds of quadrilaterals, among them P4's; a quarter of the inner pairs slide) and moves each over
 {cases.TURNS} turns, or as far as it goes between dead points. This page is written by it;
-there are others on [class II](campaign.md), on [mixed groups](campaign-mixed.md) and on
-[machines](campaign-machines.md). Besides what is said below, the sign of the Jacobian's
+there are others on [class II](class_ii.md), on [mixed groups](mixed.md) and on
+[machines](machines.md). Besides what is said below, the sign of the Jacobian's
 determinant must be the same at all positions of a mechanism: where two assemblies meet, the other
 one has the other sign. Ends with a point beyond {checks.POLE_OF_GROUPS:g} sizes of the drawing
 are counted apart: the condition has grown with the square of that, and following it is given up.

@@ -98,8 +98,8 @@ crank, a slide, a cylinder between moving links, an elbow, a coupler, or any oth
 the finished mechanism; one in ten has two drivers. Every mechanism is solved as a batch of
 {of_mixed.DESIGNS + 1} designs: the drawing, and designs whose dimensions are changed by up to
 {LEAST} to {MOST} %, some of which cannot be assembled. This page is written by it; there are
-others on [class II](campaign.md), on [classes III and IV](campaign-higher.md) and on
-[machines](campaign-machines.md).
+others on [class II](class_ii.md), on [classes III and IV](higher.md) and on
+[machines](machines.md).
 
 What is checked of every mechanism:
 
@@ -109,7 +109,7 @@ What is checked of every mechanism:
   order, have the bits that they have in the batch.
 - **No false OK.** Every position with values satisfies every pin, guide and driver to the law's
   8 u κ of the size. The equations follow from the table of dimensions in
-  [the conventions](conventions.md) and share no code with `assur`.
+  [the conventions](../conventions.md) and share no code with `assur`.
 - **No jump.** Between neighbouring positions of the drawing (and of one in
   {of_mixed.DESIGN_MOTIONS} of the other designs) nothing moves farther than its first analogues
   carry it to {checks.JUMP:g} of the drawing (or rad). With two drivers the path is straight.
@@ -140,12 +140,12 @@ MACHINES = f"""# Campaign: machines
 `make campaign` draws random mechanisms (class II and above, one or two drivers) with bodies on
 random links, two to six random loads at random places of random links, the ground among them, and
 motors on half of them. Values are numbers, tables over q, or functions of (t, q, speed). This page
-is written by it; there are others on mechanisms of [class II](campaign.md), of
-[classes III and IV](campaign-higher.md) and of [mixed groups](campaign-mixed.md).
+is written by it; there are others on mechanisms of [class II](class_ii.md), of
+[classes III and IV](higher.md) and of [mixed groups](mixed.md).
 
 Both sides of each comparison start from `Mechanism.solve`: places of joints, angles of links and
-their first derivatives. All else is written anew from [the conventions](conventions.md): poses of
-links, kinetic energy, weights, springs, and the power of every other load and motor (tables by
+their first derivatives. All else is written anew from [the conventions](../conventions.md): poses
+of links, kinetic energy, weights, springs, and the power of every other load and motor (tables by
 SciPy's splines).
 
 - **Reductions.** At {of_machines.PLACES} random positions within {of_machines.REACH:g} rad (or m)
