@@ -72,6 +72,7 @@ lint: $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(PY) tools/check_floors
+	$(PY) tools/check_sizes
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) tools/error_page --check
