@@ -34,6 +34,8 @@ def test_every_joint_of_every_link_is_where_the_motion_has_it(name: str) -> None
     scale = np.abs(
         np.stack([motion.joint(name).value[known] for name in motion.mechanism.joints])
     ).max()
+    assert frames.local.keys() == motion.mechanism.links.keys()
+    assert {one for joints in frames.local.values() for one in joints} == {*motion.mechanism.joints}
     for link, joints in frames.local.items():
         for joint, local in joints.items():
             expected = motion.joint(joint).value

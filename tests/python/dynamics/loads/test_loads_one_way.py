@@ -250,16 +250,21 @@ def test_at_rest_a_direction_is_needed() -> None:
 
 
 def test_self_locking_has_the_loads_of_its_sense() -> None:
-    rubs = {"bore": assur.SlideFriction(coefficient=0.1, length=0.1)}
-    pushed = Force("B", (40.0, 0.0))
-    machine = Machine(slider(), loads=[pushed, shaper().loads[0]], friction=rubs)
-    plain = Machine(slider(), loads=[pushed], friction=rubs)
-    q = (4.0, 5.0)
+    rubs = {name: assur.JointFriction(0.1, radius=0.03) for name in "OAB"}
+    stroke = (math.pi, TURN)
+
+    def holding(force: float, sense: int, *loads: Any) -> Any:
+        machine = Machine(slider(), loads=[Force("B", (force, 0.0)), *loads], friction=rubs)
+        return machine.self_locking(sense, between=stroke).holding
+
+    cut = shaper().loads[0]
     # The slide goes forward there: the cut does not act, whatever pushes.
-    for one, other in zip(
-        machine.self_locking(1, between=q), plain.self_locking(1, between=q), strict=True
-    ):
-        np.testing.assert_array_equal(one, other)
+    plain = holding(40.0, 1)
+    assert plain.shape == (2, 2)
+    np.testing.assert_array_equal(holding(40.0, 1, cut), plain)
+    # It goes backward, and the cut is greater than what pulls: friction has nothing to hold.
+    assert np.ptp(holding(-40.0, -1), axis=1).sum() > 0.1
+    assert np.ptp(holding(-40.0, -1, cut), axis=1).sum() < 1e-6
 
 
 def test_an_impact_has_no_direction() -> None:

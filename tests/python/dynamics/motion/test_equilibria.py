@@ -92,7 +92,9 @@ def test_equilibria(make: Any) -> None:
 
 def test_rest_needs_no_drive() -> None:
     machine: Any = held()
-    for q in np.atleast_1d(machine.equilibria().q):
+    found = machine.equilibria().q
+    assert found.shape == (2,)
+    for q in found:
         scale = abs(float(machine.effort(float(q) + 0.5, 0.0, 0.0))) + 1.0
         assert abs(float(machine.effort(float(q), 0.0, 0.0))) < 1e-11 * scale
 

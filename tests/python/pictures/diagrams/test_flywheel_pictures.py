@@ -179,4 +179,5 @@ def test_texts_are_clear() -> None:
             written, wrong = overlapping(np.ravel(axes)[0].figure)
             count += written
             bad += [f"{what}: {one}" for one in wrong]
+    assert count > 30
     assert len(bad) <= 0.02 * count, bad
