@@ -12,7 +12,7 @@ TOOL: dict[str, Any] = runpy.run_path(
     str(Path(__file__).resolve().parents[3] / "tools" / "check_sizes")
 )
 CODE = "x = 1\n" * 500
-PAGE = "python/assur/pictures/page"
+CLI, PAGE = "tests/python/cli", "python/assur/pictures/page"
 
 # By what is wrong: files, and what is said of them.
 PLANTED = {
@@ -21,16 +21,16 @@ PLANTED = {
         "python/assur/laws.py has 501 lines of code, more than 500",
     ),
     "a test of too many lines": (
-        {"tests/python/dynamics/test_run.py": CODE + "y = 2\n"},
-        "tests/python/dynamics/test_run.py has 501 lines of code, more than 500",
+        {"tests/python/dynamics/motion/test_run.py": CODE + "y = 2\n"},
+        "tests/python/dynamics/motion/test_run.py has 501 lines of code, more than 500",
     ),
     "a file in Rust of too many lines": (
         {"rust/core/src/plan/tape.rs": "//! Text.\n\n/* A\ncomment */\n" + "x();\n" * 501},
         "rust/core/src/plan/tape.rs has 501 lines of code, more than 500",
     ),
     "a folder of too many files": (
-        {f"tests/python/cli/test_{i}.py": "" for i in range(26)},
-        "tests/python/cli has 26 files, more than 25",
+        {f"{CLI}/test_{i}.py": "" for i in range(26)},
+        f"{CLI} has 26 files, more than 25",
     ),
     "a page with a new module": (
         {f"{PAGE}/module{i}.js": "" for i in range(32)},
