@@ -83,7 +83,7 @@ types: $(EXTENSION) $(DEV_STAMP)
 
 # Results at one level of vector instructions; `make test` compares them at all.
 quick-tests: $(EXTENSION) $(DEV_STAMP)
-	$(PYTEST) -k "not (baseline or avx2 or avx512)" tests/python/net/test_digests.py \
+	$(PYTEST) -k "not (avx2 or avx512)" tests/python/net/test_digests.py \
 	  tests/python/description tests/python/papers tests/python/package/test_readme.py \
 	  tests/python/package/test_examples_in_docstrings.py
 
