@@ -52,7 +52,7 @@ help:
 	@echo "make gallery      the gallery's pages and pictures alone: docs/gallery"
 	@echo "make wheel        a wheel for release in dist/, audited, installed and tested"
 	@echo "make bench        benchmarks, beside NumPy and numba; docs/speed.md"
-	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaign*.md"
+	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaigns"
 	@echo "make fuzz         libFuzzer on the core, SECONDS=60 each target (fuzz/README.md)"
 	@echo "make clean        remove everything that was built, the environment too"
 
@@ -72,6 +72,7 @@ lint: $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m ruff check
 	$(PY) -m ruff format --check
 	$(PY) tools/check_floors
+	$(PY) tools/check_sizes
 	$(VENV)/bin/lint-imports --no-logo --no-cache
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) tools/error_page --check
@@ -82,7 +83,7 @@ types: $(EXTENSION) $(DEV_STAMP)
 
 # Results at one level of vector instructions; `make test` compares them at all.
 quick-tests: $(EXTENSION) $(DEV_STAMP)
-	$(PYTEST) -k "not (baseline or avx2 or avx512)" tests/python/net/test_digests.py \
+	$(PYTEST) -k "not (avx2 or avx512)" tests/python/net/test_digests.py \
 	  tests/python/description tests/python/papers tests/python/package/test_readme.py \
 	  tests/python/package/test_examples_in_docstrings.py
 
@@ -138,21 +139,20 @@ bench: rust-tools $(EXTENSION)
 	cargo bench $(LOCKED) --features test-hooks
 	$(PY) benches/python/run.py --write
 
-CAMPAIGN := PYTHONPATH=tests/python/models:tests/python/oracles $(PY) tests/python/campaigns/campaign.py
+CAMPAIGN := PYTHONPATH=tests/python $(PY) -m campaigns.campaign
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
-	$(CAMPAIGN) --count 100000 --out docs/campaign.md
-	$(CAMPAIGN) --higher --count 10000 --out docs/campaign-higher.md
-	$(CAMPAIGN) --mixed --count 100000 --out docs/campaign-mixed.md
-	$(CAMPAIGN) --machines --count 10000 --out docs/campaign-machines.md
-	PYTHONPATH=tests/python/models:tests/python/oracles \
-		$(PY) -W ignore tests/python/campaigns/campaign_assemblies.py
+	$(CAMPAIGN) --count 100000 --out docs/campaigns/class_ii.md
+	$(CAMPAIGN) --higher --count 10000 --out docs/campaigns/higher.md
+	$(CAMPAIGN) --mixed --count 100000 --out docs/campaigns/mixed.md
+	$(CAMPAIGN) --machines --count 10000 --out docs/campaigns/machines.md
+	PYTHONPATH=tests/python $(PY) -W ignore -m campaigns.campaign_assemblies
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
-	  tests/python/net/test_careful.py tests/python/dynamics/test_friction_random.py \
-	  tests/python/dynamics/test_reactions_oracle.py \
+	  tests/python/net/test_careful.py tests/python/dynamics/friction/test_friction_random.py \
+	  tests/python/dynamics/forces/test_reactions_oracle.py \
 	  tests/python/kinematics/test_agreement.py tests/python/kinematics/test_invariance.py \
 	  tests/python/kinematics/test_angles_across_gaps.py tests/python/net/test_partial_requests.py \
 	  tests/python/description/test_random_remedies.py tests/python/studio/test_edits.py \
-	  tests/python/studio/test_studio_in_browser.py
+	  tests/python/studio/browser/test_studio_in_browser.py
 
 # Flags: the targets have no magic numbers to compare with, and one unit takes minutes to compile.
 FUZZ := cargo fuzz run --sanitizer none --no-trace-compares --codegen-units 16

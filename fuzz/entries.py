@@ -4,11 +4,10 @@ import importlib
 import sys
 from pathlib import Path
 
-TESTS = Path(__file__).parents[1] / "tests" / "python"
-sys.path += [str(TESTS / "fuzzing"), str(TESTS / "models")]
+sys.path.append(str(Path(__file__).parents[1] / "tests" / "python"))
 atheris = importlib.import_module("atheris")  # not among the tools of `make test`
 with atheris.instrument_imports(include=["assur"]):
-    entries = importlib.import_module("fuzz_entries")
+    entries = importlib.import_module("fuzzing.fuzz_entries")
 
 atheris.Setup(sys.argv, entries.one_input)
 atheris.Fuzz()

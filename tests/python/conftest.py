@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Browser
 
-    from lesson_page import LessonPage
+    from studio.lesson.lesson_page import LessonPage
 
 settings.register_profile("fast", deadline=None, derandomize=True, max_examples=100)
 settings.register_profile(
@@ -45,7 +45,7 @@ def browser() -> Iterator[Browser]:
 
     Its driver keeps the loop of this thread: tests run their own with `asyncio` in another thread.
     """
-    from browsers import chromium
+    from support.browsers import chromium
 
     with chromium() as running:
         yield running
@@ -54,8 +54,8 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture(scope="session")
 def lesson_page(browser: Browser) -> Iterator[LessonPage]:
     """Open the lesson on a server of its own."""
-    from browsing import Server
-    from lesson_page import LessonPage
+    from studio.browser.browsing import Server
+    from studio.lesson.lesson_page import LessonPage
 
     server = Server()
     page = LessonPage(browser, server.address)

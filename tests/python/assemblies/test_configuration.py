@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import refused
-from test_numbers import six_bar, triad
+from assemblies.test_numbers import six_bar, triad
+from models.errors.refusals import refused
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import assur
-from assembly_checks import expected
-from assembly_models import CASES
-from mechanism_data import arguments
-from mixed_models import mixed_case
-from variants import Variant, shuffled
+from models.mechanisms.assembly_models import CASES
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.variants import Variant, shuffled
+from oracles.kinematics.assembly_checks import expected
 
 SAMPLE = 5  # of each kind; `make campaign` counts all
 

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import pytest
 
 import assur
-import campaign_cases
-import mixed_models
-from campaign_variants import variant_of
-from mechanism_data import arguments
-from variant_queries import same_curve
-from variant_results import Pairing
+from campaigns import campaign_cases
+from campaigns.checks.campaign_variants import variant_of
+from models.mechanisms import mixed_models
+from models.mechanisms.mechanism_data import arguments
+from oracles.kinematics.variant_queries import same_curve
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
-    from mechanism_data import Description
+    from models.mechanisms.mechanism_data import Description
 
 # Of a curve with 26 branches that once took half a minute, with a margin for slow machines.
 SECONDS = 15.0

@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 import assur
-from refusals import refused
-from test_numbers import triad
+from assemblies.test_numbers import triad
+from models.errors.refusals import refused
 
 NONE, CIRCUIT, BRANCH, ORDER, MISSING = (0, 1, 2, 4, 8)
 

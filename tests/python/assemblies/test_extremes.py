@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import assur
-from assembly_models import CASES
 from assur import examples
-from refusals import refused
+from models.errors.refusals import refused
+from models.mechanisms.assembly_models import CASES
 
 # Printed numbers have twelve digits.
 PRINTED = 2e-11
@@ -267,7 +267,9 @@ def test_dwells_of_a_slider_crank() -> None:
 def test_an_assembly_is_drawn() -> None:
     plt = pytest.importorskip("matplotlib.pyplot")
     mechanism = CASES["triad"][0](np.random.default_rng(3)).mechanism
-    for assembly in mechanism.assemblies(mechanism.q0):
+    found = mechanism.assemblies(mechanism.q0)
+    assert len(found) == 4
+    for assembly in found:
         ax = mechanism.plot(assembly=assembly)
         drawn = np.concatenate(
             [

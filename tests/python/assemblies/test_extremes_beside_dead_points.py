@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 import assur
-from test_numbers import six_bar, triad
+from assemblies.test_numbers import six_bar, triad
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,16 +13,15 @@ import numpy as np
 import pytest
 
 import assur
-import oracle
-import oracle_guess
-from campaign_cases import random_case
-from higher_models import higher_case
-from mechanism_data import Description, arguments
-from mixed_models import mixed_case
-from variants import Variant, shuffled
+from campaigns.campaign_cases import random_case
+from models.mechanisms.higher_models import higher_case
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.variants import Variant, shuffled
+from oracles.kinematics import oracle, oracle_guess
 
 if TYPE_CHECKING:
-    from oracle_system import Pose
+    from oracles.kinematics.oracle_system import Pose
 
 # Distances of the oracle's positions from an end, and how well their line gives the limit.
 BESIDE = (1e-8, 2e-8)

@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 
 import assur
-import higher_models
-import mixed_models
-from mechanism_data import Description, arguments
-from variants import Variant, shuffled
+from models.mechanisms import higher_models, mixed_models
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.variants import Variant, shuffled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import dyad_models
+    from models.mechanisms import dyad_models
 
 # Toward a dead point rates grow as the inverse root of the distance: over these parts of the way to
 # the drawing by 31.6. Those of groups that do not fold grow by less than a factor of 8.

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from test_numbers import six_bar, triad
+from assemblies.test_numbers import six_bar, triad
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -264,8 +264,14 @@ def test_batches_equal_single_designs_to_the_bit() -> None:
 
 def test_every_position_within_the_limits_exists_and_none_outside() -> None:
     rng = np.random.default_rng(4)
-    for mechanism in (six_bar(9.0), six_bar(7.0), assur.FourBar(3, 1, 2.5, 3.2)):
-        for assembly in mechanism.assemblies(0.6):
+    for mechanism, count in (
+        (six_bar(9.0), 4),
+        (six_bar(7.0), 4),
+        (assur.FourBar(3, 1, 2.5, 3.2), 2),
+    ):
+        found = mechanism.assemblies(0.6)
+        assert len(found) == count
+        for assembly in found:
             limits = mechanism.limits(assembly)
             q = rng.uniform(-math.pi, math.pi, 300)
             motion = mechanism.solve(q, order=0, assembly=assembly, on_error="nan")

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import assur
-import dyad_models
 from assur import Status
-from mechanism_data import Description, arguments
-from mixed_models import REGULAR, Builder
-from pair_jacobian import regularity
+from models.mechanisms import dyad_models
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.mixed_models import REGULAR, Builder
+from oracles.kinematics.pair_jacobian import regularity
 
 # Dead points are promised to this.
 DEAD_POINT = 1e-10

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 import assur
-from test_numbers import six_bar
+from assemblies.test_numbers import six_bar
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -11,20 +11,19 @@ import numpy as np
 import pytest
 
 import assur
-import campaign_cases
-import flat_models
-import mixed_models
 from assur import Status
-from frames import Frame
-from mechanism_data import Description, arguments
-from variants import Variant, framed, shuffled
+from campaigns import campaign_cases
+from models.mechanisms import flat_models, mixed_models
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.variants import Variant, framed, shuffled
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    import dyad_models
+    from models.mechanisms import dyad_models
 
 # Dead points are promised to this.
 DEAD_POINT = 1e-10

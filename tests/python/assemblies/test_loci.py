@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import refused
+from models.errors.refusals import refused
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

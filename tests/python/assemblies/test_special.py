@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import refused
-from test_loci import five_bar
+from assemblies.test_loci import five_bar
+from models.errors.refusals import refused
 
 Slide, Mechanism = assur.Slide, assur.Mechanism
 

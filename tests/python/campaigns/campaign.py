@@ -19,28 +19,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-import campaign_cases as cases
-import campaign_checks as checks
-import gap_steps
 from assur import Status
-from campaign_further import further
-from campaign_geometry import Geometry, Sample
-from campaign_machines import Checked
-from campaign_mixed import Mixed
-from campaign_page import one_kind
-from campaign_page_mixed import machines, mixed
-from campaign_redundant import Overconstrained
-from campaign_report import Findings, Report, raised
-from machine_models import machine_case
-from mechanism_data import arguments
-from mixed_models import mixed_case
-from redundant_models import redundant_case
+from campaigns import campaign_cases as cases
+from campaigns.campaign_report import Findings, Report, raised
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_further import further
+from campaigns.checks.campaign_geometry import Geometry, Sample
+from campaigns.checks.campaign_machines import Checked
+from campaigns.checks.campaign_mixed import Mixed
+from campaigns.checks.campaign_redundant import Overconstrained
+from campaigns.pages.campaign_page import one_kind
+from campaigns.pages.campaign_page_mixed import machines, mixed
+from models.machines.machine_models import machine_case
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.redundant_models import redundant_case
+from oracles.kinematics import gap_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    import dyad_models
-    from campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
+    from models.mechanisms import dyad_models
 
 # Mechanisms given to a process at once.
 PORTION = 200

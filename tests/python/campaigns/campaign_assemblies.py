@@ -7,8 +7,8 @@ import time
 
 import numpy as np
 
-from assembly_checks import Followed, expected, follow, random_cases
-from assembly_models import CASES
+from models.mechanisms.assembly_models import CASES
+from oracles.kinematics.assembly_checks import Followed, expected, follow, random_cases
 
 FOLLOWED = 10_000
 

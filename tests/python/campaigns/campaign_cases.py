@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import dyad_models
-import higher_models
-from mechanism_data import GROUND, SlideSpec
+from models.mechanisms import dyad_models, higher_models
+from models.mechanisms.mechanism_data import GROUND, SlideSpec
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,6 +1,6 @@
 """Two builds of assur on the same random mechanisms: where do statuses, values or turns differ?
 
-    python tests/python/campaigns/compare_builds.py OLD NEW --count 20000 --higher 2000
+    PYTHONPATH=NEW:tests/python python -m campaigns.compare_builds OLD NEW --count 20000
 
 OLD and NEW are the folders `python` of two checkouts that are built. Every count is a mechanism of
 class II: half are drawn, a tenth of those with change points; of the others every
@@ -23,12 +23,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import assur
-import bits
-import campaign_cases
-import design_spaces
-import gap_steps
-from agreement import POSITION
-from mechanism_data import arguments
+from campaigns import campaign_cases
+from models.mechanisms.mechanism_data import arguments
+from net import bits, design_spaces
+from oracles.kinematics import gap_steps
+from oracles.kinematics.agreement import POSITION
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -172,7 +171,7 @@ def main() -> int:
     parser.add_argument("--keep", type=Path, help="file for what is found so far")
     given = parser.parse_args()
     if not Path(assur.__file__).resolve().is_relative_to(Path(given.new).resolve()):
-        parser.error(f"run this with PYTHONPATH={given.new}")
+        parser.error(f"run this with PYTHONPATH={given.new}:tests/python")
     result = Comparison()
     for count, higher in ((given.count, False), (given.higher, True)):
         end = given.first + count

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import assur
-import campaign
-import machine_models
-from campaign_machines import Checked
-from machine_energy import Balance, spline
+from campaigns import campaign
+from campaigns.checks.campaign_machines import Checked
+from models.machines import machine_models
+from oracles.dynamics.machine_energy import Balance, spline
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,17 +12,15 @@ import numpy as np
 import pytest
 
 import assur
-import campaign
-import campaign_checks as checks
-import campaign_mixed
-import mixed_models
-import named_models
-import redundant_models
-from campaign_mixed import Mixed
-from campaign_redundant import Overconstrained
-from closures import Closures
-from mechanism_data import Description, arguments
-from pair_jacobian import regularity
+from campaigns import campaign
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks import campaign_mixed
+from campaigns.checks.campaign_mixed import Mixed
+from campaigns.checks.campaign_redundant import Overconstrained
+from models.mechanisms import mixed_models, named_models, redundant_models
+from models.mechanisms.mechanism_data import Description, arguments
+from oracles.kinematics.closures import Closures
+from oracles.kinematics.pair_jacobian import regularity
 
 if TYPE_CHECKING:
     from pathlib import Path

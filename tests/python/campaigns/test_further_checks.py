@@ -10,34 +10,33 @@ import numpy as np
 import pytest
 
 import assur
-import campaign_cases
-import dyad_models
-import machine_models
-import named_models
-import variant_queries
-from campaign_cylinders import Cylinders
-from campaign_ends import Ends
-from campaign_flat import Flat
-from campaign_resting import Resting
-from campaign_saved import Saved
-from campaign_sweeps import Covered, Swept
-from campaign_turned import Turned
-from campaign_units import InUnits
-from campaign_variants import Variants, variant_of
-from cylinder_models import cylinder_case
-from everything_asked import asked
-from flat_models import flat_case
-from frames import Frame
-from mechanism_data import Description, arguments
-from mixed_models import mixed_case
-from resting_models import resting_case
-from variant_results import Pairing
-from variants import Variant, framed, redrawn, renamed, shuffled
+from campaigns import campaign_cases
+from campaigns.checks.campaign_cylinders import Cylinders
+from campaigns.checks.campaign_ends import Ends
+from campaigns.checks.campaign_flat import Flat
+from campaigns.checks.campaign_resting import Resting
+from campaigns.checks.campaign_saved import Saved
+from campaigns.checks.campaign_sweeps import Covered, Swept
+from campaigns.checks.campaign_turned import Turned
+from campaigns.checks.campaign_units import InUnits
+from campaigns.checks.campaign_variants import Variants, variant_of
+from campaigns.checks.everything_asked import asked
+from models.machines import machine_models
+from models.machines.resting_models import resting_case
+from models.mechanisms import dyad_models, named_models
+from models.mechanisms.cylinder_models import cylinder_case
+from models.mechanisms.flat_models import flat_case
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import Description, arguments
+from models.mechanisms.mixed_models import mixed_case
+from models.mechanisms.variants import Variant, framed, redrawn, renamed, shuffled
+from oracles.kinematics import variant_queries
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from campaign_report import Findings
+    from campaigns.campaign_report import Findings
 
 higher_case = campaign_cases.MAKE["higher"]
 # The check, how its cases are drawn, and which seeds: each about a second at most.

@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 
 import assur
-import campaign_cases as cases
-import campaign_checks as checks
-import higher_models
 from assur import Status
 from assur.examples import loom
-from campaign_geometry import Geometry, Sample
-from mechanism_data import arguments
+from campaigns import campaign_cases as cases
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_geometry import Geometry, Sample
+from models.mechanisms import higher_models
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
 
 SEEDS = 50  # `make campaign` asks 10 000
 

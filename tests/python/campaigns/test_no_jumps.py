@@ -11,18 +11,17 @@ import numpy as np
 import pytest
 
 import assur
-import campaign
-import campaign_cases as cases
-import campaign_checks as checks
-import mechanism_data
-import mixed_models
-from campaign_geometry import Geometry, Sample
-from samples import sample
+from campaigns import campaign
+from campaigns import campaign_cases as cases
+from campaigns.checks import campaign_checks as checks
+from campaigns.checks.campaign_geometry import Geometry, Sample
+from models.mechanisms import mechanism_data, mixed_models
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from campaign_geometry import Array
+    from campaigns.checks.campaign_geometry import Array
 
 COUNT = sample(100, 100_000)
 PARTS = 10

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import assur
-from campaign_cases import random_case
-from campaign_variants import Variants, variant_of
-from mechanism_data import arguments, described
-from variant_results import Pairing
+from campaigns.campaign_cases import random_case
+from campaigns.checks.campaign_variants import Variants, variant_of
+from models.mechanisms.mechanism_data import arguments, described
+from oracles.kinematics.variant_results import Pairing
 
 if TYPE_CHECKING:
-    from variants import Variant
+    from models.mechanisms.variants import Variant
 
 
 # Second analogues a few percent beyond the law of digits: lengths and guides are those of a drawing

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from assur.cli.formats import NEEDS, WRITERS
 from assur.cli.main import COMMANDS
 from assur.cli.units import UNITS
-from command_line import assur_command
+from cli.command_line import assur_command
 
 if TYPE_CHECKING:
     import pytest

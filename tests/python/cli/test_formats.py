@@ -14,7 +14,7 @@ import assur
 from assur._table import MAX_ROWS, Column
 from assur.cli.formats import WRITERS
 from assur.cli.output import Output
-from command_line import Columns, assur_command, columns, refused, same
+from cli.command_line import Columns, assur_command, columns, refused, same
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from assur.cli.main import COMMANDS
-from command_line import assur_command
+from cli.command_line import assur_command
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur.cli.main import COMMANDS
-from command_line import assur_command
+from cli.command_line import assur_command
 
 HERE = Path(__file__)
 PRESS = HERE.parents[3] / "examples" / "press.toml"

@@ -12,7 +12,7 @@ import pytest
 import assur
 from assur.cli.named import example
 from assur.examples import ALL
-from command_line import assur_command, columns, refused, same, table
+from cli.command_line import assur_command, columns, refused, same, table
 
 PRESS = Path(__file__).parents[3] / "examples" / "press.toml"
 

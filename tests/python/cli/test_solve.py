@@ -12,7 +12,7 @@ import pytest
 import assur
 from assur.cli.named import example
 from assur.examples import RANGES
-from command_line import assur_command, refused, same, table
+from cli.command_line import assur_command, refused, same, table
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 

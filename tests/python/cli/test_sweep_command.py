@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import metric
-from command_line import Done, assur_command, columns, refused, same, table
+from cli.command_line import Done, assur_command, columns, refused, same, table
 
 PRESS = Path(__file__).parents[3] / "examples" / "press.toml"
 TURN = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)

@@ -14,7 +14,7 @@ import pytest
 
 from assur.cli import main
 from assur.cli.progress import lines, progress
-from command_line import assur_command
+from cli.command_line import assur_command
 
 PHI = np.linspace(0.0, 2.0 * np.pi, 25)
 FULL = Path("/dev/full")

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur.cli.units import UNITS, evenly, numbers, ratio, split_number
-from command_line import same
+from cli.command_line import same
 
 # What one of each unit is, written independently (exact fractions of π or decimals).
 ONE = {

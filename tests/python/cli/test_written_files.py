@@ -10,7 +10,7 @@ import pytest
 import assur
 from assur.cli import formats, output
 from assur.cli.written import replacing
-from command_line import assur_command, refused
+from cli.command_line import assur_command, refused
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import (
+from models.errors.refusals import (
     BORE,
     FIVE,
     FIVE_LINKS,

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import assur
-from refusals import refused
+from models.errors.refusals import refused
 
 
 def boom(lift: Any) -> assur.Mechanism:

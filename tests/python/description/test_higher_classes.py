@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from class_iv_model import class_iv
-from refusals import Table, build
+from models.errors.refusals import Table, build
+from models.mechanisms.class_iv_model import class_iv
 
 TRIAD: Table = {
     "joints": {"O": (0, 0), "A": (0.3, 0.2), "B": (1, 2), "C": (2.5, 1.5), "D": (2, 3), "E": (4, 0)}

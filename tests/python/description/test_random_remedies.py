@@ -11,11 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
-import dyad_models
-import mixed_models
-from mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
-from pair_jacobian import jacobian
-from samples import sample
+from models.mechanisms import dyad_models, mixed_models
+from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
+from oracles.kinematics.pair_jacobian import jacobian
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

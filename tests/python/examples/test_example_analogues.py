@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from assur import examples
-from example_checks import mechanism_of, over_range, span
+from oracles.kinematics.example_checks import mechanism_of, over_range, span
 
 POSITION = 8 * 2.220446049250313e-16  # of size times condition: what docs/conventions.md promises
 STEP = 1e-5  # rad or m: differences then err by about as much by truncation as by rounding

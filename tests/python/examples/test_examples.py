@@ -13,7 +13,7 @@ import pytest
 
 import assur
 from assur import Status, examples
-from example_checks import distance, mechanism_of, over_range, span
+from oracles.kinematics.example_checks import distance, mechanism_of, over_range, span
 
 Groups: TypeAlias = tuple[tuple[int, int, str | None], ...]  # class, order, kind of each group
 

@@ -8,14 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-import agreement
 import assur
-import oracle
-import oracle_guess
-from agreement_law import along, check_law, solve, whole_turns
 from assur import Status, examples
-from mechanism_data import arguments, described
-from named_drawings import HIGHER
+from models.mechanisms.mechanism_data import arguments, described
+from models.mechanisms.named_drawings import HIGHER
+from oracles.kinematics import agreement, oracle, oracle_guess
+from oracles.kinematics.agreement_law import along, check_law, solve, whole_turns
 
 CLASSES = {
     "triad": (3, 3),

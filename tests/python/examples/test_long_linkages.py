@@ -10,11 +10,10 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import named_drawings
-import named_models
 from assur import Status, examples
-from example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
-from mechanism_data import arguments
+from models.mechanisms import named_drawings, named_models
+from models.mechanisms.mechanism_data import arguments
+from oracles.kinematics.example_checks import EXACT, STRAIGHT, TURN, coordinates, distance, span
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 import pytest
 
 from assur import examples
-from example_checks import EXACT, STRAIGHT, TURN, coordinates
+from oracles.kinematics.example_checks import EXACT, STRAIGHT, TURN, coordinates
 
 if TYPE_CHECKING:
     import assur

@@ -10,9 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import assur
-import squeezer_equations
 from assur import examples
-from example_checks import mechanism_of
+from oracles.dynamics import squeezer_equations
+from oracles.kinematics.example_checks import mechanism_of
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

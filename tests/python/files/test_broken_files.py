@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 import assur
-from sample_files import BY_HAND, WANTED
+from files.sample_files import BY_HAND, WANTED
 
 if TYPE_CHECKING:
     from pathlib import Path

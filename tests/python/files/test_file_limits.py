@@ -9,8 +9,8 @@ import pytest
 import assur
 from assur.files.limits import MOST_BRACKETS, MOST_BYTES, MOST_ITEMS, MOST_LETTERS, MOST_PARTS
 from assur.files.write import text_of
-from machines import four_bar
-from sample_files import BY_HAND
+from files.sample_files import BY_HAND
+from models.machines.machines import four_bar
 
 if TYPE_CHECKING:
     from pathlib import Path

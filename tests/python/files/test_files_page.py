@@ -14,7 +14,7 @@ import assur
 from assur.files import limits
 from assur.files.contents import KEYS
 from assur.files.parser import loads
-from sample_files import BY_HAND
+from files.sample_files import BY_HAND
 
 if TYPE_CHECKING:
     import pytest

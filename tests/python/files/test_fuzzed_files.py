@@ -12,7 +12,7 @@ import pytest
 import assur
 from assur.files.lexer import tokens
 from assur.files.write import text_of
-from sample_files import BY_HAND, WANTED, saved
+from files.sample_files import BY_HAND, WANTED, saved
 
 if TYPE_CHECKING:
     from pathlib import Path

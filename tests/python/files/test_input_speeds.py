@@ -13,7 +13,7 @@ import assur
 from assur.files import Contents, FileError
 from assur.files.parser import loads
 from assur.files.write import text_of
-from machines import five_bar, four_bar
+from models.machines.machines import five_bar, four_bar
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,7 +12,7 @@ from assur.files.lexer import line_and_column, tokens
 from assur.files.parser import loads
 from assur.files.positions import key_positions
 from assur.files.toml import key_text, value_text
-from sample_files import BY_HAND, WANTED, saved
+from files.sample_files import BY_HAND, WANTED, saved
 
 if TYPE_CHECKING:
     from assur.files.positions import KeyPath

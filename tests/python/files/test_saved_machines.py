@@ -13,8 +13,8 @@ import assur
 from assur.dynamics.loads import friction, loads, motors, pressure
 from assur.files.parts import PARTS, ROWS, SHAFT
 from assur.files.write import text_of
-from file_machines import one_part_machines, whole_machines
-from machines import four_bar, press
+from models.machines.file_machines import one_part_machines, whole_machines
+from models.machines.machines import four_bar, press
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -18,9 +18,9 @@ from assur.files.parser import loads
 from assur.files.toml import value_text
 from assur.files.write import text_of, tree_of
 from assur.studio.document import document_of, flat
-from file_machines import whole_machines
-from machines import five_bar, four_bar
-from named_drawings import CLASS_II, HIGHER
+from models.machines.file_machines import whole_machines
+from models.machines.machines import five_bar, four_bar
+from models.mechanisms.named_drawings import CLASS_II, HIGHER
 
 if TYPE_CHECKING:
     from collections.abc import Callable

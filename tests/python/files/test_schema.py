@@ -17,8 +17,8 @@ from assur.files.parser import loads
 from assur.files.parts import FRICTIONS, LOADS, MOTORS, PARTS, ROWS
 from assur.files.wanted import RANGE, WANTED
 from assur.flywheel import SPLINES
-from sample_files import BY_HAND, saved
-from sample_files import WANTED as ALL_WANTED
+from files.sample_files import BY_HAND, saved
+from files.sample_files import WANTED as ALL_WANTED
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -11,10 +11,10 @@ import pytest
 import assur
 from assur.files import Contents, Range
 from assur.files.wanted import WANTED
-from file_machines import MOTORS
-from machines import four_bar, press
-from sample_files import BY_HAND, EXAMPLES
-from sample_files import WANTED as ALL_WANTED
+from files.sample_files import BY_HAND, EXAMPLES
+from files.sample_files import WANTED as ALL_WANTED
+from models.machines.file_machines import MOTORS
+from models.machines.machines import four_bar, press
 
 if TYPE_CHECKING:
     from pathlib import Path

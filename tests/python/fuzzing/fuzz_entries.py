@@ -13,9 +13,9 @@ from unittest import mock
 import assur
 from assur import crank_rocker, slider_crank
 from assur.dynamics.flywheel import size as size_flywheel
-from fuzz_kinematics import assemblies, change, construct, describe, move
-from fuzz_machines import balanced, harmonics, inside, reduce, run, steady, wheel
-from fuzz_values import Choices
+from fuzzing.fuzz_kinematics import assemblies, change, construct, describe, move
+from fuzzing.fuzz_machines import balanced, harmonics, inside, reduce, run, steady, wheel
+from fuzzing.fuzz_values import Choices
 
 if TYPE_CHECKING:
     from collections.abc import Callable

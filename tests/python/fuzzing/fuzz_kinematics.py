@@ -10,7 +10,7 @@ import numpy as np
 import assur
 
 if TYPE_CHECKING:
-    from fuzz_values import Choices
+    from fuzzing.fuzz_values import Choices
 
 DESCRIPTION: dict[str, Any] = {
     "joints": {"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0), "P": (3, 4), "E": (8, 1)},

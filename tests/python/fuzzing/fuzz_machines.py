@@ -8,12 +8,12 @@ import numpy as np
 
 import assur
 from assur import balance, events, flywheel
-from fuzz_kinematics import mechanisms
+from fuzzing.fuzz_kinematics import mechanisms
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fuzz_values import Choices
+    from fuzzing.fuzz_values import Choices
 
 SPLINES = ("not-a-knot", "natural", "periodic")
 # A run takes no longer than this, whatever the loads are.

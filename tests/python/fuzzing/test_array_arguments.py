@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
-from array_entries import ENTRIES, PICTURES, array_parameters, public
-from samples import sample
+from fuzzing.array_entries import ENTRIES, PICTURES, array_parameters, public
+from support.samples import sample
 
 pytestmark = pytest.mark.filterwarnings("ignore::assur.AssurWarning")
 

@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import fuzz_entries
+from fuzzing import fuzz_entries
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from fuzz_values import Choices
+    from fuzzing.fuzz_values import Choices
 
 EXAMPLES = 500
 

@@ -18,10 +18,10 @@ from assur.dynamics.forces.bearing import Bearing
 from assur.dynamics.forces.reactions import Reactions
 from assur.kinematics.extremes import Extremes
 from assur.kinematics.timed import TimedMotion
-from fuzz_entries import LONGEST, LONGEST_MESSAGE, give_up
-from fuzz_values import ODD_NUMBERS, ODD_OBJECTS, ODD_STRINGS
-from samples import sample
-from usual_calls import MODULES, usual_calls
+from fuzzing.fuzz_entries import LONGEST, LONGEST_MESSAGE, give_up
+from fuzzing.fuzz_values import ODD_NUMBERS, ODD_OBJECTS, ODD_STRINGS
+from fuzzing.usual_calls import MODULES, usual_calls
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -26,7 +26,7 @@ from assur import (
     pictures,
     slider_crank,
 )
-from fuzz_kinematics import CLASS_IV
+from fuzzing.fuzz_kinematics import CLASS_IV
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

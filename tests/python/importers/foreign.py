@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import assur
-from pmks_plus_writer import Block, Joint, Link, written
+from importers.pmks_plus_writer import Block, Joint, Link, written
 
 TURN = math.tau
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import assur
-from foreign import TURN, Case
+from importers.foreign import TURN, Case
 
 PIN = {"O": (0.0, 0.0), "A": (0.0, 1.0), "B": (3.0, 2.5), "C": (4.0, 0.0)}
 FOUR_BAR = {"ground": "OC", "crank": "OA", "rod": "AB", "arm": "BC"}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from assur import importers
-from foreign import PMKS, PMKS_PLUS
-from foreign_more import LINKAGE, PYLINKAGE, PYSLVS
+from importers.foreign import PMKS, PMKS_PLUS
+from importers.foreign_more import LINKAGE, PYLINKAGE, PYSLVS
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 97)
 

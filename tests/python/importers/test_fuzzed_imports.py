@@ -9,8 +9,8 @@ import pytest
 
 import assur
 from assur import importers
-from pmks_plus_writer import LETTERS, checked
-from test_imported import CASES
+from importers.pmks_plus_writer import LETTERS, checked
+from importers.test_imported import CASES
 
 SPECIAL = (
     *(

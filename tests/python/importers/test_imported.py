@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from assur import importers
-from foreign import PMKS, PMKS_PLUS, Case
-from foreign_more import LINKAGE, PYLINKAGE, PYSLVS
+from importers.foreign import PMKS, PMKS_PLUS, Case
+from importers.foreign_more import LINKAGE, PYLINKAGE, PYSLVS
 
 if TYPE_CHECKING:
     from pathlib import Path

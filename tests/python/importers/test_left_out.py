@@ -8,8 +8,8 @@ import pytest
 
 import assur
 from assur import importers
-from foreign_more import LINKAGE, PYLINKAGE
-from pmks_plus_writer import Joint, Link, written
+from importers.foreign_more import LINKAGE, PYLINKAGE
+from importers.pmks_plus_writer import Joint, Link, written
 
 BAR = "ground a R 0 0 0 ffft\na b R 0 1\nb c R 3 2\nc ground R 4 0\n"
 XML = LINKAGE["two inputs"].text

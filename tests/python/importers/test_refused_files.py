@@ -8,9 +8,9 @@ import pytest
 
 import assur
 from assur import importers
-from foreign import PMKS, PMKS_PLUS
-from foreign_more import LINKAGE, PYLINKAGE, PYSLVS
-from pmks_plus_writer import Block, Joint, Link, checked, written
+from importers.foreign import PMKS, PMKS_PLUS
+from importers.foreign_more import LINKAGE, PYLINKAGE, PYSLVS
+from importers.pmks_plus_writer import Block, Joint, Link, checked, written
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur import importers
-from pmks_plus_writer import Joint, Link, written
+from importers.pmks_plus_writer import Joint, Link, written
 
 ANGLES = (0.6, 1.1, 2.2, 0.35)
 

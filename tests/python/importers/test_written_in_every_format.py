@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur import importers
-from pmks_plus_writer import Block, Joint, Link, written
+from importers.pmks_plus_writer import Block, Joint, Link, written
 
 Point = tuple[float, float]
 

@@ -17,17 +17,14 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-import agreement
 import assur
-import dyad_models
-import named_models
-import oracle
-import oracle_guess
-from agreement import Q
-from agreement_law import along, check_law, solve, whole_turns
 from assur import Status
-from mechanism_data import Description, arguments
-from samples import IS_CAMPAIGN, sample
+from models.mechanisms import dyad_models, named_models
+from models.mechanisms.mechanism_data import Description, arguments
+from oracles.kinematics import agreement, oracle, oracle_guess
+from oracles.kinematics.agreement import Q
+from oracles.kinematics.agreement_law import along, check_law, solve, whole_turns
+from support.samples import IS_CAMPAIGN, sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

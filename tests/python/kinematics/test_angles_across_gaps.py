@@ -7,10 +7,9 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import bits
-import design_spaces
-import named_drawings
-from samples import sample
+from models.mechanisms import named_drawings
+from net import bits, design_spaces
+from support.samples import sample
 
 # Positions of a turn: an island of a hundredth of a degree shows.
 SAMPLES = 36_001

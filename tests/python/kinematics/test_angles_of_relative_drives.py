@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-import gap_steps
+from oracles.kinematics import gap_steps
 
 LINKS = {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"}
 PAIRS = [

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import refused
+from models.errors.refusals import refused
 
 
 def door(driver: str = "lift", foot: tuple[float, float] = (0.0, -1.0)) -> assur.Mechanism:

@@ -14,9 +14,9 @@ import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
-import agreement
 import assur
 from assur import Status
+from oracles.kinematics import agreement
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import refused
+from models.errors.refusals import refused
 
 
 def test_degrees_are_a_factor() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur import examples
-from refusals import refused
+from models.errors.refusals import refused
 
 SKETCH = {"A": (0, 0), "B": (0.2, 1), "C": (3, 2.2), "D": (3.1, 0), "P": (2, 3)}
 LINKS = {"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"}

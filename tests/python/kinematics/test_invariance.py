@@ -15,16 +15,13 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-import agreement
 import assur
-import dyad_models
-import mixed_models
-import named_drawings
-import named_models
 from assur import Status
-from frames import Frame
-from mechanism_data import GROUND, Description, arguments
-from samples import sample
+from models.mechanisms import dyad_models, mixed_models, named_drawings, named_models
+from models.mechanisms.frames import Frame
+from models.mechanisms.mechanism_data import GROUND, Description, arguments
+from oracles.kinematics import agreement
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 
 import assur
 from assur import laws
-from refusals import refused
+from models.errors.refusals import refused
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import examples
-from refusals import refused
+from models.errors.refusals import refused
 
 ORDERS = ("value", "d1", "d2", "d3")
 # Of lengths of about 1, and of their analogues.

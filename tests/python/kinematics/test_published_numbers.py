@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import assur
-import named_models
+from models.mechanisms import named_models
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import refused
+from models.errors.refusals import refused
 
 Q = np.linspace(0.1, 6.0, 9)
 

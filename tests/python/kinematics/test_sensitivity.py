@@ -8,18 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-import agreement
 import assur
-import dyad_models
-import higher_models
-import named_models
-import oracle
-import oracle_guess
 from assur import Status
-from class_iv_model import class_iv
-from mechanism_data import Description, arguments
-from oracle_dimension import changed, known
-from oracle_system import MP
+from models.mechanisms import dyad_models, higher_models, named_models
+from models.mechanisms.class_iv_model import class_iv
+from models.mechanisms.mechanism_data import Description, arguments
+from oracles.kinematics import agreement, oracle, oracle_guess
+from oracles.kinematics.oracle_dimension import changed, known
+from oracles.kinematics.oracle_system import MP
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

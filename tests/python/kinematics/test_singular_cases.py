@@ -7,13 +7,11 @@ import math
 import numpy as np
 import pytest
 
-import agreement
 import assur
-import named_models
-import oracle
-import oracle_guess
 from assur import Slide, Status
-from mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
+from models.mechanisms import named_models
+from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
+from oracles.kinematics import agreement, oracle, oracle_guess
 
 U = agreement.U
 TURN = np.linspace(0.0, math.tau, 97)  # with the quarters, to the last bit

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import assur
 from assur import Analogues
-from refusals import refused
+from models.errors.refusals import refused
 
 # One letter for each driver's axis of an einsum.
 AXES = "ijk"

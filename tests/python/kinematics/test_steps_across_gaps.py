@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 
 import assur
-import bits
-import campaign_cases
-import design_spaces
-import gap_steps
-import partial_requests
-from mechanism_data import arguments
-from samples import sample
+from campaigns import campaign_cases
+from models.mechanisms.mechanism_data import arguments
+from net import bits, design_spaces, partial_requests
+from oracles.kinematics import gap_steps
+from support.samples import sample
 
 # Random mechanisms of every kind, each with a space of designs: 10, or 1000 in a campaign.
 COUNT = sample(10, 1000)

@@ -14,7 +14,7 @@ from openpyxl import load_workbook
 
 import assur
 from assur import _table, metric
-from refusals import refused
+from models.errors.refusals import refused
 
 if TYPE_CHECKING:
     from pathlib import Path

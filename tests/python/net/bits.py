@@ -18,10 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 import assur
-import dyad_models
-import mechanism_data
-import named_drawings
-import named_models
+from models.mechanisms import dyad_models, mechanism_data, named_drawings, named_models
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-import bits
-import campaign_cases
-import named_drawings
-from mechanism_data import arguments
-from samples import sample
+from campaigns import campaign_cases
+from models.mechanisms import named_drawings
+from models.mechanisms.mechanism_data import arguments
+from net import bits
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

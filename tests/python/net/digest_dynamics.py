@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-import dyad_models
-import machine_models
-import mixed_models
-import named_drawings
 from assur import events, flywheel
-from digest_kinematics import again, made
+from models.machines import machine_models
+from models.mechanisms import dyad_models, mixed_models, named_drawings
+from net.digest_kinematics import again, made
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-import bits
-import dyad_models
-import higher_models
-import mixed_models
-import named_drawings
-import named_models
-import redundant_models
-from mechanism_data import Description, arguments
+from models.mechanisms import (
+    dyad_models,
+    higher_models,
+    mixed_models,
+    named_drawings,
+    named_models,
+    redundant_models,
+)
+from models.mechanisms.mechanism_data import Description, arguments
+from net import bits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

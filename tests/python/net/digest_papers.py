@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-import bits
 from assur import crank_rocker, slider_crank
 from assur.papers.crank_rocker.theory import TABLE, TABLE_GROUNDS
+from net import bits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

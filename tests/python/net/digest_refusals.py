@@ -10,9 +10,17 @@ import numpy as np
 
 import assur
 from assur import Body, Machine, flywheel
-from digest_dynamics import LINEAR, PAPER_INERTIA, PAPER_MOMENT, PAPER_PHI, answered, press, table
-from refusals import APART, BATCH, MOTION, TWO, M, build
-from refused_structures import REFUSED
+from models.errors.refusals import APART, BATCH, MOTION, TWO, M, build
+from models.errors.refused_structures import REFUSED
+from net.digest_dynamics import (
+    LINEAR,
+    PAPER_INERTIA,
+    PAPER_MOMENT,
+    PAPER_PHI,
+    answered,
+    press,
+    table,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

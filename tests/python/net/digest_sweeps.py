@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 import assur
-import design_spaces
-import named_drawings
 from assur import metric
-from digest_kinematics import again
+from models.mechanisms import named_drawings
+from net import design_spaces
+from net.digest_kinematics import again
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -1,6 +1,6 @@
 """Digests of results of all kinds: the net under changes that must not change a bit.
 
-``python net/digests.py`` (see CONTRIBUTING.md) compares with ``digests.json``; ``--write`` writes
+``python -m net.digests`` (see CONTRIBUTING.md) compares with ``digests.json``; ``--write`` writes
 it anew, for a commit that changes results on purpose. The level of vector instructions is read from
 ASSUR_SIMD.
 
@@ -19,12 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import digest_dynamics
-import digest_kinematics
-import digest_papers
-import digest_refusals
-import digest_sweeps
 from assur import _core
+from net import digest_dynamics, digest_kinematics, digest_papers, digest_refusals, digest_sweeps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

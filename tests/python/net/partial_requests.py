@@ -13,15 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import assur
-import bits
-import campaign_cases
-import design_spaces
-from mechanism_data import arguments
+from campaigns import campaign_cases
+from models.mechanisms.mechanism_data import arguments
+from net import bits, design_spaces
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from bits import Bits, Float
+    from net.bits import Bits, Float
 
 DESIGNS, POSITIONS = 12, 24
 ORDERS = 4

@@ -13,15 +13,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import bits
-import design_spaces
-import named_drawings
+from models.mechanisms import named_drawings
+from net import bits, design_spaces
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import assur
-    from bits import Bits, Float
+    from net.bits import Bits, Float
 
 NAMED = ("crank_rocker", "engine", "whitworth", "jansen_leg")
 SEEDS = (3, 10, 28)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import json
 import os
 
-import bits
-import design_spaces
-from samples import sample
+from net import bits, design_spaces
+from support.samples import sample
 
 # Random mechanisms, each with a space of 24 designs at 40 coordinates.
 COUNT = sample(6, 200)

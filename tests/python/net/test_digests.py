@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-import digests
+from net import digests
 
 LEVELS = ("baseline", "avx2", "avx512")
 

@@ -15,9 +15,9 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import bits
-from bits import Bits, Float, coordinates, designs, solve
-from samples import sample
+from net import bits
+from net.bits import Bits, Float, coordinates, designs, solve
+from support.samples import sample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

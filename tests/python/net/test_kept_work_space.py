@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-import bits
-import named_drawings
+from models.mechanisms import named_drawings
+from net import bits
 
 if TYPE_CHECKING:
     import assur
-    from bits import Float
+    from net.bits import Float
 
 CALLS = 20
 HIGHER = tuple(f"higher {name}" for name in named_drawings.HIGHER)

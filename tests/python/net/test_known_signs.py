@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 import assur
-import bits
-import design_spaces
-import named_drawings
 from assur import _core
+from models.mechanisms import named_drawings
+from net import bits, design_spaces
 
 NAMES = ("crank_rocker", "watt_six_bar", "stephenson_six_bar", "jansen_leg")
 # Driven slides; several drivers; dyads of all kinds.

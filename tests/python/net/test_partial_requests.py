@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-import bits
-import partial_requests
-from samples import sample
-from test_function_of_q import same
+from net import bits, partial_requests
+from net.test_function_of_q import same
+from support.samples import sample
 
 if TYPE_CHECKING:
     import assur
-    from bits import Bits, Float
+    from net.bits import Bits, Float
 
 # Random mechanisms of every kind.
 COUNT = sample(10, 1000)

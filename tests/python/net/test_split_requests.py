@@ -6,8 +6,7 @@ import json
 import os
 from contextlib import ExitStack
 
-import bits
-import split_requests
+from net import bits, split_requests
 
 # Numbers of coordinates: the last blocks of all lengths.
 COUNT = 80

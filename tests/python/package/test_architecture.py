@@ -1,4 +1,4 @@
-"""ARCHITECTURE.md names files and floors that exist."""
+"""ARCHITECTURE.md names files and floors that exist; whoever names a test names one that exists."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ ROOT = Path(__file__).resolve().parents[3]
 PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
 FILE = re.compile(r"(?<![\w/.])[\w./-]*\w\.(?:rs|pyi?|js|toml|json|md)\b")
 FOLDERS = ("rust", "python", "tests", "docs", "tools")
+TEST = re.compile(r"\btests/(?:js|python|rust)/[\w./-]*\w")
+TEXTS = {"", ".js", ".md", ".py", ".rs", ".toml"}
 
 
 def files() -> set[str]:
@@ -30,6 +32,16 @@ def test_every_file_that_is_named_exists() -> None:
     assert len(named) > 100
     missing = sorted(one for one in named if not any(end.endswith("/" + one) for end in ends))
     assert not missing, f"ARCHITECTURE.md names what does not exist: {missing}"
+
+
+def test_every_test_that_is_named_exists() -> None:
+    """In the Makefile, whose campaign takes hours to get there, on every page, in every comment."""
+    named = set()
+    for path in files():
+        if Path(path).suffix in TEXTS and not path.startswith(("docs/_build/", "docs/gallery/")):
+            named |= {*TEST.findall((ROOT / path).read_text(encoding="utf-8"))}
+    assert len(named) > 30
+    assert [path for path in sorted(named) if not (ROOT / path).exists()] == []
 
 
 @pytest.mark.parametrize("floor", runpy.run_path(str(ROOT / "tools" / "check_floors"))["FLOORS"])

@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur import Body, Force, Gravity, Machine, Spring, Table, Torque
-from refusals import refused
+from models.errors.refusals import refused
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur import _core
-from refusals import APART, BATCH, MOTION, TWO, M, refused
+from models.errors.refusals import APART, BATCH, MOTION, TWO, M, refused
 
 
 def test_results_are_read_only() -> None:

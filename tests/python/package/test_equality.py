@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur import events, laws, metric
-from file_machines import one_part_machines, whole_machines
+from models.machines.file_machines import one_part_machines, whole_machines
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -13,7 +13,7 @@ import pytest
 
 import assur
 from assur import _core, errors
-from error_cases import CASES, FIELDS, UNREACHABLE
+from models.errors.error_cases import CASES, FIELDS, UNREACHABLE
 
 if TYPE_CHECKING:
     from collections.abc import Callable

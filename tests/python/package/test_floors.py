@@ -45,14 +45,6 @@ PLANTED = {
         {"laws.py": "from assur import novel\n", "novel.py": ""},
         "assur.laws:1: novel or laws has no floor in tools/check_floors",
     ),
-    "a file of too many lines": (
-        {"laws.py": '"""Text."""\n\n# A comment.\n' + "x = 1\n" * 501},
-        "assur.laws has 501 lines of code, more than 500",
-    ),
-    "a folder of too many files": (
-        {f"cli/command{i}.py": "" for i in range(25)},
-        "assur/cli has 26 files, more than 25",
-    ),
     "a circle of types": (
         {
             "kinematics/one.py": "from assur.kinematics.two import B\n",

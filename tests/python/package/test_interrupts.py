@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 import assur
-from interruptions import (
+from support.interruptions import (
     SILENT,
     SOON,
     WORKED,

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import assur
-from rigid_parts import RigidParts
-from rubbing_machines import rubbing_case
+from models.machines.rubbing_machines import rubbing_case
+from models.mechanisms.rigid_parts import RigidParts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -14,7 +14,7 @@ import pytest
 
 import assur
 from assur import Body, Machine, events
-from refusals import refused
+from models.errors.refusals import refused
 
 CRANK_ROCKER = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 BODIES = {"crank": Body(inertia=0.5), "rocker": Body(inertia=1.0)}

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import assur
-import bits
 from assur import Status
-from bits import Float, coordinates, designs, solve
-from interruptions import is_heard
+from net import bits
+from net.bits import Float, coordinates, designs, solve
+from support.interruptions import is_heard
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,8 +11,8 @@ import pytest
 
 import assur
 from assur import Status
-from class_iv_model import class_iv
-from refusals import build
+from models.errors.refusals import build
+from models.mechanisms.class_iv_model import class_iv
 
 CASE: dict[str, Any] = json.loads(
     (Path(__file__).parent / "cases" / "class_iv_reference.json").read_text(encoding="utf-8")

@@ -15,10 +15,10 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import oracle
 from assur import Status
-from class_iv_model import class_iv
-from mechanism_data import Description
+from models.mechanisms.class_iv_model import class_iv
+from models.mechanisms.mechanism_data import Description
+from oracles.kinematics import oracle
 
 Float: TypeAlias = npt.NDArray[np.float64]
 

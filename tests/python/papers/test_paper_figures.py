@@ -6,13 +6,14 @@ import math
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-import crank_rocker_paper
-import flywheel_paper
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-import slider_crank_papers
 from scipy.interpolate import CubicSpline
+
+import crank_rocker_paper
+import flywheel_paper
+import slider_crank_papers
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,7 +11,7 @@ import pytest
 import assur
 from assur.pictures import centrodes, inflection_circle, instant_centres
 from assur.pictures.centres.rate_centres import centres_of
-from picture_reading import gids, named, one, texts, vector
+from pictures.picture_reading import gids, named, one, texts, vector
 
 ONE_DRIVER = [
     name for name in assur.examples.ALL if not isinstance(assur.examples.RANGES[name][0], tuple)

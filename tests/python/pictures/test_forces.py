@@ -13,7 +13,7 @@ import assur
 from assur.dynamics.forces.force_system import force_system
 from assur.pictures.forces.polygon import polygon_sides
 from assur.pictures.style import DARK
-from picture_reading import gids, named, one, overlapping, texts, vector
+from pictures.picture_reading import gids, named, one, overlapping, texts, vector
 
 
 def _engine(**more: Any) -> assur.Machine:

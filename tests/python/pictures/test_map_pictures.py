@@ -8,7 +8,7 @@ import pytest
 import assur
 from assur import metric
 from assur.pictures.maps.raster import finer
-from picture_reading import named
+from pictures.picture_reading import named
 
 Q = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.0)

@@ -12,7 +12,7 @@ import pytest
 import assur
 from assur.pictures.plans.plan import plan_of
 from assur.pictures.style import DARK
-from picture_reading import gids, named, one, overlapping, texts, vector
+from pictures.picture_reading import gids, named, one, overlapping, texts, vector
 
 LINES = {"velocity", "acceleration", "normal", "tangential", "sliding", "coriolis"}
 

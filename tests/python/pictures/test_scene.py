@@ -15,7 +15,7 @@ from assur.pictures.scene.frames import Frames, frames_of, nearby
 from assur.pictures.scene.geometry import hull
 from assur.pictures.scene.labels import along, chosen, placed
 from assur.pictures.scene.shapes import Hatching, Scene, Stroke
-from drawn_examples import mechanism
+from pictures.drawn_examples import mechanism
 
 ONE_DRIVER = [name for name in ALL if not isinstance(mechanism(name).driver, tuple)]
 
@@ -34,6 +34,8 @@ def test_every_joint_of_every_link_is_where_the_motion_has_it(name: str) -> None
     scale = np.abs(
         np.stack([motion.joint(name).value[known] for name in motion.mechanism.joints])
     ).max()
+    assert frames.local.keys() == motion.mechanism.links.keys()
+    assert {one for joints in frames.local.values() for one in joints} == {*motion.mechanism.joints}
     for link, joints in frames.local.items():
         for joint, local in joints.items():
             expected = motion.joint(joint).value

@@ -12,7 +12,7 @@ from assur.pictures import hodograph
 from assur.pictures.linkage.subject import Subject
 from assur.pictures.style import LIGHT
 from assur.pictures.vectors.arrows import LOOKS, arrow, moment_arc, path_vectors
-from picture_reading import named, one, texts, vector
+from pictures.picture_reading import named, one, texts, vector
 
 
 def _canvas(motion: assur.Motion) -> Any:

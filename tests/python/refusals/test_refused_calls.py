@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur import crank_rocker, files, flywheel, importers, pictures, slider_crank
-from refusals import MOTION, M, refused
+from models.errors.refusals import MOTION, M, refused
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,7 +11,7 @@ import pytest
 
 import assur
 from assur import Status
-from refusals import APART, TWO, M, build, refused, slide
+from models.errors.refusals import APART, TWO, M, build, refused, slide
 
 nan, inf = math.nan, math.inf
 

@@ -10,7 +10,7 @@ import pytest
 
 import assur
 from assur import Status
-from refusals import BATCH, M, refused
+from models.errors.refusals import BATCH, M, refused
 
 if TYPE_CHECKING:
     from collections.abc import Callable

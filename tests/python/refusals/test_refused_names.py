@@ -9,7 +9,7 @@ import pytest
 
 import assur
 from assur import Body, Damper, Drive, Force, Machine, Slide, Spring, Torque, flywheel
-from refusals import BORE, JOINTS, LINKS, M, build, engine, link
+from models.errors.refusals import BORE, JOINTS, LINKS, M, build, engine, link
 
 if TYPE_CHECKING:
     from collections.abc import Callable

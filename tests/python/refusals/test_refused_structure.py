@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import assur
-from refusals import (
+from models.errors.refusals import (
     JOINTS,
     LINKS,
     Table,
@@ -19,7 +19,7 @@ from refusals import (
     link,
     slide,
 )
-from refused_structures import REFUSED
+from models.errors.refused_structures import REFUSED
 
 nan, inf = math.nan, math.inf
 

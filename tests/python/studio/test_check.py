@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from asking import FOUR_BAR, PRESS, ask, refused
+from studio.asking import FOUR_BAR, PRESS, ask, refused
 
 WITHOUT_DRIVER = {key: value for key, value in FOUR_BAR.items() if key != "driver"}
 
@@ -14,6 +14,10 @@ WITHOUT_DRIVER = {key: value for key, value in FOUR_BAR.items() if key != "drive
 def links(**more: Any) -> dict[str, Any]:
     own = {**FOUR_BAR["links"], **more}
     return {**FOUR_BAR, "links": {name: on for name, on in own.items() if on is not None}}
+
+
+def at_b(place: list[float]) -> dict[str, Any]:
+    return {**FOUR_BAR, "joints": {**FOUR_BAR["joints"], "B": place}}
 
 
 def test_states_on_the_way() -> None:
@@ -74,43 +78,42 @@ def test_loose() -> None:
 
 
 @pytest.mark.parametrize(
-    ("own", "state", "field", "name"),
+    ("own", "state", "joint", "link", "said"),
     [
-        (links(coupler=["B", "C"]), "incomplete", "joint", "P"),
-        (links(lost=["E", "F"]), "incomplete", "link", "lost"),
-        ({**FOUR_BAR, "driver": "cranck"}, "incomplete", None, None),
-        (
-            {**FOUR_BAR, "joints": {**FOUR_BAR["joints"], "B": [0, 0]}},
-            "incomplete",
-            "link",
-            "crank",
-        ),
-        ({**FOUR_BAR, "joints": {**FOUR_BAR["joints"], "B": [0]}}, "invalid", None, None),
-        ({**FOUR_BAR, "joints": {**FOUR_BAR["joints"], "B": [1e200, 0]}}, "invalid", "joint", "B"),
+        (links(coupler=["B", "C"]), "incomplete", "P", None, 'joint "P" is on no link'),
+        (links(lost=["E", "F"]), "incomplete", "E", None, 'link "lost" names the joint "E"'),
+        ({**FOUR_BAR, "driver": "cranck"}, "incomplete", None, "cranck", 'did you mean "crank"?'),
+        (at_b([0, 0]), "incomplete", "B", "crank", 'link "crank" has length zero'),
+        (at_b([0]), "invalid", None, None, "joints.B: has 1 entries"),
+        (at_b([1e200, 0]), "invalid", "B", None, 'x coordinate of joint "B" is 1e200'),
     ],
 )
-def test_what_is_wrong(own: dict[str, Any], state: str, field: str | None, name: str) -> None:
+def test_what_is_wrong(
+    own: dict[str, Any], state: str, joint: str | None, link: str | None, said: str
+) -> None:
     reply = ask("check", document=own)
     assert (reply["state"], reply["structure"]) == (state, None)
-    assert reply["message"]
-    if field == "link" and name == "lost":
-        assert "E" in reply["message"]
-    elif field is not None:
-        assert reply[field] == name
+    assert (reply["joint"], reply["link"]) == (joint, link)
+    assert said in reply["message"]
 
 
 @pytest.mark.parametrize(
-    "own",
-    [7, [], {"joints": 3}, {"links": {"a": 3}}, {"links": {"a": [[]]}}, {"wheels": {}}, "text"],
+    ("own", "said"),
+    [
+        (7, "is 7: a table is needed"),
+        ([], "is an empty list: a table is needed"),
+        ("text", "is the text 'text': a table is needed"),
+        ({"links": {"a": 3}}, 'links.a: is 3: a list of names, ["A", "B"], is needed'),
+        ({"links": {"a": [[]]}}, "links.a[0]: is an empty list: a text in quotes is needed"),
+        ({"wheels": {}}, "wheels: unknown key; known are driver, joints, links"),
+    ],
 )
-def test_no_documents(own: Any) -> None:
-    reply = None
-    try:
-        reply = ask("check", document=own)
-    except AssertionError:
-        assert refused("check", document=own)["message"]
-    else:
-        assert reply["state"] in ("empty", "invalid", "no_driver", "incomplete")
+def test_no_documents(own: Any, said: str) -> None:
+    assert refused("check", document=own)["message"].startswith(said)
+
+
+def test_joints_are_not_read_before_there_is_a_link() -> None:
+    assert ask("check", document={"joints": 3})["state"] == "empty"
 
 
 def made(reply: Any, text: str) -> dict[str, Any]:

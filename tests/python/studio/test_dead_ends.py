@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
-from asking import ask
 from assur.studio import document
+from studio.asking import ask
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

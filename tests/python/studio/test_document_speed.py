@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 import assur
-from asking import FOUR_BAR, PRESS, ask, refused
 from assur.studio import document
-from node import MODULES, run_node
+from studio.asking import FOUR_BAR, PRESS, ask, refused
+from support.node import MODULES, run_node
 
 SPEED = math.pi / 30.0
 

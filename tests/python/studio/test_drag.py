@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from asking import FOUR_BAR, PRESS, Reply, ask, refused
 from assur import examples
 from assur.studio import document
+from studio.asking import FOUR_BAR, PRESS, Reply, ask, refused
 
 
 def drag(own: dict[str, Any], q: Any, joint: str, to: Any) -> Reply:

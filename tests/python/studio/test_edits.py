@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import assur
-from asking import ask
 from assur.files.node import Node
 from assur.files.parts import BODY, LOADS, MOTORS, ROWS, place, point
 from assur.files.read_mechanism import CYLINDER, SLIDE
 from assur.studio.document import document_of, read
-from node import MODULES, run_node
-from samples import IS_CAMPAIGN
+from studio.asking import ask
+from support.node import MODULES, run_node
+from support.samples import IS_CAMPAIGN
 
 if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism

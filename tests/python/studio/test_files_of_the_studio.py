@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR, PRESS, ask, refused
 from assur.studio import document
 from assur.studio.session import Given
+from studio.asking import FOUR_BAR, PRESS, ask, refused
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -12,7 +12,7 @@ import pytest
 
 import assur
 from assur.studio.frame import decode, encode
-from node import run_node
+from support.node import run_node
 
 if TYPE_CHECKING:
     import numpy.typing as npt

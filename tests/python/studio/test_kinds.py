@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR, PRESS, Reply, ask, refused
 from assur import examples
 from assur.description.words import Status
 from assur.files.write import text_of
 from assur.studio import document
+from studio.asking import FOUR_BAR, PRESS, Reply, ask, refused
 
 TURN = 2.0 * np.pi
 

@@ -16,13 +16,13 @@ import numpy as np
 import pytest
 
 import assur
-from asking import FOUR_BAR
 from assur.studio import document
 from assur.studio.bundle import widget_script
 from assur.studio.frame import decode
 from assur.studio.notebook import Explorer
-from browsers import wait_until
-from node import run_node
+from studio.asking import FOUR_BAR
+from support.browsers import wait_until
+from support.node import run_node
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from asking import Reply, ask, refused
 from assur.studio import limits
 from assur.studio.kinds import KINDS, LIVE
 from assur.studio.session import Given, stamp_of
+from studio.asking import Reply, ask, refused
 
 PAGE = (Path(__file__).parents[3] / "docs" / "studio_protocol.md").read_text(encoding="utf-8")
 SECTIONS = dict(re.findall(r"^### `(\w+)`\n(.*?)(?=^##|\Z)", PAGE, re.MULTILINE | re.DOTALL))

@@ -14,12 +14,12 @@ import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from asking import FOUR_BAR, PRESS, Reply
 from assur.studio import connection, limits, workers
 from assur.studio.app import application, pages
 from assur.studio.frame import decode
 from assur.studio.kinds import KINDS
 from assur.studio.session import Answer, TimeIsUpError
+from studio.asking import FOUR_BAR, PRESS, Reply
 
 if TYPE_CHECKING:
     from collections.abc import Coroutine, Iterator

@@ -14,7 +14,7 @@ from assur.pictures.page.payload import _part
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.frames import frames_of
 from assur.studio.document import document_of
-from node import MODULES, run_node
+from support.node import MODULES, run_node
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -40,6 +40,7 @@ def drawn() -> dict[str, Any]:
 
 
 def test_sizes_are_those_of_pictures(drawn: dict[str, Any]) -> None:
+    assert len(drawn["sizes"]) > 20
     for name, size in drawn["sizes"].items():
         assert size == getattr(sizes, name), name
 

@@ -18,11 +18,11 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 import assur
-from asking import FOUR_BAR, Reply
 from assur.cli import main
 from assur.studio import document, serve
 from assur.studio.frame import decode
 from assur.studio.limits import MOST_READ, MOST_UP
+from studio.asking import FOUR_BAR, Reply
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -12,8 +12,8 @@ import pytest
 
 import assur
 from assur import metric
-from mechanism_data import arguments
-from mixed_models import mixed_case
+from models.mechanisms.mechanism_data import arguments
+from models.mechanisms.mixed_models import mixed_case
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -112,7 +112,9 @@ def test_signs_of_a_mechanism_drawn_at_a_found_place(seed: int, tmp_path: Path) 
     """`with_assembly` keeps the place where the group above class II was found."""
     own = assur.Mechanism(**arguments(mixed_case(seed).description))
     q = own.q0 + np.linspace(-0.2, 0.2, 5)
-    for assembly in own.assemblies(own.q0 + 0.05)[:3]:
+    found = own.assemblies(own.q0 + 0.05)
+    assert len(found) > 3
+    for assembly in found[:3]:
         placed = own.with_assembly(assembly)
         for name, sign in placed.assembly.items():
             signs = {name: -sign}

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 import assur
-import bits
-import design_spaces
-import named_drawings
 from assur import metric
 from assur.sweeps import measuring
+from models.mechanisms import named_drawings
+from net import bits, design_spaces
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

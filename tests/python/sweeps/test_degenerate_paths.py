@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import assur
-import named_drawings
-import textbook
 from assur import metric
+from models.mechanisms import named_drawings
+from oracles.kinematics import textbook
 
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 

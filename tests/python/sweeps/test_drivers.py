@@ -9,9 +9,9 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import named_drawings
-import textbook
 from assur import metric
+from models.mechanisms import named_drawings
+from oracles.kinematics import textbook
 
 Float = npt.NDArray[np.float64]
 

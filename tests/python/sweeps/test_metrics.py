@@ -9,10 +9,10 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import design_spaces
-import named_drawings
-import textbook
 from assur import metric
+from models.mechanisms import named_drawings
+from net import design_spaces
+from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import assur
-import textbook
 from assur import metric
+from oracles.kinematics import textbook
 
 COUPLER = assur.Mechanism(
     joints={"A": (0, 0), "B": (1, 0), "C": (4.1, 3.2), "D": (4.8, 0), "P": (3, 4)},

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import assur
-import design_spaces
-import higher_drawings
-import textbook
 from assur import Status, metric
+from models.mechanisms import higher_drawings
+from net import design_spaces
+from oracles.kinematics import textbook
 
 Q = 0.1 + np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 

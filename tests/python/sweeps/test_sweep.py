@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 import assur
-import design_spaces
-import higher_drawings
-import named_drawings
 from assur import metric
 from assur.sweeps import measuring
+from models.mechanisms import higher_drawings, named_drawings
+from net import design_spaces
 
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 

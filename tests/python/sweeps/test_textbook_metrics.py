@@ -9,8 +9,8 @@ import numpy.typing as npt
 import pytest
 
 import assur
-import textbook
 from assur import metric
+from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -1,0 +1,186 @@
+"""A coordinate given twice in a table is a jump, and motions restart there."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import assur
+from assur import Body, Force, Machine, Table, Torque
+from models.machines.shapers import TURN, integral, place, slider
+
+STEP = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -30.0, -50.0, 0.0, 0.0], "linear")
+
+
+def step(q: float) -> float:
+    within = q % TURN
+    return -30.0 - 20.0 * (within - 1.0) / 3.0 if 1.0 < within < 4.0 else 0.0
+
+
+def loaded(*loads: Any, inertia: float = 2.0) -> Machine:
+    return Machine(slider(), {"crank": Body(inertia=inertia)}, loads)
+
+
+@pytest.mark.parametrize("spline", ["not-a-knot", "natural", "clamped", "linear"])
+def test_pieces_are_tables_of_their_own(spline: assur.flywheel.Spline) -> None:
+    knots, values = np.array([0.0, 0.3, 1.0, 1.4, 2.0]), np.array([1.0, 2.0, -1.0, 3.0, 0.5])
+    later, others = np.array([2.0, 2.7, 3.0, 4.0]), np.array([7.0, 5.0, 6.0, 1.0])
+    whole = Table(
+        np.concatenate([knots, later]), np.concatenate([values, others]), spline, periodic=False
+    )
+    halves = [Table(x, y, spline, periodic=False) for x, y in ((knots, values), (later, others))]
+    for half, x in zip(halves, ([0.0, 0.2, 1.9999999], [2.0, 2.2, 3.9, 4.0]), strict=True):
+        np.testing.assert_array_equal(whole.at(x), half.at(x))
+    assert whole.at(2.0) == 7.0
+    assert np.isnan(whole.at([-0.1, 4.1])).all()
+
+
+def test_a_period_may_jump_at_its_seam() -> None:
+    saw = Table([0.0, 0.0, 3.0], [1.0, 4.0, 1.0], "linear")
+    same = Table([0.0, 3.0, 3.0], [4.0, 1.0, 4.0], "linear")
+    x = [-0.5, 0.0, 1.0, 2.5, 3.0, 4.0]
+    np.testing.assert_allclose(saw.at(x), [1.5, 4.0, 3.0, 1.5, 4.0, 3.0], rtol=1e-15)
+    np.testing.assert_array_equal(saw.at(x), same.at(x))
+
+
+def test_moments_have_the_value_behind_a_jump() -> None:
+    q = np.array([0.5, 1.0, 2.5, 4.0, 5.0, 1.0 + 3 * TURN])
+    found = loaded(Torque("crank", STEP)).reduced_moment(q)
+    np.testing.assert_allclose(found, [0.0, -30.0, -40.0, 0.0, 0.0, -30.0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("back", [False, True])
+def test_a_run_gains_the_integral(back: bool) -> None:
+    run = loaded(Torque("crank", STEP)).run(
+        t_end=2.0, q0=0.0, speed0=-20.0 if back else 20.0, rtol=1e-12
+    )
+    q = np.linspace(run.q[0], run.q[-1], 7)[1:]
+    inside = [run.at(np.interp(at, *sort(run.q, run.t))) for at in q]
+    for state in inside:
+        cuts = [1.0 + TURN * k for k in range(-9, 9)] + [4.0 + TURN * k for k in range(-9, 9)]
+        cuts += [TURN * k for k in range(-9, 9)]
+        low, high = min(state.q, 0.0), max(state.q, 0.0)
+        work = -integral(step, low, high, *cuts) if back else integral(step, low, high, *cuts)
+        assert 0.5 * 2.0 * (state.speed**2 - 400.0) == pytest.approx(work, abs=1e-8)
+    assert run.energy.error < 1e-12
+    assert {1.0, 4.0} <= {round(abs(x) if not back else x % TURN, 12) for x in run.q}
+
+
+def sort(q: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    order = np.argsort(q)
+    return q[order], t[order]
+
+
+def test_both_ways_along_q_and_in_time_agree() -> None:
+    machine = loaded(Torque("crank", STEP))
+    along = machine.run(q_end=9.0, q0=0.2, speed0=20.0, rtol=1e-12)
+    in_time = machine.run(t_end=float(along.t[-1]), q0=0.2, speed0=20.0, rtol=1e-12)
+    assert in_time.q[-1] == pytest.approx(9.0, abs=1e-11)
+    assert in_time.speed[-1] == pytest.approx(float(along.speed[-1]), rel=1e-12)
+
+
+def test_a_steady_state_takes_what_the_motor_gives() -> None:
+    motor = assur.LinearMotor(stall=60.0, no_load=40.0)
+    machine = Machine(slider(), {"crank": Body(inertia=2.0)}, [Torque("crank", STEP)], motor)
+    steady = machine.steady_state()
+    taken = -integral(step, 0.0, TURN, 1.0, 4.0)
+    assert steady.power * steady.period == pytest.approx(taken, rel=1e-11)
+    assert steady.delta > 0.01
+
+
+def test_a_flywheel_by_hand() -> None:
+    # Nothing has mass but the flywheel: I δ ω² is the greatest excess of energy. The motor gives
+    # the mean moment, which between the jumps falls short of the load's 20 N·m over 3 rad.
+    load = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -20.0, -20.0, 0.0, 0.0], "linear")
+    found = loaded(Torque("crank", load), inertia=0.0).flywheel(0.05, mean_speed=10.0)
+    mean = 60.0 / TURN
+    assert found.motor_moment == pytest.approx(mean, rel=1e-13)
+    assert found.inertia == pytest.approx((20.0 - mean) * 3.0 / (0.05 * 100.0), rel=1e-12)
+    assert found.greatest.at == pytest.approx(1.0, abs=1e-12)
+    assert found.least.at == pytest.approx(4.0, abs=1e-12)
+    seam = Table([0.0, 0.0, 3.0, 3.0, TURN], [0.0, -20.0, -20.0, 0.0, 0.0], "linear")
+    other = loaded(Torque("crank", seam), inertia=0.0).flywheel(0.05, mean_speed=10.0)
+    assert other.inertia == pytest.approx(found.inertia, rel=1e-12)
+
+
+def test_reactions_agree_with_the_power() -> None:
+    machine = loaded(Force("B", (STEP, 0.0)))
+    q = np.array([0.5, 1.0, 2.0, 3.9, 4.1])
+    effort = machine.effort(q, speed=3.0)
+    np.testing.assert_allclose(machine.reactions(q, speed=3.0).driver, effort, rtol=1e-13)
+    np.testing.assert_allclose(effort, -STEP.at(q) * place(q)[1], rtol=1e-13, atol=1e-14)
+
+
+@pytest.mark.parametrize("speed0", [20.0, -20.0])
+def test_the_drive_of_a_motion_is_its_motor(speed0: float) -> None:
+    motor = assur.LinearMotor(stall=60.0, no_load=40.0)
+    cut = Force("B", (700.0, 0.0), while_="backward", over="bore")
+    over = Table([0.3, 0.4, 0.4, 0.5], [0.0, 0.0, 90.0, 10.0], "linear", over="bore")
+    loads: list[Any] = [Torque("crank", STEP), cut, Force("B", (over, 0.0))]
+    machine = Machine(slider(), {"crank": Body(inertia=2.0)}, loads, motor)
+    run = machine.run(t_end=1.0, q0=0.0, speed0=speed0)
+    given = 60.0 * (1.0 - run.speed / 40.0)
+    # The cut holds it where it comes to rest: then the drive is not determined.
+    moves = np.abs(run.speed) > 1e-6
+    for effort in (machine.reactions(run, sense=1).driver, machine.effort(run, sense=1)):
+        np.testing.assert_allclose(effort[moves], given[moves], rtol=1e-6)
+    assert run.end == "reached"
+    assert moves.sum() > 20
+    if speed0 > 0.0:
+        steady = machine.steady_state()
+        duty = machine.duty(steady)
+        assert duty.energy == pytest.approx(steady.power * steady.period, rel=1e-3)
+
+
+def test_a_duty_across_jumps_warns() -> None:
+    machine = loaded(Torque("crank", STEP))
+    q = np.linspace(0.0, TURN, 400)
+    with pytest.warns(assur.AssurWarning, match=r"loads may jump at q = 1, between positions"):
+        machine.duty(q, 3.0)
+    machine.duty(np.linspace(1.5, 3.5, 9), 3.0)
+    batch = Machine(slider().with_dimensions({"rod.length": [0.4, 0.5]}), loads=machine.loads)
+    with pytest.warns(assur.AssurWarning, match=r"loads may jump, between positions"):
+        batch.duty(q, 3.0)
+
+
+def test_rest_in_a_jump_is_refused_and_beside_it_found() -> None:
+    jumping = Table([0.0, 2.0, 2.0, 4.0, TURN], [1.0, 1.0, -1.0, -1.0, 1.0], "linear")
+    machine = loaded(Torque("crank", jumping))
+    with pytest.raises(assur.MotionError, match=r"jump at q = 2"):
+        machine.equilibria()
+    found = machine.equilibria(between=(2.5, 7.0))
+    np.testing.assert_allclose(found.q, [0.5 * (4.0 + TURN)], rtol=1e-13)
+    assert not found.stable.any()
+
+
+def test_copies_are_the_same() -> None:
+    for twin in (copy.deepcopy(STEP), pickle.loads(pickle.dumps(STEP))):
+        np.testing.assert_array_equal(twin.q, STEP.q)
+        assert (twin.periodic, twin.over) == (True, None)
+
+
+@pytest.mark.parametrize(
+    ("q", "spline", "periodic", "message"),
+    [
+        ([0.0, 1.0, 1.0, 1.0, 2.0], "linear", False, r"q = 1.0 comes three times"),
+        ([0.0, 0.0, 1.0, 2.0, 3.0], "linear", False, r"jumps at its end, q = 0.0"),
+        ([0.0, 1.0, 2.0, 3.0, 3.0], "natural", False, r"jumps at its end, q = 3.0"),
+        ([0.0, 1.0, 1.0, 2.0, 3.0], "periodic", True, r'spline="periodic" is one curve'),
+        ([0.0, 1.0, 0.5, 2.0, 3.0], "linear", True, r"q\[2\] = 0.5 is below q\[1\] = 1.0"),
+    ],
+)
+def test_wrong_jumps_are_refused(
+    q: list[float], spline: assur.flywheel.Spline, periodic: bool, message: str
+) -> None:
+    with pytest.raises(assur.InputError, match=message):
+        Table(q, np.zeros(5), spline, periodic)
+
+
+def test_motors_have_no_jumps_over_speed() -> None:
+    jumping = Table([-10.0, 0.0, 0.0, 50.0], [9.0, 9.0, 5.0, 0.0], "linear", periodic=False)
+    with pytest.raises(assur.InputError, match=r"its torque jumps at 0 rad/s"):
+        Machine(slider(), motor=jumping)
