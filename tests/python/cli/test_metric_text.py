@@ -11,6 +11,7 @@ import pytest
 
 import assur
 from assur import metric
+from assur.cli.metric_arguments import argument_of
 from assur.cli.metrics import FUNCTIONS, condition, named_metric
 
 DEG = math.pi / 180
@@ -74,6 +75,15 @@ def test_every_metric_but_functions_can_be_written() -> None:
     own = {name for name in metric.__all__ if inspect.isfunction(getattr(metric, name))}
     assert own - set(FUNCTIONS) == {"function"}
     assert set(FUNCTIONS) <= own
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_every_argument_is_read_as_what_it_is(name: str) -> None:
+    """A number, a flag or a pair would else reach the function as text."""
+    for parameter in inspect.signature(getattr(metric, name)).parameters.values():
+        if not parameter.annotation.startswith(("str", "Literal", "Mean")):
+            text = "true" if parameter.annotation == "bool" else "1"
+            assert not isinstance(argument_of(parameter.name, text), str), parameter
 
 
 @pytest.mark.parametrize(

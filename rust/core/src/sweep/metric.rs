@@ -118,6 +118,7 @@ pub trait Metric: Sync {
     fn of(&self, positions: &Positions<'_>) -> f64;
 
     /// How it changes as positions are added: a condition on it may drop a design after a few of them.
+    /// It holds to the last bit: a sum that rounding may lower does not only rise.
     fn growth(&self) -> Growth {
         Growth::Either
     }
@@ -127,7 +128,9 @@ pub trait Metric: Sync {
         f64::NAN
     }
 
-    /// Whether it asks if the motion [returns](Positions::returns): two more positions are solved.
+    /// Whether it asks if the motion [returns](Positions::returns): two more positions are solved. A
+    /// metric that depends on the order of positions asks: else a [part](super::Part) may leave gaps
+    /// between those that it is given.
     fn asks_return(&self) -> bool {
         false
     }
