@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import assur
-import textbook
+from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
     from collections.abc import Callable
