@@ -17,6 +17,7 @@ from assur.files.parser import loads
 from assur.files.parts import FRICTIONS, LOADS, MOTORS, PARTS, ROWS
 from assur.files.wanted import RANGE, WANTED
 from assur.flywheel import SPLINES
+from every_load import KINDS
 from sample_files import BY_HAND, saved
 from sample_files import WANTED as ALL_WANTED
 
@@ -40,6 +41,7 @@ def test_it_accepts_what_loads(name: str) -> None:
 
 
 def test_its_words_are_those_of_the_reader() -> None:
+    assert tuple(LOADS) == KINDS
     assert tuple(ALL["properties"]) == KEYS
     for name, words in WANTED.items():
         assert tuple(ALL["properties"][name]["properties"]) == tuple(words)
