@@ -1,4 +1,5 @@
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import test from "node:test";
 import { Along } from "../../python/assur/studio/page/forces/along.js";
 import { hasMachine, driveAt, jointForce } from "../../python/assur/studio/page/forces/answers.js";
@@ -14,6 +15,7 @@ import { peakOf } from "../../python/assur/studio/page/forces/peaks.js";
 import { discDiameter, surplusAreas, tangentsOf } from "../../python/assur/studio/page/forces/surplus.js";
 import { linesOf, readLines, tableOfConstant } from "../../python/assur/studio/page/forces/values.js";
 import { say } from "../../python/assur/pictures/page/words.js";
+import { LOADS_WORDS } from "../../python/assur/studio/page/words/loads.js";
 
 const TURN = 2 * Math.PI;
 const ROCKER = {
@@ -167,6 +169,20 @@ test("every new load names parts of the document, and is said in words", () => {
     assert.ok(what && size, type);
   }
   assert.equal(loadText({ type: "Pressure", slide: "bore", pressure: 1e5 }, (key) => key).what, "pressureIn");
+});
+
+test("the fields of a load are those of its file, and have labels", () => {
+  const { definitions } = JSON.parse(readFileSync(new URL("../../python/assur/files/schema.json", import.meta.url)));
+  const ownForm = definitions.load.properties.type.enum.filter((type) => type !== "Pressure");
+  assert.deepEqual(Object.keys(LOAD_FIELDS).sort(), ownForm.sort());
+  for (const [type, fields] of Object.entries(LOAD_FIELDS)) {
+    const keys = fields.map((own) => own.key);
+    for (const key of keys) assert.ok(key in definitions[type].properties, `${type} ${key}`);
+    for (const key of definitions[type].required ?? []) assert.ok(keys.includes(key), `${type} ${key}`);
+    assert.ok(`load${type}` in LOADS_WORDS.en, type);
+    const labelled = fields.filter((own) => ["joint", "link", "number"].includes(own.is));
+    for (const { key } of labelled) assert.ok(`field_${key}` in LOADS_WORDS.en, key);
+  }
 });
 
 test("a new force on what slides is against its slide", () => {

@@ -51,7 +51,7 @@ def test_every_load_motor_and_kind_of_place_is_drawn() -> None:
             kinds["in a link"] += any(end and not isinstance(end, str) for end in ends)
             kinds["in link axes"] += getattr(load, "axes", None) is not None
     wanted = {
-        *("Gravity", "Force", "Torque", "Spring", "TorsionSpring", "Damper", "TorsionDamper"),
+        *machine_models.DRAWN,
         *("ConstantTorque", "LinearMotor", "InductionMotor", "Table", "NoneType"),
         *("value float", "value Table", "value function"),
         *("on the ground", "in a link", "in link axes"),

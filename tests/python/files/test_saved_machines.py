@@ -13,6 +13,7 @@ import assur
 from assur.dynamics.loads import friction, loads, motors, pressure
 from assur.files.parts import PARTS, ROWS, SHAFT
 from assur.files.write import text_of
+from models.machines.every_load import missing
 from models.machines.file_machines import one_part_machines, whole_machines
 from models.machines.machines import four_bar, press
 
@@ -42,6 +43,10 @@ def numbers(machine: assur.Machine) -> list[Any]:
         machine.reduced_moment(q, speed, on_error="nan"),
         machine.effort(q, speed, acceleration, on_error="nan"),
     ]
+
+
+def test_every_kind_of_load_is_saved() -> None:
+    assert not missing(load for machine in MACHINES.values() for load in machine.loads)
 
 
 @pytest.mark.parametrize("name", list(MACHINES))

@@ -19,6 +19,7 @@ from assur.files.wanted import RANGE, WANTED
 from assur.flywheel import SPLINES
 from files.sample_files import BY_HAND, saved
 from files.sample_files import WANTED as ALL_WANTED
+from models.machines.every_load import KINDS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -40,6 +41,7 @@ def test_it_accepts_what_loads(name: str) -> None:
 
 
 def test_its_words_are_those_of_the_reader() -> None:
+    assert tuple(LOADS) == KINDS
     assert tuple(ALL["properties"]) == KEYS
     for name, words in WANTED.items():
         assert tuple(ALL["properties"][name]["properties"]) == tuple(words)

@@ -7,37 +7,28 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from assur._arrays import real_number, short
-from assur.dynamics.loads.loads import Force, Pressure, Torque
+from assur.dynamics.loads.loads import named_values
 from assur.dynamics.loads.motors import ConstantTorque
 from assur.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from assur.dynamics.loads.loads import Load
+
 # Tried where a function has no value at rest: a load of constant power.
 SPEEDS = 0.0, 1.0
 
 
-def check_functions(loads: Iterable[Any], motors: Iterable[Any], q0: list[float]) -> None:
+def check_functions(loads: Iterable[Load], motors: Iterable[Any], q0: list[float]) -> None:
     """Call every function at q0, at rest: raise InputError unless it gives a finite number."""
     for name, function in _functions(loads, motors):
         _try(name, function, q0)
 
 
-def _functions(loads: Iterable[Any], motors: Iterable[Any]) -> Iterator[tuple[str, Any]]:
+def _functions(loads: Iterable[Load], motors: Iterable[Any]) -> Iterator[tuple[str, Any]]:
     for load in loads:
-        if isinstance(load, Force):
-            own = zip(("fx", "fy"), load.force, strict=True)
-            named: list[tuple[str, Any]] = [
-                (f"Force at {load.at!r}: {n}", value) for n, value in own
-            ]
-        elif isinstance(load, Torque):
-            named = [(f"Torque on {load.link!r}: torque", load.torque)]
-        elif isinstance(load, Pressure):
-            named = [(f"Pressure in {load.slide!r}: pressure", load.pressure)]
-        else:
-            continue
-        yield from ((name, value) for name, value in named if callable(value))
+        yield from ((name, value) for name, value in named_values(load).items() if callable(value))
     for motor in motors:
         if isinstance(motor, ConstantTorque) and callable(motor.torque):
             yield "ConstantTorque: torque", motor.torque

@@ -6,7 +6,16 @@ import warnings
 from typing import TYPE_CHECKING
 
 from assur._callers import level_of_caller
-from assur.dynamics.loads.loads import Damper, Force, Spring
+from assur.dynamics.loads.loads import (
+    Damper,
+    Force,
+    Gravity,
+    Pressure,
+    Spring,
+    Torque,
+    TorsionDamper,
+    TorsionSpring,
+)
 from assur.errors import AssurWarning
 
 if TYPE_CHECKING:
@@ -32,12 +41,17 @@ def warn_of_open_takers(
 
 
 def _joints_without_a_link(load: Load) -> Iterator[str]:
-    points: tuple[PointLike, ...] = ()
-    if isinstance(load, Force):
-        points = (load.at,) if load.on is None else ()
-    elif isinstance(load, Spring | Damper):
-        points = load.first, load.second
-    return (point for point in points if isinstance(point, str))
+    return (point for point in _points_without_a_link(load) if isinstance(point, str))
+
+
+def _points_without_a_link(load: Load) -> tuple[PointLike, ...]:
+    match load:
+        case Force():
+            return (load.at,) if load.on is None else ()
+        case Spring() | Damper():
+            return load.first, load.second
+        case Gravity() | Torque() | Pressure() | TorsionSpring() | TorsionDamper():
+            return ()
 
 
 def _message(load: Load, joint: str, link: str) -> str:

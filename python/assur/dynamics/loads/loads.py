@@ -356,6 +356,8 @@ class TorsionDamper:
         _check_numbers(self, "damping")
 
 
+# Those that act along the line of their ends, `first` and `second`.
+BetweenPoints: TypeAlias = Spring | Damper
 Load: TypeAlias = (
     Gravity | Force | Torque | Pressure | Spring | TorsionSpring | Damper | TorsionDamper
 )
@@ -367,6 +369,21 @@ def checked_load(load: Any) -> Load:
         message = f"{short(load)} is not a load: Gravity, Force, Torque, Spring, Damper …"
         raise InputError(message)
     return load
+
+
+def named_values(load: Load) -> dict[str, Value | Gas]:
+    """Return what may be a table or a function, by its name in messages."""
+    match load:
+        case Force():
+            fx, fy = load.force
+            at = f"Force at {load.at!r}"
+            return {f"{at}: fx": fx, f"{at}: fy": fy}
+        case Torque():
+            return {f"Torque on {load.link!r}: torque": load.torque}
+        case Pressure():
+            return {f"Pressure in {load.slide!r}: pressure": load.pressure}
+        case Gravity() | Spring() | TorsionSpring() | Damper() | TorsionDamper():
+            return {}
 
 
 def _check_numbers(load: Any, *names: str) -> None:

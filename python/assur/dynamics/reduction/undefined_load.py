@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur.dynamics.loads.load_values import function_values
-from assur.dynamics.loads.loads import Damper, Force, Gravity, Pressure, Spring, Torque
+from assur.dynamics.loads.loads import BetweenPoints, Force, Gravity, Pressure, named_values
 from assur.dynamics.loads.motors import ConstantTorque
 from assur.dynamics.loads.pressure import Gas
 from assur.dynamics.loads.table import Table
@@ -79,8 +79,7 @@ def named_loads(machine: MachineModel) -> Iterator[tuple[str, Load]]:
 def table_names(machine: MachineModel) -> tuple[str, ...]:
     """Return names of the tables in the order of the core: those over q, then those over others."""
     over_q, others = list[str](), list[str]()
-    every = [(name, value) for name, load in named_loads(machine) for value in _values(load)]
-    for name, value in [*every, *_motor_values(machine)]:
+    for name, value in _every_value(machine):
         if isinstance(value, Gas):
             others.append(name)
         elif isinstance(value, Table):
@@ -94,8 +93,7 @@ def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
     mechanism = machine.mechanism
     assert mechanism is not None
     found: list[tuple[int, str, Table, float]] = []
-    every = [(name, value) for name, load in named_loads(machine) for value in _values(load)]
-    for name, value in [*every, *_motor_values(machine)]:
+    for name, value in _every_value(machine):
         if not isinstance(value, Table):
             continue
         at = places
@@ -119,13 +117,20 @@ def _described(load: Load) -> str:
         return f"the {kind} at {_point(load.at)}"
     if isinstance(load, Pressure):
         return f"the {kind} in {load.slide!r}"
-    if isinstance(load, Spring | Damper):
+    if isinstance(load, BetweenPoints):
         return f"the {kind} from {_point(load.first)} to {_point(load.second)}"
     return "Gravity" if isinstance(load, Gravity) else f"the {kind} on {load.link!r}"
 
 
 def _point(point: PointLike) -> str:
     return repr(point) if isinstance(point, str) else f"a point of {point[0]!r}"
+
+
+def _every_value(machine: MachineModel) -> Iterator[tuple[str, Any]]:
+    """Yield what loads and motors read, with the names of the loads."""
+    for name, load in named_loads(machine):
+        yield from ((name, value) for value in named_values(load).values())
+    yield from _motor_values(machine)
 
 
 def _motor_values(machine: MachineModel) -> Iterator[tuple[str, Any]]:
@@ -146,16 +151,14 @@ def _is_finite(machine: MachineModel, moment: Moment) -> bool:
 def _of_load(mechanism: Mechanism, name: str, load: Load, moment: Moment) -> AssurError:
     """Return the error of a load without a value."""
     if isinstance(load, Pressure) and isinstance(load.pressure, Gas):
-        value = _coordinate(mechanism, load.slide, moment)
-        message = (
-            f"{name}: its gas has no volume at {load.slide} = {value:.9g} m, q = {moment.shown}"
-        )
-        return MotionError(message, kind="not_finite", q=moment.at, value=value)
-    for value in _values(load):
+        at = _coordinate(mechanism, load.slide, moment)
+        message = f"{name}: its gas has no volume at {load.slide} = {at:.9g} m, q = {moment.shown}"
+        return MotionError(message, kind="not_finite", q=moment.at, value=at)
+    for value in named_values(load).values():
         error = _of_value(mechanism, name, value, moment)
         if error is not None:
             return error
-    if isinstance(load, Spring | Damper):
+    if isinstance(load, BetweenPoints):
         what = "has length zero, and so no direction, or is too great"
         message = f"{name} {what} at q = {moment.shown}"
         return MotionError(message, kind="not_finite", q=moment.at)
@@ -165,15 +168,6 @@ def _of_load(mechanism: Mechanism, name: str, load: Load, moment: Moment) -> Ass
 def _too_great(name: str, moment: Moment) -> AssurError:
     message = f"{name} is too great at q = {moment.shown}: it is beyond what numbers can hold"
     return MotionError(message, kind="not_finite", q=moment.at)
-
-
-def _values(load: Load) -> tuple[Any, ...]:
-    """Return numbers, tables and functions of a load."""
-    if isinstance(load, Force):
-        return load.force
-    if isinstance(load, Torque):
-        return (load.torque,)
-    return (load.pressure,) if isinstance(load, Pressure) else ()
 
 
 def _of_value(mechanism: Mechanism, name: str, value: Any, moment: Moment) -> AssurError | None:

@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::followers::Followers;
 use super::kinematics::SolvedPose;
-use super::load::Load;
 use super::machine::Machine;
 use super::motor::Motor;
 use super::reduced::Reduced;
@@ -101,9 +100,7 @@ impl Machine {
         let mut evaluator =
             Evaluator::new(mechanism, dimensions, &derivatives, Queries::Any, torsion);
         let mut machine = self.clone();
-        machine
-            .loads
-            .retain(|load| !matches!(load, Load::Damper { .. } | Load::TorsionDamper { .. }));
+        machine.loads.retain(|load| !load.reads_velocities());
         let mut reduced = Reduced::new(1);
         let mut tables = Vec::new();
         let mut followers = Followers::default();

@@ -101,14 +101,41 @@ pub(super) fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (
 }
 
 impl Load {
-    /// The direction in which it acts, if it does not in both.
     /// The values that it reads.
     fn values(&self) -> &[Value] {
         match self {
             Self::Force { force, .. } => force,
             Self::Torque { torque, .. } => std::slice::from_ref(torque),
             Self::Pressure { pressure, .. } => std::slice::from_ref(pressure),
-            _ => &[],
+            Self::Spring { .. }
+            | Self::TorsionSpring { .. }
+            | Self::Damper { .. }
+            | Self::TorsionDamper { .. } => &[],
+        }
+    }
+
+    /// Whether it reads angles of links, not only their derivatives.
+    pub(crate) fn reads_angles(&self) -> bool {
+        match self {
+            Self::TorsionSpring { .. } => true,
+            Self::Force { .. }
+            | Self::Torque { .. }
+            | Self::Pressure { .. }
+            | Self::Spring { .. }
+            | Self::Damper { .. }
+            | Self::TorsionDamper { .. } => false,
+        }
+    }
+
+    /// Whether it reads velocities of points or links, and so does not act at rest.
+    pub(crate) fn reads_velocities(&self) -> bool {
+        match self {
+            Self::Damper { .. } | Self::TorsionDamper { .. } => true,
+            Self::Force { .. }
+            | Self::Torque { .. }
+            | Self::Pressure { .. }
+            | Self::Spring { .. }
+            | Self::TorsionSpring { .. } => false,
         }
     }
 
@@ -122,12 +149,16 @@ impl Load {
         self.one_way().is_some() || self.values().iter().all(has_value)
     }
 
+    /// The direction in which it acts, if it does not in both.
     pub(crate) fn one_way(&self) -> Option<OneWay> {
         match self {
             Self::Force { one_way, .. }
             | Self::Torque { one_way, .. }
             | Self::Pressure { one_way, .. } => *one_way,
-            _ => None,
+            Self::Spring { .. }
+            | Self::TorsionSpring { .. }
+            | Self::Damper { .. }
+            | Self::TorsionDamper { .. } => None,
         }
     }
 
@@ -176,7 +207,10 @@ impl Load {
                     *sum += -moment * relative_rate(pose, *link, *on, driver);
                 }
             }
-            _ => {}
+            Self::Force { .. }
+            | Self::Torque { .. }
+            | Self::Damper { .. }
+            | Self::TorsionDamper { .. } => {}
         }
     }
 

@@ -132,7 +132,7 @@ impl Machine {
 
     /// Whether a load needs the angles of links, not only their derivatives.
     pub(crate) fn needs_angles(&self) -> bool {
-        self.loads.iter().any(|load| matches!(load, Load::TorsionSpring { .. }))
+        self.loads.iter().any(Load::reads_angles)
             || self.over.iter().any(|over| matches!(over.measure, Measure::Angle(_)))
     }
 

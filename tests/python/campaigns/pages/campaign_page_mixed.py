@@ -60,7 +60,7 @@ def mixed(report: Report) -> str:
 
 def machines(report: Report) -> str:
     """Machines and their balance of energy."""
-    loads = ("Force", "Torque", "Spring", "TorsionSpring", "Damper", "TorsionDamper")
+    loads = [kind for kind in machine_models.DRAWN if kind != "Gravity"]
     ends = sorted(name for name in report.counts if name.startswith("end "))
     rows = [
         ("machines", number(report, "machines")),

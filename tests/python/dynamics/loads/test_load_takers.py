@@ -6,7 +6,7 @@ import math
 import pickle
 import re
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 import pytest
@@ -14,6 +14,8 @@ import pytest
 import assur
 from assur import Damper, Force, JointFriction, Machine, Slide, SlideFriction, Spring
 from assur.dynamics.forces.force_system import force_system
+from assur.dynamics.loads.loads import BetweenPoints
+from models.machines.every_load import missing
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -163,6 +165,10 @@ GUESSES: dict[str, Any] = {
     "a Spring " + WHICH + "as a point (link, (x, y)) of it": Spring("C", "A", 10.0, 1.0),
     "a Damper " + WHICH + "as a point (link, (x, y)) of it": Damper("A", "C", 10.0),
 }
+
+
+def test_every_load_between_points_is_guessed() -> None:
+    assert not missing(GUESSES.values(), get_args(BetweenPoints))
 
 
 @pytest.mark.parametrize("said", GUESSES)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 import pytest
 
 import assur
 from assur import Body, Damper, Force, Gravity, Machine, Pressure, Spring, Status, Table, Torque
+from assur.dynamics.loads.loads import BetweenPoints
+from models.machines.every_load import KINDS, missing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,6 +72,12 @@ CASES: list[tuple[Any, float, str, float | None]] = [
         None,
     ),
 ]
+
+
+def test_no_kind_is_left_out() -> None:
+    """Loads without direction where their ends meet; numbers of every kind."""
+    assert not missing((case[0] for case in CASES), get_args(BetweenPoints))
+    assert set(KINDS) <= {kind for kind, _ in NUMBERS}
 
 
 @pytest.mark.parametrize("ask", ASKED)

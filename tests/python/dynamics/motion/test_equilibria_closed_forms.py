@@ -10,7 +10,18 @@ import pytest
 from scipy.optimize import brentq
 
 import assur
-from assur import Body, Force, Gravity, Machine, Spring, Torque, TorsionSpring
+from assur import (
+    Body,
+    Damper,
+    Force,
+    Gravity,
+    Machine,
+    Spring,
+    Torque,
+    TorsionDamper,
+    TorsionSpring,
+)
+from models.machines.every_load import missing
 from models.machines.machines import four_bar
 
 G = 9.81
@@ -330,7 +341,11 @@ def test_stiffness_of_every_load() -> None:
         Spring("P", "D", 30.0, 0.4, 2.0),
         Spring("P", "D", 30.0, 0.0),
         TorsionSpring("coupler", 8.0, 0.3, on="rocker", preload=2.0),
+        Damper("P", "D", 30.0),
+        TorsionDamper("coupler", 8.0, on="rocker"),
     ]
+    # Weight is in each machine; pressures are in test_pressures.py.
+    assert missing(each) == {"Gravity", "Pressure"}
     for load in each:
         machine = Machine(four_bar(), bodies, [load, Gravity()])
         offset = -float(machine.reduced_moment(0.7))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import assur
+from models.machines import every_load
 from models.mechanisms import dyad_models, mixed_models
 from models.mechanisms.mechanism_data import GROUND, Description, arguments
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 T_END = (0.1, 0.6)
 SPEED = (0.5, 3.0)
 KINDS = ("force", "torque", "spring", "torsion spring", "damper", "torsion damper")
+# Pressures need a slide; test_pressures.py has them.
+DRAWN = tuple(kind.__name__ for kind in every_load.KINDS if kind is not assur.Pressure)
 SPLINES: tuple[Spline, ...] = ("not-a-knot", "natural", "clamped", "periodic", "linear")
 # The greatest condition at the drawing: a run that begins beside a dead point is soon over.
 CONDITION = 200.0

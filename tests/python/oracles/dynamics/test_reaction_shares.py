@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from models.machines.machine_models import DRAWN
 from models.machines.reaction_machines import Case, reaction_case
 from oracles.dynamics.reaction_shares import Compared, Worst
 from oracles.dynamics.reaction_view import View
@@ -95,6 +96,6 @@ def test_every_kind_is_drawn() -> None:
         *(f"class {k}" for k in (2, 3, 4, 5)),
         *("1 drivers", "2 drivers", "driven slide", "driven coupler"),
         *("moving guide", "no joint", "pin of three"),
-        *("Gravity", "Force", "Torque", "Spring", "TorsionSpring", "Damper", "TorsionDamper"),
+        *DRAWN,
     }
     assert {name for name in wanted if found[name] < 5} == set()

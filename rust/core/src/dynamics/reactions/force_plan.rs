@@ -92,7 +92,7 @@ impl ForcePlan {
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let has_speeds = machine.loads.iter().any(reads_velocities)
+        let has_speeds = machine.loads.iter().any(Load::reads_velocities)
             || !machine.friction.is_empty()
             || !machine.ways.is_empty();
         let edges: Vec<ForceEdge> = plan
@@ -310,17 +310,5 @@ fn driven_link(driver: &Driver) -> Option<usize> {
     match *driver {
         Driver::Angle { link, .. } => Some(link),
         Driver::Slide(_) => None,
-    }
-}
-
-/// Whether a load reads velocities of points or links.
-fn reads_velocities(load: &Load) -> bool {
-    match load {
-        Load::Damper { .. } | Load::TorsionDamper { .. } => true,
-        Load::Force { .. }
-        | Load::Torque { .. }
-        | Load::Pressure { .. }
-        | Load::Spring { .. }
-        | Load::TorsionSpring { .. } => false,
     }
 }
