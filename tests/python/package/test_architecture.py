@@ -4,9 +4,22 @@ from __future__ import annotations
 
 import re
 import runpy
+import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
 import pytest
+
+import assur
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import FrameType
+
+    TraceFunction: TypeAlias = Callable[[FrameType, str, Any], "TraceFunction"]
+
+PACKAGE = Path(assur.__file__).parent
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
@@ -51,3 +64,25 @@ def test_every_floor_is_drawn(floor: tuple[str, ...]) -> None:
     public = [part for part in floor if not part.startswith("_")]
     missing = [part for part in public if f"`{part}`" not in drawn]
     assert not missing
+
+
+def test_a_debugger_stops_in_the_python_files_that_are_named() -> None:
+    """Files of a line or two may be missing."""
+    mechanism, q = assur.FourBar(0.1, 0.3, 0.25, 0.35), np.linspace(0.0, 6.0, 37)
+    stops: dict[str, set[int]] = {}
+
+    def trace(frame: FrameType, event: str, _: object) -> TraceFunction:
+        path = Path(frame.f_code.co_filename)
+        if event == "line" and PACKAGE in path.parents:
+            stops.setdefault(path.name, set()).add(frame.f_lineno)
+        return trace
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        _ = mechanism.solve(q).joint("C").d1
+    finally:
+        sys.settrace(before)
+    way = PAGE.partition("## The way of one number")[2].partition("\n## ")[0]
+    assert [name for name, lines in stops.items() if len(lines) > 5 and name not in way] == []
+    assert len(stops) <= 12
