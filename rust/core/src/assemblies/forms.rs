@@ -120,7 +120,7 @@ impl GroupForms {
     }
 
     fn point(&mut self, point: usize) -> usize {
-        self.points.iter().position(|&known| known == point).unwrap_or_else(|| {
+        self.points.iter().position(|&index| index == point).unwrap_or_else(|| {
             self.points.push(point);
             self.points.len() - 1
         })
@@ -145,10 +145,10 @@ impl GroupForms {
 
 /// Adds an edge of a group, times a sign, to a sum.
 fn add_edge(sum: &mut LinearForm, group: &Group, edge: usize, sign: f64) {
-    let own = &group.edges[edge];
-    let turn = own.turns.map_or(0, |unknown| unknown + 1);
+    let group_edge = &group.edges[edge];
+    let turn = group_edge.turns.map_or(0, |unknown| unknown + 1);
     sum.terms.push((turn, Parameter::Edge(edge), sign));
-    if let Some(unknown) = own.slides {
+    if let Some(unknown) = group_edge.slides {
         sum.units.push((unknown + 1, sign));
     }
 }
