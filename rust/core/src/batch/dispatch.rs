@@ -14,7 +14,7 @@ pub(crate) trait ForLevel {
     fn run<L: Entry, const G: usize>(self) -> Self::Output;
 }
 
-/// Work on positions side by side that knows nothing of the solver.
+/// Work on positions side by side, independent of the solver.
 pub(crate) trait Task<R: Real> {
     /// Does it.
     fn run(&mut self);

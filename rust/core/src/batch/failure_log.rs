@@ -37,7 +37,7 @@ impl FailureLog {
     fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
         self.count.fetch_add(count, Ordering::Relaxed);
         let Ok(mut first) = self.first.lock() else { return };
-        if first.as_ref().is_none_or(|&(known, _)| row < known) {
+        if first.as_ref().is_none_or(|&(known_row, _)| row < known_row) {
             *first = Some((row, describe()));
             self.row.store(row, Ordering::Relaxed);
         }

@@ -145,8 +145,8 @@ impl ForLevel for Fill<'_, '_> {
         type ThreadState<'a, R, const G: usize> = (Worker<'a, R, G>, Designs);
         let Batch { mechanism, request, derivatives, writer, shape, control } = self.batch;
         let worker = || -> ThreadState<'_, L::Register, G> {
-            let one = Worker::new(mechanism, request, derivatives, writer, control);
-            (one, Designs::default())
+            let solver = Worker::new(mechanism, request, derivatives, writer, control);
+            (solver, Designs::default())
         };
         let work = |(worker, designs): &mut ThreadState<'_, L::Register, G>,
                     chunk: &Chunk,
