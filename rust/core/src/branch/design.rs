@@ -153,7 +153,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Whether its searches are to end.
+    /// Whether its searches have been cancelled.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
@@ -288,18 +288,18 @@ impl<'a> Design<'a> {
     }
 }
 
-/// Signs as the solver needs them; those of lengths are +1, whatever is asked for.
+/// Signs as the solver needs them; those of lengths are always +1.
 fn signs_of(plan: &Plan, signs: &[i8]) -> Vec<f64> {
     let mut signs: Vec<f64> = signs.iter().map(|&sign| f64::from(sign)).collect();
     for dyad in plan.dyads().filter(|dyad| dyad.is_length) {
-        if let Some(own) = dyad.sign.and_then(|sign| signs.get_mut(sign)) {
-            *own = 1.0;
+        if let Some(sign_of_length) = dyad.sign.and_then(|sign| signs.get_mut(sign)) {
+            *sign_of_length = 1.0;
         }
     }
     signs
 }
 
-/// Whether the positions asked for need this dyad.
+/// Whether the requested positions need this dyad.
 fn is_solved(tape: &Tape, dyad: usize) -> bool {
     matches!(&tape.ops[tape.dyads[dyad]], Op::TwoLegs(op) | Op::StandingGuide(op) if op.is_used)
 }

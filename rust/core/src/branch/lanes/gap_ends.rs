@@ -84,12 +84,12 @@ impl GapEnds {
         self.ends.iter().enumerate().filter(is_open).map(move |(index, end)| {
             let (angles, rates) = (&self.angles[class], &self.rates[class]);
             let [inside, beyond] = end.lanes(2 * index);
-            let known = (angles[inside], rates[inside]);
-            let extrapolated = end.extrapolated(scan, known, at_knots);
+            let at_inside = (angles[inside], rates[inside]);
+            let extrapolated = end.extrapolated(scan, at_inside, at_knots);
             let [inside, beyond] = [inside, beyond].map(|lane| angles[lane]);
-            let own = unwrap_to(inside, beyond) - beyond;
+            let turned = unwrap_to(inside, beyond) - beyond;
             let apart = unwrap_to(extrapolated, beyond) - beyond;
-            let slack = apart.abs() + EXTRAPOLATED * own.abs();
+            let slack = apart.abs() + EXTRAPOLATED * turned.abs();
             (end, AngleAtEnd { inside, beyond, slack })
         })
     }
@@ -143,8 +143,8 @@ impl GapEnds {
 
     /// The cells with a confirmed end.
     pub(in crate::branch) fn cells(&self) -> Bits {
-        let found = self.ends.iter().filter(|end| end.is_confirmed);
-        found.fold(0, |cells, end| cells | 1 << end.knot)
+        let confirmed = self.ends.iter().filter(|end| end.is_confirmed);
+        confirmed.fold(0, |cells, end| cells | 1 << end.knot)
     }
 
     /// Solves the positions before and after all ends, whether or not they close.

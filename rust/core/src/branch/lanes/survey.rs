@@ -1,4 +1,5 @@
-//! Survey of a design with gaps: shows that it needs no checks without recording its angles beside the gaps.
+//! Survey of a design with gaps: shows that the design does not need checks, without recording its angles
+//! beside the gaps.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +12,7 @@ use crate::math::angle::Reference;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
-/// Levels of scans of a survey. What these do not show is left to [`LaneTracer::trace`].
+/// Levels of scans of a survey. Cells that these do not decide are left to [`LaneTracer::trace`].
 const SURVEY_LEVELS: usize = 3;
 /// Most closer scans of a survey.
 const MAX_CLOSER: u32 = 6;
