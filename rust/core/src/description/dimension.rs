@@ -162,8 +162,8 @@ impl Dimensions {
     #[must_use]
     pub fn first_fault(&self, values: &[f64]) -> Option<SolveError> {
         let mut valid = true;
-        for (&[least, most], &value) in self.ranges.iter().zip(values) {
-            valid &= least <= value && value <= most;
+        for (&[low, high], &value) in self.ranges.iter().zip(values) {
+            valid &= low <= value && value <= high;
         }
         if valid {
             return None;
