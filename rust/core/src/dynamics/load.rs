@@ -20,7 +20,7 @@ pub enum Load {
         force: [Value; 2],
         /// The link whose axes they are along; `None`: the frame's.
         axes: Option<usize>,
-        /// The link that takes it, of those at a joint; `None`: the first of them.
+        /// The link at a joint that takes it; `None`: the first one there.
         on: Option<usize>,
         /// The direction in which it acts, if it does not in both.
         one_way: Option<OneWay>,
@@ -112,8 +112,8 @@ impl Load {
         }
     }
 
-    /// Whether its tables cover the position where `numbers` were read. What acts one way only need not
-    /// have a value everywhere.
+    /// Whether its tables cover the position where `numbers` were read. A load that acts in one direction only
+    /// need not have a value everywhere.
     pub(crate) fn is_covered(&self, numbers: Numbers<'_>) -> bool {
         let has_value = |value: &Value| match value {
             Value::Table(_) | Value::Over(_) => !value.at(numbers).is_nan(),
@@ -137,7 +137,9 @@ impl Load {
             return None;
         };
         match over.get(*index)? {
-            Over { measure: Measure::Slide(own), curve: Curve::Gas(gas) } if own == slide => {
+            Over { measure: Measure::Slide(gas_slide), curve: Curve::Gas(gas) }
+                if gas_slide == slide =>
+            {
                 Some(gas)
             }
             _ => None,

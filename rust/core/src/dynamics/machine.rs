@@ -47,9 +47,9 @@ pub struct DrivenPositions<'a> {
     pub q: &'a [f64],
     /// Speeds, drivers fastest.
     pub speed: &'a [f64],
-    /// In which sense each driver is about to move where all rest, +1 or −1. May be empty.
+    /// Sense in which each driver is about to move where all rest, +1 or −1. May be empty.
     pub sense: &'a [f64],
-    /// The callbacks' values, equally many for each position.
+    /// The callbacks' values, the same number for each position.
     pub external: &'a [f64],
 }
 

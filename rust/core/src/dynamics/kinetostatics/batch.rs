@@ -28,9 +28,9 @@ use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 
 impl Machine {
-    /// Finds the reactions of designs at positions: one array for each, and the statuses. Of
-    /// [`squares`](ReactionRequest::squares) each array has two numbers a design, NaN if a position has
-    /// no value, and the status of a design is the worst of its positions.
+    /// Finds the reactions of designs at positions: one array for each, and the statuses. With
+    /// [`squares`](ReactionRequest::squares) each array has two numbers per design, NaN if a position has no
+    /// value, and the status of a design is the worst of its positions.
     ///
     /// # Errors
     ///
@@ -158,7 +158,7 @@ impl ReactionBatch<'_> {
         let ThreadState { worker, designs, scratch, scene, friction, tables, followed, squares } =
             state;
         designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
-        // Squares are of all positions.
+        // Squares cover all positions.
         let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };
         let count = range.len();
         for (index, design) in chunk.designs.clone().enumerate() {

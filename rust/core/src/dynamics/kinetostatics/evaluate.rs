@@ -32,7 +32,7 @@ pub(super) struct ReactionBatch<'b> {
     pub plan: &'b ForcePlan,
     pub sources: Sources,
     pub joints: Vec<JointForce>,
-    /// Whether what pairs transmit is asked for, and not only what acts on links from outside.
+    /// Whether forces in pairs are requested, and not only what acts on links from outside.
     pub balances: bool,
     pub friction: Vec<FrictionPair>,
     pub asked: &'b ReactionRequest<'b>,
@@ -58,7 +58,7 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
     pub friction: &'e mut FrictionWorkspace<R>,
     pub results: &'e mut RowSlices<'r>,
     pub squares: &'e mut Vec<Squares<R>>,
-    /// Row of the first position, or of the design if squares are asked for.
+    /// Row of the first position, or of the design if squares are requested.
     pub first: usize,
 }
 
@@ -144,7 +144,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 None => {}
             }
         }
-        one(sum)
+        scalar(sum)
     }
 
     /// Force of a guide on what slides there.
@@ -160,22 +160,22 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let scene = &*self.scene;
         match reaction {
             Reaction::Joint { .. } => joint.of(scene),
-            Reaction::Normal(slide) => one(self.normal(slide)),
-            Reaction::Moment(slide) => one(scene.slide_moment[slide]),
+            Reaction::Normal(slide) => scalar(self.normal(slide)),
+            Reaction::Moment(slide) => scalar(scene.slide_moment[slide]),
             Reaction::Along(slide) => {
-                one(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
+                scalar(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
             }
             Reaction::JointMoment { .. }
             | Reaction::JointLoss(_)
             | Reaction::Friction(_)
             | Reaction::SlideLoss(_) => self.sum_of_friction(reaction),
-            Reaction::Solutions if self.batch.friction.is_empty() => one(R::ONE),
-            Reaction::Solutions => one(self.friction.solutions),
-            Reaction::Safety => one(self.friction.safety),
-            Reaction::Residual => one(self.friction.residual),
-            Reaction::Driver(driver) => one(scene.driver[driver]),
+            Reaction::Solutions if self.batch.friction.is_empty() => scalar(R::ONE),
+            Reaction::Solutions => scalar(self.friction.solutions),
+            Reaction::Safety => scalar(self.friction.safety),
+            Reaction::Residual => scalar(self.friction.residual),
+            Reaction::Driver(driver) => scalar(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
-            Reaction::ShakingMoment => one(scene.shaking_moment),
+            Reaction::ShakingMoment => scalar(scene.shaking_moment),
             Reaction::LoadForce(action) | Reaction::LoadCouple(action) => {
                 scene.load_on(&self.batch.plan.load_actions[action])
             }
@@ -261,7 +261,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         }
     }
 
-    /// Leaves out what a self-stress changes: it cannot be known.
+    /// Sets to NaN what a self-stress changes: it cannot be known.
     #[inline(always)]
     fn drop_stressed(&mut self, first: usize, lanes: usize) {
         let size = self.size;
@@ -317,7 +317,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
 }
 
 #[inline(always)]
-fn one<R: Real>(value: R) -> Vector<R> {
+fn scalar<R: Real>(value: R) -> Vector<R> {
     Vector::new(value, R::ZERO)
 }
 
@@ -333,18 +333,22 @@ fn share(pair: &PairKind, reaction: Reaction) -> Option<Share> {
     match (reaction, pair) {
         (
             Reaction::JointMoment { joint, on },
-            &PairKind::Journal { joint: at, on: own, fast, .. },
+            &PairKind::Journal { joint: at, on: sliding_link, fast, .. },
         ) if at == joint => {
             let against = (fast == on).then_some(Share::Friction(-1.0));
-            (own == on).then_some(Share::Friction(1.0)).or(against)
+            (sliding_link == on).then_some(Share::Friction(1.0)).or(against)
         }
         (Reaction::JointLoss(joint), PairKind::Journal { joint: at, .. }) if *at == joint => {
             Some(Share::Loss)
         }
-        (Reaction::Friction(slide), PairKind::Guide { slide: own, .. }) if *own == slide => {
+        (Reaction::Friction(slide), PairKind::Guide { slide: sliding_link, .. })
+            if *sliding_link == slide =>
+        {
             Some(Share::Friction(1.0))
         }
-        (Reaction::SlideLoss(slide), PairKind::Guide { slide: own, .. }) if *own == slide => {
+        (Reaction::SlideLoss(slide), PairKind::Guide { slide: sliding_link, .. })
+            if *sliding_link == slide =>
+        {
             Some(Share::Loss)
         }
         _ => None,

@@ -68,7 +68,7 @@ impl<R: Real> Scene<R> {
             self.loads[index] = self.strength(plan, load, values, rows);
         }
         for action in &plan.load_actions {
-            // The ground takes all, and asks for no place.
+            // The ground takes every force, wherever it acts.
             if action.link == plan.ground {
                 continue;
             }

@@ -36,7 +36,7 @@ pub(crate) struct Scene<R: Real> {
     pub shaking_moment: R,
     /// Load on every point that its links have not taken yet.
     pub point_load: Vec<Vector<R>>,
-    /// Moment on every link about its reference point, of loads and of what it carries.
+    /// Moment on every link about its reference point, from loads and from what the link carries.
     pub moment: Vec<R>,
     /// Force along the guide of every slide.
     pub sliding: Vec<R>,
@@ -46,8 +46,7 @@ pub(crate) struct Scene<R: Real> {
     pub slide_moment: Vec<R>,
     /// Torque or force of every driver.
     pub driver: Vec<R>,
-    /// How many units of length a metre is: groups are solved in that unit, so that pivots do not depend on
-    /// metres.
+    /// Units of length per metre: groups are solved in that unit, so that pivots do not depend on metres.
     pub(crate) per_metre: R,
     pub(crate) matrix: Vec<[R; 1]>,
     pub(crate) right: Vec<R>,

@@ -276,8 +276,8 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         // How far it goes before it turns back to the obstacle, if it does.
         let way = y[1] * y[1] / (2.0 * rates[1].abs());
         let turns_back = rates[1] * y[1] < 0.0;
-        let least = LEAST_REBOUND * self.tolerance;
-        Ok(if turns_back && way < least { Action::Stop } else { Action::Restart })
+        let smallest_way = LEAST_REBOUND * self.tolerance;
+        Ok(if turns_back && way < smallest_way { Action::Stop } else { Action::Restart })
     }
 
     /// Index of the `EventSpec` of an event.
