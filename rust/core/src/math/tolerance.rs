@@ -116,7 +116,7 @@ pub const CHANGE_MISFIT: f64 = 4.0 * CLOSURE_PER_CONDITION;
 pub const NEWTON_TOLERANCE: f64 = UNIT_ROUNDOFF;
 /// Limit of (first step × condition)² of a round for its Jacobian to be close to the one at the
 /// solution, so that the second step may reuse it. Beyond a condition of 2^25 no step is that
-/// short, and nothing is known any more.
+/// short, and the Jacobian is not known well enough.
 pub const NEWTON_FROZEN_MAX2: f64 = 1.0 / 16.0;
 /// Step below which the iteration has converged in any case: the next would be about its square.
 pub const NEWTON_LAST_STEP: f64 = 1.0 / 67_108_864.0;

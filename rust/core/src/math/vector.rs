@@ -31,8 +31,8 @@ impl<R: Real> Vector<R> {
     /// The same vector on every lane.
     #[inline(always)]
     #[must_use]
-    pub fn splat(one: Vector) -> Self {
-        Self { x: R::splat(one.x), y: R::splat(one.y) }
+    pub fn splat(vector: Vector) -> Self {
+        Self { x: R::splat(vector.x), y: R::splat(vector.y) }
     }
 
     /// Unit vector at an angle.

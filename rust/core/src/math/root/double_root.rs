@@ -69,14 +69,14 @@ mod tests {
         for depth in [1e-3, 1e-8, 1e-14] {
             let f = |x: f64| 1.0 - (x - 0.27).cos() - depth;
             let at = |x: f64| (x, f(x));
-            let Ok(found) =
+            let Ok(point) =
                 find_double_root(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
-            assert!(f(found.unwrap()) <= 0.0);
+            assert!(f(point.unwrap()) <= 0.0);
             let f = |x: f64| 1.0 - (x - 0.27).cos() + depth;
             let at = |x: f64| (x, f(x));
-            let Ok(found) =
+            let Ok(point) =
                 find_double_root(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
-            assert_eq!(found, None);
+            assert_eq!(point, None);
         }
     }
 }
