@@ -89,9 +89,9 @@ pub trait System {
         Ok(())
     }
 
-    /// Greatest width, without its sign, of the next step toward the boundary of the domain: the few steps
-    /// there have widths that follow from the state. It is 0 where the boundary is reached, `None` if none
-    /// is known ahead. Called after steps that left the domain, and after accepted ones.
+    /// Greatest width, without its sign, of the next step toward the boundary of the domain: the widths of the
+    /// few steps there follow from the state. 0 where the boundary is reached, `None` if no boundary is known
+    /// ahead. Called after steps that left the domain, and after accepted ones.
     ///
     /// # Errors
     ///
