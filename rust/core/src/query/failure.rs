@@ -16,7 +16,7 @@ use crate::plan::plan::{EdgeSlide, Step};
 use crate::state::status::{Fault, Rejection, Status};
 
 /// If a joint is farther (in sizes) than this at the end of a branch, the distance ended it, not a
-/// dead point: the condition of a group grows with its square, so no branch is followed all the way
+/// dead point: the condition of a group grows with its square, so a branch is never followed all the way
 /// to a pole.
 const FAR_JOINT: f64 = 100.0;
 
@@ -265,8 +265,8 @@ fn of_lost(design: &Design<'_>, q: &[f64]) -> Reason {
             }
             let mut state = design.state(design.tracing_derivatives());
             let step = folding_step(design, &mut state, at);
-            let own = step.map(|step| vec![fold_name(design.mechanism, step)]);
-            Reason::BeyondDeadPoint { groups: own.unwrap_or(groups), end }
+            let folding = step.map(|step| vec![fold_name(design.mechanism, step)]);
+            Reason::BeyondDeadPoint { groups: folding.unwrap_or(groups), end }
         }
         _ => Reason::DeadPointOnPath { groups },
     }

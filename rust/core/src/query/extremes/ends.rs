@@ -12,12 +12,12 @@ use crate::math::root::bisection::bisect;
 /// Halvings toward a pole, and how many times greater than at the nodes the value is there.
 const HALVINGS: u32 = 40;
 const POLE: f64 = 1.0e6;
-/// How far (in halves of the window) a slide is followed to see where a value goes, and by what factor
-/// one grows that has no limit.
+/// How far (in halves of the window) a slide is followed to see where a value goes, and the factor by which
+/// a value without a limit grows.
 const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
 /// How near (in halves of the window) to an end without a fold a value is compared with one farther away:
-/// as near as there is one.
+/// as near as a value exists.
 const BESIDE_END: [f64; 4] = [1.0e-6, 1.0e-5, 1.0e-4, 1.0e-3];
 const FARTHER: f64 = 100.0;
 /// The coefficient of a pole at a dead point, relative to the greatest of any coordinate: below, it is zero
@@ -55,9 +55,9 @@ impl Curve<'_> {
         known: &Known,
     ) -> impl Iterator<Item = f64> + use<> {
         let nodes = known.nodes.iter().zip(&known.values);
-        // At a pole itself there is no value.
+        // A pole itself has no value.
         let values: Vec<(f64, ByAngle)> =
-            nodes.filter_map(|(&angle, own)| own.map(|own| (angle, own))).collect();
+            nodes.filter_map(|(&angle, jet)| jet.map(|jet| (angle, jet))).collect();
         let pairs = values.windows(2);
         let poles: Vec<f64> =
             pairs.filter_map(|pair| self.pole(window, pair[0], pair[1])).collect();
@@ -88,12 +88,12 @@ impl Curve<'_> {
         (above.abs().min(below.abs()) > POLE * size).then_some(before)
     }
 
-    /// The value where an interval ends without a fold: infinite if a joint is at infinity there, for
-    /// then it grows without end.
+    /// The value where an interval ends without a fold: infinite if a joint is at infinity there, because
+    /// then it grows without limit.
     fn at_open_end(&mut self, window: &Window, known: &mut Known, side: usize) -> Option<ValueAt> {
         let q = window.ends()[side];
         let inward = if side == 0 { window.half } else { -window.half };
-        // At the very end there is no value.
+        // The end itself has no value.
         let (part, near) =
             BESIDE_END.iter().find_map(|part| Some((part, self.value(q + inward * part)?)))?;
         let [rounding, _] = self.rounding();
@@ -155,8 +155,8 @@ impl Curve<'_> {
         for pole in (1..=window.poles(self.order)[side]).rev().step_by(2) {
             let fit = samples.fit(pole)?;
             let coefficient = fit.limit();
-            let least = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
-            if coefficient.abs() > least {
+            let bound = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
+            if coefficient.abs() > bound {
                 return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
             }
         }

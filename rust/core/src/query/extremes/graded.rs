@@ -30,7 +30,7 @@ const NEAR_ZERO: f64 = 0.1;
 struct Node {
     angle: f64,
     value: Option<ByAngle>,
-    /// How far rounding of everything else reaches, usually and at most.
+    /// Bounds of the rounding of everything else, usually and at most.
     rounding: [f64; 2],
     conditions: Vec<f64>,
 }
@@ -64,7 +64,7 @@ impl Curve<'_> {
         Node { angle, value, rounding, conditions }
     }
 
-    /// Adds what is known between two nodes.
+    /// Adds the values between two nodes.
     fn grade(&mut self, window: &Window, [a, b]: [&Node; 2], halvings: u32, known: &mut Known) {
         let middle = self.node(window, 0.5 * (a.angle + b.angle));
         let is_within = middle.angle > a.angle && middle.angle < b.angle;
@@ -84,8 +84,8 @@ impl Curve<'_> {
 fn vary(samples: [&Node; 3]) -> bool {
     let [a, middle, b] = samples.map(|node| &node.conditions);
     a.iter().zip(middle).zip(b).any(|((&a, &middle), &b)| {
-        let (least, greatest) = (a.min(middle).min(b), a.max(middle).max(b));
-        greatest > GREATEST_RATIO * least
+        let (smallest, greatest) = (a.min(middle).min(b), a.max(middle).max(b));
+        greatest > GREATEST_RATIO * smallest
     })
 }
 

@@ -13,7 +13,7 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::Evaluator;
 use crate::query::limits::finder::Interval;
 
-/// Nodes for each turn (or size), and at least.
+/// Nodes for each turn (or size), and the least number.
 const NODES: f64 = 96.0;
 /// Nearest node to a dead point, as an angle.
 const NEAR_END: f64 = 1.0e-3;
@@ -33,9 +33,9 @@ pub(super) struct Window {
     pub infinite: [bool; 2],
     /// Whether it is one period of a motion that closes.
     pub is_period: bool,
-    /// Where passive cylinders have no length and what is looked at is not smooth.
+    /// Where passive cylinders have no length and the tracked coordinate is not smooth.
     pub zero_lengths: Vec<ZeroLength>,
-    /// Distance (as an angle) from these places nearer to which no values are taken.
+    /// No values are taken nearer than this (as an angle) to these places.
     pub aside: f64,
     /// Turns of the driver, or its way in sizes.
     length: f64,
@@ -102,11 +102,11 @@ impl Window {
     pub(super) fn to_next(&self, place: f64) -> f64 {
         let ends = if self.is_period { [place; 2] } else { [0.0, PI] };
         let places = self.zero_lengths.iter().map(|zero| zero.angle).chain(ends);
-        let others = places.filter(|&other| other != place);
-        others.map(|other| self.distance(place, other)).fold(PI, f64::min)
+        let rest = places.filter(|&next| next != place);
+        rest.map(|next| self.distance(place, next)).fold(PI, f64::min)
     }
 
-    /// Angles from end to end, but none where a cylinder is too short.
+    /// Angles from end to end, without those where a cylinder is too short.
     pub(super) fn nodes(&self) -> Vec<f64> {
         let count = (NODES * self.length).max(NODES).ceil();
         let [before, behind] = self.margins();
@@ -134,7 +134,7 @@ impl Window {
         })
     }
 
-    /// The angle of a period where the motion is as at this one.
+    /// The angle within the period where the motion is the same.
     pub(super) fn in_period(&self, angle: f64) -> f64 {
         if self.is_period { angle - PI * (angle / PI).floor() } else { angle }
     }
