@@ -95,8 +95,8 @@ impl<R: Real, const G: usize> State<R, G> {
         for driver in 0..plan.drivers.len() {
             let Some(slide) = plan.driven_slide(driver) else { continue };
             for k in 1..self.len {
-                let own = derivatives.driver_of[k] == Some(driver);
-                let rate = if own { R::ONE } else { R::ZERO };
+                let is_rate = derivatives.driver_of[k] == Some(driver);
+                let rate = if is_rate { R::ONE } else { R::ZERO };
                 self.pose.slides[slide * self.len + k][..groups].fill(rate);
             }
         }
