@@ -64,29 +64,29 @@ pub(crate) fn run<T: Send>(
     catch_panic(|| run_unguarded(py, small, work))
 }
 
-/// Results of `one` for every index below `count`, computed as by [`run`].
+/// Results of `item` for every index below `count`, computed as by [`run`].
 pub(crate) fn map<T: Send>(
     py: Python<'_>,
     count: usize,
-    one: impl Fn(usize) -> T + Sync,
+    item: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
-    map_list(py, count, LONG_LIST, one)
+    map_list(py, count, LONG_LIST, item)
 }
 
 /// [`map`] for items that take about a tenth of a millisecond each.
 pub(crate) fn map_slow<T: Send>(
     py: Python<'_>,
     count: usize,
-    one: impl Fn(usize) -> T + Sync,
+    item: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
-    map_list(py, count, LONG_LIST_OF_SLOW_ITEMS, one)
+    map_list(py, count, LONG_LIST_OF_SLOW_ITEMS, item)
 }
 
 fn map_list<T: Send>(
     py: Python<'_>,
     count: usize,
     long: usize,
-    one: impl Fn(usize) -> T + Sync,
+    item: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
     let _room = reserve::room(py, count.saturating_mul(2 * size_of::<T>()))?;
     run(py, count < long, |cancel| {
@@ -95,7 +95,7 @@ fn map_list<T: Send>(
             if cancel.load(Ordering::Relaxed) {
                 break;
             }
-            results.push(one(index));
+            results.push(item(index));
         }
         results
     })

@@ -104,7 +104,8 @@ impl Machine {
             let motors = self::motors(&motors, &mut values)?;
             let body = |(link, body): &(String, Body)| body.of_link(core, link);
             let bodies = bodies.iter().map(body).collect::<PyResult<_>>()?;
-            let of_pair = |(name, own): &(String, PairFriction)| own.of_pair(core, name);
+            let of_pair =
+                |(name, pair_friction): &(String, PairFriction)| pair_friction.of_pair(core, name);
             let friction = friction.iter().map(of_pair).collect::<PyResult<_>>()?;
             let Values { tables, over, ways, functions, .. } = values;
             let machine = assur::dynamics::Machine {
@@ -193,7 +194,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        self.of_mechanism(py, |core, own| own.stations(core, &dimensions, [start, end]))
+        self.of_mechanism(py, |core, machine| machine.stations(core, &dimensions, [start, end]))
     }
 
     /// Where pairs with friction reverse between two coordinates.
@@ -204,7 +205,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        self.of_mechanism(py, |core, own| own.reversals(core, &dimensions, [start, end]))
+        self.of_mechanism(py, |core, machine| machine.reversals(core, &dimensions, [start, end]))
     }
 
     /// The first table over another coordinate that does not cover a position of a design: its ends, and
@@ -215,8 +216,9 @@ impl Machine {
         dimensions: Vec<f64>,
         q: Vec<f64>,
     ) -> PyResult<Option<(f64, f64, f64)>> {
-        let found = self.of_mechanism(py, |core, own| own.uncovered(core, &dimensions, &q))?;
-        Ok(found.map(|([from, to], at)| (from, to, at)))
+        let uncovered =
+            self.of_mechanism(py, |core, machine| machine.uncovered(core, &dimensions, &q))?;
+        Ok(uncovered.map(|([from, to], at)| (from, to, at)))
     }
 
     /// What its loads do to links, in the order of reactions: the load's index among those that are not
@@ -228,13 +230,13 @@ impl Machine {
         let linkage = core.linkage();
         let actions =
             machine.load_actions(core).into_iter().map(|LoadAction { load, link, at, .. }| {
-                let own = &linkage.links[link];
+                let acted_link = &linkage.links[link];
                 let joint = match at {
-                    Some(Point::Joint(joint)) if own.joints.contains(&joint) => Some(joint),
+                    Some(Point::Joint(joint)) if acted_link.joints.contains(&joint) => Some(joint),
                     _ => None,
                 };
                 let joint = joint.map(|joint| linkage.joints[joint].name.as_str());
-                (load, own.name.as_str(), joint, at.is_none())
+                (load, acted_link.name.as_str(), joint, at.is_none())
             });
         actions.collect()
     }
@@ -276,15 +278,15 @@ impl Machine {
         let numbers: usize = inputs.iter().map(|array| array.as_array().len()).sum();
         let _room =
             reserve::room_for(py, numbers + drivers * drivers * drivers * q.as_array().len())?;
-        let [dimensions, q, speed, given] =
+        let [dimensions, q, speed, callback_values] =
             inputs.map(|array| array.as_slice().map(<[f64]>::to_vec));
-        let (dimensions, q, speed, given) = (dimensions?, q?, speed?, given?);
+        let (dimensions, q, speed, callback_values) = (dimensions?, q?, speed?, callback_values?);
         let size = mechanism.dimensions().len();
         let designs = dimensions.len() / size;
         let divides = |all: &[f64]| designs > 0 && all.len().is_multiple_of(designs);
         let fits = dimensions.len().is_multiple_of(size)
             && q.len() == speed.len()
-            && [&q, &given].iter().all(|all| divides(all))
+            && [&q, &callback_values].iter().all(|all| divides(all))
             && (q.len() / designs.max(1)).is_multiple_of(drivers);
         if !fits {
             return Err(error_map::solve(SolveError::Shape("the arrays do not fit".into())));
@@ -294,15 +296,20 @@ impl Machine {
             all[design * share..(design + 1) * share].to_vec()
         };
         let all = detach::run(py, q.len() <= FEW_POSITIONS, |cancel| {
-            let one = |design: usize| {
-                let [q, speed, given] = [&q, &speed, &given].map(|all| part_of(all, design));
+            let reduce_design = |design: usize| {
+                let [q, speed, callback_values] =
+                    [&q, &speed, &callback_values].map(|all| part_of(all, design));
                 let values: Vec<f64> =
                     (0..size).map(|index| dimensions[index * designs + design]).collect();
-                let positions =
-                    DrivenPositions { q: &q, speed: &speed, sense: &sense, external: &given };
+                let positions = DrivenPositions {
+                    q: &q,
+                    speed: &speed,
+                    sense: &sense,
+                    external: &callback_values,
+                };
                 machine.reduce(mechanism, &values, positions, cancel)
             };
-            parallel_map(designs, 1, threads, cancel, &one)
+            parallel_map(designs, 1, threads, cancel, &reduce_design)
         })?;
         let positions = q.len() / drivers;
         let count = all.iter().map(|rows| rows.status.iter().filter(|&&s| failed(s)).count()).sum();
@@ -365,13 +372,13 @@ impl Machine {
     ) -> PyResult<equilibria::Found<'py>> {
         let range = EquilibriumRange { ends, is_turn, intervals };
         let dimensions = dimensions.as_slice()?;
-        let found = detach::run(py, false, |cancel| match &self.inner {
+        let rest = detach::run(py, false, |cancel| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 machine.equilibria(&mechanism.get().inner, dimensions, range, cancel)
             }
             Inner::Tables(tabulated) => tabulated.equilibria(range),
         })?;
-        Ok(equilibria::arrays(py, &found))
+        Ok(equilibria::arrays(py, &rest))
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate.
@@ -538,10 +545,10 @@ fn arrays<'py>(
     all: &[ReducedTable],
     failure: Option<Py<PyBaseException>>,
 ) -> Arrays<'py> {
-    let array = |of: fn(&ReducedTable) -> &[f64]| {
-        PyArray1::from_vec(py, all.iter().flat_map(|rows| of(rows).iter().copied()).collect())
+    let array = |column: fn(&ReducedTable) -> &[f64]| {
+        PyArray1::from_vec(py, all.iter().flat_map(|rows| column(rows).iter().copied()).collect())
     };
-    let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&one| one as u8));
+    let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&status| status as u8));
     (
         array(|r| &r.inertia),
         array(|r| &r.d_inertia),

@@ -96,9 +96,9 @@ impl Mechanism {
         let description = described(joints, links, slides, drivers, assembly);
         let (length, angle) = tolerance;
         let small = description.links.len() < FEW_LINKS;
-        let found =
+        let result =
             detach::run(py, small, |cancel| assur::fit(&description, length, angle, Some(cancel)))?;
-        let (fitted, change) = found.map_err(error_map::structure)?;
+        let (fitted, change) = result.map_err(error_map::structure)?;
         let places = fitted.joints.into_iter().map(|(_, [x, y])| (x, y)).collect();
         let angles = fitted.slides.into_iter().map(|slide| slide.angle).collect();
         Ok((places, angles, change.length))
@@ -149,11 +149,11 @@ impl Mechanism {
         within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
         let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
-        let found = detach::run(py, is_small(&self.inner), |cancel| {
+        let extremes = detach::run(py, is_small(&self.inner), |cancel| {
             self.inner.extremes(&dimensions, &signs, asked, within, Some(cancel))
         })?;
-        let pair = |one: assur::ValueAt| (one.value, one.q);
-        Ok(found.map_err(error_map::solve)?.map(|both| both.map(pair)))
+        let pair = |extreme: assur::ValueAt| (extreme.value, extreme.q);
+        Ok(extremes.map_err(error_map::solve)?.map(|both| both.map(pair)))
     }
 
     /// Stretches over which a coordinate is at least, or at most, at a level.
@@ -167,10 +167,10 @@ impl Mechanism {
         level: (f64, bool),
     ) -> PyResult<Vec<[f64; 2]>> {
         let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
-        let found = detach::run(py, is_small(&self.inner), |cancel| {
+        let stretches = detach::run(py, is_small(&self.inner), |cancel| {
             self.inner.stretches_beyond(&dimensions, &signs, asked, level, Some(cancel))
         })?;
-        found.map_err(error_map::solve)
+        stretches.map_err(error_map::solve)
     }
 
     /// Names of the dimensions, in order.
@@ -399,9 +399,10 @@ impl Mechanism {
     /// The outcome of one position, as a sentence.
     fn explain(&self, dimensions: Vec<f64>, q: Vec<f64>, signs: Vec<i8>) -> PyResult<String> {
         catch_panic(|| {
-            let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error_map::solve)?;
-            let one = found.first().map(ToString::to_string);
-            one.ok_or_else(|| error::input("no coordinate", None))
+            let diagnoses =
+                self.inner.diagnose(&dimensions, &q, &signs).map_err(error_map::solve)?;
+            let sentence = diagnoses.first().map(ToString::to_string);
+            sentence.ok_or_else(|| error::input("no coordinate", None))
         })
     }
 
@@ -421,8 +422,8 @@ impl Mechanism {
         let [designs, positions] = question.shape();
         let is_quick = mechanism.structure().class() <= 2 && mechanism.signs().len() < FEW_SIGNS;
         let small = is_quick && designs * positions < FEW_ASSEMBLIES;
-        let found = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
-        assemblies::Found::of_all(py, found.map_err(error_map::solve)?)
+        let answers = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
+        assemblies::Found::of_all(py, answers.map_err(error_map::solve)?)
     }
 
     /// Where an assembly of designs exists.
@@ -437,10 +438,10 @@ impl Mechanism {
         let dimensions = dimensions.as_slice()?.to_vec();
         let designs = dimensions.len() / self.inner.dimensions().len().max(1);
         let small = is_small(&self.inner) && designs < FEW_ASSEMBLIES;
-        let found = detach::run(py, small, |cancel| {
+        let result = detach::run(py, small, |cancel| {
             limits::find(&self.inner, &dimensions, &signs, threads, cancel)
         })?;
-        Ok(limits::arrays(py, &found.map_err(error_map::solve)?, self.inner.fold_names()))
+        Ok(limits::arrays(py, &result.map_err(error_map::solve)?, self.inner.fold_names()))
     }
 
     /// The mechanism drawn in an assembly of a design.

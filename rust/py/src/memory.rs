@@ -96,8 +96,8 @@ impl Memory {
             let array = kept.array.bind(py).cast::<PyArray1<T>>();
             kept.bytes == bytes && array.is_ok_and(|array| array.len() == len)
         };
-        let found = self.0.iter().position(fits).map(|index| self.0.swap_remove(index).array);
-        let array = match found {
+        let reused = self.0.iter().position(fits).map(|index| self.0.swap_remove(index).array);
+        let array = match reused {
             Some(array) => array.into_bound(py),
             None => py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?,
         };

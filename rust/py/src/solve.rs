@@ -33,8 +33,8 @@ pub(crate) struct KnownSigns(pub(crate) assur::KnownSigns);
 impl KnownSigns {
     #[new]
     fn new(designs: usize) -> PyResult<Self> {
-        let known = assur::KnownSigns::new(designs);
-        known.map(Self).map_err(|_| {
+        let signs = assur::KnownSigns::new(designs);
+        signs.map(Self).map_err(|_| {
             PyMemoryError::new_err(format!(
                 "out of memory: one byte for each of {designs} designs is needed"
             ))
@@ -115,7 +115,7 @@ impl<'py> Question<'_, 'py> {
         }
         let log = FailureLog::default();
         let failures = report.is_some().then_some(&log);
-        let known_signs = known_signs.as_ref().map(|known| &known.get().0);
+        let known_signs = known_signs.as_ref().map(|signs| &signs.get().0);
         let solved = detach::run(py, small, |cancel| {
             let cancel = Some(cancel);
             let control = Control { threads, cancel, failures, known_signs, ..Control::default() };
@@ -152,10 +152,10 @@ fn split<'a>(
     columns: &[Column],
     count: usize,
 ) -> PyResult<Vec<&'a mut [MaybeUninit<f64>]>> {
-    let [one] = arrays else {
+    let [single] = arrays else {
         return arrays.iter_mut().map(as_uninitialized).collect();
     };
-    let mut rest = as_uninitialized(one)?;
+    let mut rest = as_uninitialized(single)?;
     let mut parts = Vec::with_capacity(columns.len());
     for column in columns {
         // What is too short is refused with the sizes of all.

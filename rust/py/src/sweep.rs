@@ -29,8 +29,8 @@ pub(crate) fn measure<'py>(
     let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
     let conditions: Vec<_> = conditions.into_iter().map(condition).collect();
     let metrics =
-        metrics.iter().map(|one| metric_of(mechanism, one)).collect::<PyResult<Vec<_>>>()?;
-    let metrics: Vec<&dyn Metric> = metrics.iter().map(|one| &**one as &dyn Metric).collect();
+        metrics.iter().map(|metric| metric_of(mechanism, metric)).collect::<PyResult<Vec<_>>>()?;
+    let metrics: Vec<&dyn Metric> = metrics.iter().map(|metric| &**metric as &dyn Metric).collect();
     let sweep = Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions };
     let designs = dimensions.len() / mechanism.dimensions().len().max(1);
     let small = is_short(mechanism, designs, q.len());

@@ -27,8 +27,8 @@ pub(crate) fn sin_cos<'py>(
             sines.extend(numbers(s));
             cosines.extend(numbers(c));
         }
-        for &one in rest {
-            let (s, c) = trig::sin_cos(one);
+        for &angle in rest {
+            let (s, c) = trig::sin_cos(angle);
             sines.push(s);
             cosines.push(c);
         }
@@ -89,7 +89,7 @@ pub(crate) fn asin<'py>(py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyRes
         for group in groups {
             angles.extend(numbers(trig::asin(in_lanes(group))));
         }
-        angles.extend(rest.iter().map(|&one| trig::asin(one)));
+        angles.extend(rest.iter().map(|&sine| trig::asin(sine)));
         Ok(PyArray1::from_vec(py, angles))
     })
 }

@@ -64,8 +64,8 @@ impl Leaf<'_> {
     fn metric(self, mechanism: &Mechanism) -> PyResult<Own> {
         let name = self.of.unwrap_or_default();
         let coordinate = || -> PyResult<assur::sweep::Coordinate> {
-            let of = mechanism.coordinate(&name).map_err(error_map::solve)?;
-            Ok(assur::sweep::Coordinate::from(of).derivative(self.order))
+            let tracked = mechanism.coordinate(&name).map_err(error_map::solve)?;
+            Ok(assur::sweep::Coordinate::from(tracked).derivative(self.order))
         };
         let metric: Own = match self.kind.0 {
             Kind::Moves => Box::new(Moves),
