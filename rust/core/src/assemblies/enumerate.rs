@@ -26,8 +26,8 @@ use crate::structure::closure::point_of_joint;
 /// Where a dyad or group is flat, two assemblies nearer than this (relative to the size) are one: beside a
 /// dead point half of all digits are lost.
 const DOUBLE: f64 = 1.0e-8;
-/// How far (rad, or in sizes) Newton's iteration may lead from the end of a path. Beside a dead point
-/// that end is good to half of all digits.
+/// Greatest distance (rad, or in sizes) that Newton's iteration may lead from the end of a path. Beside a
+/// dead point that end is good to half of all digits.
 const CONFIRMED: f64 = 1.0e-5;
 
 /// Results nearer than this (rad, or relative to the size) are the same assembly, found in two ways.
@@ -143,7 +143,7 @@ impl Mechanism {
         Ok(back)
     }
 
-    /// Those of random dimensions, found once.
+    /// The fibres of random dimensions, found once.
     fn fibres(&self) -> Arc<Fibres> {
         self.number.share(
             |_: &Fibres| true,

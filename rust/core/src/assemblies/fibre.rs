@@ -18,15 +18,16 @@ const NEAR_END: f64 = 1.0 - 1.0e-9;
 /// Rounds of Newton's iteration from there: toward a multiple solution each halves the distance.
 const ROUNDS: usize = 40;
 /// The last of them, relative to the solution, if the solution is regular: rounding times its condition,
-/// which random parameters seldom make a million. At a multiple solution rounding leaves its root, 1e-8.
+/// which rarely reaches a million for random parameters. At a multiple solution rounding leaves its root,
+/// 1e-8.
 const REGULAR: f64 = 1.0e-9;
 /// A solution with a first homogeneous coordinate this small is at infinity.
 const AT_INFINITY: f64 = 1.0e-7;
 /// Solutions nearer than this (relative to their size) are the same, found in two searches; different ones
 /// are farther apart.
 const SAME: f64 = 1.0e-8;
-/// How far from those of the drawing the parameters are, in sizes: near enough for short paths, and
-/// far from dead points, which real parameters are near.
+/// Distance of the parameters from those of the drawing, in sizes: near enough for short paths, and far
+/// from the dead points that lie near real parameters.
 const AWAY: f64 = 0.3;
 /// Searches without two that agree before the group is given up.
 const TRIALS: u64 = 6;
@@ -153,7 +154,7 @@ fn agree(left: &[Vec<Vector>], right: &[Vec<Vector>]) -> bool {
         && right.iter().all(|point| left.iter().filter(|right| is_same(point, right)).count() == 1)
 }
 
-/// Whether two solutions are the same but for rounding.
+/// Whether two solutions are the same to rounding.
 pub(super) fn is_same(a: &[Vector], b: &[Vector]) -> bool {
     let difference: f64 = a.iter().zip(b).map(|(&a, &b)| (a - b).norm2()).sum();
     let size: f64 = 1.0 + a.iter().map(|a| a.norm2()).sum::<f64>();

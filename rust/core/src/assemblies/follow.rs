@@ -65,7 +65,7 @@ impl ForLevel for Follow<'_> {
         for block in self.starts.chunks(lanes) {
             let mut paths: Paths<'_, L::Register> =
                 Paths::new(self.homotopy, self.tightness, self.end);
-            // Lanes without a path of their own repeat the last one.
+            // Lanes beyond the last path repeat it.
             let start_of = |lane: usize| &block[lane.min(block.len() - 1)];
             for (i, component) in paths.point.iter_mut().enumerate() {
                 *component = Vector::new(

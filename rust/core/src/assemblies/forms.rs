@@ -1,8 +1,8 @@
 //! The closures of a group as equations between complex numbers.
 //!
 //! A rotation is T, a vector along a guide v; T′ and v′, their conjugates at a real position, are
-//! unknowns of their own. A loop is linear in X = (1, T …, v …), and its conjugate in Y = (1, T′ …,
-//! v′ …). What is left of the unknowns after the chords are eliminated are bilinear forms Xᵀ M Y = 0:
+//! separate unknowns. A loop is linear in X = (1, T …, v …), and its conjugate in Y = (1, T′ …,
+//! v′ …). After the chords are eliminated, bilinear forms Xᵀ M Y = 0 remain:
 //!
 //! ```text
 //! T T′ = 1                 a rotation

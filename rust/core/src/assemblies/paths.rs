@@ -40,7 +40,7 @@ pub(super) struct Paths<'h, R: Real> {
     tightness: Tightness,
     /// Components of x, then of y.
     pub point: Vec<Vector<R>>,
-    /// How far each has come.
+    /// The progress of each.
     pub at: R,
     /// Where paths end.
     pub end: f64,

@@ -36,11 +36,11 @@ const MOST_LOOPS: usize = 6;
 /// Seeds of the random parameters, tried until two agree on the number of assemblies.
 const SEEDS: std::ops::Range<u64> = 0x6173_7375_7221_0001..0x6173_7375_7221_0009;
 
-/// What is known of a group once for all its designs.
+/// The data of a group that serve all its designs.
 #[derive(Debug)]
 pub(super) struct GroupFibres {
     pub forms: GroupForms,
-    /// From two sets of parameters; none if the group is beyond the method.
+    /// From two sets of parameters; empty if the group is beyond the method.
     pub fibres: Vec<Fibre>,
 }
 
@@ -86,7 +86,7 @@ impl GroupFibres {
     }
 }
 
-/// How a path ended that found no solution of its own.
+/// The end of a path that did not lead to its own solution.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PathEnd {
     /// The solution goes to infinity: the group has fewer with these dimensions.
