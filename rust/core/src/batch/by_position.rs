@@ -21,7 +21,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
     }
 
-    /// Solves one position by itself.
+    /// Solves a single position.
     #[cold]
     #[inline(never)]
     pub(super) fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {

@@ -16,7 +16,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     #[inline(always)]
     pub(super) fn locate(&mut self) {
         let branch = &self.design.branch;
-        // Uniform branches with as many knots have the same for all designs.
+        // Uniform branches with the same number of knots have the same locations for all designs.
         if branch.inverse_width.is_none() || self.space.locations_width != branch.inverse_width {
             self.space.locations.clear();
         }

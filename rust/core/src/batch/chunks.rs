@@ -15,7 +15,7 @@ const CHUNK: usize = 8192;
 const CHUNK_OF_MANY_DESIGNS: usize = 65_536;
 /// With at least this many designs all threads have work even if each design is one chunk.
 const MANY_DESIGNS: usize = 64;
-/// The same with several drivers, where each position needs a branch of its own.
+/// The same with several drivers, where each position needs its own branch.
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 128;
@@ -30,7 +30,7 @@ pub(crate) struct Chunk {
 }
 
 /// The chunks still to do, with the rows to write. After an interruption the rest stays unwritten:
-/// nobody may read it, and filling it would take as long as solving.
+/// it must not be read, and filling it would take as long as solving.
 pub(crate) struct Chunks<'a> {
     rest: Arrays<'a>,
     columns: &'a [Column],

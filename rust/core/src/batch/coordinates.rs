@@ -10,7 +10,7 @@ use crate::state::state::State;
 /// Coordinates of points, with their derivatives, of which [`BLOCK`](crate::state::kernel::BLOCK)
 /// positions fit in a first-level cache.
 const MAX_NUMBERS: usize = 40;
-/// Positions of a block where there are more.
+/// Positions of a block for a request with more.
 const LARGE_BLOCK: usize = 80;
 
 /// The coordinates of a job's positions.

@@ -22,7 +22,7 @@ const TRIAL: Duration = Duration::from_micros(50);
 /// for half of them two threads take longer.
 const WORTH_THREADS: Duration = Duration::from_micros(300);
 
-/// Which positions and designs take the checked path. Results are the same with any choice; tests
+/// The positions and designs that take the checked path. Results are the same with any choice; tests
 /// compare the paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Checks {
@@ -56,7 +56,7 @@ pub struct Control<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Highest level of vector instructions to use.
     pub simd: Simd,
-    /// Which positions take the checked path.
+    /// The positions that take the checked path.
     pub checks: Checks,
     /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,

@@ -122,7 +122,7 @@ pub fn fill(
     dispatch::at_level(control.simd, Fill { batch: &batch, chunks })
 }
 
-/// What all chunks of a batch share.
+/// The data that all chunks of a batch share.
 struct Batch<'b> {
     mechanism: &'b Mechanism,
     request: &'b Request<'b>,
