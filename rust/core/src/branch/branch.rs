@@ -309,7 +309,7 @@ impl Branch {
         self.sign_intervals.len() == 1
     }
 
-    /// The change point (of the first period) within `reach` of a parameter, if there is one, and
+    /// The change point (of the first period) within `reach` of a parameter, if any, and
     /// the distance from it.
     pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(ChangePoint, f64)> {
         if self.changes.is_empty() {

@@ -38,7 +38,8 @@ impl BranchTracer<'_, '_> {
                 continue;
             }
             let Some((at, certain)) = locate(tracer, (step, dyad), a.at, b.at) else { continue };
-            // Rounding may put it on the wrong side of the first knot, where the search would find it for ever.
+            // Rounding may put it on the wrong side of the first knot, where the search would find it for
+            // ever.
             let smallest = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
             let at = if (at - a.at) * tracer.direction > 0.0 {
                 at

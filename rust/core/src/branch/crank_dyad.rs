@@ -24,7 +24,7 @@ pub(crate) struct CrankDyad {
     pub(crate) pivot: usize,
     /// The dyad's fixed point; the crank's pin is its other one.
     pub(crate) ground: usize,
-    /// The guide's edge, if there is one, and whether it leads to the dyad's fixed point.
+    /// The guide's edge, if any, and whether it leads to the dyad's fixed point.
     guide: Option<(usize, bool)>,
 }
 
@@ -68,7 +68,7 @@ impl CrankDyad {
         })
     }
 
-    /// The direction of the guide, if there is one, and its distance from the crank's pivot, positive to
+    /// The direction of the guide, if any, and its distance from the crank's pivot, positive to
     /// the left of it.
     pub(crate) fn line(&self, constants: &DesignConstants) -> Option<(Vector, f64)> {
         let (edge, backward) = self.guide?;
@@ -159,7 +159,7 @@ fn fixed_guide(plan: &Plan, dyad: &Dyad) -> Option<usize> {
     (still && term.slides == Some(1) && term.turns.is_none()).then_some(term.edge)
 }
 
-/// Where the lengths of a dyad of two links on a crank and the ground stand in the list of dimensions: whether
+/// Indices of the lengths of a dyad of two links on a crank and the ground in the list of dimensions: whether
 /// it misses a position follows from these alone. Most designs of a random design space do not go through a
 /// turn and do not need other constants.
 #[derive(Debug, Clone, Copy)]
@@ -217,7 +217,7 @@ mod tests {
     use crate::state::status::Status;
     use crate::{Coordinates, Description, FourBar, FourBarMode, Outputs, Request};
 
-    /// A slider-crank whose guide starts at a joint of its own, 30° from horizontal, `offset` beside
+    /// A slider-crank whose guide starts at its own joint, 30° from horizontal, `offset` beside
     /// it.
     fn engine(rod: f64) -> Mechanism {
         let (sin, cos) = (0.5, 0.75_f64.sqrt());

@@ -1,4 +1,4 @@
-//! Knots of a branch: what is stored at them, and how each is predicted from the one before.
+//! Knots of a branch: the stored data, and the prediction of each from the one before.
 
 use std::f64::consts::TAU;
 

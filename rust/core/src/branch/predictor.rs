@@ -25,7 +25,7 @@ impl Branch {
         wrong_side.not()
     }
 
-    /// The groups' unknowns at a parameter, traced anew from the knot before: for cells whose
+    /// The groups' unknowns at a parameter, traced again from the knot before: for cells whose
     /// polynomial is too rough.
     #[cold]
     pub(crate) fn retrace(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Option<Vec<f64>> {

@@ -24,7 +24,7 @@ use crate::state::status::{Fault, Status};
 const MAX_KNOTS: usize = 100_000;
 /// Part of a cell by which a knot is moved off a flat dyad.
 const NUDGE: f64 = 0.0625;
-/// Number of such moves: change points of several dyads are seldom so close together.
+/// Number of such moves: change points of several dyads are rarely so close together.
 const MAX_NUDGES: u32 = 4;
 /// Nearest distance (rad, or units of the scale) to a change point at which rates are more than
 /// rounding: their error is 64 u κ², with κ about 1/distance.
@@ -391,7 +391,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     }
 
     /// Unwraps the angles of a knot at the very edge of the gap between it and the knot before.
-    /// With several drivers every position has a branch and knots of its own: an angle that differs
+    /// With several drivers every position has its own branch and knots: an angle that differs
     /// by about half a turn across a gap would otherwise be unwrapped to either side. With one, knots
     /// in lanes would decide otherwise.
     fn unwrap_across_gap(&mut self, from: &Knot, mut knot: Knot) -> Knot {

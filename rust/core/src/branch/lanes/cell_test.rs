@@ -1,6 +1,6 @@
-//! What may happen between two knots, judged from samples of the dyads at both.
+//! Tests of the cell between two knots, from samples of the dyads at both.
 //!
-//! Signs change at change points only, and a generic design has none: between two knots the
+//! Signs change only at change points, and a generic design has none: between two knots the
 //! discriminant of every dyad stays away from zero. A cell needs a closer scan if a discriminant may
 //! vanish in it, or if a gap may begin or end there.
 

@@ -5,7 +5,7 @@ use super::grid::KNOTS;
 use crate::math::angle::unwrap_to;
 use crate::math::tolerance::KNOT_MAX_TURN;
 
-/// Most ends searched for together; a turn seldom has more.
+/// Most ends searched for together; a turn rarely has more.
 pub(super) const MAX_ENDS: usize = 8;
 /// A position on either side of each.
 pub(super) const POSITIONS: usize = 2 * MAX_ENDS;
@@ -20,7 +20,7 @@ const MARGIN: f64 = 0.25;
 /// Steps of Newton's method on the polynomial between two knots.
 const STEPS: usize = 4;
 
-/// What a scan shows about the ends of gaps.
+/// The data of a scan on the ends of gaps.
 #[derive(Clone, Copy)]
 pub(in crate::branch) struct ScanView<'l> {
     /// The first knot, and the width of a cell.

@@ -40,15 +40,15 @@ pub(in crate::branch) struct AngleAtEnd {
     /// At the position that can be reached, and at the one beyond.
     pub inside: f64,
     pub beyond: f64,
-    /// How far the one beyond may be from the angle at the very end.
+    /// Greatest distance of the one beyond from the angle at the end itself.
     pub slack: f64,
 }
 
-/// How far (rad) an angle may turn on the way to a position beyond the end of a gap and back.
+/// Greatest turn (rad) of an angle on the way to a position beyond the end of a gap and back.
 pub(in crate::branch) const TIE_AT_ENDS: f64 = 0.0078125;
 /// Distance from half a turn (rad) at which rounding might decide which way an angle steps across a gap.
 pub(in crate::branch) const TIE: f64 = TIE_AT_ENDS / 32.0;
-/// Error of an angle extrapolated to the end, as a part of how far it turned between both positions.
+/// Error of an angle extrapolated to the end, as a part of its turn between both positions.
 const EXTRAPOLATED: f64 = 0.0625;
 
 impl GapEnds {

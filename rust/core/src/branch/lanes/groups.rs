@@ -81,7 +81,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             for group in 0..registers {
                 let here = taylor.map(|knots| knots[group]);
                 let next = taylor.map(|knots| one_on(knots, group, registers));
-                // The last knot has no next one.
+                // No knot follows the last one.
                 let with_next = (grid.count - 1 - group * R::LANES).min(R::LANES);
                 let failed =
                     prediction_failed(&here, &next, grid.cell).bits() & ((1 << with_next) - 1);

@@ -118,7 +118,7 @@ impl Scan {
         true
     }
 
-    /// What the scan shows about the ends of gaps.
+    /// The data of the scan on the ends of gaps.
     pub(in crate::branch) fn view(&self) -> ScanView<'_> {
         ScanView {
             from: self.from,
@@ -150,8 +150,8 @@ impl Scan {
         }
     }
 
-    /// The knot at the end of the cells from [`Self::next`] on that do not need a closer scan and lie within or
-    /// outside the reachable range.
+    /// The knot at the end of the cells from [`Self::next`] on that do not need a closer scan and lie
+    /// within or outside the reachable range.
     pub(in crate::branch) fn end_of_quiet_cells(&self, with_islands: bool) -> usize {
         if self.next >= self.count {
             return self.next;

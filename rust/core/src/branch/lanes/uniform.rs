@@ -226,7 +226,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
-    /// Traces with the angles of `classes`; of all others checks that they turn slowly if `with_others`.
+    /// Traces with the angles of `classes`; with `with_others`, checks that all other angles turn slowly.
     #[inline(always)]
     fn trace_classes(
         &mut self,
@@ -382,7 +382,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         Some(range)
     }
 
-    /// Whether the links of all classes but these turn slowly between the knots of a register and those
+    /// Whether the links of all other classes turn slowly between the knots of a register and those
     /// before. Groups are predicted with all of them.
     #[inline(always)]
     fn others_turn_slowly(&self, group: usize, classes: &[usize]) -> bool {
