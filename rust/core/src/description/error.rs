@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
-/// What a name of a description stands for.
+/// The kind of object that a name of a description denotes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
     /// A joint.
@@ -48,9 +48,9 @@ impl fmt::Display for Item {
     }
 }
 
-/// What to do about an error.
+/// Advice on an error.
 pub trait Hint: fmt::Display {
-    /// Advice, if there is something to do.
+    /// Advice, if any.
     fn hint(&self) -> Option<String>;
 
     /// The message followed by the advice.

@@ -12,7 +12,7 @@ use crate::math::trig::{atan2, sin_cos};
 /// A distance from a guide below this many roundings counts as 0.
 const ROUNDINGS: f64 = 4.0;
 
-/// What sets the direction of the x axis of a link's frame.
+/// The object that sets the direction of the x axis of a link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// The axes of the drawing (the ground).
@@ -42,7 +42,7 @@ fn principal(angle: f64) -> f64 {
 }
 
 impl Linkage {
-    /// What sets the direction of the x axis of the link's frame.
+    /// The object that sets the direction of the x axis of the link's frame.
     #[must_use]
     pub fn axis(&self, link: usize) -> Axis {
         if link == self.ground {
