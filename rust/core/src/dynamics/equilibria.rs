@@ -201,7 +201,7 @@ impl EquilibriumRange {
         nodes
     }
 
-    /// How far beyond its ends rest still counts.
+    /// Distance beyond its ends within which rest still counts.
     fn slack(&self) -> f64 {
         let [low, high] = self.ends;
         if self.is_turn {

@@ -10,7 +10,7 @@ use super::measure::{Measure, Over};
 use super::tables::table::Cell;
 use super::value::Numbers;
 
-/// What loads follow: curves over coordinates, and coordinates whose direction counts.
+/// The objects that loads follow: curves over coordinates, and coordinates whose direction counts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Followed<'m> {
     pub over: &'m [Over],

@@ -22,7 +22,7 @@ pub enum Load {
         axes: Option<usize>,
         /// The link at a joint that takes it; `None`: the first one there.
         on: Option<usize>,
-        /// The direction in which it acts, if it does not in both.
+        /// The direction in which it acts, unless it acts in both.
         one_way: Option<OneWay>,
     },
     /// A pressure in the cylinder of a slide: a force along the guide on the sliding link at its
@@ -36,7 +36,7 @@ pub enum Load {
         pressure: Value,
         /// Pressure on the other side, Pa.
         ambient: f64,
-        /// The direction in which it acts, if it does not in both.
+        /// The direction in which it acts, unless it acts in both.
         one_way: Option<OneWay>,
     },
     /// A torque on a link; its reaction acts on another link (or the frame).
@@ -47,7 +47,7 @@ pub enum Load {
         on: usize,
         /// N·m, counter-clockwise on the link.
         torque: Value,
-        /// The direction in which it acts, if it does not in both.
+        /// The direction in which it acts, unless it acts in both.
         one_way: Option<OneWay>,
     },
     /// A spring between two points; pulls them together when longer than its free length.
@@ -101,7 +101,7 @@ pub(super) fn direction_and_length(pose: &SolvedPose<'_>, ends: [Point; 2]) -> (
 }
 
 impl Load {
-    /// The direction in which it acts, if it does not in both.
+    /// The direction in which it acts, unless it acts in both.
     /// The values that it reads.
     fn values(&self) -> &[Value] {
         match self {

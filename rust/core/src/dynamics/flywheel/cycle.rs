@@ -9,7 +9,7 @@ use crate::dynamics::tables::passes::is_cancelled;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, fit_sections};
 use crate::math::polynomial::{roots, value};
 
-/// How far the inertia's curve may fall below zero between rows that do not, relative to the
+/// Greatest fall of the inertia's curve below zero between rows that are not negative, relative to the
 /// greatest inertia: tables have three or four digits, and a spline overshoots beside rows of zero.
 /// With the flywheel added the inertia must still be positive.
 const UNDERSHOOT_RTOL: f64 = 1.0e-3;

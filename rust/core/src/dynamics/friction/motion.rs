@@ -2,7 +2,7 @@
 //! friction follow.
 //!
 //! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D₁ α + D₂ τ, equals the
-//! motor's, so α and each pair's reaction are linear in the friction τ. What remains is the law of friction
+//! motor's, so α and each pair's reaction are linear in the friction τ. Then the law of friction applies
 //! as for a given motion.
 //!
 //! D₁ is the effort of the inertia forces at α = 1 alone, without loads and speeds: a difference of two
@@ -24,7 +24,7 @@ use crate::plan::mechanism::Mechanism;
 /// The drive of a machine at one state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drive {
-    /// What motors give, N·m or N.
+    /// Effort of the motors, N·m or N.
     pub effort: f64,
     /// Inertia of their rotors and of a flywheel.
     pub inertia: f64,

@@ -16,9 +16,10 @@ const SHORTEST: f64 = 1.0e-9;
 /// Most steps of the whole path, rejected ones included; a kink takes some 60. Where forces are so great that
 /// the law drowns in their rounding, the path would otherwise go on in the shortest steps.
 const MOST_STEPS: usize = 10_000;
-/// How far a step may be from a sum of parts of both tangents, in parts of the longer one.
+/// Greatest distance of a step from a combination of both tangents, relative to the longer one.
 const MOST_CORRECTION: f64 = 0.1;
-/// How far the tangent may turn over a step, in parts of it, unless the step is this part of the friction.
+/// Greatest turn of the tangent over a step, relative to the step, unless the step is this part of the
+/// friction.
 const MOST_TURN: f64 = 0.5;
 const SHORT: f64 = 1.0e-3;
 
@@ -44,7 +45,7 @@ impl FrictionProblem<'_> {
             if change <= smallest.max(LAST_STEP * size) {
                 return Some(friction);
             }
-            // Near locking, rounding keeps steps from becoming shorter; the law is met none the less.
+            // Near locking, rounding keeps steps from becoming shorter; the law is still met.
             if change >= last && change <= STALLED * size {
                 let missed = self.residual(&friction, scale).amax();
                 return (missed <= LAST_STEP * (size + self.size())).then_some(friction);
@@ -74,7 +75,7 @@ impl FrictionProblem<'_> {
     }
 
     /// Follows the solution from no friction while all coefficients grow to `goal` times their values.
-    /// Returns how far the path leads, and the solution there.
+    /// Returns the end of the path, and the solution there.
     pub(super) fn follow(&self, goal: f64) -> (f64, Vec<f64>) {
         let mut friction = vec![0.0; self.pairs.len()];
         let (mut at, mut step) = (0.0, FIRST);

@@ -11,7 +11,7 @@ use crate::dynamics::reactions::pair_forces::JointForce;
 pub(crate) struct FrictionPair {
     pub kind: PairKind,
     pub law: Law,
-    /// The law of what is about to move.
+    /// The law of a pair that is about to move.
     pub static_law: Law,
     pub viscous: f64,
 }

@@ -94,11 +94,11 @@ pub(crate) struct SlidingPair {
     pub law: Law,
     /// +1 or −1.
     pub sense: f64,
-    /// How fast it slides, rad/s or m/s: 0 or more.
+    /// Speed of sliding, rad/s or m/s: 0 or more.
     pub rate: f64,
     /// Its reaction without friction.
     pub base: [f64; 2],
-    /// What the friction of every pair adds to that, per unit.
+    /// The part of the reaction from the friction of every pair, per unit.
     pub slopes: Vec<[f64; 2]>,
 }
 
@@ -195,7 +195,8 @@ impl FrictionProblem<'_> {
         self.pairs.iter().map(|pair| pair.law.size(pair.base)).fold(0.0, f64::max)
     }
 
-    /// Whether there is exactly one solution because friction changes the friction by less than itself.
+    /// Whether the solution is certainly unique, because a change of the friction changes it by less than
+    /// itself.
     ///
     /// With B ≥ 0 the bounds of those changes the law is a contraction in a weighted norm if B has a
     /// spectral radius below 1, which it has if (I − B) y = 1 has a positive solution y (A. Berman and

@@ -1,4 +1,4 @@
-//! The pairs that rest while others move: how much of a computed relative speed is rounding.
+//! The pairs that rest while others move: the rounding of a computed relative speed.
 
 use super::workspace::FrictionWorkspace;
 use crate::dynamics::reactions::force_plan::{ForceEdge, ForcePlan};
@@ -17,9 +17,9 @@ pub(crate) const RATE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
 impl<R: Real> FrictionWorkspace<R> {
     /// A bound of the rounding in the relative speed of the pair in which a unit of friction acts.
     ///
-    /// The power of that unit is the relative speed. By virtual power it equals that of the forces that balance
-    /// it: to first order, an error of a closed path's velocities counts times the force that closes the path.
-    /// These forces grow with the condition of every group on which the pair depends.
+    /// The power of that unit is the relative speed. By virtual power it equals that of the forces that
+    /// balance it: to first order, an error of a closed path's velocities counts times the force that
+    /// closes the path. These forces grow with the condition of every group on which the pair depends.
     #[inline(always)]
     pub(crate) fn rate_rounding(&self, scene: &Scene<R>) -> R {
         let mut power = R::ZERO;

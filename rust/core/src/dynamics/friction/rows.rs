@@ -1,4 +1,4 @@
-//! Friction at some positions: how fast pairs slide, and what friction does to all reactions.
+//! Friction at some positions: the speeds of the pairs, and the effect of friction on all reactions.
 
 use std::sync::atomic::AtomicBool;
 
@@ -23,7 +23,7 @@ const UNDETERMINED: f64 = -2.0;
 
 /// The friction in one lane.
 struct LaneFriction {
-    /// Of every pair.
+    /// Dry friction of every pair.
     dry: Vec<f64>,
     solutions: f64,
     safety: f64,
@@ -191,8 +191,8 @@ impl<R: Real> FrictionWorkspace<R> {
         }
     }
 
-    /// Finds the reactions of all pairs to a unit of friction in each, and the speed that rounding may give the
-    /// pair; replaces the loads. `each` sees the scene of one pair after another.
+    /// Finds the reactions of all pairs to a unit of friction in each, and the speed that rounding may
+    /// give the pair; replaces the loads. `each` sees the scene of one pair after another.
     #[inline(always)]
     pub(crate) fn respond(
         &mut self,

@@ -7,8 +7,8 @@ use super::quadrics::{MAX_UNKNOWNS, Quadrics};
 
 /// Most paths that are followed for one block of pairs, as a power of 2: half a second.
 pub(super) const MAX_PATHS: usize = 12;
-/// The greatest imaginary part of a real solution, relative to its size: a double solution is known only to the
-/// root of rounding.
+/// The greatest imaginary part of a real solution, relative to its size: a double solution is known only
+/// to the root of rounding.
 const IMAGINARY: f64 = 1.0e-4;
 /// Greatest distance of a solution from the end of its path, and of two results that are the same solution.
 const NEAR: f64 = 1.0e-3;

@@ -1,4 +1,4 @@
-//! How much computation friction may need at a position.
+//! Upper bound of the computation that friction may need at a position.
 
 use super::solutions::MAX_PATHS;
 use crate::dynamics::machine::Machine;

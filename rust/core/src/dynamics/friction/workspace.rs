@@ -4,7 +4,7 @@
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
-/// How fast pairs with friction slide, how their reactions depend on it, and the friction found.
+/// The speeds of pairs with friction, the dependence of their reactions on it, and the friction found.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct FrictionWorkspace<R: Real> {
     /// Whether the static law holds; `None`: where all drivers rest.

@@ -110,7 +110,7 @@ struct React<'b, 'r> {
     chunks: Chunks<'r>,
 }
 
-/// What one thread works with.
+/// The working data of one thread.
 struct ThreadState<'b, R: Real, const G: usize> {
     worker: Worker<'b, R, G>,
     designs: Designs,

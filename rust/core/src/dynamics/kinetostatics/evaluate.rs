@@ -25,7 +25,7 @@ use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
-/// What all chunks of a batch share.
+/// The data that all chunks of a batch share.
 pub(super) struct ReactionBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub machine: &'b Machine,
@@ -147,7 +147,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         scalar(sum)
     }
 
-    /// Force of a guide on what slides there.
+    /// Force of a guide on the sliding link.
     #[inline(always)]
     fn normal(&self, slide: usize) -> R {
         self.scene.normal(self.batch.plan, slide)
@@ -261,7 +261,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         }
     }
 
-    /// Sets to NaN what a self-stress changes: it cannot be known.
+    /// Sets reactions to NaN that a self-stress changes: they are undetermined.
     #[inline(always)]
     fn drop_stressed(&mut self, first: usize, lanes: usize) {
         let size = self.size;
@@ -321,7 +321,7 @@ fn scalar<R: Real>(value: R) -> Vector<R> {
     Vector::new(value, R::ZERO)
 }
 
-/// What a pair adds to a sum over pairs.
+/// The contribution of a pair to a sum over pairs.
 enum Share {
     /// Its friction, with this sign.
     Friction(f64),

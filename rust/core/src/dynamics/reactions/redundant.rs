@@ -73,7 +73,7 @@ impl<R: Real> Scene<R> {
                 return;
             }
         };
-        // The edge's link takes the force at its end, and what is there the opposite.
+        // The edge's link takes the force at its end, and the part there takes the opposite.
         self.point_load[plan.edges[edge].to] += -force;
         self.point_load[plan.edges[edge].from] += force;
         self.load_edge(plan, edge, force);

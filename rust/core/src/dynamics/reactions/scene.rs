@@ -12,7 +12,7 @@ pub(crate) struct Moving<T> {
     pub acceleration: T,
 }
 
-/// Work space: kinematics, loads, and what the pairs transmit.
+/// Work space: kinematics, loads, and the forces in pairs.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene<R: Real> {
     /// Speeds and accelerations of the drivers.
@@ -29,7 +29,7 @@ pub(crate) struct Scene<R: Real> {
     /// Loads and inertia forces on every link, and their moments about its reference point.
     pub link_force: Vec<Vector<R>>,
     pub link_moment: Vec<R>,
-    /// Force of every load on the first link on which it acts; of a load that turns, its couple as x.
+    /// Force of every load on the first link on which it acts; for a couple, its moment as x.
     pub loads: Vec<Vector<R>>,
     /// Inertia forces of all bodies, and their moment about the origin.
     pub shaking_force: Vector<R>,
@@ -83,7 +83,7 @@ impl<R: Real> Scene<R> {
         }
     }
 
-    /// Force of a guide on what slides there.
+    /// Force of a guide on the sliding link.
     #[inline(always)]
     pub(crate) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
         let Some(edge) = plan.guide_edges[slide] else { return R::ZERO };

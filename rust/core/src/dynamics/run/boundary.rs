@@ -22,8 +22,8 @@ const NEAR_ENOUGH: f64 = 0.9999;
 const NEAR_PART: f64 = 1.0e-3;
 /// Steps over a distance of less than this many tolerances are narrow.
 const CREEPS: f64 = 16.0;
-/// A step toward a position that friction locks leaves this part of the distance; the distance is known to half
-/// of that part.
+/// A step toward a position that friction locks leaves this part of the distance; the distance is known
+/// to half of that part.
 const LOCK_LEAVES: f64 = 0.02;
 /// Most halvings of that distance: nearer to the lock the step itself is halved.
 const LOCK_HALVINGS: u32 = 20;
@@ -77,9 +77,9 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         Some(0.0)
     }
 
-    /// Whether friction locks the machine within the tolerance of its coordinate, checked where a step moves it
-    /// by little more than that. The acceleration grows without bound there, and the last steps would be
-    /// rounding.
+    /// Whether friction locks the machine within the tolerance of its coordinate, checked where a step
+    /// moves it by little more than that. The acceleration grows without bound there, and the last steps
+    /// would be rounding.
     fn is_about_to_lock(&mut self, x: f64, y: &[f64], h: f64) -> Result<bool, RunError<O::Error>> {
         let is_in_time = self.along == Variable::Time;
         let within = self.tolerance;
@@ -103,8 +103,8 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         }
     }
 
-    /// Bisects the distance to a lock along the motion with the rates of this state; `most`: the distance to the
-    /// rejected step. The motion itself is not singular there.
+    /// Bisects the distance to a lock along the motion with the rates of this state; `most`: the distance
+    /// to the rejected step. The motion itself is not singular there.
     fn aim_at_lock(
         &mut self,
         x: f64,

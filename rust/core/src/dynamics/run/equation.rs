@@ -279,8 +279,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         })
     }
 
-    /// Turns to the sense of a motion that may begin at a coordinate, which may be a station. A table that ends
-    /// there ends the motion later.
+    /// Turns to the sense of a motion that may begin at a coordinate, which may be a station. A table
+    /// that ends there ends the motion later.
     pub(crate) fn turn_to(&mut self, q: f64, sense: f64) {
         self.sense = sense;
         let [low, high] = [self.cursor.low, self.cursor.high];
@@ -313,7 +313,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             || self.cursor.look_up(self.tables, q).is_ok()
     }
 
-    /// What failed at the last position that was rejected.
+    /// The failure at the last position that was rejected.
     pub(crate) fn failure(&self) -> Option<Failure> {
         let (rejection, q) = self.rejected.as_ref()?;
         self.model.failure(*rejection, q)

@@ -61,8 +61,8 @@ pub(crate) trait ReducedModel {
         None
     }
 
-    /// Whether loads of a machine with one driver follow other coordinates, or pairs with friction reverse: then
-    /// the motion is smooth between stations.
+    /// Whether loads of a machine with one driver follow other coordinates, or pairs with friction
+    /// reverse: then the motion is smooth between stations.
     fn has_stations(&self) -> bool {
         false
     }
@@ -80,8 +80,8 @@ pub(crate) trait ReducedModel {
         Vec::new()
     }
 
-    /// Fixes pieces, directions and senses at a coordinate until the next station. Returns whether the coordinate
-    /// is reachable.
+    /// Fixes pieces, directions and senses at a coordinate until the next station. Returns whether the
+    /// coordinate is reachable.
     ///
     /// # Errors
     ///
@@ -122,7 +122,7 @@ pub(crate) trait ReducedModel {
     /// The coordinate of the dead point ahead of a single driver, if it is near.
     fn dead_point_ahead(&mut self, q: f64, direction: f64) -> Option<f64>;
 
-    /// The near miss of a change point beside a single driver's coordinate, if there is one.
+    /// The near miss of a change point beside a single driver's coordinate, if any.
     fn near_miss(&mut self, q: f64) -> Option<NearMiss>;
 
     /// Whether a dead point is within this part of a radian (or of the size).
@@ -161,8 +161,7 @@ const DEAD_POINT_WITHIN: f64 = 1.0e3;
 const MAX_HALVINGS: u32 = 80;
 
 impl<'m> MechanismModel<'m> {
-    /// How far a dead point may be from here, in the coordinate's unit; at most `most` times that
-    /// unit.
+    /// Greatest distance of a dead point from here, in the coordinate's unit; at most `most` times that unit.
     fn reach(&self, driver: usize, most: f64) -> f64 {
         let (_, condition) = self.evaluator.worst_condition();
         (DEAD_POINT_WITHIN / (condition * condition)).min(most) * self.evaluator.unit(driver)

@@ -37,7 +37,7 @@ pub enum EventKind {
 /// An event to look for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventSpec {
-    /// What to look for.
+    /// The condition of the event.
     pub kind: EventKind,
     /// Direction of the crossing.
     pub crossing: Crossing,

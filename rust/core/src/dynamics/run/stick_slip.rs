@@ -11,7 +11,7 @@ use crate::ode::system::Fault;
 /// How a machine with friction moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Phase {
-    /// It has no friction, nor loads that depend on the sense of the motion.
+    /// It has neither friction nor loads that depend on the sense of the motion.
     Smooth,
     /// It slides in this sense, +1 or −1.
     Slip(f64),
@@ -109,8 +109,7 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         }
     }
 
-    /// The phase that follows one, at rest after a slip, or as friction no longer holds; and what has
-    /// happened.
+    /// The phase that follows another, at rest after a slip, or as friction no longer holds; and the change.
     pub(crate) fn next_phase(
         &mut self,
         before: Phase,

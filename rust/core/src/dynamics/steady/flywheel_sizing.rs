@@ -14,7 +14,7 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::root::illinois;
 use crate::plan::mechanism::Mechanism;
 
-/// Relative accuracy of the flywheel: the motions themselves are no more accurate.
+/// Relative accuracy of the flywheel: the motions themselves are not more accurate.
 const FLYWHEEL_RTOL: f64 = 1.0e-12;
 /// The greatest possible fluctuation, reached when the least speed is zero.
 const MAX_FLUCTUATION: f64 = 2.0;

@@ -218,7 +218,7 @@ impl Table {
         [a + x * (b + x * (c + x * d)), b + x * (2.0 * c + x * (3.0 * d))]
     }
 
-    /// About how many knots an interval of this length has.
+    /// Approximate number of knots in an interval of this length.
     pub(crate) fn knots_in(&self, length: f64) -> f64 {
         let knots = self.knots.len() as f64;
         if self.periodic { knots * (1.0 + length / self.width()) } else { knots }
