@@ -130,7 +130,7 @@ mod tests {
         }
     }
 
-    /// Whatever the rounding errors, and whichever of both is the greater.
+    /// For any rounding errors, whichever of both is the greater.
     #[test]
     fn half_a_turn_is_clockwise() {
         for near in [0.0, 1.0, -40.0] {

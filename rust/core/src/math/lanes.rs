@@ -132,7 +132,7 @@ pub trait Real:
             out[lane] = MaybeUninit::new(self.lane(lane));
         }
     }
-    /// The same past the caches, if the slice is aligned for that. Nobody may read or overwrite these
+    /// The same past the caches, if the slice is aligned for that. Code must not read or overwrite these
     /// numbers before [`fence`](Self::fence).
     #[inline(always)]
     fn stream(self, out: &mut [MaybeUninit<f64>]) {

@@ -1,7 +1,7 @@
 //! The thresholds that decide what is returned, each with its reason. Thresholds of a single search
 //! stand beside that search.
 //!
-//! All but the limits of lengths are pure numbers: they are compared with lengths divided by the
+//! All except the limits of lengths are pure numbers: they are compared with lengths divided by the
 //! size of the mechanism, or with sines of angles.
 
 /// Unit roundoff u of binary64 as used in the error bounds (the spacing at 1).
@@ -15,7 +15,7 @@ pub const GREATEST_LENGTH: f64 = 1.0e153;
 pub const LEAST_LENGTH: f64 = 1.0e-153;
 
 /// Two joints coincide when their distance is below this fraction of their coordinates: it is then
-/// nothing but the rounding of the coordinates.
+/// only the rounding of the coordinates.
 pub const ZERO_LENGTH: f64 = 4.0 * UNIT_ROUNDOFF;
 
 /// Two guides of a drawing are parallel when their sine is below this (angles carry a few u).
@@ -78,7 +78,7 @@ pub const NEAR_SINGULAR_CONDITION: f64 = 8388.608;
 
 /// Condition from which a dyad cannot be distinguished from a flat one. 1/κ is the square root of a
 /// difference of rounded lengths, so beyond 1/(4 √u) = 2^24 it holds no correct digit. (The
-/// condition upstream of the dyad may be greater, but it seldom acts across the flat dyad: chains
+/// condition upstream of the dyad may be greater, but it rarely acts across the flat dyad: chains
 /// of parallelograms pass their change points without loss.)
 pub const SINGULAR_CONDITION: f64 = 16_777_216.0;
 

@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 use super::lanes::Real;
 use super::trig;
 
-/// A vector, or a unit vector that stands for an orientation. With [`super::pair::Lanes`] as `R`,
+/// A vector, or a unit vector that represents an orientation. With [`super::pair::Lanes`] as `R`,
 /// eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vector<R = f64> {

@@ -1,6 +1,6 @@
 //! Double roots by successive parabolic interpolation.
 
-/// Finds a point near `m` where a function is not positive, if there is one between `a` and `c`.
+/// Finds a point near `m` where a function is not positive, if any, between `a` and `c`.
 /// The function is positive at all three and least at `m`, so it may have two roots around its
 /// minimum, which is searched by parabolas through three points (P. Jarratt, An iterative method
 /// for locating turning points, Computer J. 10 (1967); R. P. Brent, Algorithms for Minimization
