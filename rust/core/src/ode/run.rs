@@ -194,7 +194,7 @@ impl<'a, S: System> Run<'a, S> {
     }
 
     /// Integrates a smooth interval. Returns `Next::Step` if nothing ends it before `to`. With
-    /// `reset_signs`, the signs of the event functions are taken anew at its start.
+    /// `reset_signs`, the signs of the event functions are taken again at its start.
     fn smooth_interval(&mut self, to: f64, reset_signs: bool) -> Result<Next, Error<S::Error>> {
         let Integrator { n, stages, tracker, y, new, .. } = &mut *self.integrator;
         let flat = &y.as_flattened()[..*n];

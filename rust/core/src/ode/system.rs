@@ -16,7 +16,7 @@ impl<E> From<E> for Fault<E> {
     }
 }
 
-/// What to do after an event. Among simultaneous events, the action last in this list wins.
+/// The action after an event. Among simultaneous events, the action last in this list wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Action {
     /// Record the event and go on. Neither the state nor the right-hand side may have changed.
@@ -27,7 +27,7 @@ pub enum Action {
     Stop,
 }
 
-/// Which sign changes of an event function g are events.
+/// The sign changes of an event function g that are events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
     /// From g < 0 to g ≥ 0, in the direction of the run. A start at zero is not an event.
