@@ -96,7 +96,7 @@ pub fn transmission_extremes([l1, l2, l3, l4]: Lengths) -> Option<[f64; 2]> {
 }
 
 /// Intervals of the crank angle in which the transmission angle is below `gamma_min`: around 0 (γ₂₃
-/// near π; its start is negative) and around π (γ₂₃ near 0). Empty if there are none.
+/// near π; its start is negative) and around π (γ₂₃ near 0). Empty without such intervals.
 ///
 /// From S² = l₁² + l₄² + 2 l₁ l₄ cos φ₁ at γ₂₃ = π − `gamma_min` and at γ₂₃ = `gamma_min`.
 #[must_use]
