@@ -1,4 +1,4 @@
-//! Compiles the tape of a plan for what a request needs.
+//! Compiles the tape of a plan for the needs of a request.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::plan::{EdgeSlide, Plan, Step};
 use super::tape::{CrankPin, DyadOp, Op, PlaceKind, PlaceOp, Tape};
 
-/// What a request needs.
+/// The needs of a request.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Needs<'a> {
     pub points: &'a [bool],

@@ -159,7 +159,7 @@ fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usi
         if grown {
             continue;
         }
-        // A component without a known point grows from any point of its own.
+        // A component without a known point grows from any of its points.
         let Some(&edge) = inside.iter().find(|&&e| !seen[plan.edges[e].edge.from]) else { break };
         seen[plan.edges[edge].edge.from] = true;
     }

@@ -51,7 +51,7 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// The same mechanism, solved by the general formulas alone: for derivatives of higher orders, and to
+    /// The same mechanism, solved only by the general formulas: for derivatives of higher orders, and to
     /// compare kernels with them.
     #[doc(hidden)]
     #[must_use]

@@ -69,7 +69,7 @@ impl PartialEq for PlanNumber {
 mod tests {
     use super::*;
 
-    /// A type of its own, because other tests keep work spaces at the same time.
+    /// A separate type, because other tests keep work spaces at the same time.
     #[derive(Debug, PartialEq)]
     struct Space(usize);
 
