@@ -23,7 +23,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`StructureError`]: what keeps the description from being a mechanism with as many drivers
+    /// [`StructureError`]: the reason why the description is not a mechanism with as many drivers
     /// as freedoms and a definite assembly.
     pub fn new(description: &Description) -> Result<Self, StructureError> {
         Self::new_unless(description, None)

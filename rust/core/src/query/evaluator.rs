@@ -1,4 +1,4 @@
-//! One design, one position after another: what a motion in time needs.
+//! One design, one position after another, for a motion in time.
 
 use std::borrow::Cow;
 use std::sync::atomic::AtomicBool;
@@ -157,7 +157,7 @@ impl<'m> Evaluator<'m> {
         self.design.constants.scale
     }
 
-    /// How far a slide may go, m.
+    /// Greatest distance that a slide may go, m.
     pub(crate) fn reach(&self) -> f64 {
         self.design.reach() * self.design.constants.scale
     }
@@ -251,7 +251,7 @@ impl<'m> Evaluator<'m> {
         miss.is_finite().then(|| NearMiss { dyad: name.clone(), miss, q: at })
     }
 
-    /// How far the sides of a dyad's triangle at a coordinate are from those of a flat one,
+    /// Difference between the sides of a dyad's triangle at a coordinate and those of a flat one,
     /// relative to the size; negative if it does not close.
     fn excess_to_flat(&mut self, dyad: &Dyad, at: f64) -> f64 {
         let solved = self.solve(&[at]).is_ok();

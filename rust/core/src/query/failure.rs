@@ -27,7 +27,7 @@ pub struct Failure {
     pub status: Status,
     /// Coordinates of the drivers, rad or m.
     pub q: Vec<f64>,
-    /// What failed there.
+    /// The reason.
     pub reason: Reason,
 }
 
@@ -52,7 +52,7 @@ impl fmt::Display for GroupName {
     }
 }
 
-/// What failed at a position; it begins with the verb or the subject after "at q = …".
+/// The reason of a failed position; it begins with the verb or the subject after "at q = …".
 #[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "snake_case")]
 #[non_exhaustive]

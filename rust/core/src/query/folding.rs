@@ -1,4 +1,4 @@
-//! What folds at an end of a branch.
+//! The dyad, group or length that folds at an end of a branch.
 
 use crate::branch::design::Design;
 use crate::plan::plan::{Plan, Step};
@@ -9,7 +9,7 @@ use crate::state::state::{Context, State};
 const BEFORE_FOLD: [f64; 2] = [1.0e-5, 1.0e-7];
 
 /// The step of the plan that ends the branch at a coordinate (scaled): of all dyads, groups and lengths
-/// the one whose own condition grows the most toward it, whatever the order of the steps.
+/// the one whose own condition grows the most toward it, for any order of the steps.
 pub(crate) fn folding_step(design: &Design<'_>, state: &mut State, end: f64) -> Option<usize> {
     let [q0] = design.q0[..] else { return None };
     let [far, near] = BEFORE_FOLD.map(|part| {

@@ -16,7 +16,7 @@ const MARGIN: f64 = 2.0;
 /// so near to the place the motion hardly changes.
 const NEAREST: usize = 2;
 
-/// What makes the motion singular at a place.
+/// The cause of a singular motion at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Singularity {
     /// A dead point, or a joint at infinity: derivatives of some coordinates are infinite.
@@ -31,7 +31,7 @@ pub(super) struct Side {
     pub place: f64,
     /// 1 toward greater angles, −1 toward smaller ones.
     pub way: f64,
-    /// How far nodes may be from it.
+    /// Greatest distance of nodes from it.
     pub most: f64,
     pub singularity: Singularity,
 }
@@ -127,7 +127,7 @@ impl Samples {
             };
             series.into_iter().zip(&self.sets).enumerate().map(fit)
         };
-        // What does not take part in a fold is a function of the square, the distance itself.
+        // A coordinate that does not take part in a fold is a function of the square, the distance itself.
         let even = if pole == 0 { through(true) } else { Vec::new() };
         fits(general).chain(fits(even)).min_by(|a, b| a.error.total_cmp(&b.error))
     }

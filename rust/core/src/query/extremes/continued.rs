@@ -10,7 +10,7 @@ use super::window::Window;
 const NODES: [f64; 3] = [0.004, 0.008, 0.012];
 const FACTORS: [f64; 13] =
     [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
-/// Places between the nearest nodes (in multiples of these) that show how far rounding reaches.
+/// Places between the nearest nodes (in multiples of these) that show the size of rounding.
 const BETWEEN: [f64; 6] = [0.005, 0.006, 0.007, 0.009, 0.010, 0.011];
 impl Curve<'_> {
     /// The derivative with its first two derivatives by the window's angle: as computed, or from the
@@ -29,8 +29,8 @@ impl Curve<'_> {
         Some(better.unwrap_or(computed))
     }
 
-    /// The limit on one side of a place where a coordinate is smooth. Beside it values from now on come
-    /// from the polynomial where that has more digits.
+    /// The limit on one side of a place where a coordinate is smooth. Later values beside it come from the
+    /// polynomial where that has more digits.
     pub(super) fn limit(
         &mut self,
         window: &Window,

@@ -106,7 +106,7 @@ impl Curve<'_> {
         roots
     }
 
-    /// The natural size of the derivative, or of its own by the angle.
+    /// The natural size of the derivative, or of its derivative by the angle.
     fn unit(&self, window: &Window, entry: usize) -> f64 {
         self.own_unit(self.order + entry) * if entry == 0 { 1.0 } else { window.half }
     }
@@ -179,7 +179,7 @@ impl Curve<'_> {
             self.roots(window, &known, (0, poles), |jet| [condition(jet[0]), slope * jet[1]]);
         // Where the value steps, or goes through infinity, it may pass the level without a root.
         let steps = window.zero_lengths.iter().map(|zero| zero.angle).chain(roots.jumps);
-        // Not so near to an end of the window that there are no values between.
+        // Not so near to an end of the window that no value lies between.
         let steps = steps.filter(|at| (window.aside..=PI - window.aside).contains(at));
         let inner = roots.isolated.iter().map(|root| root.at).chain(steps);
         let mut ends: Vec<f64> = inner.collect();

@@ -9,26 +9,26 @@ use super::tracked::{Tracked, ValueAt};
 use super::window::Window;
 use crate::math::root::bisection::bisect;
 
-/// Halvings toward a pole, and how many times greater than at the nodes the value is there.
+/// Halvings toward a pole, and the ratio of the value there to those at the nodes.
 const HALVINGS: u32 = 40;
 const POLE: f64 = 1.0e6;
-/// How far (in halves of the window) a slide is followed to see where a value goes, and the factor by which
-/// a value without a limit grows.
+/// Distance (in halves of the window) over which a slide is followed to see where a value goes, and the factor
+/// by which a value without a limit grows.
 const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
-/// How near (in halves of the window) to an end without a fold a value is compared with one farther away:
-/// as near as a value exists.
+/// Distances (in halves of the window) from an end without a fold at which a value is compared with one
+/// farther away: as near as a value exists.
 const BESIDE_END: [f64; 4] = [1.0e-6, 1.0e-5, 1.0e-4, 1.0e-3];
 const FARTHER: f64 = 100.0;
 /// The coefficient of a pole at a dead point, relative to the greatest of any coordinate: below, it is zero
-/// but for the rounding of the dead point's own place, where directions are off by the root of u.
+/// except for the rounding of the dead point's own place, where directions are off by the root of u.
 const LEAST_POLE: f64 = 1.0e-7;
-/// How many times the error of that coefficient it exceeds: errors are estimates.
+/// The coefficient must exceed its error by this factor: errors are estimates.
 const CLEAR: f64 = 4.0;
 
 impl Curve<'_> {
-    /// Values at the ends, and beside places where a cylinder has no length; from now on they continue
-    /// beside those as far as their digits are lost.
+    /// Values at the ends, and beside places where a cylinder has no length. Later values beside these come
+    /// from the polynomials as far as digits are lost.
     pub(super) fn settle(&mut self, window: &Window, known: &mut Known) -> Vec<ValueAt> {
         self.beside.clear();
         let mut values = self.at_zero_lengths(window, known);

@@ -15,7 +15,7 @@ use super::window::Window;
 
 /// The greatest ratio of a condition's values in a cell.
 const GREATEST_RATIO: f64 = 2.0;
-/// How far the value in the middle of a cell may be from the cubic through its ends, as a part of the
+/// Greatest distance of the value in the middle of a cell from the cubic through its ends, as a part of the
 /// greatest of the three. Conditions of groups are those of several motions, and may hide a sharp one.
 const GREATEST_BEND: f64 = 0.1;
 /// Halvings of a cell for that, beside a sharp motion: in smaller cells conditions show it.
@@ -23,10 +23,10 @@ const BEND_HALVINGS: u32 = 3;
 /// Halvings of a cell: 1e-9 of a turn. Nearer to a place where a joint is at infinity, or a length is 0,
 /// conditions grow without end.
 const MAX_HALVINGS: u32 = 24;
-/// How near (as an angle) to a length of 0 the condition is weighted by the distance.
+/// Distance (as an angle) from a length of 0 within which the condition is weighted by the distance.
 const NEAR_ZERO: f64 = 0.1;
 
-/// A sample of the curve, with the conditions of what it is made of.
+/// A sample of the curve, with the conditions of its dyads and groups.
 struct Node {
     angle: f64,
     value: Option<ByAngle>,

@@ -25,11 +25,11 @@ const NEAR_OPEN_END: f64 = 1.0e-4;
 pub(super) struct Window {
     pub middle: f64,
     pub half: f64,
-    /// Which ends are dead points.
+    /// Whether each end is a dead point.
     pub folds: [bool; 2],
     /// The slides whose values are lengths, and 0 at the ends.
     pub cuts: [Option<usize>; 2],
-    /// Which ends are infinite: of a slide that nothing stops.
+    /// Whether each end is infinite, for a slide that nothing stops.
     pub infinite: [bool; 2],
     /// Whether it is one period of a motion that closes.
     pub is_period: bool,
@@ -98,7 +98,7 @@ impl Window {
         if self.is_period { distance.min((PI - distance).abs()) } else { distance }
     }
 
-    /// How far (as an angle) it is from a place to the next where the motion is not smooth.
+    /// Distance (as an angle) from a place to the next where the motion is not smooth.
     pub(super) fn to_next(&self, place: f64) -> f64 {
         let ends = if self.is_period { [place; 2] } else { [0.0, PI] };
         let places = self.zero_lengths.iter().map(|zero| zero.angle).chain(ends);
@@ -124,7 +124,7 @@ impl Window {
         nodes
     }
 
-    /// How far (as an angle) the first and last node are from the ends.
+    /// Distance (as an angle) of the first and last node from the ends.
     fn margins(&self) -> [f64; 2] {
         [0, 1].map(|side| match (self.has_folds(), self.is_open(side)) {
             (true, false) => NEAR_END,

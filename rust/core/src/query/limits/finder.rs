@@ -19,7 +19,7 @@ use crate::query::folding::{fold_of, folding_step, solve};
 const OFF: f64 = 0.123_456_7;
 /// Beside this coordinate (in sizes) of a driven length the branch of a group ends at length 0.
 const AT_ZERO: f64 = 1.0e-6;
-/// How often, and by what factor, the range of a slide is widened where nothing ends it.
+/// Number of widenings of the range of a slide that nothing ends, and their factor.
 const WIDENINGS: usize = 3;
 const WIDENING: f64 = 8.0;
 
@@ -28,7 +28,8 @@ const WIDENING: f64 = 8.0;
 pub struct Limits {
     /// Intervals of the coordinate, rad or m: without groups above class II all within a turn of the
     /// driver (or the period of its motion), each with its middle within half a turn of the drawing's
-    /// coordinate, so that the one of the drawing contains that coordinate without a shift; else only that one.
+    /// coordinate, so that the one of the drawing contains that coordinate without a shift; else only
+    /// that one.
     pub intervals: Vec<Interval>,
     /// Turns after which the motion closes; `None` if it does not, or the driver is a slide.
     pub period: Option<u32>,

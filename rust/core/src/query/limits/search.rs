@@ -22,7 +22,7 @@ const NOISE: f64 = 1.0e-14;
 const NEAR_END_ULPS: f64 = 8.0;
 /// The same as an angle, at most: of a stretch of a few u.
 const FARTHEST_NODE: f64 = 0.01;
-/// How far (rad, or units of the scale) a change point and the ends of a part beside it may be apart.
+/// Greatest distance (rad, or units of the scale) between a change point and the ends of a part beside it.
 const BESIDE: f64 = 1.0e-9;
 /// Where a part is examined, from 0 to 1: change points are often in its middle.
 pub(super) const WITHIN: [f64; 3] = [0.3, 0.5, 0.8];
@@ -173,7 +173,7 @@ impl<'d> Search<'d, '_> {
         Some(Sampled { value: jet[0][0], rate: jet[1][0], noise: NOISE * condition2.sqrt() })
     }
 
-    /// The square of a dyad's discriminant, and its derivative; of two guides the sine of the angle
+    /// The square of a dyad's discriminant, and its derivative; for two guides the sine of the angle
     /// between them.
     fn sample(&mut self, q: f64, within: Stretch, dyad: &Dyad, step: usize) -> Option<Sampled> {
         let sampled = self.value(q, dyad, step)?;

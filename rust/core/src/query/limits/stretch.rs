@@ -28,7 +28,7 @@ impl Stretch {
         (self.ends[0] < self.ends[1]).then_some(self)
     }
 
-    /// What it has in common with another.
+    /// The intersection with another, moved by `shift`.
     fn intersection(&self, other: &Self, shift: f64) -> Option<Self> {
         let moved = other.ends.map(|end| end + shift);
         let later = moved[0] > self.ends[0];
@@ -45,7 +45,7 @@ impl Stretch {
     }
 }
 
-/// What two lists of stretches of an angle have in common.
+/// The intersection of two lists of stretches of an angle.
 pub(crate) fn intersections(first: &[Stretch], second: &[Stretch]) -> Vec<Stretch> {
     let mut common = Vec::new();
     for a in first {
