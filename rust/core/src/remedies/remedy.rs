@@ -37,7 +37,7 @@ pub struct Remedy {
     pub kind: RemedyKind,
     /// The joints, links and slides concerned.
     pub names: Vec<String>,
-    /// What to do: "Let F slide on the ground".
+    /// The instruction: "Let F slide on the ground".
     pub text: String,
     /// The effect on the rest: "brace stays, its foot follows".
     pub detail: String,
