@@ -21,7 +21,7 @@ pub(crate) const BLOCK: usize = 144;
 pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
-    /// How many registers the longer kernels without checks take at once.
+    /// Number of registers that the longer kernels without checks take at once.
     type Stride: Stride<Self::Register>;
     /// See [`State::run`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);

@@ -1,4 +1,4 @@
-//! Condition of each dyad and group on its own, and by how much the lengths of a dyad miss a change
+//! Condition of each dyad and group on its own, and the amount by which the lengths of a dyad miss a change
 //! point.
 //!
 //! The condition of a position is a product along a chain. It is large everywhere in a long chain,
@@ -68,8 +68,7 @@ impl State {
         points.chain(carried).fold(1.0, f64::max)
     }
 
-    /// By how much the sides of a dyad's triangle differ from those of a flat one, in units of the
-    /// scale.
+    /// Difference between the sides of a dyad's triangle and those of a flat one, in units of the scale.
     pub(crate) fn flatness_gap(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let a = self.leg_vector(0, cx, dyad, 0, 0);
         match dyad.form {

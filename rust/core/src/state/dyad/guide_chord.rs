@@ -46,7 +46,7 @@ impl<'a, R: Real, const G: usize> GuideChord<'a, R, G> {
         Self { chord, offset: dyad.offset, into, arm: into * arm, frame }
     }
 
-    /// What [`GuideChord::at`] needs for positions from register `g` on.
+    /// The data that [`GuideChord::at`] needs for positions from register `g` on.
     #[inline(always)]
     pub(super) fn turning<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> TurningPart<W> {
         let at_pin = ENDS == FROM_PIN || ENDS == TO_PIN;

@@ -13,7 +13,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn moving_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes seldom take the checked path: one copy for all orders is enough.
+            // Lanes rarely take the checked path: one copy for all orders is enough.
             self.moving_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });

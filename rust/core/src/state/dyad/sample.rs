@@ -1,4 +1,4 @@
-//! Sample of a dyad at a knot of a branch: how far it is from flat, and how fast that changes.
+//! Sample of a dyad at a knot of a branch: its distance from flat, and the rate of that.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;

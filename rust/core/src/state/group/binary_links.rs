@@ -119,7 +119,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Analogues of order `K` of the unknowns, of the wanted bars and of the arms.
+    /// Analogues of order `K` of the unknowns, of the needed bars and of the arms.
     #[inline(always)]
     fn binary_analogues<const K: usize, const N: usize>(
         &mut self,
@@ -153,7 +153,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 }
 
-/// What the analogues of a group of `N` loops are of.
+/// The parts of a group of `N` loops whose analogues are computed.
 struct Analogues<'b, const N: usize> {
     binary: &'b BinaryLoops,
     loops: &'b [Loop; N],
@@ -299,7 +299,7 @@ impl<R: Real, const N: usize> Jets<R, N> {
         }
     }
 
-    /// Analogues of order `K` of the unknowns and of the wanted bars. Every order has the same matrix;
+    /// Analogues of order `K` of the unknowns and of the needed bars. Every order has the same matrix;
     /// the right-hand side follows from lower orders.
     #[inline(always)]
     fn find<const K: usize>(

@@ -58,7 +58,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.work.matrix = matrix;
     }
 
-    /// Keeps in register `g` what the iteration of a group leaves in its register `register`.
+    /// Keeps in register `g` the results of the iteration of a group in its register `register`.
     #[inline(always)]
     pub(super) fn record_iteration<const H: usize>(
         &mut self,
@@ -74,7 +74,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.work.later_steps[g] = self.work.later_steps[g].max(newton.later_steps[register]);
     }
 
-    /// Sets what is constant during the iteration.
+    /// Sets the constants of the iteration.
     #[inline(always)]
     fn prepare_group(&mut self, cx: &Context<'_>, group: &Group) {
         for (i, l) in group.loops.iter().enumerate() {
