@@ -98,7 +98,7 @@ impl LeftOut {
     }
 }
 
-/// Points and edges of the whole linkage, including what may be left out.
+/// Points and edges of the whole linkage, including those that may be left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Closure {
     /// Number of points.

@@ -64,8 +64,8 @@ impl Weights {
         }))
     }
 
-    /// Lowers the weights of coordinates that changed too much: the smallest change of all together may be large
-    /// in one of them.
+    /// Lowers the weights of coordinates that changed too much: the smallest change of all together may
+    /// be large in one of them.
     pub(super) fn stiffen(&mut self, linkage: &Linkage, changed: &Linkage, allowed: Tolerance) {
         let joints = linkage.joints.iter().zip(&changed.joints);
         let lengths = joints.flat_map(|(a, b)| [0, 1].map(|k| (a.at[k] - b.at[k]).abs()));

@@ -10,7 +10,7 @@ use crate::description::{Driver, Linkage};
 /// Leaves out links (last listed first), then slides, until no equation depends on others.
 /// Leaving them out must not change the mobility.
 ///
-/// Returns what it left out and how many dependent equations remain.
+/// Returns the parts left out and the number of dependent equations that remain.
 ///
 /// # Errors
 ///
