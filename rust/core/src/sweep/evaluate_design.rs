@@ -48,7 +48,7 @@ impl Probes {
     }
 }
 
-/// What all chunks of a batch share.
+/// The data that all chunks of a batch share.
 pub(super) struct SweepBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub sweep: &'b Sweep<'b>,

@@ -27,7 +27,7 @@ impl Metric for Span {
     }
 }
 
-/// Which extreme.
+/// The kind of an extreme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extreme {
     /// The least value of a coordinate.

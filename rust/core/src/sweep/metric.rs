@@ -36,9 +36,9 @@ pub struct Positions<'a> {
     /// The quantities that the metric [needs](Metric::needs), in that order: position after position, x and y
     /// for a point.
     pub values: &'a [&'a [f64]],
-    /// Whether the quantities that the metric needs are the same at the end of the turn as at its start, so that
-    /// the first position follows the last: after a change point, and in higher classes, this may take two
-    /// turns. Known only to metrics that [ask](Metric::asks_return).
+    /// Whether the quantities that the metric needs are the same at the end of the turn as at its start,
+    /// so that the first position follows the last: after a change point, and in higher classes, this may
+    /// take two turns. Known only to metrics that [ask](Metric::asks_return).
     pub returns: bool,
     /// See [`Self::is_cancelled`].
     pub(super) cancel: Option<&'a AtomicBool>,
@@ -71,7 +71,7 @@ pub enum Growth {
 }
 
 impl Growth {
-    /// That of the negative.
+    /// The growth of the negative.
     #[must_use]
     pub fn reversed(self) -> Self {
         match self {
@@ -127,7 +127,7 @@ pub trait Metric: Sync {
         f64::NAN
     }
 
-    /// Whether it asks if the motion [returns](Positions::returns): two more positions are solved.
+    /// Whether it needs to know if the motion [returns](Positions::returns): two more positions are solved.
     fn asks_return(&self) -> bool {
         false
     }
