@@ -9,7 +9,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::detach;
 use crate::parallel_map::parallel_map;
 
-/// Positions that pay for another thread.
+/// Positions for which another thread pays.
 const MIN_PER_THREAD: usize = 16;
 
 /// An assembly: signs, angles of classes, values of slides, coordinates of joints.
@@ -24,7 +24,7 @@ pub(crate) struct AssemblyNumbers {
     pub(crate) is_double: bool,
 }
 
-/// The assemblies of a position; numbers of complex ones; paths that found none.
+/// The assemblies of a position; numbers of complex ones; paths that did not lead to an assembly.
 #[derive(IntoPyObject)]
 pub(crate) struct Found<'py> {
     assemblies: Bound<'py, PyList>,
@@ -100,7 +100,7 @@ impl Question<'_> {
         [designs, positions]
     }
 
-    /// Answers it; stops once `cancel` is true.
+    /// Finds them; stops once `cancel` is true.
     pub(crate) fn answer(
         &self,
         threads: Option<usize>,

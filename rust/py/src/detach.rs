@@ -101,7 +101,7 @@ fn map_list<T: Send>(
     })
 }
 
-/// A list of Python; a signal that comes while it is made is raised.
+/// A list of Python; raises a signal that arrives while the list is made.
 pub(crate) fn listed<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
     items: impl IntoIterator<Item = T>,
@@ -114,7 +114,7 @@ pub(crate) fn listed<'py, T: IntoPyObject<'py>>(
     Ok(list)
 }
 
-/// Raises a signal that has come, at one object in many.
+/// Raises a signal that has arrived, checked at one object in many.
 pub(crate) fn check_signals(py: Python<'_>, objects: usize) -> PyResult<()> {
     if objects.is_multiple_of(OBJECTS_PER_CHECK) { py.check_signals() } else { Ok(()) }
 }
@@ -131,7 +131,7 @@ fn run_unguarded<T: Send>(
     call.end().map(|()| result)
 }
 
-/// Runs `work` in a thread of its own, so that the calling thread can check for signals.
+/// Runs `work` in a separate thread, so that the calling thread can check for signals.
 fn in_a_thread<T: Send>(
     py: Python<'_>,
     cancel: &AtomicBool,

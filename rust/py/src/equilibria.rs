@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::error_map;
 
 /// Coordinates, whether stable, stiffnesses, frequencies; ends of indifferent intervals; jumps;
-/// whether the search was cut short, or found no moment; the exception of a range without positions.
+/// whether the search was cut short, and whether no position has a moment; the exception of a range without
+/// positions.
 pub(crate) type Found<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<bool>>,

@@ -341,7 +341,7 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
     exception(class, Some(error.into()), &message, hint.as_deref(), &Fields { design, ..fields })
 }
 
-/// A series of the slider-crank that gives no number.
+/// A series of the slider-crank without a value.
 pub(crate) fn series(error: SeriesError) -> PyErr {
     let SeriesError::DoesNotEnd { k } = error;
     let fields = Fields { value: Some(k), ..Fields::default() };

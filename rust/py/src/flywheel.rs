@@ -18,12 +18,12 @@ type Outcome = Result<Flywheel, TableError>;
 
 /// Tables per thread; up to this number one thread does all.
 const TABLES_PER_THREAD: usize = 64;
-/// Rows of all tables up to which they take some ten milliseconds: too short for a signal.
+/// Rows of all tables up to which the work takes some ten milliseconds: too short for a signal.
 const FEW_ROWS: usize = 32_768;
-/// Numbers of a spline and of what is made of it, for each of its table.
+/// Numbers of a spline and of the data computed from it, per number of its table.
 const SPLINES: usize = 8;
 
-/// What to solve for each table.
+/// The task for each table.
 #[derive(Clone, Copy)]
 enum Task {
     /// The flywheel for a fluctuation at a mean speed.
@@ -181,7 +181,7 @@ impl Flywheels {
         })
     }
 
-    /// Why a table has no flywheel.
+    /// The error of a table without a flywheel.
     fn problem(&self, index: usize) -> Option<String> {
         self.0.get(index)?.as_ref().err().map(Hint::with_hint)
     }

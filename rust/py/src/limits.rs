@@ -11,8 +11,8 @@ use crate::parallel_map::parallel_map;
 /// Designs of a chunk, which share work space.
 const CHUNK: usize = 256;
 
-/// Limits of all designs: intervals (designs × count × 2, NaN where there are fewer), what folds at
-/// their ends (−1: nothing), and turns until the motion closes (NaN: it does not).
+/// Limits of all designs: intervals (designs × count × 2, filled with NaN), the parts that fold at their ends
+/// (−1: none), and turns until the motion closes (NaN: it does not).
 #[derive(IntoPyObject)]
 pub(crate) struct FoundLimits<'py> {
     count: usize,

@@ -185,8 +185,8 @@ impl Machine {
         }
     }
 
-    /// Where such loads are not smooth between two coordinates: a coordinate is at a knot of a table
-    /// over it, or turns back.
+    /// The places between two coordinates where such loads are not smooth: a coordinate is at a knot of a
+    /// table over it, or turns back.
     fn stations(
         &self,
         py: Python<'_>,
@@ -221,8 +221,8 @@ impl Machine {
         Ok(uncovered.map(|([from, to], at)| (from, to, at)))
     }
 
-    /// What its loads do to links, in the order of reactions: the load's index among those that are not
-    /// gravity, the link, the joint of the link where it acts, if it does, and whether with a couple.
+    /// The actions of its loads on links, in the order of reactions: the load's index among those that are not
+    /// gravity, the link, the joint of the link where it acts, if any, and whether it acts with a couple.
     #[getter]
     fn load_actions(&self) -> Vec<(usize, &str, Option<&str>, bool)> {
         let Inner::Mechanism(mechanism, machine) = &self.inner else { return Vec::new() };
@@ -322,10 +322,9 @@ impl Machine {
         Ok(arrays(py, &all, failure))
     }
 
-    /// Reactions of designs at positions, `reactions` those that are asked for; the other arguments
-    /// are those of `reduce`. `squares`: only the greatest and the mean square of each design are; then
-    /// the `rows` are the designs, else designs × positions. `sense`: of the drivers at rest, and
-    /// `solution`: see `ReactionRequest`.
+    /// The requested `reactions` of designs at positions; the other arguments are those of `reduce`.
+    /// `squares`: only the greatest and the mean square of each design; then the `rows` are the designs, else
+    /// designs × positions. `sense` (of the drivers at rest) and `solution`: see `ReactionRequest`.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reactions<'py>(
         &self,
@@ -485,7 +484,7 @@ impl Machine {
 }
 
 impl Machine {
-    /// Short work on the mechanism and its loads, without the GIL; nothing of a machine of tables.
+    /// Short work on the mechanism and its loads, without the GIL; empty for a machine of tables.
     fn of_mechanism<T: Default + Send>(
         &self,
         py: Python<'_>,
@@ -509,7 +508,7 @@ impl Machine {
     }
 
     /// Runs work that may call the Python functions of the machine and of events. With such functions
-    /// it holds the GIL throughout. Raises what a signal handler raised meanwhile.
+    /// it holds the GIL throughout. Raises the exception of a signal handler, if any.
     fn with_callbacks<T: Send>(
         &self,
         py: Python<'_>,

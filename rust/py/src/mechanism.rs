@@ -104,7 +104,7 @@ impl Mechanism {
         Ok((places, angles, change.length))
     }
 
-    /// The same of a drawing that need not show the assembly.
+    /// Compiles a drawing that need not show the assembly.
     #[staticmethod]
     fn for_pose(
         joints: Vec<(String, f64, f64)>,
@@ -136,8 +136,8 @@ impl Mechanism {
     }
 
     /// Least and greatest value of a coordinate (a joint's with its component, a link's, a slide's)
-    /// or of a derivative of it, each with its place, over all intervals or the one that holds `within`;
-    /// none if the assembly does not exist there.
+    /// or of a derivative of it, each with its place, over all intervals or the one that contains `within`;
+    /// `None` if the assembly does not exist there.
     #[pyo3(signature = (dimensions, signs, coordinate, order, within=None))]
     fn extremes(
         &self,
@@ -198,7 +198,7 @@ impl Mechanism {
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
-    /// Those among them whose sign is +1 always, because a length is never negative.
+    /// The pairs among them whose sign is always +1, because a length is never negative.
     #[getter]
     fn lengths(&self) -> Vec<String> {
         self.inner.lengths().into_iter().map(Into::into).collect()
@@ -275,8 +275,8 @@ impl Mechanism {
         catch_panic(|| self.inner.coordinate(name).map(drop).map_err(error_map::solve))
     }
 
-    /// The link that takes a load at a joint, and whether another could as well: several links have the
-    /// joint, and none of them is the only block. Raises `InputError` if the name is unknown.
+    /// The link that takes a load at a joint, and whether another link could take it too: several links
+    /// have the joint, and a single block is not among them. Raises `InputError` if the name is unknown.
     fn taker(&self, joint: &str) -> PyResult<(String, bool)> {
         catch_panic(|| {
             let (linkage, joint) = (self.inner.linkage(), self.inner.joint(joint));
@@ -347,7 +347,7 @@ impl Mechanism {
         sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)
     }
 
-    /// Why a metric has no meaning at coordinates, if so.
+    /// The reason why a metric has no meaning at coordinates, if any.
     fn refusal_of_metric(
         &self,
         q: PyReadonlyArray1<'_, f64>,
@@ -426,7 +426,7 @@ impl Mechanism {
         assemblies::Found::of_all(py, answers.map_err(error_map::solve)?)
     }
 
-    /// Where an assembly of designs exists.
+    /// The intervals where an assembly of designs exists.
     fn limits<'py>(
         &self,
         py: Python<'py>,

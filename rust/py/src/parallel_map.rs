@@ -29,7 +29,7 @@ pub(crate) fn parallel_map<T: Send>(
     thread::scope(|scope| {
         let start = |first: usize| {
             let worker = thread::Builder::new().spawn_scoped(scope, move || run_share(first));
-            // Where the system has no further thread, this one does the share.
+            // Where the system refuses another thread, this one does the share.
             worker.map_err(|_| run_share(first))
         };
         let workers: Vec<_> = (0..count).step_by(share).map(start).collect();

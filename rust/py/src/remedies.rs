@@ -1,4 +1,4 @@
-//! Remedies of a description that is refused.
+//! Remedies for a refused description.
 
 use assur::DriverDescription;
 use pyo3::prelude::*;
@@ -18,7 +18,7 @@ pub(crate) struct RemedyFields {
     joints: Vec<(String, f64, f64)>,
     links: Vec<(String, Vec<String>)>,
     slides: Vec<(String, Slide)>,
-    /// Each a link or slide, or a link and the one it is measured from.
+    /// Each a link or slide, or a link and the link from which it is measured.
     drivers: Vec<(String, Option<String>)>,
     assembly: Vec<(String, i64)>,
 }
@@ -44,7 +44,7 @@ impl From<assur::Remedy> for RemedyFields {
     }
 }
 
-/// Edits after which a description that is refused is a mechanism.
+/// Edits after which a refused description is a mechanism.
 #[pyfunction]
 pub(crate) fn remedies(
     py: Python<'_>,

@@ -42,7 +42,7 @@ impl KnownSigns {
     }
 }
 
-/// What is to be solved; see `assur.Mechanism.solve`. `outputs`: indices of joints, links (angles), links
+/// A request to solve; see `assur.Mechanism.solve`. `outputs`: indices of joints, links (angles), links
 /// (reference points) and slides. `by`: the dimension to differentiate by. `known_signs`: valid for these
 /// dimensions and signs.
 pub(crate) struct Question<'q, 'py> {
@@ -146,7 +146,7 @@ impl<'py> Question<'_, 'py> {
     }
 }
 
-/// The columns in arrays of their own, or one after another in one array.
+/// The columns in separate arrays, or one after another in one array.
 fn split<'a>(
     arrays: &'a mut [PyReadwriteArray1<'_, f64>],
     columns: &[Column],
@@ -158,7 +158,7 @@ fn split<'a>(
     let mut rest = as_uninitialized(single)?;
     let mut parts = Vec::with_capacity(columns.len());
     for column in columns {
-        // What is too short is refused with the sizes of all.
+        // An array that is too short is refused later, with the sizes of all.
         let (part, left) = rest.split_at_mut((count * column.width).min(rest.len()));
         parts.push(part);
         rest = left;

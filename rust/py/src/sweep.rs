@@ -12,7 +12,7 @@ use crate::convert::word::Word;
 use crate::short_calls::is_short;
 use crate::{detach, error_map, reserve};
 
-/// Values of each metric, statuses, and which designs are kept.
+/// Values of each metric, statuses, and the designs that are kept.
 pub(crate) type Found<'py> =
     (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<bool>>);
 

@@ -46,7 +46,7 @@ pub(crate) fn atan2<'py>(
     angles(py, [&y, &x], trig::atan2, trig::atan2)
 }
 
-/// The same of points at a distance of 1.
+/// Angles of points at a distance of 1.
 #[pyfunction]
 pub(crate) fn unit_angle<'py>(
     py: Python<'py>,

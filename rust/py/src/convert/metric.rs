@@ -1,4 +1,4 @@
-//! Metrics and conditions of sweeps: what `assur.metric` makes, with the names of a mechanism.
+//! Metrics and conditions of sweeps: the objects of `assur.metric`, with the names of a mechanism.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ const MODULE: Classes = Classes("assur.sweeps.terms");
 
 type Own = Box<dyn Metric + Send>;
 
-/// What is measured.
+/// The measured quantity.
 #[derive(Clone, Copy)]
 enum Kind {
     Moves,

@@ -11,7 +11,7 @@ use crate::error;
 
 /// An enum with a word for each variant.
 pub(crate) trait Words: Copy + 'static {
-    /// What the word chooses, for the message.
+    /// The choice that the word makes, for the message.
     const WHAT: &'static str;
     const KNOWN: &'static [(&'static str, Self)];
 }

@@ -112,7 +112,7 @@ pub(crate) fn crank_rocker_ground_range<'py>(
     Ok(PyArray1::from_vec(py, ends.into_iter().flatten().collect()))
 }
 
-/// Least and greatest transmission angle over a turn; NaN if the crank makes no full turn.
+/// Least and greatest transmission angle over a turn; NaN if the crank does not make a full turn.
 #[pyfunction]
 pub(crate) fn crank_rocker_extremes<'py>(
     py: Python<'py>,
@@ -151,8 +151,8 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
     Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least_angle)?))
 }
 
-/// The exact ones without masses, of radii of the friction circles at B, C and D, and of coupler and rocker;
-/// NaN where friction prevents all motion.
+/// The exact least transmission angles without masses, from the radii of the friction circles at B, C and D,
+/// and the lengths of coupler and rocker; NaN where friction prevents all motion.
 #[pyfunction]
 pub(crate) fn crank_rocker_exact_least_gamma<'py>(
     py: Python<'py>,
@@ -174,7 +174,7 @@ pub(crate) fn crank_rocker_exact_least_gamma<'py>(
     Ok(PyArray1::from_vec(py, detach::map(py, b.len(), least_angle)?))
 }
 
-/// What is asked of a run that may jam.
+/// The request for a run that may jam.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Case {

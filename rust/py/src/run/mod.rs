@@ -28,7 +28,7 @@ pub(crate) struct PythonCallbacks {
     events: Vec<Py<PyAny>>,
     last_check: Instant,
     refusals: usize,
-    /// What a signal handler raised, or `MemoryError`.
+    /// The exception of a signal handler, or `MemoryError`.
     pub(crate) signal: Option<PyErr>,
 }
 
@@ -43,7 +43,7 @@ impl PythonCallbacks {
         }
     }
 
-    /// Whether there are functions to call, so that the work must hold the GIL.
+    /// Whether the run calls functions, so that the work must hold the GIL.
     pub(crate) fn need_gil(&self) -> bool {
         !(self.loads.is_empty() && self.events.is_empty())
     }
@@ -169,7 +169,7 @@ impl Run {
         })
     }
 
-    /// The same without energies at given times, or coordinates for a run over the coordinate; NaN
+    /// The samples without energies at given times, or coordinates for a run over the coordinate; NaN
     /// outside the run.
     fn at<'py>(
         &self,

@@ -25,7 +25,7 @@ pub(crate) struct StopReasonState {
     slide: Option<String>,
 }
 
-/// A near miss of a change point: the dyad, by how much its lengths miss (m), and the coordinate.
+/// A near miss of a change point: the dyad, the miss of its lengths (m), and the coordinate.
 #[derive(FromPyObject, IntoPyObject, Debug, Clone, PartialEq)]
 #[pyo3(from_item_all)]
 pub(crate) struct NearChangePoint {
