@@ -7,7 +7,7 @@
 //! near the place digits are lost, far from it the polynomial is inaccurate.
 
 use super::hermite::Series;
-use super::known::ByAngle;
+use super::node_values::ByAngle;
 use super::window::{Weight, Window};
 
 /// Rounding elsewhere may exceed that at the few places between nodes by this factor.

@@ -2,7 +2,7 @@
 
 use super::beside::{Beside, Sample, Samples, Side, Singularity};
 use super::curve::Curve;
-use super::known::{ByAngle, Known};
+use super::node_values::{ByAngle, Known};
 use super::window::Window;
 
 /// Nodes (as angles from the place) of a polynomial, and multiples of them: from where third derivatives

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::beside::Beside;
-use super::known::{ByAngle, Known, NOISE, Rounding};
+use super::node_values::{ByAngle, Known, NOISE, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
 use crate::math::root::all_roots::{Roots, Sample, all_roots};

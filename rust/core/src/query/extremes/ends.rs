@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::known::{ByAngle, Known};
+use super::node_values::{ByAngle, Known};
 use super::tracked::{Tracked, ValueAt};
 use super::window::Window;
 use crate::math::root::bisection::bisect;

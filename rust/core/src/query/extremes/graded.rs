@@ -10,7 +10,7 @@
 //! distance that condition is of one size.
 
 use super::curve::Curve;
-use super::known::{ByAngle, Known, cubic};
+use super::node_values::{ByAngle, Known, cubic};
 use super::window::Window;
 
 /// The greatest ratio of a condition's values in a cell.

@@ -7,7 +7,7 @@ mod curve;
 mod ends;
 mod graded;
 mod hermite;
-mod known;
+mod node_values;
 pub(crate) mod tracked;
 mod window;
 mod zero_lengths;

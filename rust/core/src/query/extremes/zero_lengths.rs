@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::known::Known;
+use super::node_values::Known;
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Window, ZeroLength};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
