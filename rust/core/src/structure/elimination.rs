@@ -225,8 +225,9 @@ impl Elimination {
     /// Computes the unknowns of the pivots from the right-hand sides and the free unknowns.
     fn substitute_back(&self, rhs: &DVector<f64>, solution: &mut [f64]) {
         for (pivot, rhs) in self.pivots.iter().zip(rhs.iter()).rev() {
-            let known: f64 = pivot.entries.iter().map(|&(c, value)| value * solution[c]).sum();
-            solution[pivot.column] = (rhs - known) / pivot.value;
+            let solved_part: f64 =
+                pivot.entries.iter().map(|&(c, value)| value * solution[c]).sum();
+            solution[pivot.column] = (rhs - solved_part) / pivot.value;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::beside::{Beside, Sample, Samples, Side, Singularity};
 use super::curve::Curve;
-use super::node_values::{ByAngle, Known};
+use super::node_values::{ByAngle, NodeValues};
 use super::window::Window;
 
 /// Nodes (as angles from the place) of a polynomial, and multiples of them: from where third derivatives
@@ -34,17 +34,17 @@ impl Curve<'_> {
     pub(super) fn limit(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         samples: &Samples,
     ) -> Option<f64> {
         let beside = Beside { side: samples.side, fit: samples.fit(0)? };
         let limit = beside.fit.limit();
         let reaches = |angle: &f64| beside.distance(window, *angle).is_some();
-        let stale: Vec<f64> = known.angles().filter(reaches).collect();
+        let stale: Vec<f64> = node_values.angles().filter(reaches).collect();
         self.beside.push(beside);
         for angle in stale {
             let value = self.by_angle(window, angle);
-            known.replace(angle, value);
+            node_values.replace(angle, value);
         }
         Some(limit)
     }

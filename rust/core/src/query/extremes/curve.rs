@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::beside::Beside;
-use super::node_values::{ByAngle, Known, NOISE, Rounding};
+use super::node_values::{ByAngle, NOISE, NodeValues, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
 use crate::math::root::all_roots::{Roots, Sample, all_roots};
@@ -81,14 +81,14 @@ impl Curve<'_> {
     fn roots(
         &mut self,
         window: &Window,
-        known: &Known,
+        node_values: &NodeValues,
         (entry, poles): (usize, [usize; 2]),
         equation: impl Fn(ByAngle) -> [f64; 2],
     ) -> Roots {
         let unit = self.unit(window, entry);
-        let rounding = Rounding::new(known, (entry, poles), unit);
+        let rounding = Rounding::new(node_values, (entry, poles), unit);
         let mut sample = |angle: f64| {
-            let jet = known.value_or(angle, || self.by_angle(window, angle))?;
+            let jet = node_values.value_or(angle, || self.by_angle(window, angle))?;
             let weight = Weight::new(angle, poles);
             let [value, slope] = weight.of(equation(jet));
             Some(Sample { x: angle, value, slope, noise: rounding.at(angle, weight.factor) })
@@ -98,7 +98,7 @@ impl Curve<'_> {
         let is_smooth = |from: &f64, to: &f64| {
             !window.zero_lengths.iter().any(|zero| (*from..*to).contains(&zero.angle))
         };
-        for nodes in known.nodes.chunk_by(is_smooth) {
+        for nodes in node_values.nodes.chunk_by(is_smooth) {
             let local = all_roots(nodes, &mut sample);
             roots.isolated.extend(local.isolated);
             roots.jumps.extend(local.jumps);
@@ -120,29 +120,29 @@ impl Curve<'_> {
 
     /// Values that may be extremes.
     pub(super) fn candidates(&mut self, window: &Window) -> Vec<ValueAt> {
-        let mut known = self.known_at(window, &window.nodes());
-        if self.order > 0 && known.is_zero(self.own_unit(self.order)) {
+        let mut node_values = self.node_values_at(window, &window.nodes());
+        if self.order > 0 && node_values.is_zero(self.own_unit(self.order)) {
             return vec![ValueAt { value: 0.0, q: window.middle }];
         }
-        let beside = self.settle(window, &mut known);
+        let beside = self.settle(window, &mut node_values);
         let mut values = Vec::new();
-        for (&angle, jet) in known.nodes.iter().zip(&known.values) {
+        for (&angle, jet) in node_values.nodes.iter().zip(&node_values.values) {
             values.extend(jet.map(|jet| ValueAt { value: jet[0], q: window.at(angle) }));
         }
-        for q in self.poles_between(window, &known).map(|angle| window.at(angle)) {
+        for q in self.poles_between(window, &node_values).map(|angle| window.at(angle)) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q });
             values.push(ValueAt { value: f64::INFINITY, q });
         }
         // The derivative by the angle has a pole of one order more.
         let poles = window.poles(self.order).map(|pole| if pole == 0 { 0 } else { pole + 1 });
-        let roots = self.roots(window, &known, (1, poles), |jet| [jet[1], jet[2]]);
+        let roots = self.roots(window, &node_values, (1, poles), |jet| [jet[1], jet[2]]);
         // Where the slope has lost digits it jumps over zero.
         for angle in roots.isolated.iter().map(|root| root.at).chain(roots.jumps) {
             let jet = self.by_angle(window, angle);
             values.extend(jet.map(|jet| ValueAt { value: jet[0], q: window.at(angle) }));
         }
         values.extend(beside);
-        if self.goes_round(window, &known) {
+        if self.goes_round(window, &node_values) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q: f64::NAN });
             values.push(ValueAt { value: f64::INFINITY, q: f64::NAN });
         }
@@ -151,11 +151,11 @@ impl Curve<'_> {
 
     /// Whether it is the angle of a link that is another after a period. At the very ends the angle may
     /// step (of a cylinder without length), and has no value: it is compared where it has one.
-    fn goes_round(&mut self, window: &Window, known: &Known) -> bool {
+    fn goes_round(&mut self, window: &Window, node_values: &NodeValues) -> bool {
         if !(window.is_period && matches!(self.tracked, Tracked::Link(_)) && self.order == 0) {
             return false;
         }
-        let gains = known.nodes.iter().zip(&known.values).find_map(|(&angle, jet)| {
+        let gains = node_values.nodes.iter().zip(&node_values.values).find_map(|(&angle, jet)| {
             let [first, ..] = (*jet)?;
             Some(self.value(window.at(PI + angle))? - first)
         });
@@ -168,22 +168,22 @@ impl Curve<'_> {
         window: &Window,
         condition: impl Fn(f64) -> f64,
     ) -> Vec<[f64; 2]> {
-        let mut known = self.known_at(window, &window.nodes());
-        if self.order > 0 && known.is_zero(self.own_unit(self.order)) {
+        let mut node_values = self.node_values_at(window, &window.nodes());
+        if self.order > 0 && node_values.is_zero(self.own_unit(self.order)) {
             return if condition(0.0) >= 0.0 { vec![window.ends()] } else { Vec::new() };
         }
-        self.settle(window, &mut known);
+        self.settle(window, &mut node_values);
         let slope = condition(1.0) - condition(0.0);
         let poles = window.poles(self.order);
         let roots =
-            self.roots(window, &known, (0, poles), |jet| [condition(jet[0]), slope * jet[1]]);
+            self.roots(window, &node_values, (0, poles), |jet| [condition(jet[0]), slope * jet[1]]);
         // Where the value steps, or goes through infinity, it may pass the level without a root.
         let steps = window.zero_lengths.iter().map(|zero| zero.angle).chain(roots.jumps);
         // Not so near to an end of the window that no value lies between.
         let steps = steps.filter(|at| (window.aside..=PI - window.aside).contains(at));
         let inner = roots.isolated.iter().map(|root| root.at).chain(steps);
         let mut ends: Vec<f64> = inner.collect();
-        ends.extend(self.poles_between(window, &known));
+        ends.extend(self.poles_between(window, &node_values));
         ends.extend([0.0, PI]);
         ends.sort_by(f64::total_cmp);
         let mut stretches: Vec<[f64; 2]> = Vec::new();

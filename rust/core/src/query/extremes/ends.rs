@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::node_values::{ByAngle, Known};
+use super::node_values::{ByAngle, NodeValues};
 use super::tracked::{Tracked, ValueAt};
 use super::window::Window;
 use crate::math::root::bisection::bisect;
@@ -29,18 +29,18 @@ const CLEAR: f64 = 4.0;
 impl Curve<'_> {
     /// Values at the ends, and beside places where a cylinder has no length. Later values beside these come
     /// from the polynomials as far as digits are lost.
-    pub(super) fn settle(&mut self, window: &Window, known: &mut Known) -> Vec<ValueAt> {
+    pub(super) fn settle(&mut self, window: &Window, node_values: &mut NodeValues) -> Vec<ValueAt> {
         self.beside.clear();
-        let mut values = self.at_zero_lengths(window, known);
+        let mut values = self.at_zero_lengths(window, node_values);
         for side in [0, 1] {
             values.extend(if window.folds[side] {
-                self.at_dead_point(window, known, side)
+                self.at_dead_point(window, node_values, side)
             } else if window.infinite[side] {
                 self.at_infinity(window, side)
             } else if let Some(slide) = window.cuts[side] {
-                self.at_cut_end(window, known, (side, slide))
+                self.at_cut_end(window, node_values, (side, slide))
             } else if window.is_open(side) {
-                self.at_open_end(window, known, side)
+                self.at_open_end(window, node_values, side)
             } else {
                 None
             });
@@ -52,9 +52,9 @@ impl Curve<'_> {
     pub(super) fn poles_between(
         &mut self,
         window: &Window,
-        known: &Known,
+        node_values: &NodeValues,
     ) -> impl Iterator<Item = f64> + use<> {
-        let nodes = known.nodes.iter().zip(&known.values);
+        let nodes = node_values.nodes.iter().zip(&node_values.values);
         // A pole itself has no value.
         let values: Vec<(f64, ByAngle)> =
             nodes.filter_map(|(&angle, jet)| jet.map(|jet| (angle, jet))).collect();
@@ -90,7 +90,12 @@ impl Curve<'_> {
 
     /// The value where an interval ends without a fold: infinite if a joint is at infinity there, because
     /// then it grows without limit.
-    fn at_open_end(&mut self, window: &Window, known: &mut Known, side: usize) -> Option<ValueAt> {
+    fn at_open_end(
+        &mut self,
+        window: &Window,
+        node_values: &mut NodeValues,
+        side: usize,
+    ) -> Option<ValueAt> {
         let q = window.ends()[side];
         let inward = if side == 0 { window.half } else { -window.half };
         // The end itself has no value.
@@ -101,7 +106,7 @@ impl Curve<'_> {
         if near.abs() > (GROWS * far.abs()).max(rounding) {
             return Some(ValueAt { value: f64::INFINITY.copysign(near), q });
         }
-        let value = self.limit_at_end(window, known, (side, Singularity::Pole));
+        let value = self.limit_at_end(window, node_values, (side, Singularity::Pole));
         Some(ValueAt { value: value.unwrap_or(near), q })
     }
 
@@ -109,14 +114,14 @@ impl Curve<'_> {
     fn at_cut_end(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         (side, slide): (usize, usize),
     ) -> Option<ValueAt> {
         let q = window.ends()[side];
         if self.order == 0 && self.tracked == Tracked::Slide(slide) {
             return Some(ValueAt { value: 0.0, q });
         }
-        let value = self.limit_at_end(window, known, (side, Singularity::ZeroLength))?;
+        let value = self.limit_at_end(window, node_values, (side, Singularity::ZeroLength))?;
         Some(ValueAt { value, q })
     }
 
@@ -124,11 +129,11 @@ impl Curve<'_> {
     fn limit_at_end(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         (side, singularity): (usize, Singularity),
     ) -> Option<f64> {
         let samples = self.samples(window, inward(window, side, singularity));
-        self.limit(window, known, &samples)
+        self.limit(window, node_values, &samples)
     }
 
     /// Where the value goes as a slide goes on without end.
@@ -146,7 +151,7 @@ impl Curve<'_> {
     fn at_dead_point(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         side: usize,
     ) -> Option<ValueAt> {
         let q = window.ends()[side];
@@ -160,7 +165,7 @@ impl Curve<'_> {
                 return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
             }
         }
-        let value = self.limit(window, known, &samples)?;
+        let value = self.limit(window, node_values, &samples)?;
         Some(ValueAt { value, q })
     }
 }

@@ -10,7 +10,7 @@
 //! distance that condition is of one size.
 
 use super::curve::Curve;
-use super::node_values::{ByAngle, Known, cubic};
+use super::node_values::{ByAngle, NodeValues, cubic};
 use super::window::Window;
 
 /// The greatest ratio of a condition's values in a cell.
@@ -37,18 +37,18 @@ struct Node {
 
 impl Curve<'_> {
     /// Values at nodes, and at those between them that show how sharp the motion is.
-    pub(super) fn known_at(&mut self, window: &Window, nodes: &[f64]) -> Known {
-        let mut known = Known::default();
+    pub(super) fn node_values_at(&mut self, window: &Window, nodes: &[f64]) -> NodeValues {
+        let mut node_values = NodeValues::default();
         let mut before: Option<Node> = None;
         for &angle in nodes {
             let here = self.node(window, angle);
             if let Some(before) = &before {
-                self.grade(window, [before, &here], MAX_HALVINGS, &mut known);
+                self.grade(window, [before, &here], MAX_HALVINGS, &mut node_values);
             }
-            known.push_node(angle, here.value, here.rounding);
+            node_values.push_node(angle, here.value, here.rounding);
             before = Some(here);
         }
-        known
+        node_values
     }
 
     fn node(&mut self, window: &Window, angle: f64) -> Node {
@@ -65,17 +65,23 @@ impl Curve<'_> {
     }
 
     /// Adds the values between two nodes.
-    fn grade(&mut self, window: &Window, [a, b]: [&Node; 2], halvings: u32, known: &mut Known) {
+    fn grade(
+        &mut self,
+        window: &Window,
+        [a, b]: [&Node; 2],
+        halvings: u32,
+        node_values: &mut NodeValues,
+    ) {
         let middle = self.node(window, 0.5 * (a.angle + b.angle));
         let is_within = middle.angle > a.angle && middle.angle < b.angle;
         let first_ones = halvings > MAX_HALVINGS - BEND_HALVINGS;
         let is_sharp = vary([a, &middle, b]) || first_ones && bends([a, &middle, b]);
         if halvings > 0 && is_within && is_sharp {
-            self.grade(window, [a, &middle], halvings - 1, known);
-            known.push_node(middle.angle, middle.value, middle.rounding);
-            self.grade(window, [&middle, b], halvings - 1, known);
+            self.grade(window, [a, &middle], halvings - 1, node_values);
+            node_values.push_node(middle.angle, middle.value, middle.rounding);
+            self.grade(window, [&middle, b], halvings - 1, node_values);
         } else {
-            known.push_between(middle.angle, middle.value);
+            node_values.push_between(middle.angle, middle.value);
         }
     }
 }

@@ -1,5 +1,5 @@
-//! What is known at the nodes of a window: values, so that none is computed twice, and a bound of the
-//! rounding between them.
+//! Values at the nodes of a window, so that none is computed twice, and a bound of the rounding between
+//! them.
 
 use super::window::Weight;
 
@@ -24,7 +24,7 @@ pub(super) fn cubic(
 
 /// Values at the nodes.
 #[derive(Default)]
-pub(super) struct Known {
+pub(super) struct NodeValues {
     pub nodes: Vec<f64>,
     pub values: Vec<Option<ByAngle>>,
     /// Bounds of the rounding of everything else at each, usually and at most.
@@ -33,7 +33,7 @@ pub(super) struct Known {
     between: Vec<(f64, Option<ByAngle>)>,
 }
 
-impl Known {
+impl NodeValues {
     /// Adds a node behind the others.
     pub(super) fn push_node(&mut self, angle: f64, value: Option<ByAngle>, rounding: [f64; 2]) {
         self.nodes.push(angle);
@@ -141,16 +141,20 @@ pub(super) struct Rounding {
 
 impl Rounding {
     /// The bound for entry `entry` of the values with the weight of `poles`; `unit`: the natural size.
-    pub(super) fn new(known: &Known, (entry, poles): (usize, [usize; 2]), unit: f64) -> Self {
-        let sizes: Vec<[f64; 2]> = known.sizes(entry, poles).map(|(_, size)| size).collect();
+    pub(super) fn new(
+        node_values: &NodeValues,
+        (entry, poles): (usize, [usize; 2]),
+        unit: f64,
+    ) -> Self {
+        let sizes: Vec<[f64; 2]> = node_values.sizes(entry, poles).map(|(_, size)| size).collect();
         let around = (0..sizes.len())
             .map(|cell| {
                 let near = &sizes[cell.saturating_sub(1)..(cell + 3).min(sizes.len())];
                 [0, 1].map(|i| near.iter().fold(0.0, |size, pair| pair[i].max(size)))
             })
             .collect();
-        let typical = median(known, &sizes).max(STANDS / NOISE * unit);
-        Self { nodes: known.nodes.clone(), around, typical }
+        let typical = median(node_values, &sizes).max(STANDS / NOISE * unit);
+        Self { nodes: node_values.nodes.clone(), around, typical }
     }
 
     /// At an angle, where the weight is `factor`.
@@ -162,8 +166,8 @@ impl Rounding {
 }
 
 /// The size that is not exceeded over half of the window: nodes are closer together where it is great.
-fn median(known: &Known, sizes: &[[f64; 2]]) -> f64 {
-    let at = |node: usize| known.nodes[node.min(known.nodes.len() - 1)];
+fn median(node_values: &NodeValues, sizes: &[[f64; 2]]) -> f64 {
+    let at = |node: usize| node_values.nodes[node.min(node_values.nodes.len() - 1)];
     let width = |node: usize| at(node + 1) - at(node.saturating_sub(1));
     let mut sized: Vec<[f64; 2]> =
         sizes.iter().enumerate().map(|(node, size)| [size[0], width(node)]).collect();

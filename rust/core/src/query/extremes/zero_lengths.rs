@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::node_values::Known;
+use super::node_values::NodeValues;
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Window, ZeroLength};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
@@ -22,7 +22,11 @@ const SAME: f64 = 1.0e-9;
 
 impl Curve<'_> {
     /// Values beside the places where the tracked coordinate is not smooth.
-    pub(super) fn at_zero_lengths(&mut self, window: &Window, known: &mut Known) -> Vec<ValueAt> {
+    pub(super) fn at_zero_lengths(
+        &mut self,
+        window: &Window,
+        node_values: &mut NodeValues,
+    ) -> Vec<ValueAt> {
         let mut values = Vec::new();
         for zero in &window.zero_lengths {
             let q = window.at(zero.angle);
@@ -35,7 +39,7 @@ impl Curve<'_> {
                 let singularity = Singularity::ZeroLength;
                 let samples =
                     self.samples(window, Side { place: zero.angle, way, most, singularity });
-                let limit = self.limit(window, known, &samples);
+                let limit = self.limit(window, node_values, &samples);
                 values.extend(limit.map(|value| ValueAt { value, q }));
             }
         }

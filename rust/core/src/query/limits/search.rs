@@ -50,19 +50,22 @@ impl<'d> Search<'d, '_> {
     /// The parts of a stretch over which all dyads close.
     pub(super) fn stretches(&mut self, within: Stretch) -> Vec<Stretch> {
         let plan = self.design.mechanism.plan();
-        let mut found = vec![within];
+        let mut closing = vec![within];
         for (step, kind) in plan.steps.iter().enumerate() {
             if let &Step::Length { slide } = kind {
-                found =
-                    found.iter().flat_map(|stretch| self.lengths(*stretch, slide, step)).collect();
+                closing = closing
+                    .iter()
+                    .flat_map(|stretch| self.lengths(*stretch, slide, step))
+                    .collect();
             }
             let Step::Dyad(dyad) = kind else { continue };
             // Two guides never fold, but where they are parallel their point is at infinity.
             if dyad.sign.is_some() || dyad.form == Form::TwoLines {
-                found = found.iter().flat_map(|stretch| self.parts(*stretch, dyad, step)).collect();
+                closing =
+                    closing.iter().flat_map(|stretch| self.parts(*stretch, dyad, step)).collect();
             }
         }
-        found
+        closing
     }
 
     /// The parts over which a dyad closes.
