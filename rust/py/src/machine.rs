@@ -371,13 +371,13 @@ impl Machine {
     ) -> PyResult<equilibria::Found<'py>> {
         let range = EquilibriumRange { ends, is_turn, intervals };
         let dimensions = dimensions.as_slice()?;
-        let rest = detach::run(py, false, |cancel| match &self.inner {
+        let equilibria = detach::run(py, false, |cancel| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 machine.equilibria(&mechanism.get().inner, dimensions, range, cancel)
             }
             Inner::Tables(tabulated) => tabulated.equilibria(range),
         })?;
-        Ok(equilibria::arrays(py, &rest))
+        Ok(equilibria::arrays(py, &equilibria))
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate.

@@ -102,8 +102,8 @@ fn slidings(sketch: &Sketch<'_>, link: &str) -> impl Iterator<Item = Remedy> {
     let pairs = |on_ground: bool| {
         let joints = sketch.joints_of(link).iter();
         joints.rev().filter_map(move |joint| {
-            let others_there = || sketch.links_at(joint).iter().filter(|&&carrier| carrier != link);
-            let host = others_there().find(|&&carrier| (carrier == GROUND) == on_ground)?;
+            let other_links = || sketch.links_at(joint).iter().filter(|&&carrier| carrier != link);
+            let host = other_links().find(|&&carrier| (carrier == GROUND) == on_ground)?;
             let is_ground_joint = sketch.links_at(joint).contains(&GROUND);
             (is_ground_joint == on_ground).then(|| let_slide(sketch, link, joint, host))
         })

@@ -164,13 +164,13 @@ impl DyadSamples {
             last = sample;
         }
         let count = grid.groups * R::LANES;
-        let of_scan = Bits::MAX >> (Bits::BITS as usize - count);
-        if known & flat & of_scan != 0 {
+        let in_scan = Bits::MAX >> (Bits::BITS as usize - count);
+        if known & flat & in_scan != 0 {
             return None;
         }
         (self.known, self.closes) = (known, known & closes);
         // The cell before the first knot is not part of the scan.
-        let (cells, closes) = (at_both_ends(known) & of_scan & !1, self.closes);
+        let (cells, closes) = (at_both_ends(known) & in_scan & !1, self.closes);
         let inside = cells & at_both_ends(closes);
         let outside = cells & at_both_ends(!closes);
         let mut flags =

@@ -44,13 +44,13 @@ impl FrictionProblem<'_> {
 
     /// The problem of one block, given the friction of all pairs before it.
     pub(super) fn block(&self, block: &[usize], friction: &[f64]) -> Self {
-        let mut outer_friction = friction.to_vec();
+        let mut earlier_friction = friction.to_vec();
         for &pair in block {
-            outer_friction[pair] = 0.0;
+            earlier_friction[pair] = 0.0;
         }
         let pairs = block.iter().map(|&pair| {
             let mut pair_in_block = self.pairs[pair].clone();
-            pair_in_block.base = self.reaction(pair, &outer_friction);
+            pair_in_block.base = self.reaction(pair, &earlier_friction);
             pair_in_block.slopes = block.iter().map(|&on| self.pairs[pair].slopes[on]).collect();
             pair_in_block
         });

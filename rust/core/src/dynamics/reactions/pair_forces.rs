@@ -31,9 +31,11 @@ impl JointForce {
             return Self::Free;
         }
         if link == plan.ground {
-            let rest = links_at[joint].iter().filter(|&&resting| resting != link);
+            let other_links = links_at[joint].iter().filter(|&&other_link| other_link != link);
             return Self::Rest(
-                rest.map(|&resting| Self::new(plan, links_at, joint, resting)).collect(),
+                other_links
+                    .map(|&other_link| Self::new(plan, links_at, joint, other_link))
+                    .collect(),
             );
         }
         let point = point_of_joint(joint);
@@ -50,8 +52,8 @@ impl JointForce {
             return Self::Edge { edge, guides };
         }
         let other_joints = (0..links_at.len())
-            .filter(|&elsewhere| elsewhere != joint && links_at[elsewhere].contains(&link))
-            .map(|elsewhere| Self::new(plan, links_at, elsewhere, link))
+            .filter(|&other_joint| other_joint != joint && links_at[other_joint].contains(&link))
+            .map(|other_joint| Self::new(plan, links_at, other_joint, link))
             .collect();
         let slides = plan
             .edges
@@ -74,9 +76,9 @@ impl JointForce {
         match self {
             Self::Edge { .. } | Self::Free => self.of_edge(scene),
             Self::Balance { .. } => self.balance(scene),
-            Self::Rest(rest_of_links) => {
+            Self::Rest(joint_forces) => {
                 let mut rest = Vector::ZERO;
-                for joint_force in rest_of_links {
+                for joint_force in joint_forces {
                     let force = match joint_force {
                         Self::Balance { .. } => joint_force.balance(scene),
                         _ => joint_force.of_edge(scene),
