@@ -9,7 +9,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::detach;
 use crate::parallel_map::parallel_map;
 
-/// Positions for which another thread pays.
+/// Positions for which another thread pays off.
 const MIN_PER_THREAD: usize = 16;
 
 /// An assembly: signs, angles of classes, values of slides, coordinates of joints.

@@ -381,7 +381,7 @@ impl Machine {
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate.
-    #[allow(clippy::too_many_arguments, reason = "what is asked of a run")]
+    #[allow(clippy::too_many_arguments, reason = "the parameters of a run")]
     fn run(
         &self,
         py: Python<'_>,
@@ -433,7 +433,7 @@ impl Machine {
 
     /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.
     /// `mean`: definition of the mean speed. Returns the run over one period and its numbers.
-    #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
+    #[allow(clippy::too_many_arguments, reason = "the parameters of a steady state")]
     fn steady(
         &self,
         py: Python<'_>,

@@ -148,9 +148,9 @@ impl Mechanism {
         order: usize,
         within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
-        let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
+        let tracked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
         let extremes = detach::run(py, is_small(&self.inner), |cancel| {
-            self.inner.extremes(&dimensions, &signs, asked, within, Some(cancel))
+            self.inner.extremes(&dimensions, &signs, tracked, within, Some(cancel))
         })?;
         let pair = |extreme: assur::ValueAt| (extreme.value, extreme.q);
         Ok(extremes.map_err(error_map::solve)?.map(|both| both.map(pair)))
@@ -166,9 +166,9 @@ impl Mechanism {
         order: usize,
         level: (f64, bool),
     ) -> PyResult<Vec<[f64; 2]>> {
-        let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
+        let tracked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
         let stretches = detach::run(py, is_small(&self.inner), |cancel| {
-            self.inner.stretches_beyond(&dimensions, &signs, asked, level, Some(cancel))
+            self.inner.stretches_beyond(&dimensions, &signs, tracked, level, Some(cancel))
         })?;
         stretches.map_err(error_map::solve)
     }

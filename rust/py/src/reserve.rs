@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 const LEAST: usize = 40 << 20;
 /// Copies of a number in memory at once.
 const COPIES: usize = 4;
-/// Most simultaneous calls that can be cancelled; others end without cancellation.
+/// Most simultaneous calls that can be cancelled; others run to their end.
 const CALLS: usize = 64;
 /// Alignment of the reserve: that of its header.
 const ALIGN: usize = align_of::<usize>();

@@ -106,7 +106,7 @@ macro_rules! entry {
                 unsafe { with(worker, job, unchecked) }
             }
             #[inline(always)]
-            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            #[allow(unsafe_code, reason = "the processor has these instructions")]
             fn call(task: &mut impl Task<Self::Register>) {
                 use crate::state::kernel::$module::$level;
                 #[inline(never)]

@@ -18,7 +18,7 @@ use crate::math::simd::Simd;
 const TRIAL_PART: usize = 8;
 /// Least time of this trial: the first positions find the caches cold.
 const TRIAL: Duration = Duration::from_micros(50);
-/// Work from which other threads pay: 36 000 positions of a four-bar take 290 µs on one thread and on two;
+/// Work from which other threads pay off: 36 000 positions of a four-bar take 290 µs on one thread and on two;
 /// for half of them two threads take longer.
 const WORTH_THREADS: Duration = Duration::from_micros(300);
 

@@ -76,9 +76,9 @@ impl Machine {
         q: &[f64],
     ) -> Option<([f64; 2], f64)> {
         let derivatives = DerivativeTables::new(mechanism.q0().len(), 1);
-        let asked = Queries::Listed(q);
+        let queries = Queries::Listed(q);
         let mut evaluator =
-            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.needs_angles());
+            Evaluator::new(mechanism, dimensions, &derivatives, queries, self.needs_angles());
         evaluator.solve(q).ok()?;
         let pose = SolvedPose::new(evaluator.position(), &derivatives);
         self.over.iter().find_map(|over| {

@@ -56,8 +56,7 @@ pub(crate) struct Dyad {
     /// The unknowns; a rotation comes before a slide, and the rotation of the
     /// link listed first before the other.
     pub unknowns: [Unknown; 2],
-    /// The orientations that turn with each unknown (none with a slide) and that others than the legs
-    /// need.
+    /// The orientations that turn with each unknown (none with a slide), unless only the legs need them.
     pub orientations: [Vec<usize>; 2],
     /// The loop, edge by edge.
     pub path: Vec<LoopTerm>,

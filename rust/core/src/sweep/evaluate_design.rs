@@ -109,8 +109,9 @@ impl SweepBatch<'_> {
             }
         }
         if !are_probes {
-            let asked = |metric: usize| self.sweep.conditions.iter().any(|c| c.metric == metric);
-            for metric in (0..metrics.len()).filter(|&metric| !asked(metric)) {
+            let has_condition =
+                |metric: usize| self.sweep.conditions.iter().any(|c| c.metric == metric);
+            for metric in (0..metrics.len()).filter(|&metric| !has_condition(metric)) {
                 results[metric] = self.value(rows, (row, q), metric, worst);
             }
         }

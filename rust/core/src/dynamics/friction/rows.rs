@@ -43,7 +43,7 @@ impl LaneFriction {
 
 /// A request for the friction.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Asked<'c> {
+pub(crate) struct FrictionRequest<'c> {
     /// Index of the requested solution.
     pub solution: usize,
     /// Whether the safety against locking is requested.
@@ -113,7 +113,7 @@ impl<R: Real> FrictionWorkspace<R> {
         &mut self,
         scene: &mut Scene<R>,
         (plan, pairs): (&ForcePlan, &[FrictionPair]),
-        asked: Asked<'_>,
+        request: FrictionRequest<'_>,
         size: f64,
     ) {
         self.drag(scene, plan, pairs);
@@ -127,7 +127,7 @@ impl<R: Real> FrictionWorkspace<R> {
         for lane in 0..R::LANES {
             is_determined.push(!undetermined.lane(lane));
         }
-        let lanes = self.solve(scene, pairs, &is_determined, asked);
+        let lanes = self.solve(scene, pairs, &is_determined, request);
         self.solutions = R::from_lanes(|lane| lanes[lane].solutions);
         self.safety = R::from_lanes(|lane| lanes[lane].safety);
         self.residual = R::from_lanes(|lane| lanes[lane].residual);
@@ -144,11 +144,11 @@ impl<R: Real> FrictionWorkspace<R> {
         scene: &Scene<R>,
         pairs: &[FrictionPair],
         is_determined: &[bool],
-        asked: Asked<'_>,
+        request: FrictionRequest<'_>,
     ) -> Vec<LaneFriction> {
         let lane_friction = |(lane, &is_determined): (usize, &bool)| {
             let (mut problem, used) = self.problem(scene, pairs, lane);
-            problem.cancel = asked.cancel;
+            problem.cancel = request.cancel;
             if problem.is_cancelled() {
                 return LaneFriction::unknown(pairs.len());
             }
@@ -161,7 +161,7 @@ impl<R: Real> FrictionWorkspace<R> {
                 Err(TooManyPaths) => UNSOLVED,
             };
             let all = solved.unwrap_or_default();
-            let meant = all.get(asked.solution);
+            let meant = all.get(request.solution);
             let mut dry = vec![if meant.is_some() { 0.0 } else { f64::NAN }; pairs.len()];
             for (index, &pair) in used.iter().enumerate() {
                 dry[pair] = meant.map_or(f64::NAN, |friction| friction[index]);
@@ -169,7 +169,7 @@ impl<R: Real> FrictionWorkspace<R> {
             LaneFriction {
                 dry,
                 solutions,
-                safety: if asked.safety && is_known {
+                safety: if request.safety && is_known {
                     problem.safety(MOST_SAFETY)
                 } else {
                     f64::NAN

@@ -11,7 +11,7 @@ use crate::batch::request::{Column, Request, Shape};
 use crate::batch::schedule::Control;
 use crate::batch::writer::{RowSlices, Writer, begins_line, store_pairs, write};
 use crate::dynamics::friction::pairs::{FrictionPair, PairKind};
-use crate::dynamics::friction::rows::Asked;
+use crate::dynamics::friction::rows::FrictionRequest;
 use crate::dynamics::friction::workspace::FrictionWorkspace;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
@@ -35,8 +35,8 @@ pub(super) struct ReactionBatch<'b> {
     /// Whether forces in pairs are requested, and not only what acts on links from outside.
     pub balances: bool,
     pub friction: Vec<FrictionPair>,
-    pub asked: &'b ReactionRequest<'b>,
-    pub request: &'b Request<'b>,
+    pub request: &'b ReactionRequest<'b>,
+    pub solve_request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
     pub writer: &'b Arc<Writer>,
     pub columns: &'b [Column],
@@ -65,10 +65,10 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let ReactionBatch { plan, machine, sources, asked, friction, control, .. } = self.batch;
+        let ReactionBatch { plan, machine, sources, request, friction, control, .. } = self.batch;
         let count = self.solved.positions;
         self.squares.clear();
-        self.squares.resize(asked.reactions.len(), Squares::NONE);
+        self.squares.resize(request.reactions.len(), Squares::NONE);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.guides, &self.solved, rows);
@@ -86,7 +86,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
                 self.scene.pass_moments(plan);
             }
             let lanes = R::LANES.min(count - first);
-            if asked.squares {
+            if request.squares {
                 self.add_squares(first, lanes);
             } else {
                 self.write(first, lanes);
@@ -101,7 +101,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
                 self.drop_stressed(first, lanes);
             }
         }
-        if asked.squares {
+        if request.squares {
             self.write_squares();
             return;
         }
@@ -118,17 +118,17 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
     fn apply_friction(&mut self, rows: Rows) {
-        let ReactionBatch { plan, sources, asked, friction, control, .. } = self.batch;
+        let ReactionBatch { plan, sources, request, friction, control, .. } = self.batch;
         let size = self.size;
-        let ways = self.scene.ways(asked.sense);
+        let ways = self.scene.ways(request.sense);
         let pairs = (*plan, &friction[..]);
         self.friction.read(self.scene, pairs, sources, (&self.solved, rows), &ways, size);
-        let asked = Asked {
-            solution: asked.solution,
-            safety: asked.reactions.contains(&Reaction::Safety),
+        let friction_request = FrictionRequest {
+            solution: request.solution,
+            safety: request.reactions.contains(&Reaction::Safety),
             cancel: control.cancel,
         };
-        self.friction.apply(self.scene, pairs, asked, size);
+        self.friction.apply(self.scene, pairs, friction_request, size);
     }
 
     /// The sum over the pairs with friction at a joint or in a slide.
@@ -156,7 +156,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// The value of a reaction in all lanes.
     #[inline(always)]
     fn value(&self, index: usize) -> Vector<R> {
-        let (reaction, joint) = (self.batch.asked.reactions[index], &self.batch.joints[index]);
+        let (reaction, joint) = (self.batch.request.reactions[index], &self.batch.joints[index]);
         let scene = &*self.scene;
         match reaction {
             Reaction::Joint { .. } => joint.of(scene),
@@ -196,7 +196,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         // An infinite load has no reactions. (The place of a guide's force is at infinity where the force
         // is zero.)
         let (infinity, mut infinite) = (R::splat(f64::INFINITY), R::Mask::NONE);
-        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+        for (index, reaction) in self.batch.request.reactions.iter().enumerate() {
             let value = self.value(index);
             if !is_unbounded(*reaction) {
                 infinite = infinite.or(infinity.le(value.x.abs())).or(infinity.le(value.y.abs()));
@@ -247,7 +247,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         }
         self.results.status[self.first] = MaybeUninit::new(worst);
         let mut is_known = worst <= Status::NearSingular as u8;
-        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+        for (index, reaction) in self.batch.request.reactions.iter().enumerate() {
             // The place of a guide's force may be at infinity.
             let is_place = is_unbounded(*reaction);
             is_known &= is_place || !self.squares[index].is_infinite();
@@ -265,7 +265,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     #[inline(always)]
     fn drop_stressed(&mut self, first: usize, lanes: usize) {
         let size = self.size;
-        for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
+        for (index, &reaction) in self.batch.request.reactions.iter().enumerate() {
             let unit = match reaction {
                 _ if reaction.is_given() => continue,
                 Reaction::JointMoment { .. }
@@ -295,13 +295,13 @@ impl<R: Real> Evaluate<'_, '_, R> {
 
     #[inline(always)]
     fn drop_lanes(&mut self, index: usize, [first, lanes]: [usize; 2], stressed: R::Mask) {
-        if self.batch.asked.squares {
+        if self.batch.request.squares {
             // The lanes beyond the last position repeat it.
             self.squares[index].drop(stressed);
             return;
         }
         for lane in (0..lanes).filter(|&lane| stressed.lane(lane)) {
-            let width = self.batch.asked.reactions[index].width();
+            let width = self.batch.request.reactions[index].width();
             let row = self.first + first + lane;
             self.results.columns[index][row * width..(row + 1) * width]
                 .fill(MaybeUninit::new(f64::NAN));
@@ -309,7 +309,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
     }
 
     fn write_nan(&mut self, row: usize) {
-        for (reaction, column) in self.batch.asked.reactions.iter().zip(&mut self.results.columns) {
+        for (reaction, column) in self.batch.request.reactions.iter().zip(&mut self.results.columns)
+        {
             let width = reaction.width();
             column[row * width..(row + 1) * width].fill(MaybeUninit::new(f64::NAN));
         }

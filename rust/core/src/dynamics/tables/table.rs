@@ -16,10 +16,10 @@ pub struct Table {
     jumps: Vec<f64>,
 }
 
-/// A coordinate nearer than this to an end of a table, relative to its size, is at the end.
+/// A coordinate beyond an end of a table by less than this, relative to its size, is at the end.
 const RANGE_RTOL: f64 = 1.0e-12;
 
-/// A piece of a table, shifted by periods periods.
+/// A piece of a table, shifted by `periods` periods.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Cell {
     piece: usize,
