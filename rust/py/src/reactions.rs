@@ -114,7 +114,7 @@ pub(crate) struct Inputs<'py> {
     pub rows: usize,
     /// See `ReactionRequest::squares`; then the rows are the designs.
     pub squares: bool,
-    /// The sense of the drivers at rest, and which solution is meant.
+    /// The sense of the drivers at rest, and the index of the solution.
     pub friction: (Vec<f64>, usize),
 }
 

@@ -56,7 +56,7 @@ struct RowEntry {
     y: usize,
     /// Entry of the jet.
     k: usize,
-    /// Source: the jet entry of the point, slide or class; of an angle, the link.
+    /// Source: the jet entry of the point, slide or class; for an angle, the link.
     source: usize,
     /// The drivers' contribution to an angle's derivative.
     driven: f64,

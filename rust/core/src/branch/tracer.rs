@@ -368,7 +368,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     }
 
     /// Where the joints of a slide whose value is a length have coincided between two knots, it has
-    /// turned by half a turn at once, to either side: let that be counter-clockwise as the parameter
+    /// turned by half a turn at once, to either side: this counts as counter-clockwise as the parameter
     /// grows.
     fn turn_lengths_round(&self, from: &Knot, knot: &mut Knot) {
         if !(from.reached && knot.reached) {

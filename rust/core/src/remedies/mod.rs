@@ -49,9 +49,9 @@ use crate::plan::mechanism::Mechanism;
 ///     .link("rocker", ["C", "D"])
 ///     .link("brace", ["A", "C"])
 ///     .driver("crank");
-/// let found = remedies(&braced, None)?;
-/// assert_eq!(found[1].text, "Take out brace");
-/// assert!(Mechanism::new(&found[1].description).is_ok());
+/// let offers = remedies(&braced, None)?;
+/// assert_eq!(offers[1].text, "Take out brace");
+/// assert!(Mechanism::new(&offers[1].description).is_ok());
 /// # Ok::<(), assur::StructureError>(())
 /// ```
 pub fn remedies(

@@ -23,7 +23,7 @@ pub enum Line {
 pub struct LeastTransmission {
     /// The lines.
     pub lines: [Line; 2],
-    /// Whether the angle to the normal of the second line is meant.
+    /// Whether this is the angle to the normal of the second line.
     pub complement: bool,
 }
 

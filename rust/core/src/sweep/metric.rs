@@ -27,7 +27,7 @@ impl Need {
 /// The positions of one design.
 #[derive(Debug, Clone, Copy)]
 pub struct Positions<'a> {
-    /// The coordinates, rad or m: of each position those of all drivers.
+    /// The coordinates, rad or m: those of all drivers for each position.
     pub q: &'a [f64],
     /// Number of drivers.
     pub drivers: usize,

@@ -23,8 +23,8 @@
 //! let q = [0.0, std::f64::consts::PI];
 //! let stroke = Span(Coordinate::slide(engine.slide("bore")?));
 //! let sweep = Sweep { metrics: &[&stroke], ..Sweep::of(&engine, engine.drawing(), &q) };
-//! let found = engine.measure(&sweep, &Control::default())?;
-//! assert!((found.values[0][0] - 0.1).abs() < 1e-15);
+//! let measures = engine.measure(&sweep, &Control::default())?;
+//! assert!((measures.values[0][0] - 0.1).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

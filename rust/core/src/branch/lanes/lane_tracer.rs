@@ -53,7 +53,7 @@ pub(crate) struct LaneTracer {
     pub(in crate::branch) ends: [GapEnds; LEVELS],
     /// Angles of the requested classes in a survey.
     pub(in crate::branch) surveyed: Vec<SurveyedAngle>,
-    /// Whether these ends stand in for closer scans of dead points.
+    /// Whether these ends replace closer scans of dead points.
     ends_serve: bool,
     /// The turn of each angle between the last knot that can be reached and the next.
     into_gap: Vec<f64>,
@@ -61,8 +61,8 @@ pub(crate) struct LaneTracer {
     into_first: Vec<f64>,
     /// Levels at which dead points are scanned.
     dead_point_levels: usize,
-    /// Whether an angle steps so nearly by half a turn across a gap that what it turns between the knots
-    /// beside the gap's ends decides which way is the shorter.
+    /// Whether an angle steps so nearly by half a turn across a gap that its turn between the knots beside the
+    /// gap's ends decides which way is the shorter.
     is_tie: bool,
 }
 

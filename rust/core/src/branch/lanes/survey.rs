@@ -18,9 +18,10 @@ const SURVEY_LEVELS: usize = 3;
 const MAX_CLOSER: u32 = 6;
 
 impl LaneTracer {
-    /// Scans the solved knots. Whether a design with gaps needs no checks: no sign may change, the ends of all
-    /// gaps are confirmed, and no requested angle turns fast. Sets the reference of each class, or if one is
-    /// not enough for an angle, those at the knots of `branch`. `None` if one of the knots is singular.
+    /// Scans the solved knots. Returns whether a design with gaps needs no checks: signs cannot change,
+    /// the ends of all gaps are confirmed, and requested angles turn slowly. Sets the reference of each
+    /// class, or if one is not enough for an angle, those at the knots of `branch`. `None` if one of the
+    /// knots is singular.
     #[inline(always)]
     pub(crate) fn survey<L: Level, const G: usize>(
         &mut self,

@@ -145,7 +145,7 @@ impl Table {
         &self.knots
     }
 
-    /// The knots at which it jumps; of one period.
+    /// The knots at which it jumps, within one period.
     #[must_use]
     pub fn jumps(&self) -> &[f64] {
         &self.jumps

@@ -48,7 +48,7 @@ impl Curve<'_> {
         values
     }
 
-    /// Where the value goes through infinity between nodes.
+    /// The angles where the value goes through infinity between nodes.
     pub(super) fn poles_between(
         &mut self,
         window: &Window,
@@ -110,7 +110,7 @@ impl Curve<'_> {
         Some(ValueAt { value: value.unwrap_or(near), q })
     }
 
-    /// The value where a length is 0: of a driven one the position itself does not exist.
+    /// The value where a length is 0; for a driven length the position itself does not exist.
     fn at_cut_end(
         &mut self,
         window: &Window,
@@ -136,7 +136,7 @@ impl Curve<'_> {
         self.limit(window, node_values, &samples)
     }
 
-    /// Where the value goes as a slide goes on without end.
+    /// The limit of the value as a slide goes on without end.
     fn at_infinity(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
         let way = if side == 0 { -1.0 } else { 1.0 };
         let [near, far] = FAR.map(|part| self.value(window.middle + way * part * window.half));

@@ -18,9 +18,9 @@ const NODES_PER_CELL: f64 = 2.0;
 const LEAST_NODES: f64 = 48.0;
 /// Rounding of a sample, relative to 1, for each unit of the condition of its terms.
 const NOISE: f64 = 1.0e-14;
-/// Nearest node to the end of a stretch, in u of the greater end: the end is known no better.
+/// Nearest node to the end of a stretch, in u of the greater end: the end is not known better.
 const NEAR_END_ULPS: f64 = 8.0;
-/// The same as an angle, at most: of a stretch of a few u.
+/// An upper bound of the same as an angle, for a stretch of a few u.
 const FARTHEST_NODE: f64 = 0.01;
 /// Greatest distance (rad, or units of the scale) between a change point and the ends of a part beside it.
 const BESIDE: f64 = 1.0e-9;
