@@ -40,7 +40,7 @@
 //! ```
 //!
 //! [`dynamics`] moves machines under loads and motors; [`ode`] is the integrator it uses.
-#![warn(unreachable_pub)] // the face of the crate is what is listed here
+#![warn(unreachable_pub)] // the interface of the crate is listed here
 #![cfg_attr(
     test,
     allow(clippy::disallowed_methods, reason = "tests compare with the platform's functions")

@@ -9,7 +9,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::detach;
 use crate::parallel_map::parallel_map;
 
-/// Positions that pay for another thread.
+/// Positions for which another thread pays off.
 const MIN_PER_THREAD: usize = 16;
 
 /// An assembly: signs, angles of classes, values of slides, coordinates of joints.
@@ -24,7 +24,7 @@ pub(crate) struct AssemblyNumbers {
     pub(crate) is_double: bool,
 }
 
-/// The assemblies of a position; numbers of complex ones; paths that found none.
+/// The assemblies of a position; numbers of complex ones; paths that did not lead to an assembly.
 #[derive(IntoPyObject)]
 pub(crate) struct Found<'py> {
     assemblies: Bound<'py, PyList>,
@@ -36,20 +36,20 @@ pub(crate) struct Found<'py> {
 impl<'py> Found<'py> {
     fn of(py: Python<'py>, all: Assemblies) -> PyResult<Bound<'py, PyDict>> {
         let is_complete = all.is_complete();
-        let found = Self {
+        let numbers = Self {
             assemblies: detach::listed(py, all.found.into_iter().map(AssemblyNumbers::from))?,
             complex_count: all.complex_counts,
             failures: all.failures.iter().map(ToString::to_string).collect(),
             is_complete,
         };
-        found.into_pyobject(py)
+        numbers.into_pyobject(py)
     }
 
     /// The assemblies of many positions: making objects of Python takes longer than finding them.
     pub(crate) fn of_all(py: Python<'py>, all: Vec<Assemblies>) -> PyResult<Bound<'py, PyList>> {
         let list = PyList::empty(py);
-        for one in all {
-            list.append(Self::of(py, one)?)?;
+        for position in all {
+            list.append(Self::of(py, position)?)?;
             detach::check_signals(py, list.len())?;
         }
         Ok(list)
@@ -57,27 +57,27 @@ impl<'py> Found<'py> {
 }
 
 impl From<assur::Assembly> for AssemblyNumbers {
-    fn from(one: assur::Assembly) -> Self {
+    fn from(assembly: assur::Assembly) -> Self {
         Self {
-            signs: one.signs,
-            class_angles: one.class_angles,
-            slides: one.slides,
-            joints: one.joints.into_iter().map(|[x, y]| (x, y)).collect(),
-            angles: one.angles,
-            is_double: one.is_double,
+            signs: assembly.signs,
+            class_angles: assembly.class_angles,
+            slides: assembly.slides,
+            joints: assembly.joints.into_iter().map(|[x, y]| (x, y)).collect(),
+            angles: assembly.angles,
+            is_double: assembly.is_double,
         }
     }
 }
 
 impl From<AssemblyNumbers> for assur::Assembly {
-    fn from(one: AssemblyNumbers) -> Self {
+    fn from(assembly: AssemblyNumbers) -> Self {
         Self {
-            signs: one.signs,
-            class_angles: one.class_angles,
-            slides: one.slides,
-            joints: one.joints.into_iter().map(|(x, y)| [x, y]).collect(),
-            angles: one.angles,
-            is_double: one.is_double,
+            signs: assembly.signs,
+            class_angles: assembly.class_angles,
+            slides: assembly.slides,
+            joints: assembly.joints.into_iter().map(|(x, y)| [x, y]).collect(),
+            angles: assembly.angles,
+            is_double: assembly.is_double,
         }
     }
 }
@@ -100,7 +100,7 @@ impl Question<'_> {
         [designs, positions]
     }
 
-    /// Answers it; stops once `cancel` is true.
+    /// Finds them; stops once `cancel` is true.
     pub(crate) fn answer(
         &self,
         threads: Option<usize>,
@@ -108,15 +108,15 @@ impl Question<'_> {
     ) -> Result<Vec<Assemblies>, SolveError> {
         let [designs, positions] = self.shape();
         let drivers = self.mechanism.q0().len();
-        let one = |index: usize| {
+        let assemblies_at = |index: usize| {
             let (design, position) = (index / positions, index % positions);
             let values: Vec<f64> =
-                self.dimensions.chunks_exact(designs.max(1)).map(|of| of[design]).collect();
+                self.dimensions.chunks_exact(designs.max(1)).map(|column| column[design]).collect();
             let row = if self.per_design { index } else { position };
             let q = &self.q[row * drivers..][..drivers];
             self.mechanism.assemblies(&values, q, Some(cancel))
         };
         let count = designs * positions;
-        parallel_map(count, MIN_PER_THREAD, threads, cancel, &one).into_iter().collect()
+        parallel_map(count, MIN_PER_THREAD, threads, cancel, &assemblies_at).into_iter().collect()
     }
 }

@@ -64,29 +64,29 @@ pub(crate) fn run<T: Send>(
     catch_panic(|| run_unguarded(py, small, work))
 }
 
-/// Results of `one` for every index below `count`, computed as by [`run`].
+/// Results of `item` for every index below `count`, computed as by [`run`].
 pub(crate) fn map<T: Send>(
     py: Python<'_>,
     count: usize,
-    one: impl Fn(usize) -> T + Sync,
+    item: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
-    map_list(py, count, LONG_LIST, one)
+    map_list(py, count, LONG_LIST, item)
 }
 
 /// [`map`] for items that take about a tenth of a millisecond each.
 pub(crate) fn map_slow<T: Send>(
     py: Python<'_>,
     count: usize,
-    one: impl Fn(usize) -> T + Sync,
+    item: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
-    map_list(py, count, LONG_LIST_OF_SLOW_ITEMS, one)
+    map_list(py, count, LONG_LIST_OF_SLOW_ITEMS, item)
 }
 
 fn map_list<T: Send>(
     py: Python<'_>,
     count: usize,
     long: usize,
-    one: impl Fn(usize) -> T + Sync,
+    item: impl Fn(usize) -> T + Sync,
 ) -> PyResult<Vec<T>> {
     let _room = reserve::room(py, count.saturating_mul(2 * size_of::<T>()))?;
     run(py, count < long, |cancel| {
@@ -95,13 +95,13 @@ fn map_list<T: Send>(
             if cancel.load(Ordering::Relaxed) {
                 break;
             }
-            results.push(one(index));
+            results.push(item(index));
         }
         results
     })
 }
 
-/// A list of Python; a signal that comes while it is made is raised.
+/// A list of Python; raises a signal that arrives while the list is made.
 pub(crate) fn listed<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
     items: impl IntoIterator<Item = T>,
@@ -114,7 +114,7 @@ pub(crate) fn listed<'py, T: IntoPyObject<'py>>(
     Ok(list)
 }
 
-/// Raises a signal that has come, at one object in many.
+/// Raises a signal that has arrived, checked at one object in many.
 pub(crate) fn check_signals(py: Python<'_>, objects: usize) -> PyResult<()> {
     if objects.is_multiple_of(OBJECTS_PER_CHECK) { py.check_signals() } else { Ok(()) }
 }
@@ -131,7 +131,7 @@ fn run_unguarded<T: Send>(
     call.end().map(|()| result)
 }
 
-/// Runs `work` in a thread of its own, so that the calling thread can check for signals.
+/// Runs `work` in a separate thread, so that the calling thread can check for signals.
 fn in_a_thread<T: Send>(
     py: Python<'_>,
     cancel: &AtomicBool,

@@ -113,7 +113,7 @@ pub(crate) fn structure(error: StructureError) -> PyErr {
 }
 
 fn in_excess(overconstraint: Option<&Overconstraint>) -> Option<&str> {
-    overconstraint.and_then(|of| first(&of.links))
+    overconstraint.and_then(|constraints| first(&constraints.links))
 }
 
 fn driver_fault<'a>(drivers: &'a [String], fault: &'a DriverFault) -> Fields<'a> {
@@ -230,8 +230,10 @@ fn design_index(mut flat: usize, shape: &[usize]) -> Option<Vec<usize>> {
 /// A tuple as Python prints it.
 fn tuple_text(index: &[usize]) -> String {
     match index {
-        [one] => format!("({one},)"),
-        many => format!("({})", many.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+        [single] => format!("({single},)"),
+        several => {
+            format!("({})", several.iter().map(usize::to_string).collect::<Vec<_>>().join(", "))
+        }
     }
 }
 
@@ -339,7 +341,7 @@ pub(crate) fn table(error: &TableError, where_: &str, design: Option<Vec<usize>>
     exception(class, Some(error.into()), &message, hint.as_deref(), &Fields { design, ..fields })
 }
 
-/// A series of the slider-crank that gives no number.
+/// A series of the slider-crank without a value.
 pub(crate) fn series(error: SeriesError) -> PyErr {
     let SeriesError::DoesNotEnd { k } = error;
     let fields = Fields { value: Some(k), ..Fields::default() };

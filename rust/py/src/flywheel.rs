@@ -18,12 +18,12 @@ type Outcome = Result<Flywheel, TableError>;
 
 /// Tables per thread; up to this number one thread does all.
 const TABLES_PER_THREAD: usize = 64;
-/// Rows of all tables up to which they take some ten milliseconds: too short for a signal.
+/// Rows of all tables up to which the work takes some ten milliseconds: too short for a signal.
 const FEW_ROWS: usize = 32_768;
-/// Numbers of a spline and of what is made of it, for each of its table.
+/// Numbers of a spline and of the data computed from it, per number of its table.
 const SPLINES: usize = 8;
 
-/// What to solve for each table.
+/// The task for each table.
 #[derive(Clone, Copy)]
 enum Task {
     /// The flywheel for a fluctuation at a mean speed.
@@ -143,7 +143,7 @@ impl Flywheels {
         if second.len() != count || [&moment, &inertia].iter().any(|a| a.len() != count * rows) {
             return Err(error::input("the arrays do not fit", None));
         }
-        let one = |i: usize, cancel: &AtomicBool| {
+        let solve_table = |i: usize, cancel: &AtomicBool| {
             let table = |all: &[f64]| all[i * rows..(i + 1) * rows].to_vec();
             let (moment, inertia) = (table(&moment), table(&inertia));
             let turn = match &corners {
@@ -156,15 +156,15 @@ impl Flywheels {
         };
         let small = count <= TABLES_PER_THREAD && count.saturating_mul(rows) <= FEW_ROWS;
         detach::run(py, small, |cancel| {
-            parallel_map(count, TABLES_PER_THREAD, threads, cancel, &|i| one(i, cancel))
+            parallel_map(count, TABLES_PER_THREAD, threads, cancel, &|i| solve_table(i, cancel))
         })
         .map(Self)
     }
 
     /// A number of each table, NaN for one without a flywheel.
     fn numbers<'py>(&self, py: Python<'py>) -> PyResult<FlywheelNumbers<'py>> {
-        let column = |of: fn(&Flywheel) -> f64| {
-            let values = self.0.iter().map(|one| one.as_ref().map_or(f64::NAN, of));
+        let column = |number: fn(&Flywheel) -> f64| {
+            let values = self.0.iter().map(|flywheel| flywheel.as_ref().map_or(f64::NAN, number));
             PyArray1::from_vec(py, values.collect())
         };
         detach::catch_panic(|| {
@@ -181,7 +181,7 @@ impl Flywheels {
         })
     }
 
-    /// Why a table has no flywheel.
+    /// The error of a table without a flywheel.
     fn problem(&self, index: usize) -> Option<String> {
         self.0.get(index)?.as_ref().err().map(Hint::with_hint)
     }
@@ -209,8 +209,9 @@ impl Flywheels {
         let points = points.as_slice()?.to_vec();
         let per_table = points.len().checked_div(self.0.len()).unwrap_or(0).max(1);
         let values = detach::map(py, points.len(), |i| {
-            let (x, one) = (points[i], self.0.get(i / per_table).and_then(|one| one.as_ref().ok()));
-            one.filter(|_| x.is_finite()).map_or(f64::NAN, |f| quantity.0.at(f, x))
+            let (x, flywheel) =
+                (points[i], self.0.get(i / per_table).and_then(|flywheel| flywheel.as_ref().ok()));
+            flywheel.filter(|_| x.is_finite()).map_or(f64::NAN, |f| quantity.0.at(f, x))
         })?;
         Ok(PyArray1::from_vec(py, values))
     }

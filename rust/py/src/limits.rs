@@ -11,8 +11,8 @@ use crate::parallel_map::parallel_map;
 /// Designs of a chunk, which share work space.
 const CHUNK: usize = 256;
 
-/// Limits of all designs: intervals (designs × count × 2, NaN where there are fewer), what folds at
-/// their ends (−1: nothing), and turns until the motion closes (NaN: it does not).
+/// Limits of all designs: intervals (designs × count × 2, filled with NaN), the parts that fold at their ends
+/// (−1: none), and turns until the motion closes (NaN: it does not).
 #[derive(IntoPyObject)]
 pub(crate) struct FoundLimits<'py> {
     count: usize,
@@ -34,12 +34,12 @@ pub(crate) fn find(
     let chunk = |index: usize| -> Result<Vec<Limits>, SolveError> {
         let tables = Tables::default();
         let mut finder = LimitsFinder::new(mechanism, signs, &tables, Some(cancel))?;
-        let own = index * CHUNK..((index + 1) * CHUNK).min(designs);
+        let chunk = index * CHUNK..((index + 1) * CHUNK).min(designs);
         let mut values = vec![0.0; mechanism.dimensions().len()];
-        let mut limits = Vec::with_capacity(own.len());
-        for design in own {
-            for (value, of) in values.iter_mut().zip(dimensions.chunks_exact(designs.max(1))) {
-                *value = of[design];
+        let mut limits = Vec::with_capacity(chunk.len());
+        for design in chunk {
+            for (value, column) in values.iter_mut().zip(dimensions.chunks_exact(designs.max(1))) {
+                *value = column[design];
             }
             limits.push(finder.limits(&values)?);
         }
@@ -58,13 +58,13 @@ pub(crate) fn arrays<'py>(
 ) -> FoundLimits<'py> {
     let count = limits.iter().map(|limits| limits.intervals.len()).max().unwrap_or(0);
     let (mut intervals, mut folds) = (Vec::new(), Vec::new());
-    for one in limits {
-        for interval in &one.intervals {
+    for design_limits in limits {
+        for interval in &design_limits.intervals {
             intervals.extend(interval.ends);
             let index = |fold: Option<usize>| fold.and_then(|fold| i32::try_from(fold).ok());
             folds.extend(interval.folds.map(|fold| index(fold).unwrap_or(-1)));
         }
-        for _ in one.intervals.len()..count {
+        for _ in design_limits.intervals.len()..count {
             intervals.extend([f64::NAN; 2]);
             folds.extend([-1; 2]);
         }

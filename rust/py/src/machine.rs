@@ -104,7 +104,8 @@ impl Machine {
             let motors = self::motors(&motors, &mut values)?;
             let body = |(link, body): &(String, Body)| body.of_link(core, link);
             let bodies = bodies.iter().map(body).collect::<PyResult<_>>()?;
-            let of_pair = |(name, own): &(String, PairFriction)| own.of_pair(core, name);
+            let of_pair =
+                |(name, pair_friction): &(String, PairFriction)| pair_friction.of_pair(core, name);
             let friction = friction.iter().map(of_pair).collect::<PyResult<_>>()?;
             let Values { tables, over, ways, functions, .. } = values;
             let machine = assur::dynamics::Machine {
@@ -184,8 +185,8 @@ impl Machine {
         }
     }
 
-    /// Where such loads are not smooth between two coordinates: a coordinate is at a knot of a table
-    /// over it, or turns back.
+    /// The places between two coordinates where such loads are not smooth: a coordinate is at a knot of a
+    /// table over it, or turns back.
     fn stations(
         &self,
         py: Python<'_>,
@@ -193,7 +194,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        self.of_mechanism(py, |core, own| own.stations(core, &dimensions, [start, end]))
+        self.of_mechanism(py, |core, machine| machine.stations(core, &dimensions, [start, end]))
     }
 
     /// Where pairs with friction reverse between two coordinates.
@@ -204,7 +205,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        self.of_mechanism(py, |core, own| own.reversals(core, &dimensions, [start, end]))
+        self.of_mechanism(py, |core, machine| machine.reversals(core, &dimensions, [start, end]))
     }
 
     /// The first table over another coordinate that does not cover a position of a design: its ends, and
@@ -215,12 +216,13 @@ impl Machine {
         dimensions: Vec<f64>,
         q: Vec<f64>,
     ) -> PyResult<Option<(f64, f64, f64)>> {
-        let found = self.of_mechanism(py, |core, own| own.uncovered(core, &dimensions, &q))?;
-        Ok(found.map(|([from, to], at)| (from, to, at)))
+        let uncovered =
+            self.of_mechanism(py, |core, machine| machine.uncovered(core, &dimensions, &q))?;
+        Ok(uncovered.map(|([from, to], at)| (from, to, at)))
     }
 
-    /// What its loads do to links, in the order of reactions: the load's index among those that are not
-    /// gravity, the link, the joint of the link where it acts, if it does, and whether with a couple.
+    /// The actions of its loads on links, in the order of reactions: the load's index among those that are not
+    /// gravity, the link, the joint of the link where it acts, if any, and whether it acts with a couple.
     #[getter]
     fn load_actions(&self) -> Vec<(usize, &str, Option<&str>, bool)> {
         let Inner::Mechanism(mechanism, machine) = &self.inner else { return Vec::new() };
@@ -228,13 +230,13 @@ impl Machine {
         let linkage = core.linkage();
         let actions =
             machine.load_actions(core).into_iter().map(|LoadAction { load, link, at, .. }| {
-                let own = &linkage.links[link];
+                let acted_link = &linkage.links[link];
                 let joint = match at {
-                    Some(Point::Joint(joint)) if own.joints.contains(&joint) => Some(joint),
+                    Some(Point::Joint(joint)) if acted_link.joints.contains(&joint) => Some(joint),
                     _ => None,
                 };
                 let joint = joint.map(|joint| linkage.joints[joint].name.as_str());
-                (load, own.name.as_str(), joint, at.is_none())
+                (load, acted_link.name.as_str(), joint, at.is_none())
             });
         actions.collect()
     }
@@ -276,15 +278,15 @@ impl Machine {
         let numbers: usize = inputs.iter().map(|array| array.as_array().len()).sum();
         let _room =
             reserve::room_for(py, numbers + drivers * drivers * drivers * q.as_array().len())?;
-        let [dimensions, q, speed, given] =
+        let [dimensions, q, speed, callback_values] =
             inputs.map(|array| array.as_slice().map(<[f64]>::to_vec));
-        let (dimensions, q, speed, given) = (dimensions?, q?, speed?, given?);
+        let (dimensions, q, speed, callback_values) = (dimensions?, q?, speed?, callback_values?);
         let size = mechanism.dimensions().len();
         let designs = dimensions.len() / size;
         let divides = |all: &[f64]| designs > 0 && all.len().is_multiple_of(designs);
         let fits = dimensions.len().is_multiple_of(size)
             && q.len() == speed.len()
-            && [&q, &given].iter().all(|all| divides(all))
+            && [&q, &callback_values].iter().all(|all| divides(all))
             && (q.len() / designs.max(1)).is_multiple_of(drivers);
         if !fits {
             return Err(error_map::solve(SolveError::Shape("the arrays do not fit".into())));
@@ -294,15 +296,20 @@ impl Machine {
             all[design * share..(design + 1) * share].to_vec()
         };
         let all = detach::run(py, q.len() <= FEW_POSITIONS, |cancel| {
-            let one = |design: usize| {
-                let [q, speed, given] = [&q, &speed, &given].map(|all| part_of(all, design));
+            let reduce_design = |design: usize| {
+                let [q, speed, callback_values] =
+                    [&q, &speed, &callback_values].map(|all| part_of(all, design));
                 let values: Vec<f64> =
                     (0..size).map(|index| dimensions[index * designs + design]).collect();
-                let positions =
-                    DrivenPositions { q: &q, speed: &speed, sense: &sense, external: &given };
+                let positions = DrivenPositions {
+                    q: &q,
+                    speed: &speed,
+                    sense: &sense,
+                    external: &callback_values,
+                };
                 machine.reduce(mechanism, &values, positions, cancel)
             };
-            parallel_map(designs, 1, threads, cancel, &one)
+            parallel_map(designs, 1, threads, cancel, &reduce_design)
         })?;
         let positions = q.len() / drivers;
         let count = all.iter().map(|rows| rows.status.iter().filter(|&&s| failed(s)).count()).sum();
@@ -315,10 +322,9 @@ impl Machine {
         Ok(arrays(py, &all, failure))
     }
 
-    /// Reactions of designs at positions, `reactions` those that are asked for; the other arguments
-    /// are those of `reduce`. `squares`: only the greatest and the mean square of each design are; then
-    /// the `rows` are the designs, else designs × positions. `sense`: of the drivers at rest, and
-    /// `solution`: see `ReactionRequest`.
+    /// The requested `reactions` of designs at positions; the other arguments are those of `reduce`.
+    /// `squares`: only the greatest and the mean square of each design; then the `rows` are the designs, else
+    /// designs × positions. `sense` (of the drivers at rest) and `solution`: see `ReactionRequest`.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
     fn reactions<'py>(
         &self,
@@ -365,17 +371,17 @@ impl Machine {
     ) -> PyResult<equilibria::Found<'py>> {
         let range = EquilibriumRange { ends, is_turn, intervals };
         let dimensions = dimensions.as_slice()?;
-        let found = detach::run(py, false, |cancel| match &self.inner {
+        let equilibria = detach::run(py, false, |cancel| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 machine.equilibria(&mechanism.get().inner, dimensions, range, cancel)
             }
             Inner::Tables(tabulated) => tabulated.equilibria(range),
         })?;
-        Ok(equilibria::arrays(py, &found))
+        Ok(equilibria::arrays(py, &equilibria))
     }
 
     /// Integrates a run over time or, with `along_q`, over the coordinate.
-    #[allow(clippy::too_many_arguments, reason = "what is asked of a run")]
+    #[allow(clippy::too_many_arguments, reason = "the parameters of a run")]
     fn run(
         &self,
         py: Python<'_>,
@@ -427,7 +433,7 @@ impl Machine {
 
     /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.
     /// `mean`: definition of the mean speed. Returns the run over one period and its numbers.
-    #[allow(clippy::too_many_arguments, reason = "what is asked of it")]
+    #[allow(clippy::too_many_arguments, reason = "the parameters of a steady state")]
     fn steady(
         &self,
         py: Python<'_>,
@@ -478,7 +484,7 @@ impl Machine {
 }
 
 impl Machine {
-    /// Short work on the mechanism and its loads, without the GIL; nothing of a machine of tables.
+    /// Short work on the mechanism and its loads, without the GIL; empty for a machine of tables.
     fn of_mechanism<T: Default + Send>(
         &self,
         py: Python<'_>,
@@ -502,7 +508,7 @@ impl Machine {
     }
 
     /// Runs work that may call the Python functions of the machine and of events. With such functions
-    /// it holds the GIL throughout. Raises what a signal handler raised meanwhile.
+    /// it holds the GIL throughout. Raises the exception of a signal handler, if any.
     fn with_callbacks<T: Send>(
         &self,
         py: Python<'_>,
@@ -538,10 +544,10 @@ fn arrays<'py>(
     all: &[ReducedTable],
     failure: Option<Py<PyBaseException>>,
 ) -> Arrays<'py> {
-    let array = |of: fn(&ReducedTable) -> &[f64]| {
-        PyArray1::from_vec(py, all.iter().flat_map(|rows| of(rows).iter().copied()).collect())
+    let array = |column: fn(&ReducedTable) -> &[f64]| {
+        PyArray1::from_vec(py, all.iter().flat_map(|rows| column(rows).iter().copied()).collect())
     };
-    let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&one| one as u8));
+    let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&status| status as u8));
     (
         array(|r| &r.inertia),
         array(|r| &r.d_inertia),

@@ -96,15 +96,15 @@ impl Mechanism {
         let description = described(joints, links, slides, drivers, assembly);
         let (length, angle) = tolerance;
         let small = description.links.len() < FEW_LINKS;
-        let found =
+        let result =
             detach::run(py, small, |cancel| assur::fit(&description, length, angle, Some(cancel)))?;
-        let (fitted, change) = found.map_err(error_map::structure)?;
+        let (fitted, change) = result.map_err(error_map::structure)?;
         let places = fitted.joints.into_iter().map(|(_, [x, y])| (x, y)).collect();
         let angles = fitted.slides.into_iter().map(|slide| slide.angle).collect();
         Ok((places, angles, change.length))
     }
 
-    /// The same of a drawing that need not show the assembly.
+    /// Compiles a drawing that need not show the assembly.
     #[staticmethod]
     fn for_pose(
         joints: Vec<(String, f64, f64)>,
@@ -136,8 +136,8 @@ impl Mechanism {
     }
 
     /// Least and greatest value of a coordinate (a joint's with its component, a link's, a slide's)
-    /// or of a derivative of it, each with its place, over all intervals or the one that holds `within`;
-    /// none if the assembly does not exist there.
+    /// or of a derivative of it, each with its place, over all intervals or the one that contains `within`;
+    /// `None` if the assembly does not exist there.
     #[pyo3(signature = (dimensions, signs, coordinate, order, within=None))]
     fn extremes(
         &self,
@@ -148,12 +148,12 @@ impl Mechanism {
         order: usize,
         within: Option<f64>,
     ) -> PyResult<Option<[(f64, f64); 2]>> {
-        let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
-        let found = detach::run(py, is_small(&self.inner), |cancel| {
-            self.inner.extremes(&dimensions, &signs, asked, within, Some(cancel))
+        let tracked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
+        let extremes = detach::run(py, is_small(&self.inner), |cancel| {
+            self.inner.extremes(&dimensions, &signs, tracked, within, Some(cancel))
         })?;
-        let pair = |one: assur::ValueAt| (one.value, one.q);
-        Ok(found.map_err(error_map::solve)?.map(|both| both.map(pair)))
+        let pair = |extreme: assur::ValueAt| (extreme.value, extreme.q);
+        Ok(extremes.map_err(error_map::solve)?.map(|both| both.map(pair)))
     }
 
     /// Stretches over which a coordinate is at least, or at most, at a level.
@@ -166,11 +166,11 @@ impl Mechanism {
         order: usize,
         level: (f64, bool),
     ) -> PyResult<Vec<[f64; 2]>> {
-        let asked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
-        let found = detach::run(py, is_small(&self.inner), |cancel| {
-            self.inner.stretches_beyond(&dimensions, &signs, asked, level, Some(cancel))
+        let tracked = (self.inner.coordinate(coordinate).map_err(error_map::solve)?, order);
+        let stretches = detach::run(py, is_small(&self.inner), |cancel| {
+            self.inner.stretches_beyond(&dimensions, &signs, tracked, level, Some(cancel))
         })?;
-        found.map_err(error_map::solve)
+        stretches.map_err(error_map::solve)
     }
 
     /// Names of the dimensions, in order.
@@ -198,7 +198,7 @@ impl Mechanism {
         names.zip(self.inner.signs().iter().copied()).collect()
     }
 
-    /// Those among them whose sign is +1 always, because a length is never negative.
+    /// The pairs among them whose sign is always +1, because a length is never negative.
     #[getter]
     fn lengths(&self) -> Vec<String> {
         self.inner.lengths().into_iter().map(Into::into).collect()
@@ -275,8 +275,8 @@ impl Mechanism {
         catch_panic(|| self.inner.coordinate(name).map(drop).map_err(error_map::solve))
     }
 
-    /// The link that takes a load at a joint, and whether another could as well: several links have the
-    /// joint, and none of them is the only block. Raises `InputError` if the name is unknown.
+    /// The link that takes a load at a joint, and whether another link could take it too: several links
+    /// have the joint, and a single block is not among them. Raises `InputError` if the name is unknown.
     fn taker(&self, joint: &str) -> PyResult<(String, bool)> {
         catch_panic(|| {
             let (linkage, joint) = (self.inner.linkage(), self.inner.joint(joint));
@@ -347,7 +347,7 @@ impl Mechanism {
         sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)
     }
 
-    /// Why a metric has no meaning at coordinates, if so.
+    /// The reason why a metric has no meaning at coordinates, if any.
     fn refusal_of_metric(
         &self,
         q: PyReadonlyArray1<'_, f64>,
@@ -399,9 +399,10 @@ impl Mechanism {
     /// The outcome of one position, as a sentence.
     fn explain(&self, dimensions: Vec<f64>, q: Vec<f64>, signs: Vec<i8>) -> PyResult<String> {
         catch_panic(|| {
-            let found = self.inner.diagnose(&dimensions, &q, &signs).map_err(error_map::solve)?;
-            let one = found.first().map(ToString::to_string);
-            one.ok_or_else(|| error::input("no coordinate", None))
+            let diagnoses =
+                self.inner.diagnose(&dimensions, &q, &signs).map_err(error_map::solve)?;
+            let sentence = diagnoses.first().map(ToString::to_string);
+            sentence.ok_or_else(|| error::input("no coordinate", None))
         })
     }
 
@@ -421,11 +422,11 @@ impl Mechanism {
         let [designs, positions] = question.shape();
         let is_quick = mechanism.structure().class() <= 2 && mechanism.signs().len() < FEW_SIGNS;
         let small = is_quick && designs * positions < FEW_ASSEMBLIES;
-        let found = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
-        assemblies::Found::of_all(py, found.map_err(error_map::solve)?)
+        let answers = detach::run(py, small, |cancel| question.answer(threads, cancel))?;
+        assemblies::Found::of_all(py, answers.map_err(error_map::solve)?)
     }
 
-    /// Where an assembly of designs exists.
+    /// The intervals where an assembly of designs exists.
     fn limits<'py>(
         &self,
         py: Python<'py>,
@@ -437,10 +438,10 @@ impl Mechanism {
         let dimensions = dimensions.as_slice()?.to_vec();
         let designs = dimensions.len() / self.inner.dimensions().len().max(1);
         let small = is_small(&self.inner) && designs < FEW_ASSEMBLIES;
-        let found = detach::run(py, small, |cancel| {
+        let result = detach::run(py, small, |cancel| {
             limits::find(&self.inner, &dimensions, &signs, threads, cancel)
         })?;
-        Ok(limits::arrays(py, &found.map_err(error_map::solve)?, self.inner.fold_names()))
+        Ok(limits::arrays(py, &result.map_err(error_map::solve)?, self.inner.fold_names()))
     }
 
     /// The mechanism drawn in an assembly of a design.

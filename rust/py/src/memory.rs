@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PySlice};
 
 use crate::error;
 
-/// Bytes of a cache line. So many extra entries are more than enough to align an array.
+/// Bytes of a cache line. The same number of extra entries is more than enough to align an array.
 const CACHE_LINE: usize = 64;
 /// Smallest array to keep, in bytes: the allocator itself reuses smaller ones.
 const WORTH_KEEPING: usize = 64 << 10;
@@ -65,8 +65,8 @@ impl Drop for Owner {
     }
 }
 
-/// Memory for the results of one call: the arrays dropped since the last one. What the call does not
-/// reuse is freed.
+/// Memory for the results of one call: the arrays dropped since the last one. Arrays that the call does not
+/// reuse are freed.
 pub(crate) struct Memory(Vec<Kept>);
 
 impl Memory {
@@ -96,8 +96,8 @@ impl Memory {
             let array = kept.array.bind(py).cast::<PyArray1<T>>();
             kept.bytes == bytes && array.is_ok_and(|array| array.len() == len)
         };
-        let found = self.0.iter().position(fits).map(|index| self.0.swap_remove(index).array);
-        let array = match found {
+        let reused = self.0.iter().position(fits).map(|index| self.0.swap_remove(index).array);
+        let array = match reused {
             Some(array) => array.into_bound(py),
             None => py.import("numpy")?.call_method1("empty", (len, T::get_dtype(py)))?,
         };
@@ -131,7 +131,7 @@ pub(crate) fn as_uninitialized<'a, T: Element>(
     }
     #[allow(unsafe_code, reason = "NumPy has no type for uninitialised entries")]
     // SAFETY: the array is one-dimensional, contiguous and aligned (checked above) and has this
-    // length; the exclusive borrow excludes other calls. `fill` writes every entry, or nobody reads
+    // length; the exclusive borrow excludes other calls. `fill` writes every entry, or no code reads
     // them: new arrays are dropped, and those of a motion are marked as incomplete.
     let slice = unsafe { std::slice::from_raw_parts_mut(data.cast(), array.len()) };
     Ok(slice)

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use crate::convert::description::Slide;
 use crate::convert::word::{Word, Words};
 
-/// What `assur.Mechanism` is made of.
+/// The arguments of `assur.Mechanism`.
 #[derive(IntoPyObject)]
 pub(crate) struct Drawing {
     joints: Vec<(String, [f64; 2])>,

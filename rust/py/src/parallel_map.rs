@@ -6,14 +6,14 @@ use std::thread::{self, ScopedJoinHandle};
 
 use assur::available_threads;
 
-/// Results of `one` for every index below `count`, on at most one thread for every
+/// Results of `item` for every index below `count`, on at most one thread for every
 /// `min_per_thread` indices. After a cancellation the rest of each thread's results is missing.
 pub(crate) fn parallel_map<T: Send>(
     count: usize,
     min_per_thread: usize,
     threads: Option<usize>,
     cancel: &AtomicBool,
-    one: &(impl Fn(usize) -> T + Sync),
+    item: &(impl Fn(usize) -> T + Sync),
 ) -> Vec<T> {
     let most = count.div_ceil(min_per_thread).max(1);
     let threads =
@@ -21,7 +21,7 @@ pub(crate) fn parallel_map<T: Send>(
     let share = count.div_ceil(threads);
     let run_share = |first: usize| -> Vec<T> {
         let indices = first..(first + share).min(count);
-        indices.take_while(|_| !cancel.load(Ordering::Relaxed)).map(one).collect()
+        indices.take_while(|_| !cancel.load(Ordering::Relaxed)).map(item).collect()
     };
     if threads == 1 {
         return run_share(0);
@@ -29,7 +29,7 @@ pub(crate) fn parallel_map<T: Send>(
     thread::scope(|scope| {
         let start = |first: usize| {
             let worker = thread::Builder::new().spawn_scoped(scope, move || run_share(first));
-            // Where the system has no further thread, this one does the share.
+            // Where the system refuses another thread, this one does the share.
             worker.map_err(|_| run_share(first))
         };
         let workers: Vec<_> = (0..count).step_by(share).map(start).collect();

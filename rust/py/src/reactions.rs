@@ -21,10 +21,10 @@ pub(crate) type Found<'py> =
 /// Positions up to which a call need not check for signals.
 const FEW_POSITIONS: usize = 20_000;
 
-/// Paths to solutions of friction up to which it need not either: they take some 50 ms.
+/// Paths to solutions of friction up to which a call need not check either: they take some 50 ms.
 const FEW_PATHS: usize = 256;
 
-/// What a reaction is of.
+/// The object of a reaction.
 #[derive(Clone, Copy)]
 enum Kind {
     Joint,
@@ -114,7 +114,7 @@ pub(crate) struct Inputs<'py> {
     pub rows: usize,
     /// See `ReactionRequest::squares`; then the rows are the designs.
     pub squares: bool,
-    /// The sense of the drivers at rest, and which solution is meant.
+    /// The sense of the drivers at rest, and the index of the solution.
     pub friction: (Vec<f64>, usize),
 }
 
@@ -128,7 +128,7 @@ pub(crate) fn reactions<'py>(
     threads: Option<NonZeroUsize>,
     report: &[usize],
 ) -> PyResult<Found<'py>> {
-    // All are the package's own arrays, which nobody changes meanwhile.
+    // All are the package's own arrays, which no other code changes meanwhile.
     let q = inputs.q.as_slice()?;
     let reactions: Vec<Reaction> = keys.iter().map(Key::reaction).collect();
     let request = ReactionRequest {

@@ -1,4 +1,4 @@
-//! Remedies of a description that is refused.
+//! Remedies for a refused description.
 
 use assur::DriverDescription;
 use pyo3::prelude::*;
@@ -18,14 +18,14 @@ pub(crate) struct RemedyFields {
     joints: Vec<(String, f64, f64)>,
     links: Vec<(String, Vec<String>)>,
     slides: Vec<(String, Slide)>,
-    /// Each a link or slide, or a link and the one it is measured from.
+    /// Each a link or slide, or a link and the link from which it is measured.
     drivers: Vec<(String, Option<String>)>,
     assembly: Vec<(String, i64)>,
 }
 
 impl From<assur::Remedy> for RemedyFields {
     fn from(remedy: assur::Remedy) -> Self {
-        let own = remedy.description;
+        let description = remedy.description;
         let driver = |driver| match driver {
             DriverDescription::Named(name) => (name, None),
             DriverDescription::Relative { link, relative_to } => (link, Some(relative_to)),
@@ -35,16 +35,16 @@ impl From<assur::Remedy> for RemedyFields {
             names: remedy.names,
             text: remedy.text,
             detail: remedy.detail,
-            joints: own.joints.into_iter().map(|(name, [x, y])| (name, x, y)).collect(),
-            links: own.links,
-            slides: own.slides.into_iter().map(Slide::with_name).collect(),
-            drivers: own.drivers.into_iter().map(driver).collect(),
-            assembly: own.assembly,
+            joints: description.joints.into_iter().map(|(name, [x, y])| (name, x, y)).collect(),
+            links: description.links,
+            slides: description.slides.into_iter().map(Slide::with_name).collect(),
+            drivers: description.drivers.into_iter().map(driver).collect(),
+            assembly: description.assembly,
         }
     }
 }
 
-/// Edits after which a description that is refused is a mechanism.
+/// Edits after which a refused description is a mechanism.
 #[pyfunction]
 pub(crate) fn remedies(
     py: Python<'_>,
@@ -56,6 +56,6 @@ pub(crate) fn remedies(
 ) -> PyResult<Vec<RemedyFields>> {
     let description = described(joints, links, slides, drivers, assembly);
     let small = description.links.len() < FEW_LINKS / 4;
-    let found = detach::run(py, small, |cancel| assur::remedies(&description, Some(cancel)))?;
-    Ok(found.map_err(error_map::structure)?.into_iter().map(RemedyFields::from).collect())
+    let result = detach::run(py, small, |cancel| assur::remedies(&description, Some(cancel)))?;
+    Ok(result.map_err(error_map::structure)?.into_iter().map(RemedyFields::from).collect())
 }

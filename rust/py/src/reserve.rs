@@ -2,7 +2,7 @@
 //!
 //! Most allocations of the core cannot fail in Rust: if the system refuses one, the process ends. This
 //! allocator then gives the reserve back to the system, cancels all calls, and tries again. Cancelled
-//! calls drop what they have and raise `MemoryError`; the next call takes the reserve anew.
+//! calls drop their data and raise `MemoryError`; the next call takes the reserve again.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ptr;
@@ -13,21 +13,21 @@ use pyo3::PyErr;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
-/// Least size: what a call may allocate until it sees that it is cancelled. Above 32 MiB, or freeing it
-/// would raise the size from which the C library returns memory to the system.
+/// Least size: a bound of the allocations of a call until it sees that it is cancelled. Above 32 MiB, because
+/// freeing a smaller one would raise the size from which the C library returns memory to the system.
 const LEAST: usize = 40 << 20;
-/// How often a number is in memory at once.
+/// Copies of a number in memory at once.
 const COPIES: usize = 4;
-/// Calls at once that can be cancelled; further ones end without it.
+/// Most simultaneous calls that can be cancelled; others run to their end.
 const CALLS: usize = 64;
 /// Alignment of the reserve: that of its header.
 const ALIGN: usize = align_of::<usize>();
 
 /// The reserve, which begins with its size; null once it is used.
 static RESERVE: AtomicPtr<usize> = AtomicPtr::new(ptr::null_mut());
-/// How often the system has refused memory.
+/// Number of times that the system has refused memory.
 static REFUSALS: AtomicUsize = AtomicUsize::new(0);
-/// In the place of a flag that is being set.
+/// Marks the place of a flag that is being set.
 const BUSY: *mut AtomicBool = ptr::without_provenance_mut(1);
 /// The flags that cancel the calls under way.
 static CANCELS: [AtomicPtr<AtomicBool>; CALLS] = [const { AtomicPtr::new(ptr::null_mut()) }; CALLS];
@@ -54,7 +54,7 @@ unsafe impl GlobalAlloc for WithReserve {
 
     #[inline]
     unsafe fn realloc(&self, old: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // SAFETY: as above; what cannot be moved stays as it is.
+        // SAFETY: as above; a block that cannot be moved stays unchanged.
         or_with_reserve(|| unsafe { System.realloc(old, layout, size) })
     }
 
@@ -106,7 +106,7 @@ fn free(reserve: *mut usize) {
     }
 }
 
-/// Takes a reserve of this size from the system; null if that refuses.
+/// Takes a reserve of this size from the system; null if the system refuses it.
 fn take(size: usize) -> *mut usize {
     let Ok(layout) = Layout::from_size_align(size, ALIGN) else { return ptr::null_mut() };
     #[allow(unsafe_code, reason = "the system's allocator is unsafe to use")]
@@ -136,7 +136,7 @@ fn resize(size: usize) -> PyResult<()> {
     if reserve.is_null() {
         return Err(out_of_memory());
     }
-    // If another thread has taken one meanwhile, one is enough.
+    // If another thread has taken one meanwhile, that one is enough.
     free(RESERVE.swap(reserve, Ordering::AcqRel));
     Ok(())
 }
@@ -146,14 +146,13 @@ pub(crate) struct Room;
 
 impl Drop for Room {
     fn drop(&mut self) {
-        // What the system refuses now, the next call asks for again.
+        // If the system refuses the memory now, the next call requests it again.
         let _ = resize(LEAST);
     }
 }
 
-/// A reserve with room for so many bytes besides the least, for a call that allocates them in few
-/// pieces; `MemoryError` if the system refuses it. It takes addresses but no pages: nothing is written
-/// there.
+/// A reserve with room for `bytes` besides the least size, for a call that allocates them in few pieces;
+/// `MemoryError` if the system refuses it. It takes addresses but no pages, because nothing is written there.
 pub(crate) fn room(_py: Python<'_>, bytes: usize) -> PyResult<Option<Room>> {
     if bytes < LEAST / 4 {
         return Ok(None);
@@ -162,8 +161,8 @@ pub(crate) fn room(_py: Python<'_>, bytes: usize) -> PyResult<Option<Room>> {
     Ok(Some(Room))
 }
 
-/// [`room`] for a call with so many numbers in its arguments and results together: these are copied,
-/// and lists that grow take twice their length.
+/// [`room`] for a call with `numbers` numbers in its arguments and results together: these are copied, and
+/// lists that grow take twice their length.
 pub(crate) fn room_for(py: Python<'_>, numbers: usize) -> PyResult<Option<Room>> {
     room(py, numbers.saturating_mul(COPIES * size_of::<f64>()))
 }
@@ -174,7 +173,7 @@ pub(crate) fn copied(array: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
     collected(numbers.len(), numbers.iter().copied())
 }
 
-/// A list of so many items, or `MemoryError`.
+/// A list of `count` items, or `MemoryError`.
 pub(crate) fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> PyResult<Vec<T>> {
     let mut list = Vec::new();
     list.try_reserve_exact(count).map_err(|_| out_of_memory())?;
@@ -182,7 +181,7 @@ pub(crate) fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> PyRe
     Ok(list)
 }
 
-/// How often the system has refused memory: a call that sees it change ends.
+/// Number of times that the system has refused memory: a call that sees it change ends.
 pub(crate) fn refusals() -> usize {
     REFUSALS.load(Ordering::Relaxed)
 }

@@ -1,4 +1,4 @@
-//! Which calls are so short that no signal need be heard meanwhile.
+//! Calls that are too short to check for signals meanwhile.
 
 use assur::{Coordinates, Mechanism, Request};
 
@@ -14,13 +14,13 @@ pub(crate) const FEW_SIGNS: usize = 12;
 pub(crate) const FEW_ASSEMBLIES: usize = 100;
 /// Links below which building a mechanism, or one search along its branch, need not check for signals.
 pub(crate) const FEW_LINKS: usize = 64;
-/// Links of the mechanisms for which positions are counted: of longer ones each takes so much longer.
+/// Links of the mechanisms for which positions are counted: with more links a position takes longer.
 const LINKS_COUNTED: usize = 4;
 /// Number of positions that take as long as tracing one branch from the drawing; fewer without groups
 /// above class II, whose knots are solved in lanes.
 const POSITIONS_PER_BRANCH: usize = 1000;
 const POSITIONS_PER_BRANCH_OF_DYADS: usize = 100;
-/// Whether designs are solved at positions so quickly that no signal need be heard meanwhile.
+/// Whether designs are solved at positions too quickly to check for signals meanwhile.
 pub(crate) fn is_short(mechanism: &Mechanism, designs: usize, positions: usize) -> bool {
     let per_branch = match mechanism.structure().class() {
         0..=2 => POSITIONS_PER_BRANCH_OF_DYADS,
@@ -31,8 +31,8 @@ pub(crate) fn is_short(mechanism: &Mechanism, designs: usize, positions: usize) 
     mechanism.q0().len() == 1 && cost < FEW_POSITIONS
 }
 
-/// Whether positions of several drivers are so few and so near the drawing that no signal need be
-/// heard meanwhile.
+/// Whether positions of several drivers are too few and too near the drawing to check for signals
+/// meanwhile.
 pub(crate) fn is_near(mechanism: &Mechanism, request: &Request<'_>, designs: usize) -> bool {
     let (Coordinates::Shared(q) | Coordinates::PerDesign(q)) = request.coordinates;
     let q0 = mechanism.q0();

@@ -33,8 +33,8 @@ pub(crate) struct KnownSigns(pub(crate) assur::KnownSigns);
 impl KnownSigns {
     #[new]
     fn new(designs: usize) -> PyResult<Self> {
-        let known = assur::KnownSigns::new(designs);
-        known.map(Self).map_err(|_| {
+        let signs = assur::KnownSigns::new(designs);
+        signs.map(Self).map_err(|_| {
             PyMemoryError::new_err(format!(
                 "out of memory: one byte for each of {designs} designs is needed"
             ))
@@ -42,7 +42,7 @@ impl KnownSigns {
     }
 }
 
-/// What is to be solved; see `assur.Mechanism.solve`. `outputs`: indices of joints, links (angles), links
+/// A request to solve; see `assur.Mechanism.solve`. `outputs`: indices of joints, links (angles), links
 /// (reference points) and slides. `by`: the dimension to differentiate by. `known_signs`: valid for these
 /// dimensions and signs.
 pub(crate) struct Question<'q, 'py> {
@@ -115,7 +115,7 @@ impl<'py> Question<'_, 'py> {
         }
         let log = FailureLog::default();
         let failures = report.is_some().then_some(&log);
-        let known_signs = known_signs.as_ref().map(|known| &known.get().0);
+        let known_signs = known_signs.as_ref().map(|signs| &signs.get().0);
         let solved = detach::run(py, small, |cancel| {
             let cancel = Some(cancel);
             let control = Control { threads, cancel, failures, known_signs, ..Control::default() };
@@ -146,19 +146,19 @@ impl<'py> Question<'_, 'py> {
     }
 }
 
-/// The columns in arrays of their own, or one after another in one array.
+/// The columns in separate arrays, or one after another in one array.
 fn split<'a>(
     arrays: &'a mut [PyReadwriteArray1<'_, f64>],
     columns: &[Column],
     count: usize,
 ) -> PyResult<Vec<&'a mut [MaybeUninit<f64>]>> {
-    let [one] = arrays else {
+    let [single] = arrays else {
         return arrays.iter_mut().map(as_uninitialized).collect();
     };
-    let mut rest = as_uninitialized(one)?;
+    let mut rest = as_uninitialized(single)?;
     let mut parts = Vec::with_capacity(columns.len());
     for column in columns {
-        // What is too short is refused with the sizes of all.
+        // An array that is too short is refused later, with the sizes of all.
         let (part, left) = rest.split_at_mut((count * column.width).min(rest.len()));
         parts.push(part);
         rest = left;

@@ -12,7 +12,7 @@ use crate::convert::word::Word;
 use crate::short_calls::is_short;
 use crate::{detach, error_map, reserve};
 
-/// Values of each metric, statuses, and which designs are kept.
+/// Values of each metric, statuses, and the designs that are kept.
 pub(crate) type Found<'py> =
     (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<bool>>);
 
@@ -29,8 +29,8 @@ pub(crate) fn measure<'py>(
     let (dimensions, q) = (dimensions.as_slice()?, q.as_slice()?);
     let conditions: Vec<_> = conditions.into_iter().map(condition).collect();
     let metrics =
-        metrics.iter().map(|one| metric_of(mechanism, one)).collect::<PyResult<Vec<_>>>()?;
-    let metrics: Vec<&dyn Metric> = metrics.iter().map(|one| &**one as &dyn Metric).collect();
+        metrics.iter().map(|metric| metric_of(mechanism, metric)).collect::<PyResult<Vec<_>>>()?;
+    let metrics: Vec<&dyn Metric> = metrics.iter().map(|metric| &**metric as &dyn Metric).collect();
     let sweep = Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions };
     let designs = dimensions.len() / mechanism.dimensions().len().max(1);
     let small = is_short(mechanism, designs, q.len());

@@ -27,8 +27,8 @@ pub(crate) fn sin_cos<'py>(
             sines.extend(numbers(s));
             cosines.extend(numbers(c));
         }
-        for &one in rest {
-            let (s, c) = trig::sin_cos(one);
+        for &angle in rest {
+            let (s, c) = trig::sin_cos(angle);
             sines.push(s);
             cosines.push(c);
         }
@@ -46,7 +46,7 @@ pub(crate) fn atan2<'py>(
     angles(py, [&y, &x], trig::atan2, trig::atan2)
 }
 
-/// The same of points at a distance of 1.
+/// Angles of points at a distance of 1.
 #[pyfunction]
 pub(crate) fn unit_angle<'py>(
     py: Python<'py>,
@@ -89,7 +89,7 @@ pub(crate) fn asin<'py>(py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyRes
         for group in groups {
             angles.extend(numbers(trig::asin(in_lanes(group))));
         }
-        angles.extend(rest.iter().map(|&one| trig::asin(one)));
+        angles.extend(rest.iter().map(|&sine| trig::asin(sine)));
         Ok(PyArray1::from_vec(py, angles))
     })
 }

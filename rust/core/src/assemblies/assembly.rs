@@ -23,7 +23,7 @@ pub struct Assembly {
     pub is_double: bool,
 }
 
-/// A path of the search that led to no assembly of its own.
+/// A path of the search that did not lead to its own assembly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathFailure {
     /// The group, by class and links.
@@ -41,12 +41,12 @@ impl fmt::Display for PathFailure {
 /// Every assembly of a design at a coordinate.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Assemblies {
-    /// Those that are real.
+    /// The real assemblies.
     pub found: Vec<Assembly>,
     /// The number of complex assemblies of each group above class II, with dimensions that are not
     /// special.
     pub complex_counts: Vec<usize>,
-    /// Paths that found none.
+    /// Paths that did not lead to an assembly.
     pub failures: Vec<PathFailure>,
 }
 

@@ -23,14 +23,14 @@ use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 use crate::structure::closure::point_of_joint;
 
-/// Greatest distance (relative to the size) of two assemblies that are one, where a dyad or group is
-/// flat: beside a dead point half of all digits are lost.
+/// Where a dyad or group is flat, two assemblies nearer than this (relative to the size) are one: beside a
+/// dead point half of all digits are lost.
 const DOUBLE: f64 = 1.0e-8;
-/// How far (rad, or in sizes) Newton's iteration may lead from the end of a path. Beside a dead point
-/// that end is good to half of all digits.
+/// Greatest distance (rad, or in sizes) that Newton's iteration may lead from the end of a path. Beside a
+/// dead point that end is good to half of all digits.
 const CONFIRMED: f64 = 1.0e-5;
 
-/// How near (rad, or relative to the size) the same assembly is that was found in two ways.
+/// Results nearer than this (rad, or relative to the size) are the same assembly, found in two ways.
 const SAME: f64 = 1.0e-6;
 /// Most signs whose combinations are tried.
 const MOST_TRIED: usize = 8;
@@ -89,17 +89,17 @@ impl Mechanism {
             unknowns: vec![0.0; self.plan().groups().map(|group| group.unknowns.len()).sum()],
             state,
             cancel,
-            found: Assemblies {
+            assemblies: Assemblies {
                 complex_counts: fibres.0.iter().map(GroupFibres::count).collect(),
                 ..Assemblies::default()
             },
             places: Vec::new(),
         };
         search.complete(0, false)?;
-        let mut found = search.found;
+        let mut assemblies = search.assemblies;
         if !design.has_groups() {
             let mut constancy = SignConstancy::new(&mut design);
-            for assembly in &mut found.found {
+            for assembly in &mut assemblies.found {
                 if cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                     return Err(SolveError::Interrupted);
                 }
@@ -110,7 +110,7 @@ impl Mechanism {
                 }
             }
         }
-        Ok(found)
+        Ok(assemblies)
     }
 
     /// The signs at the drawing that lead to an assembly: those traced back, unless rounding beside a
@@ -143,7 +143,7 @@ impl Mechanism {
         Ok(back)
     }
 
-    /// Those of random dimensions, found once.
+    /// The fibres of random dimensions, found once.
     fn fibres(&self) -> Arc<Fibres> {
         self.number.share(
             |_: &Fibres| true,
@@ -160,12 +160,12 @@ impl Mechanism {
                 }
                 let cx = drawing.context(&derivatives);
                 state.solve(&cx, &drawing.q0);
-                let of = |group| {
+                let group_fibres = |group| {
                     let forms = GroupForms::new(self.plan(), group);
                     let drawn = parameters(&forms, group, &cx, &state);
                     GroupFibres::new(forms, &drawn)
                 };
-                Fibres(self.plan().groups().map(of).collect())
+                Fibres(self.plan().groups().map(group_fibres).collect())
             },
         )
     }
@@ -173,24 +173,23 @@ impl Mechanism {
 
 /// Whether a motion of one position is in an assembly.
 fn is_there(motion: &Motion, assembly: &Assembly) -> bool {
-    // Their spread: where the drawing lies in its coordinates says nothing of its size.
+    // The spread of the joints: their place in the drawing's coordinates does not show the size.
     let spread = |axis: usize| {
         let values = assembly.joints.iter().map(|joint| joint[axis]);
-        let [least, most] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
-            [least.min(x), most.max(x)]
-        });
-        most - least
+        let [low, high] = values
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+        high - low
     };
-    let slides = assembly.slides.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let slides = assembly.slides.iter().fold(0.0, |high: f64, value| high.max(value.abs()));
     let size = spread(0).max(spread(1)).max(slides);
-    let near = |found: f64, wanted: f64| (found - wanted).abs() <= SAME * size;
-    let joint = |of: &Series| {
-        let [x, y] = assembly.joints[of.index];
-        near(of.derivatives[0][0], x) && near(of.derivatives[0][1], y)
+    let near = |value: f64, expected: f64| (value - expected).abs() <= SAME * size;
+    let joint = |series: &Series| {
+        let [x, y] = assembly.joints[series.index];
+        near(series.derivatives[0][0], x) && near(series.derivatives[0][1], y)
     };
-    let slide = |of: &Series| near(of.derivatives[0][0], assembly.slides[of.index]);
-    let link = |of: &Series| {
-        let gap = (of.derivatives[0][0] - assembly.angles[of.index]) / TAU;
+    let slide = |series: &Series| near(series.derivatives[0][0], assembly.slides[series.index]);
+    let link = |series: &Series| {
+        let gap = (series.derivatives[0][0] - assembly.angles[series.index]) / TAU;
         (gap - gap.round()).abs() * TAU <= SAME
     };
     motion.joints.iter().all(joint)
@@ -200,13 +199,13 @@ fn is_there(motion: &Motion, assembly: &Assembly) -> bool {
 
 fn choices(mechanism: &Mechanism) -> Vec<Choice<'_>> {
     let mut choices = Vec::new();
-    for (step, of) in mechanism.plan().steps.iter().enumerate() {
-        match of {
+    for (index, step) in mechanism.plan().steps.iter().enumerate() {
+        match step {
             Step::Dyad(dyad) => {
                 let sign = dyad.sign.filter(|_| !dyad.is_length);
-                choices.extend(sign.map(|sign| Choice::Sign { sign, step }));
+                choices.extend(sign.map(|sign| Choice::Sign { sign, step: index }));
             }
-            Step::Group(group) => choices.push(Choice::Group { group, step }),
+            Step::Group(group) => choices.push(Choice::Group { group, step: index }),
             _ => {}
         }
     }
@@ -225,8 +224,8 @@ struct Search<'s> {
     unknowns: Vec<f64>,
     state: State,
     cancel: Option<&'s AtomicBool>,
-    found: Assemblies,
-    /// Points and rotations of what was found, in sizes.
+    assemblies: Assemblies,
+    /// Points and rotations of the assemblies so far, in sizes.
     places: Vec<Vec<Vector>>,
 }
 
@@ -264,8 +263,8 @@ impl Search<'_> {
         if let Step::Dyad(Dyad { sign: Some(sign), .. }) = mechanism.plan().steps[step] {
             let group = mechanism.plan().dyad_groups[sign].clone();
             let failure = PathFailure { group, end: PathEnd::Loose };
-            if !self.found.failures.contains(&failure) {
-                self.found.failures.push(failure);
+            if !self.assemblies.failures.contains(&failure) {
+                self.assemblies.failures.push(failure);
             }
         }
     }
@@ -301,31 +300,31 @@ impl Search<'_> {
         group: &Group,
         is_double: bool,
     ) -> Result<(), SolveError> {
-        let own = &self.fibres.0[group.index];
-        if own.fibres.is_empty() {
+        let group_fibres = &self.fibres.0[group.index];
+        if group_fibres.fibres.is_empty() {
             return Err(SolveError::TooManyAssemblies { group: group.name.clone() });
         }
         if !self.reaches(index) {
             return Ok(());
         }
-        let given = parameters(&own.forms, group, &self.context(), &self.state);
-        let solutions = own.solutions(&given);
+        let parameters = parameters(&group_fibres.forms, group, &self.context(), &self.state);
+        let solutions = group_fibres.solutions(&parameters);
         let fail = |end| PathFailure { group: group.name.clone(), end };
-        self.found.failures.extend(solutions.failures.iter().copied().map(fail));
+        self.assemblies.failures.extend(solutions.failures.iter().copied().map(fail));
         let plan = self.design.mechanism.plan();
         let earlier = plan.groups().take(group.index).map(|group| group.unknowns.len());
         let first: usize = earlier.sum();
         let step = self.choices[index].step();
         for solution in solutions.real() {
             let is_multiple = solution.is_multiple;
-            let values = unknowns(&own.forms, &given, &solution.point);
+            let values = unknowns(&group_fibres.forms, &parameters, &solution.point);
             self.unknowns[first..first + values.len()].copy_from_slice(&values);
             self.solve();
             let failed = self.state.has_failed()
                 && self.state.fault.is_none_or(|fault| fault.step() <= step);
             if failed || !self.confirms(group, &values) {
                 if !is_multiple {
-                    self.found.failures.push(fail(PathEnd::Unconfirmed));
+                    self.assemblies.failures.push(fail(PathEnd::Unconfirmed));
                 }
                 continue;
             }
@@ -342,8 +341,8 @@ impl Search<'_> {
                     (self.state.pose.class[class][0] - Vector::at_angle(value)).norm()
                 }
                 Unknown::Slide(slide) => {
-                    let own = self.state.pose.slides[slide * self.state.len][0];
-                    (own - value).abs() / value.abs().max(1.0)
+                    let solved = self.state.pose.slides[slide * self.state.len][0];
+                    (solved - value).abs() / value.abs().max(1.0)
                 }
             };
             error <= CONFIRMED
@@ -364,16 +363,16 @@ impl Search<'_> {
             place.iter().zip(other).all(|(&a, &b)| (a - b).size() <= DOUBLE * size)
         };
         let mut is_double = is_double;
-        if let Some(known) = self.places.iter().position(is_same) {
-            self.found.found[known].is_double = true;
+        if let Some(index) = self.places.iter().position(is_same) {
+            self.assemblies.found[index].is_double = true;
             if self.design.has_groups() {
                 return;
             }
-            // The signs tell them apart elsewhere.
+            // Elsewhere their signs differ.
             is_double = true;
         }
         let assembly = self.assembly(is_double);
-        self.found.found.push(assembly);
+        self.assemblies.found.push(assembly);
         self.places.push(place);
     }
 

@@ -1,8 +1,8 @@
 //! All complex assemblies of one group with random dimensions: a start for those of any dimensions.
 //!
-//! The paths begin at products of linear forms, of which each choice of n factors in X and the other n
-//! in Y has one solution: C(2n, n), as many as there can be (Sommese & Wampler 2005, ch. 8, a
-//! two-homogeneous start). Some end at infinity; how many do is a property of the group.
+//! The paths begin at products of linear forms. Each choice of n factors in X and the other n in Y has one
+//! solution: C(2n, n), the greatest possible number (Sommese & Wampler 2005, ch. 8, a two-homogeneous
+//! start). Some paths end at infinity; how many is a property of the group.
 
 use super::follow::{Ends, follow};
 use super::forms::GroupForms;
@@ -13,21 +13,23 @@ use super::random::Random;
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 
-/// Where paths that may lead to infinity are left.
+/// Paths that may lead to infinity are followed up to here.
 const NEAR_END: f64 = 1.0 - 1.0e-9;
-/// Newton's rounds from there: toward a multiple solution each halves the distance.
+/// Rounds of Newton's iteration from there: toward a multiple solution each halves the distance.
 const ROUNDS: usize = 40;
 /// The last of them, relative to the solution, if the solution is regular: rounding times its condition,
-/// which random parameters seldom make a million. At a multiple solution rounding leaves its root, 1e-8.
+/// which rarely reaches a million for random parameters. At a multiple solution rounding leaves its root,
+/// 1e-8.
 const REGULAR: f64 = 1.0e-9;
 /// A solution with a first homogeneous coordinate this small is at infinity.
 const AT_INFINITY: f64 = 1.0e-7;
-/// How near (relative to their size) the same solution is found on two ways; others are farther.
+/// Solutions nearer than this (relative to their size) are the same, found in two searches; different ones
+/// are farther apart.
 const SAME: f64 = 1.0e-8;
-/// How far from those of the drawing the parameters are, in sizes: near enough for short paths, and
-/// far from dead points, which real parameters are near.
+/// Distance of the parameters from those of the drawing, in sizes: near enough for short paths, and far
+/// from the dead points that lie near real parameters.
 const AWAY: f64 = 0.3;
-/// Pairs of ways that may disagree before the group is given up.
+/// Searches without two that agree before the group is given up.
 const TRIALS: u64 = 6;
 
 /// The complex assemblies of a group with random parameters.
@@ -39,7 +41,7 @@ pub(super) struct Fibre {
 }
 
 impl Fibre {
-    /// Finds those of parameters beside `drawing`; `None` if no two ways to them agree.
+    /// Finds the assemblies for parameters beside `drawing`; `None` if no two searches agree.
     pub(super) fn new(forms: &GroupForms, drawing: &Parameters, seed: u64) -> Option<Self> {
         let mut random = Random(seed);
         let mut beside = |x: Vector| {
@@ -52,17 +54,19 @@ impl Fibre {
         let system = Homotopy::between(forms, &parameters, &parameters);
         let mut earlier: Vec<Vec<Vec<Vector>>> = Vec::new();
         for _ in 0..TRIALS {
-            let found = finite_solutions(&system, forms.half(), &mut random);
-            if !are_different(&found) {
-                // A path has passed to another.
+            let solutions = finite_solutions(&system, forms.half(), &mut random);
+            if !are_different(&solutions) {
+                // A path has jumped to another.
                 continue;
             }
-            // A way may miss a solution, but what another one has found is there.
-            let is_complete = earlier.iter().all(|other| other.len() <= found.len());
-            if is_complete && earlier.iter().any(|other| agree(&found, other)) {
-                return Some(Self { parameters, points: found });
+            // A search may miss a solution, but one that an earlier search found exists.
+            let is_complete =
+                earlier.iter().all(|earlier_points| earlier_points.len() <= solutions.len());
+            if is_complete && earlier.iter().any(|earlier_points| agree(&solutions, earlier_points))
+            {
+                return Some(Self { parameters, points: solutions });
             }
-            earlier.push(found);
+            earlier.push(solutions);
         }
         None
     }
@@ -84,13 +88,16 @@ fn finite_solutions(system: &Homotopy, half: usize, random: &mut Random) -> Vec<
     let ends = follow(&way, &starts, Tightness::LOOSE, NEAR_END, Simd::default());
     let finished = Homotopy { ..way };
     let Ends { points, last, .. } = super::follow::refine(&finished, &ends.points, ROUNDS);
-    let mut found = Vec::new();
+    let mut solutions = Vec::new();
     for (point, last) in points.into_iter().zip(last) {
         let [x, y] = [0, 1].map(|side| {
-            let own = &point[side * (n - 1)..][..n - 1];
+            let variables = &point[side * (n - 1)..][..n - 1];
             let by = &coordinates[side];
             let full = |i: usize| {
-                own.iter().enumerate().fold(by[i * n], |sum, (j, &x)| sum + by[i * n + j + 1] * x)
+                variables
+                    .iter()
+                    .enumerate()
+                    .fold(by[i * n], |sum, (j, &x)| sum + by[i * n + j + 1] * x)
             };
             (0..n).map(full).collect::<Vec<Vector>>()
         });
@@ -99,15 +106,15 @@ fn finite_solutions(system: &Homotopy, half: usize, random: &mut Random) -> Vec<
             full[0].norm() > AT_INFINITY * size
         });
         if last < REGULAR && is_finite {
-            let mut own = Vec::with_capacity(2 * (n - 1));
+            let mut affine = Vec::with_capacity(2 * (n - 1));
             for full in [x, y] {
                 let scale = inverse(full[0]);
-                own.extend(full[1..].iter().map(|&x| x * scale));
+                affine.extend(full[1..].iter().map(|&x| x * scale));
             }
-            found.push(own);
+            solutions.push(affine);
         }
     }
-    found
+    solutions
 }
 
 /// The point where chosen left factors vanish, and the right ones of all other products.
@@ -135,19 +142,19 @@ fn start(system: &Homotopy, products: &[[Vec<Vector>; 2]], choice: usize) -> Vec
     point
 }
 
-/// Whether no solution is in a list twice.
-fn are_different(found: &[Vec<Vector>]) -> bool {
-    found.iter().enumerate().all(|(i, one)| found[..i].iter().all(|other| !is_same(one, other)))
+/// Whether all solutions of a list differ.
+fn are_different(points: &[Vec<Vector>]) -> bool {
+    points.iter().enumerate().all(|(i, a)| points[..i].iter().all(|b| !is_same(a, b)))
 }
 
 /// Whether two lists of different solutions hold the same ones.
-fn agree(one: &[Vec<Vector>], other: &[Vec<Vector>]) -> bool {
-    one.len() == other.len()
-        && one.iter().all(|point| other.iter().filter(|other| is_same(point, other)).count() == 1)
-        && other.iter().all(|point| one.iter().filter(|other| is_same(point, other)).count() == 1)
+fn agree(left: &[Vec<Vector>], right: &[Vec<Vector>]) -> bool {
+    left.len() == right.len()
+        && left.iter().all(|point| right.iter().filter(|right| is_same(point, right)).count() == 1)
+        && right.iter().all(|point| left.iter().filter(|right| is_same(point, right)).count() == 1)
 }
 
-/// Whether two solutions are the same but for rounding.
+/// Whether two solutions are the same to rounding.
 pub(super) fn is_same(a: &[Vector], b: &[Vector]) -> bool {
     let difference: f64 = a.iter().zip(b).map(|(&a, &b)| (a - b).norm2()).sum();
     let size: f64 = 1.0 + a.iter().map(|a| a.norm2()).sum::<f64>();

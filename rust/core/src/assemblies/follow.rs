@@ -10,7 +10,7 @@ use crate::math::vector::Vector;
 /// Where paths ended.
 pub(super) struct Ends {
     pub points: Vec<Vec<Vector>>,
-    /// How far each came.
+    /// How far each path came.
     pub at: Vec<f64>,
     /// The last Newton step, if points were refined.
     pub last: Vec<f64>,
@@ -65,12 +65,12 @@ impl ForLevel for Follow<'_> {
         for block in self.starts.chunks(lanes) {
             let mut paths: Paths<'_, L::Register> =
                 Paths::new(self.homotopy, self.tightness, self.end);
-            // Lanes without a path of their own repeat the last one.
-            let own = |lane: usize| &block[lane.min(block.len() - 1)];
+            // Lanes beyond the last path repeat it.
+            let start_of = |lane: usize| &block[lane.min(block.len() - 1)];
             for (i, component) in paths.point.iter_mut().enumerate() {
                 *component = Vector::new(
-                    Real::from_lanes(|lane| own(lane)[i].x),
-                    Real::from_lanes(|lane| own(lane)[i].y),
+                    Real::from_lanes(|lane| start_of(lane)[i].x),
+                    Real::from_lanes(|lane| start_of(lane)[i].y),
                 );
             }
             let mut last = L::Register::ZERO;

@@ -1,8 +1,8 @@
 //! The closures of a group as equations between complex numbers.
 //!
 //! A rotation is T, a vector along a guide v; T′ and v′, their conjugates at a real position, are
-//! unknowns of their own. A loop is linear in X = (1, T …, v …), and its conjugate in Y = (1, T′ …,
-//! v′ …). What is left of the unknowns after the chords are eliminated are bilinear forms Xᵀ M Y = 0:
+//! separate unknowns. A loop is linear in X = (1, T …, v …), and its conjugate in Y = (1, T′ …,
+//! v′ …). After the chords are eliminated, bilinear forms Xᵀ M Y = 0 remain:
 //!
 //! ```text
 //! T T′ = 1                 a rotation
@@ -120,7 +120,7 @@ impl GroupForms {
     }
 
     fn point(&mut self, point: usize) -> usize {
-        self.points.iter().position(|&known| known == point).unwrap_or_else(|| {
+        self.points.iter().position(|&index| index == point).unwrap_or_else(|| {
             self.points.push(point);
             self.points.len() - 1
         })
@@ -145,10 +145,10 @@ impl GroupForms {
 
 /// Adds an edge of a group, times a sign, to a sum.
 fn add_edge(sum: &mut LinearForm, group: &Group, edge: usize, sign: f64) {
-    let own = &group.edges[edge];
-    let turn = own.turns.map_or(0, |unknown| unknown + 1);
+    let group_edge = &group.edges[edge];
+    let turn = group_edge.turns.map_or(0, |unknown| unknown + 1);
     sum.terms.push((turn, Parameter::Edge(edge), sign));
-    if let Some(unknown) = own.slides {
+    if let Some(unknown) = group_edge.slides {
         sum.units.push((unknown + 1, sign));
     }
 }

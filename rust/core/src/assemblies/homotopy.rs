@@ -20,7 +20,7 @@ pub(super) struct Entry {
     pub factor: Quadratic,
 }
 
-/// Equations in X = (1, x) and Y = (1, y): as many as x and y have components.
+/// Equations in X = (1, x) and Y = (1, y), one for each component of x and y.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Homotopy {
     /// Components of x, and of y.
@@ -102,7 +102,8 @@ impl Homotopy {
             };
             (0..n).map(|j| [factor(j), Vector::ZERO, Vector::ZERO]).collect()
         };
-        let rows_of = |side: usize, by| self.rows[side].iter().map(|own| row(own, by)).collect();
+        let rows_of =
+            |side: usize, by| self.rows[side].iter().map(|factors| row(factors, by)).collect();
         Self {
             variables: self.variables,
             forms: self.forms.iter().map(|matrix| turn(matrix)).collect(),
@@ -110,7 +111,7 @@ impl Homotopy {
         }
     }
 
-    /// The way from products of two linear forms, each times `factor`, to this system.
+    /// The path from products of two linear forms, each times `factor`, to this system.
     pub(super) fn beginning_at(&self, products: &[[Vec<Vector>; 2]], factor: Vector) -> Self {
         let n = self.variables + 1;
         let mut homotopy = self.clone();
@@ -150,9 +151,9 @@ fn product([a, b]: Linear, [c, d]: Linear) -> Quadratic {
     [a * c, a * d + b * c, b * d]
 }
 
-fn add(sum: &mut Quadratic, other: Quadratic, sign: f64) {
-    for (sum, other) in sum.iter_mut().zip(other) {
-        *sum += other.scale(sign);
+fn add(sum: &mut Quadratic, term: Quadratic, sign: f64) {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        *sum += term.scale(sign);
     }
 }
 

@@ -29,8 +29,10 @@ pub(super) fn solve<R: Real>(matrix: &mut [Vector<R>], n: usize) {
         }
         for row in lower.chunks_exact_mut(width) {
             let factor = row[pivot];
-            for (entry, own) in row[pivot + 1..].iter_mut().zip(&pivot_row[pivot + 1..width]) {
-                *entry = *entry - factor * *own;
+            for (entry, pivot_entry) in
+                row[pivot + 1..].iter_mut().zip(&pivot_row[pivot + 1..width])
+            {
+                *entry = *entry - factor * *pivot_entry;
             }
         }
     }
@@ -70,9 +72,9 @@ mod tests {
             if n == 1 {
                 continue;
             }
-            let given = matrix.clone();
+            let original = matrix.clone();
             solve(&mut matrix, n);
-            for row in given.chunks_exact(n + 1) {
+            for row in original.chunks_exact(n + 1) {
                 let mut sum = row[n];
                 for (column, &factor) in row[..n].iter().enumerate() {
                     sum = sum - factor * matrix[column * (n + 1) + n];

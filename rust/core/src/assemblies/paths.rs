@@ -13,8 +13,7 @@ const FIRST: f64 = 0.0625;
 const SHORTEST: f64 = 1.0e-13;
 /// Newton's corrections of a step.
 const CORRECTIONS: usize = 3;
-/// The part of the greatest first correction that the next step aims at, and by how much a step may
-/// change.
+/// The next step aims at this part of the greatest first correction; the limits of its change.
 const AIM: f64 = 0.2;
 const LEAST_CHANGE: f64 = 0.2;
 const MOST_CHANGE: f64 = 3.0;
@@ -24,14 +23,14 @@ const LAST_CORRECTION: f64 = 1.0e-6;
 const MAX_STEPS: usize = 5000;
 
 /// How near solutions stay to their predictions: the first correction of a step, relative to the
-/// solution. Tighter ones leave no way to another path.
+/// solution. A tight bound keeps a path from jumping to another.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tightness(pub f64);
 
 impl Tightness {
     /// As a rule.
     pub(super) const LOOSE: Self = Self(1.0e-3);
-    /// Where loose steps ended on another path.
+    /// Where a path jumped to another with loose steps.
     pub(super) const TIGHT: Self = Self(1.0e-6);
 }
 
@@ -41,7 +40,7 @@ pub(super) struct Paths<'h, R: Real> {
     tightness: Tightness,
     /// Components of x, then of y.
     pub point: Vec<Vector<R>>,
-    /// How far each has come.
+    /// The progress of each.
     pub at: R,
     /// Where paths end.
     pub end: f64,
@@ -125,8 +124,8 @@ impl<'h, R: Real> Paths<'h, R> {
                     if i > 0 {
                         row[side * n + i - 1] = value;
                     }
-                    let own = if rates { b + c.scale(twice) } else { value };
-                    right += own * self.full[side][i];
+                    let coefficient = if rates { b + c.scale(twice) } else { value };
+                    right += coefficient * self.full[side][i];
                 }
                 row[size] = right;
                 k += 1;
@@ -199,13 +198,13 @@ impl<R: Real> Task<R> for Paths<'_, R> {
         for _ in 0..MAX_STEPS {
             let rest = end - self.at;
             let is_last = rest.le(step);
-            let own = R::select(is_last, rest, step);
+            let length = R::select(is_last, rest, step);
             let active = R::ZERO.lt(rest).and(R::splat(SHORTEST).lt(step));
             if !active.any() {
                 break;
             }
-            let next = R::select(is_last, end, self.at + own);
-            self.predict(self.at, own);
+            let next = R::select(is_last, end, self.at + length);
+            self.predict(self.at, length);
             let first = self.correct(next, active);
             let mut good = active.and(first.le(R::splat(self.tightness.0)));
             let mut last = first;
@@ -225,7 +224,7 @@ impl<R: Real> Task<R> for Paths<'_, R> {
             let ratio = R::splat(AIM * self.tightness.0) / first;
             let change = ratio.sqrt().sqrt().max(R::splat(LEAST_CHANGE)).min(R::splat(MOST_CHANGE));
             let safe = R::select(good, change, change.min(R::splat(0.5)));
-            step = R::select(active, safe * own, step);
+            step = R::select(active, safe * length, step);
         }
     }
 }

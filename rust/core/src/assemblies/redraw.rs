@@ -38,7 +38,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// Those of [`Mechanism::new`] but for flat dyads.
+    /// Those of [`Mechanism::new`] except for flat dyads.
     pub fn new_for_pose(description: &Description) -> Result<Self, StructureError> {
         let mut mechanism = Self::compile(description, Flat::Positive, None)?;
         mechanism.examine_chords();

@@ -2,10 +2,9 @@
 //! along the straight path to the group's own (coefficient-parameter homotopy: A. P. Morgan and
 //! A. J. Sommese, Appl. Math. Comput. 29 (1989) 123).
 //!
-//! For almost all parameters on the way the number of solutions is the same, so none is left out:
-//! the ends of the paths include every isolated solution. The set of ends must be closed under
-//! conjugation; where it is not, a path has passed to another, and all are followed again with
-//! shorter steps and from other parameters.
+//! For almost all parameters on the way the number of solutions is the same, so the ends of the paths
+//! include every isolated solution. The set of ends must be closed under conjugation; where it is not, a
+//! path has jumped to another, and all are followed again with shorter steps and from other parameters.
 
 use super::fibre::{Fibre, is_same};
 use super::follow::{follow, refine};
@@ -20,42 +19,45 @@ use crate::math::vector::Vector;
 
 /// A path that stops this near its end leads to a multiple solution.
 const NEAR_END: f64 = 1.0 - 1.0e-5;
-/// Newton's rounds there, each of which halves the distance.
+/// Rounds of Newton's iteration there; each halves the distance.
 const ROUNDS: usize = 30;
-/// A last step, relative to the solution, of a multiple one that was found.
+/// Newton's iteration has found a multiple solution if its last step, relative to the solution, is less
+/// than this.
 const SETTLED: f64 = 1.0e-7;
-/// Solutions this large are at infinity; near the end of a path that cannot be followed to it, these.
+/// Solutions this large are at infinity.
 const FAR: f64 = 1.0e6;
+/// The same near the end of a path that cannot be followed to its end.
 const LARGE: f64 = 1.0e2;
-/// How near to its own conjugate (relative to its size) a solution may be real.
+/// A solution nearer than this (relative to its size) to its conjugate may be real.
 const REAL: f64 = 1.0e-6;
-/// Most loops of a group, half as many as its links: the 924 paths of six take seconds, those of seven a
-/// minute.
+/// Most loops of a group (half the number of its links): the 924 paths of six take seconds, those of seven
+/// a minute.
 const MOST_LOOPS: usize = 6;
-/// Seeds of the random parameters: as many as are tried until two agree on the number of assemblies.
+/// Seeds of the random parameters, tried until two agree on the number of assemblies.
 const SEEDS: std::ops::Range<u64> = 0x6173_7375_7221_0001..0x6173_7375_7221_0009;
 
-/// What is known of a group once for all its designs.
+/// The data of a group that serve all its designs.
 #[derive(Debug)]
 pub(super) struct GroupFibres {
     pub forms: GroupForms,
-    /// From two sets of parameters; none if the group is beyond the method.
+    /// From two sets of parameters; empty if the group is beyond the method.
     pub fibres: Vec<Fibre>,
 }
 
 impl GroupFibres {
     pub(super) fn new(forms: GroupForms, drawing: &Parameters) -> Self {
-        let mut found: Vec<Fibre> = Vec::new();
+        let mut earlier_fibres: Vec<Fibre> = Vec::new();
         let can_be_followed = forms.half() <= MOST_LOOPS;
         for seed in SEEDS.filter(|_| can_be_followed) {
             let Some(fibre) = Fibre::new(&forms, drawing, seed) else { continue };
-            // Their number is a property of the group: the greatest, where two differ.
-            let agrees = |other: &Fibre| other.points.len() == fibre.points.len();
-            let has_all = found.iter().all(|other| other.points.len() <= fibre.points.len());
-            if let Some(index) = found.iter().position(agrees).filter(|_| has_all) {
-                return Self { forms, fibres: vec![found.swap_remove(index), fibre] };
+            // The number of assemblies is a property of the group: the greatest, where two differ.
+            let agrees = |earlier: &Fibre| earlier.points.len() == fibre.points.len();
+            let has_all =
+                earlier_fibres.iter().all(|earlier| earlier.points.len() <= fibre.points.len());
+            if let Some(index) = earlier_fibres.iter().position(agrees).filter(|_| has_all) {
+                return Self { forms, fibres: vec![earlier_fibres.swap_remove(index), fibre] };
             }
-            found.push(fibre);
+            earlier_fibres.push(fibre);
         }
         Self { forms, fibres: Vec::new() }
     }
@@ -70,13 +72,13 @@ impl GroupFibres {
         let mut best: Option<Solutions> = None;
         for tightness in [Tightness::LOOSE, Tightness::TIGHT] {
             for fibre in &self.fibres {
-                let found = Solutions::of(&self.forms, fibre, parameters, tightness);
-                if found.failures.is_empty() {
-                    return found;
+                let solutions = Solutions::of(&self.forms, fibre, parameters, tightness);
+                if solutions.failures.is_empty() {
+                    return solutions;
                 }
-                let fewer = |best: &Solutions| found.failures.len() < best.failures.len();
+                let fewer = |best: &Solutions| solutions.failures.len() < best.failures.len();
                 if best.as_ref().is_none_or(fewer) {
-                    best = Some(found);
+                    best = Some(solutions);
                 }
             }
         }
@@ -84,7 +86,7 @@ impl GroupFibres {
     }
 }
 
-/// How a path ended that found no solution of its own.
+/// The end of a path that did not lead to its own solution.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PathEnd {
     /// The solution goes to infinity: the group has fewer with these dimensions.
@@ -97,7 +99,7 @@ pub enum PathEnd {
     /// assemblies than can be listed.
     #[error("it moves while its driver is locked, so it has more assemblies than can be listed")]
     Loose,
-    /// The mirror image of a complex solution is missing: a path has passed to another.
+    /// The mirror image of a complex solution is missing: a path has jumped to another.
     #[error("the mirror image of a complex assembly was not found: one may be missing")]
     Unpaired,
     /// Newton's iteration of the real closures leads elsewhere.
@@ -125,7 +127,7 @@ pub(super) struct Solution {
 /// The ends of a group's paths.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Solutions {
-    found: Vec<Solution>,
+    list: Vec<Solution>,
     pub failures: Vec<PathEnd>,
 }
 
@@ -160,14 +162,14 @@ impl Solutions {
                 solutions.failures.push(PathEnd::Stuck { at });
             }
         }
-        let found = &solutions.found;
+        let list = &solutions.list;
         let has_conjugate = |solution: &&Solution| {
             let mirrored = conjugate(&solution.point);
-            found.iter().any(|other| is_near(&mirrored, &other.point))
+            list.iter().any(|candidate| is_near(&mirrored, &candidate.point))
         };
-        let unpaired = found.iter().filter(|solution| !has_conjugate(solution)).count();
+        let unpaired = list.iter().filter(|solution| !has_conjugate(solution)).count();
         let single = |solution: &&Solution| solution.is_multiple && solution.paths == 1;
-        let loose = found.iter().filter(single).count();
+        let loose = list.iter().filter(single).count();
         solutions.failures.extend(std::iter::repeat_n(PathEnd::Unpaired, unpaired));
         solutions.failures.extend(std::iter::repeat_n(PathEnd::Loose, loose));
         solutions
@@ -175,22 +177,26 @@ impl Solutions {
 
     /// Adds the end of a path; on a multiple solution it is less accurate.
     fn add(&mut self, point: Vec<Vector>, is_multiple: bool) {
-        let is_known = |other: &&mut Solution| {
-            if is_multiple { is_near(&point, &other.point) } else { is_same(&point, &other.point) }
+        let is_known = |candidate: &&mut Solution| {
+            if is_multiple {
+                is_near(&point, &candidate.point)
+            } else {
+                is_same(&point, &candidate.point)
+            }
         };
-        match self.found.iter_mut().find(is_known) {
-            Some(known) => {
-                known.paths += 1;
-                known.is_multiple = true;
+        match self.list.iter_mut().find(is_known) {
+            Some(solution) => {
+                solution.paths += 1;
+                solution.is_multiple = true;
                 self.failures.push(PathEnd::Multiple);
             }
-            None => self.found.push(Solution { point, paths: 1, is_multiple }),
+            None => self.list.push(Solution { point, paths: 1, is_multiple }),
         }
     }
 
     /// The solutions that may be real.
     pub(super) fn real(&self) -> impl Iterator<Item = &Solution> {
-        self.found.iter().filter(|solution| is_near(&solution.point, &conjugate(&solution.point)))
+        self.list.iter().filter(|solution| is_near(&solution.point, &conjugate(&solution.point)))
     }
 }
 

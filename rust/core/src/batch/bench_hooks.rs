@@ -1,4 +1,4 @@
-//! The parts of a sweep by themselves, for `benches/rust/kernels.rs`. No part of the crate's face.
+//! The separate parts of a sweep, for `benches/rust/kernels.rs`. Not part of the crate's interface.
 
 use std::mem::MaybeUninit;
 
@@ -16,12 +16,11 @@ use crate::plan::tape::{DyadOp, Op, PlaceKind, PlaceOp, Tape};
 use crate::state::kernel::BLOCK;
 use crate::state::state::Context;
 
-/// What is done with a part: its name, the positions of a call, and the call.
+/// A benchmark of a part: its name, the positions of a call, and the call.
 pub type Bench<'b> = dyn FnMut(&str, usize, &mut dyn FnMut()) + 'b;
 
-/// Hands every part of the sweep of one design, with one driver, to `bench`: the operations of its
-/// tape, each by itself on one block of positions that is solved already, and "rows", what is left
-/// of a sweep without them.
+/// Passes every part of the sweep of one design, with one driver, to `bench`: each operation of its tape
+/// alone, on one block of positions that is already solved, and "rows", the rest of a sweep without them.
 ///
 /// # Panics
 ///
@@ -67,22 +66,22 @@ impl ForLevel for Parts<'_, '_> {
         L::run(&mut worker, &mut job);
 
         let space = &mut *worker.space;
-        space.coordinates.swap(0, &mut space.many);
+        space.coordinates.swap(0, &mut space.block);
         for op in &tape.ops {
-            let one = Tape { ops: vec![op.clone()], ..tape.clone() };
-            let cx = Context { tape: &one, ..worker.design.context(&derivatives) };
+            let single_op = Tape { ops: vec![op.clone()], ..tape.clone() };
+            let cx = Context { tape: &single_op, ..worker.design.context(&derivatives) };
             let (name, is_unchecked) = name(op);
             let Some(name) = name else { continue };
             if is_unchecked && tape.is_bounded {
-                bench(name, G * L::Register::LANES, &mut || L::unchecked(&mut space.many, &cx));
+                bench(name, G * L::Register::LANES, &mut || L::unchecked(&mut space.block, &cx));
             } else {
-                bench(name, G * L::Register::LANES, &mut || L::solve(&mut space.many, &cx));
+                bench(name, G * L::Register::LANES, &mut || L::solve(&mut space.block, &cx));
             }
         }
     }
 }
 
-/// What an operation is called, if anything uses it, and whether it has an unchecked kernel.
+/// The name of an operation, if it is used, and whether it has an unchecked kernel.
 fn name(op: &Op) -> (Option<&'static str>, bool) {
     let if_used = |op: &DyadOp, name: [&'static str; 2]| {
         op.is_used.then_some(name[usize::from(op.pin.is_some())])

@@ -21,7 +21,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
     }
 
-    /// Solves one position by itself.
+    /// Solves a single position.
     #[cold]
     #[inline(never)]
     pub(super) fn solve_scalar(&mut self, job: &mut Job<'_, '_>, row: usize) {
@@ -34,7 +34,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             self.trace_again(job);
             point = self.design.branch_to(&q);
         }
-        let state = &mut self.space.one;
+        let state = &mut self.space.single;
         self.design.prepare(state);
         let analogues = self.design.solve(state, &q, point.as_ref());
         let at = job.first + row;
@@ -90,7 +90,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             }
             let q = design.scaled(q);
             let point = design.branch_to(&q);
-            let state = &mut self.space.one;
+            let state = &mut self.space.single;
             design.prepare(state);
             design.solve(state, &q, point.as_ref());
             let at = job.first + row;

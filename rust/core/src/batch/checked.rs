@@ -16,7 +16,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
     #[inline(always)]
     pub(super) fn locate(&mut self) {
         let branch = &self.design.branch;
-        // Uniform branches with as many knots have the same for all designs.
+        // Uniform branches with the same number of knots have the same locations for all designs.
         if branch.inverse_width.is_none() || self.space.locations_width != branch.inverse_width {
             self.space.locations.clear();
         }
@@ -33,7 +33,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
     }
 
-    /// Lanes that must be solved again as single positions, whatever the vector solution gives.
+    /// Lanes that must be solved again as single positions for any result of the vector solution.
     #[inline(always)]
     fn lanes_to_redo(&self, q: R, location: &BranchLocation<R>, with_islands: bool) -> R::Mask {
         let branch = &self.design.branch;
@@ -68,30 +68,30 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             }
             let branch = &self.design.branch;
             // Lanes to redo are set to NaN: their vector result is not used.
-            for driver in 0..self.space.many.pose.q.len() {
+            for driver in 0..self.space.block.pose.q.len() {
                 let q = self.space.coordinates.q(driver, first + group);
-                self.space.many.pose.q[driver][group] =
+                self.space.block.pose.q[driver][group] =
                     R::select(redo[group], R::splat(f64::NAN), q);
-                self.space.many.pose.unit[driver][group] =
+                self.space.block.pose.unit[driver][group] =
                     self.space.coordinates.unit(driver, first + group);
             }
             if !constant_signs {
-                for (sign, groups) in self.space.many.pose.signs.iter_mut().enumerate() {
+                for (sign, groups) in self.space.block.pose.signs.iter_mut().enumerate() {
                     groups[group] = R::from_lanes(|i| branch.signs_at(location, i)[sign]);
                 }
             }
         }
         let design = &self.design;
-        self.space.many.groups = groups;
+        self.space.block.groups = groups;
         if !closed_forms {
             for group in 0..groups.min(G) {
                 let location = &self.space.locations[first + group];
-                design.guess(group, &mut self.space.many, &design.branch, location);
+                design.guess(group, &mut self.space.block, &design.branch, location);
             }
         }
         let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
-        L::solve(&mut self.space.many, &cx);
-        let state = &self.space.many;
+        L::solve(&mut self.space.block, &cx);
+        let state = &self.space.block;
         // A separate loop: independent arctangents overlap.
         for &class in &self.writer.classes {
             for g in 0..groups.min(G) {

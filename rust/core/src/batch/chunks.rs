@@ -13,9 +13,9 @@ const CHUNK: usize = 8192;
 /// The same with at least [`MANY_DESIGNS`]: a longer chunk loads the shared coordinates and their
 /// unit vectors once for all its designs, as long as they fit in a cache.
 const CHUNK_OF_MANY_DESIGNS: usize = 65_536;
-/// With so many designs all threads have work even if each design is one chunk.
+/// With at least this many designs all threads have work even if each design is one chunk.
 const MANY_DESIGNS: usize = 64;
-/// The same with several drivers, where each position needs a branch of its own.
+/// The same with several drivers, where each position needs its own branch.
 const CHUNK_SEVERAL_DRIVERS: usize = 8;
 /// Largest number of designs per chunk: tracing the branch of one may take a millisecond.
 const MAX_DESIGNS: usize = 128;
@@ -30,7 +30,7 @@ pub(crate) struct Chunk {
 }
 
 /// The chunks still to do, with the rows to write. After an interruption the rest stays unwritten:
-/// nobody may read it, and filling it would take as long as solving.
+/// it must not be read, and filling it would take as long as solving.
 pub(crate) struct Chunks<'a> {
     rest: Arrays<'a>,
     columns: &'a [Column],
@@ -166,13 +166,13 @@ impl Designs {
         self.rows.resize(count * size, 0.0);
         self.valid.clear();
         self.valid.resize(count, true);
-        for (index, &[least, most]) in mechanism.dimensions().ranges().iter().enumerate() {
+        for (index, &[low, high]) in mechanism.dimensions().ranges().iter().enumerate() {
             let values = column(index);
             for (row, &value) in self.rows.chunks_exact_mut(size).zip(values) {
                 row[index] = value;
             }
             for (valid, &value) in self.valid.iter_mut().zip(values) {
-                *valid &= least <= value && value <= most;
+                *valid &= low <= value && value <= high;
             }
         }
         self.scales.resize(count, 1.0);

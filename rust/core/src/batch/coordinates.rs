@@ -10,7 +10,7 @@ use crate::state::state::State;
 /// Coordinates of points, with their derivatives, of which [`BLOCK`](crate::state::kernel::BLOCK)
 /// positions fit in a first-level cache.
 const MAX_NUMBERS: usize = 40;
-/// Positions of a block where there are more.
+/// Positions of a block for a request with more.
 const LARGE_BLOCK: usize = 80;
 
 /// The coordinates of a job's positions.
@@ -99,20 +99,21 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
         if self.blocks.len() < needed {
             self.blocks.resize_with(needed, || CoordinateBlock::new(drivers));
         }
-        for (block, some) in self.blocks.iter_mut().zip(q.chunks(self.block * R::LANES * drivers)) {
-            let positions = some.len() / drivers;
+        for (block, chunk) in self.blocks.iter_mut().zip(q.chunks(self.block * R::LANES * drivers))
+        {
+            let positions = chunk.len() / drivers;
             for (driver, &is_angle) in self.is_angle.iter().enumerate() {
                 let scale = design.units.coordinate[driver];
                 // Lanes past the last position repeat it.
-                let at = |lane: usize| some[lane.min(positions - 1) * drivers + driver] * scale;
+                let at = |lane: usize| chunk[lane.min(positions - 1) * drivers + driver] * scale;
                 let columns = block.q[driver].iter_mut().zip(&mut block.unit[driver]);
                 // A kernel may take two registers at once.
                 let used = positions.div_ceil(R::LANES) + 1;
                 for (g, (q, unit)) in columns.enumerate().take(used) {
                     let first = g * R::LANES;
                     *q = if drivers == 1 && first + R::LANES <= positions {
-                        let some = &some[first..][..R::LANES];
-                        R::from_lanes(|lane| some[lane]) * R::splat(scale)
+                        let values = &chunk[first..][..R::LANES];
+                        R::from_lanes(|lane| values[lane]) * R::splat(scale)
                     } else {
                         R::from_lanes(|lane| at(first + lane))
                     };
@@ -121,7 +122,7 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
                     }
                 }
             }
-            let mut each = some.chunks_exact(drivers);
+            let mut each = chunk.chunks_exact(drivers);
             block.by_position = drivers > 1 && each.any(|q| design.cannot_follow(q));
         }
         true

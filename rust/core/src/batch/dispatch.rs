@@ -14,7 +14,7 @@ pub(crate) trait ForLevel {
     fn run<L: Entry, const G: usize>(self) -> Self::Output;
 }
 
-/// Work on positions side by side that knows nothing of the solver.
+/// Work on positions side by side, independent of the solver.
 pub(crate) trait Task<R: Real> {
     /// Does it.
     fn run(&mut self);
@@ -106,7 +106,7 @@ macro_rules! entry {
                 unsafe { with(worker, job, unchecked) }
             }
             #[inline(always)]
-            #[allow(unsafe_code, reason = "the machine was asked for these instructions")]
+            #[allow(unsafe_code, reason = "the processor has these instructions")]
             fn call(task: &mut impl Task<Self::Register>) {
                 use crate::state::kernel::$module::$level;
                 #[inline(never)]

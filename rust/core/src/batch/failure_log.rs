@@ -9,7 +9,7 @@ use crate::query::failure::Failure;
 #[derive(Debug)]
 pub struct FailureLog {
     first: Mutex<Option<(usize, Failure)>>,
-    /// The row of `first`; `usize::MAX` while there is none.
+    /// The row of `first`; `usize::MAX` without a failure.
     row: AtomicUsize,
     count: AtomicUsize,
 }
@@ -26,7 +26,7 @@ impl Default for FailureLog {
 pub struct FirstFailure {
     /// Its row: design times positions, plus position.
     pub row: usize,
-    /// What failed.
+    /// The failure.
     pub failure: Failure,
     /// Number of all failures of the batch.
     pub count: usize,
@@ -37,7 +37,7 @@ impl FailureLog {
     fn record(&self, row: usize, count: usize, describe: impl FnOnce() -> Failure) {
         self.count.fetch_add(count, Ordering::Relaxed);
         let Ok(mut first) = self.first.lock() else { return };
-        if first.as_ref().is_none_or(|&(known, _)| row < known) {
+        if first.as_ref().is_none_or(|&(known_row, _)| row < known_row) {
             *first = Some((row, describe()));
             self.row.store(row, Ordering::Relaxed);
         }

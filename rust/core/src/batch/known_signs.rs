@@ -1,4 +1,4 @@
-//! Which designs of a batch have constant signs: found by one call, used by later ones.
+//! The designs of a batch with constant signs: found by one call, used by later ones.
 
 use std::collections::TryReserveError;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,25 +12,25 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct KnownSigns(Vec<AtomicBool>);
 
 impl KnownSigns {
-    /// For a batch of which nothing is known yet.
+    /// For a batch whose signs are not known yet.
     ///
     /// # Errors
     ///
     /// [`TryReserveError`] if memory has no room for one byte per design.
     pub fn new(designs: usize) -> Result<Self, TryReserveError> {
-        let mut known = Vec::new();
-        known.try_reserve_exact(designs)?;
-        known.resize_with(designs, AtomicBool::default);
-        Ok(Self(known))
+        let mut flags = Vec::new();
+        flags.try_reserve_exact(designs)?;
+        flags.resize_with(designs, AtomicBool::default);
+        Ok(Self(flags))
     }
 
     pub(super) fn are_constant(&self, design: usize) -> bool {
-        self.0.get(design).is_some_and(|known| known.load(Ordering::Relaxed))
+        self.0.get(design).is_some_and(|flag| flag.load(Ordering::Relaxed))
     }
 
     pub(super) fn set_constant(&self, design: usize) {
-        if let Some(known) = self.0.get(design) {
-            known.store(true, Ordering::Relaxed);
+        if let Some(flag) = self.0.get(design) {
+            flag.store(true, Ordering::Relaxed);
         }
     }
 }

@@ -18,11 +18,11 @@ use crate::math::simd::Simd;
 const TRIAL_PART: usize = 8;
 /// Least time of this trial: the first positions find the caches cold.
 const TRIAL: Duration = Duration::from_micros(50);
-/// Work that pays for other threads: on one thread as on two 36 000 positions of a four-bar take 290 µs;
-/// of half as many two would take longer.
+/// Work from which other threads pay off: 36 000 positions of a four-bar take 290 µs on one thread and on two;
+/// for half of them two threads take longer.
 const WORTH_THREADS: Duration = Duration::from_micros(300);
 
-/// Which positions and designs take the checked path. Results are the same with any choice; tests
+/// The positions and designs that take the checked path. Results are the same with any choice; tests
 /// compare the paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Checks {
@@ -56,7 +56,7 @@ pub struct Control<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Highest level of vector instructions to use.
     pub simd: Simd,
-    /// Which positions take the checked path.
+    /// The positions that take the checked path.
     pub checks: Checks,
     /// Setting it to true stops the work after the blocks in progress.
     pub cancel: Option<&'a AtomicBool>,
@@ -129,15 +129,15 @@ impl Control<'_> {
             thread::scope(|scope| {
                 // The calling thread only waits: if it worked too, the scheduler could keep a new
                 // thread queued behind it for a millisecond while another core is idle.
-                let others: Vec<_> = (0..threads)
+                let workers: Vec<_> = (0..threads)
                     .map_while(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
                     .collect();
                 // If the system refuses a thread, this one helps.
-                if others.len() < threads {
+                if workers.len() < threads {
                     work_until_done();
                 }
-                for other in others {
-                    if let Err(panic) = other.join() {
+                for worker in workers {
+                    if let Err(panic) = worker.join() {
                         resume_unwind(panic);
                     }
                 }
@@ -156,7 +156,7 @@ impl Control<'_> {
     }
 }
 
-/// The number of threads that the system runs at once, asked for once: that takes 45 µs, as long as
+/// The number of threads that the system runs at once, read only once: that takes 45 µs, as long as
 /// solving a hundred designs.
 #[must_use]
 pub fn available_threads() -> usize {
@@ -205,7 +205,7 @@ impl<'a> Queue<'a> {
         elapsed < TRIAL || rest < WORTH_THREADS.as_secs_f64()
     }
 
-    /// Makes the chunks long; how many threads they serve.
+    /// Makes the chunks long; returns the number of threads that they serve.
     fn end_trial(&self, threads: usize) -> usize {
         self.with(|chunks| {
             [chunks.size, chunks.max_designs] = self.sizes;

@@ -122,7 +122,7 @@ pub fn fill(
     dispatch::at_level(control.simd, Fill { batch: &batch, chunks })
 }
 
-/// What all chunks of a batch share.
+/// The data that all chunks of a batch share.
 struct Batch<'b> {
     mechanism: &'b Mechanism,
     request: &'b Request<'b>,
@@ -145,8 +145,8 @@ impl ForLevel for Fill<'_, '_> {
         type ThreadState<'a, R, const G: usize> = (Worker<'a, R, G>, Designs);
         let Batch { mechanism, request, derivatives, writer, shape, control } = self.batch;
         let worker = || -> ThreadState<'_, L::Register, G> {
-            let one = Worker::new(mechanism, request, derivatives, writer, control);
-            (one, Designs::default())
+            let solver = Worker::new(mechanism, request, derivatives, writer, control);
+            (solver, Designs::default())
         };
         let work = |(worker, designs): &mut ThreadState<'_, L::Register, G>,
                     chunk: &Chunk,

@@ -16,7 +16,7 @@ static CHUNKS: AtomicUsize = AtomicUsize::new(0);
 /// Whether threads start at once.
 static AT_ONCE: AtomicBool = AtomicBool::new(false);
 
-/// Makes all calls from now on start their threads at once, however little the work is.
+/// Makes all later calls start their threads at once, even for little work.
 pub fn start_threads_at_once(at_once: bool) {
     AT_ONCE.store(at_once, Ordering::SeqCst);
 }
@@ -25,7 +25,7 @@ pub(crate) fn threads_start_at_once() -> bool {
     AT_ONCE.load(Ordering::SeqCst)
 }
 
-/// Makes the `number`-th chunk from now on panic (0: none).
+/// Makes the `number`-th chunk from now panic (0: none).
 pub fn panic_in_chunk(number: usize) {
     CHUNKS.store(number, Ordering::SeqCst);
 }

@@ -30,12 +30,12 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             if branch.inverse_width.is_none() || branch.gain[class] != 0.0 {
                 return true;
             }
-            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             for &angle in branch.angles[class..].iter().step_by(classes) {
-                least = if angle < least { angle } else { least };
-                most = if angle > most { angle } else { most };
+                low = if angle < low { angle } else { low };
+                high = if angle > high { angle } else { high };
             }
-            let Some(reference) = reference_of([least, most]) else { return true };
+            let Some(reference) = reference_of([low, high]) else { return true };
             self.space.references[class] = reference;
         }
         false
@@ -52,9 +52,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         located: bool,
     ) -> bool {
         let block = row / (self.space.coordinates.block * R::LANES);
-        self.space.coordinates.swap(block, &mut self.space.many);
+        self.space.coordinates.swap(block, &mut self.space.block);
         let solved = self.solve_loaded::<L>(job, row, count, located);
-        self.space.coordinates.swap(block, &mut self.space.many);
+        self.space.coordinates.swap(block, &mut self.space.block);
         solved
     }
 
@@ -67,26 +67,26 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         located: bool,
     ) -> bool {
         let (first, groups) = (row / R::LANES, count.div_ceil(R::LANES).min(G));
-        self.space.many.groups = groups;
+        self.space.block.groups = groups;
         let design = &self.design;
         let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
         let range = RowRange { first: job.first + row, count, once: true };
         // The memory arrives while the positions are computed.
         job.rows.prefetch::<R>(self.columns, range);
-        L::unchecked(&mut self.space.many, &cx);
-        let state = &self.space.many;
+        L::unchecked(&mut self.space.block, &cx);
+        let state = &self.space.block;
         let is_finite = self.space.coordinates.are_finite;
         if if is_finite { state.has_uncertain_dyads() } else { state.is_uncertain() } {
             return false;
         }
-        let some_open = self.space.many.has_open();
+        let some_open = self.space.block.has_open();
         if located && !self.lift_by_knots(first, groups) {
             return false;
         }
         if some_open && !self.is_counted(job, row, count) {
             return false;
         }
-        let (design, state) = (&self.design, &self.space.many);
+        let (design, state) = (&self.design, &self.space.block);
         let with = (&design.constants, &design.units);
         let failed = some_open.then_some(&state.conditions.open);
         let rows = &mut *job.rows;
@@ -99,7 +99,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
         if some_open {
             let status = &mut job.rows.status[range.first..range.first + count];
-            let state = &self.space.many;
+            let state = &self.space.block;
             for (group, status) in status.chunks_mut(R::LANES).enumerate() {
                 let codes = open_codes(state.conditions.open[group].bits()).map(MaybeUninit::new);
                 if status.len() == R::LANES {
@@ -120,12 +120,12 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         for &class in &self.writer.classes {
             for group in 0..groups {
                 let location = &self.space.locations[first + group];
-                let angle = self.space.many.pose.class[class][group].unit_angle();
+                let angle = self.space.block.pose.class[class][group].unit_angle();
                 self.space.lifted[class][group] =
                     unwrap_to(angle, branch.reference_angle(location, class));
                 if branch.inverse_width.is_none() {
                     let unseen = |lane: usize| {
-                        !self.space.many.conditions.open[group].lane(lane)
+                        !self.space.block.conditions.open[group].lane(lane)
                             && branch.in_untraced_island(location, lane)
                     };
                     if mask::<R>(unseen).any() {
@@ -144,8 +144,8 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let (mut first, mut number) = (None, 0);
         for group in 0..count.div_ceil(R::LANES).min(G) {
             let before = group * R::LANES;
-            let own = u32::MAX >> (u32::BITS as usize - R::LANES.min(count - before));
-            let open = self.space.many.conditions.open[group].bits() & own;
+            let used_lanes = u32::MAX >> (u32::BITS as usize - R::LANES.min(count - before));
+            let open = self.space.block.conditions.open[group].bits() & used_lanes;
             if open != 0 {
                 first.get_or_insert(before + open.trailing_zeros() as usize);
                 number += open.count_ones() as usize;
@@ -160,9 +160,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
 #[inline(always)]
 fn open_codes(open: u32) -> [u8; LANES] {
     const ONES: u64 = 0x0101_0101_0101_0101;
-    // Each byte keeps its own bit; adding 127 carries any bit to the top of its byte.
-    let own = (u64::from(open) * ONES) & 0x8040_2010_0804_0201;
-    let set = ((own + 0x7f * ONES) >> 7) & ONES;
+    // Each byte keeps one bit; adding 127 carries it to the top of the byte.
+    let spread = (u64::from(open) * ONES) & 0x8040_2010_0804_0201;
+    let set = ((spread + 0x7f * ONES) >> 7) & ONES;
     (set * Status::Unreachable as u64).to_le_bytes()
 }
 

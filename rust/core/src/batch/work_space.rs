@@ -23,9 +23,9 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     /// The writer that it was made for.
     writer: Arc<Writer>,
     /// State of a single position.
-    pub(super) one: State,
+    pub(super) single: State,
     /// State of a block.
-    pub(super) many: State<R, G>,
+    pub(super) block: State<R, G>,
     /// Unwrapped angles of the classes.
     pub(super) lifted: Vec<[R; G]>,
     /// Coordinates of the last job.
@@ -36,7 +36,7 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) locations_width: Option<f64>,
     /// The operations that the request needs.
     pub(super) tape: Tape,
-    /// The tape that traces its designs; a worker's design holds it during a call. None with groups.
+    /// The tape that traces its designs; a worker's design holds it during a call. `None` with groups.
     pub(super) tracing_tape: Option<Tape>,
     /// Memory of the design, which holds it during a call.
     pub(super) design: DesignMemory,
@@ -65,23 +65,25 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
 
     fn new(mechanism: &Mechanism, derivatives: &DerivativeTables, writer: &Arc<Writer>) -> Self {
         let plan = mechanism.plan();
-        let mut many = State::new(plan, derivatives);
-        many.work.angle_wanted.clone_from(&writer.wanted);
+        let mut block = State::new(plan, derivatives);
+        block.work.angle_wanted.clone_from(&writer.needed_classes);
         let mut points = vec![false; plan.points];
-        for point in writer.wanted_points() {
+        for point in writer.written_points() {
             points[point] = true;
         }
-        let needs = Needs { points: &points, classes: &writer.wanted, samples: false };
+        let needs = Needs { points: &points, classes: &writer.needed_classes, samples: false };
         Self {
             writer: Arc::clone(writer),
-            one: State::new(plan, derivatives),
-            many,
+            single: State::new(plan, derivatives),
+            block,
             lifted: vec![[R::ZERO; G]; plan.classes],
             coordinates: CoordinateRegisters::new(plan, derivatives.len()),
             locations: Vec::new(),
             locations_width: None,
             tape: Tape::new(plan, needs),
-            tracing_tape: plan.has_closed_forms().then(|| Tape::for_dyads(plan, &writer.wanted)),
+            tracing_tape: plan
+                .has_closed_forms()
+                .then(|| Tape::for_dyads(plan, &writer.needed_classes)),
             design: DesignMemory::default(),
             references: vec![Reference::Principal; plan.classes],
             uniform: None,
@@ -94,7 +96,7 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             return;
         }
         if let Some(uniform) = &mut self.uniform {
-            // A later call may ask for another assembly.
+            // A later call may request another assembly.
             uniform.reference.take();
         }
         mechanism.number.keep(self);

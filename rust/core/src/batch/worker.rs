@@ -51,7 +51,7 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     known_signs: Option<&'a KnownSigns>,
 }
 
-/// How a design, or its next block, is solved, and why so.
+/// How a design, or its next block, is solved, and the reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Path {
     /// Without checks, because signs are constant and all dyads have kernels; no requested angle makes
@@ -61,10 +61,10 @@ enum Path {
     UncheckedByKnots,
     /// With checks: signs may change, a dyad has no kernel, or too many blocks were uncertain.
     Checked,
-    /// One position after another, because tests ask for it, no branch serves all positions of several
-    /// drivers, or one of a block cannot be followed.
+    /// One position after another, because a test requests it, no branch serves all positions of several
+    /// drivers, or a position of a block cannot be followed.
     ByPosition,
-    /// One position after another, with the sensitivities to a dimension that are asked for.
+    /// One position after another, with the requested sensitivities to a dimension.
     Sensitivities,
 }
 
@@ -217,7 +217,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             return Path::ByPosition;
         }
         // Analogues without checks are for one driver.
-        let has_kernels = drivers == 1 || self.space.many.len == 1;
+        let has_kernels = drivers == 1 || self.space.block.len == 1;
         if !(has_kernels && (traced == Traced::Surveyed || self.needs_no_checks())) {
             return Path::Checked;
         }
@@ -249,7 +249,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if path != Path::Checked {
             let design = &self.design;
             let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
-            self.space.many.prepare_unchecked(&cx);
+            self.space.block.prepare_unchecked(&cx);
         }
         if path != Path::UncheckedByReference {
             self.locate();
@@ -276,8 +276,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
             if !prepared {
                 let plan = self.design.mechanism.plan();
                 // Later blocks are not longer.
-                self.space.many.groups = block.div_ceil(R::LANES).min(G);
-                self.space.many.prepare(plan, &self.design.constants, self.design.derivatives);
+                self.space.block.groups = block.div_ceil(R::LANES).min(G);
+                self.space.block.prepare(plan, &self.design.constants, self.design.derivatives);
                 prepared = true;
             }
             if path == Path::UncheckedByReference {
@@ -298,11 +298,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Loads the signs of the branch if they are constant.
     #[inline(always)]
     fn load_signs(&mut self, count: usize) {
-        self.space.many.groups = count.div_ceil(R::LANES).min(G);
+        self.space.block.groups = count.div_ceil(R::LANES).min(G);
         if self.design.branch.has_constant_signs() {
             let signs = self.design.branch.signs_at(&BranchLocation::<f64>::default(), 0);
-            for (lanes, &sign) in self.space.many.pose.signs.iter_mut().zip(signs) {
-                lanes[..self.space.many.groups].fill(R::splat(sign));
+            for (lanes, &sign) in self.space.block.pose.signs.iter_mut().zip(signs) {
+                lanes[..self.space.block.groups].fill(R::splat(sign));
             }
         }
     }
@@ -342,10 +342,10 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
                 _ => self.design.trace_knot_by_knot(job.q),
             }
         }
-        if let Some(known) = self.known_signs
+        if let Some(known_signs) = self.known_signs
             && self.design.has_constant_signs()
         {
-            known.set_constant(job.design);
+            known_signs.set_constant(job.design);
         }
         self.is_smooth = self.design.is_smooth(job.q);
         traced
@@ -354,8 +354,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     /// Whether only the signs of the branch are needed, and they are known to be constant.
     #[inline(always)]
     fn has_known_signs(&self, design: usize) -> bool {
-        let wanted = self.checks == Checks::Needed && self.writer.classes.is_empty();
-        wanted && self.known_signs.is_some_and(|known| known.are_constant(design))
+        let needs_signs_only = self.checks == Checks::Needed && self.writer.classes.is_empty();
+        needs_signs_only
+            && self.known_signs.is_some_and(|known_signs| known_signs.are_constant(design))
     }
 
     /// Loads the coordinates into registers; shared ones are loaded once.
@@ -367,8 +368,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     }
 }
 
-/// The lanes for which `of` is true.
+/// The lanes for which `is_set` is true.
 #[inline(always)]
-pub(super) fn mask<R: Real>(of: impl Fn(usize) -> bool) -> R::Mask {
-    R::ZERO.lt(R::from_lanes(|lane| if of(lane) { 1.0 } else { 0.0 }))
+pub(super) fn mask<R: Real>(is_set: impl Fn(usize) -> bool) -> R::Mask {
+    R::ZERO.lt(R::from_lanes(|lane| if is_set(lane) { 1.0 } else { 0.0 }))
 }

@@ -56,7 +56,7 @@ struct RowEntry {
     y: usize,
     /// Entry of the jet.
     k: usize,
-    /// Source: the jet entry of the point, slide or class; of an angle, the link.
+    /// Source: the jet entry of the point, slide or class; for an angle, the link.
     source: usize,
     /// The drivers' contribution to an angle's derivative.
     driven: f64,
@@ -88,16 +88,16 @@ pub(crate) struct Writer {
     angles: Vec<AngleEntry>,
     /// Derivatives of links' angles.
     rates: Vec<RowEntry>,
-    /// Classes whose angle is wanted.
+    /// Classes whose angle is requested.
     pub classes: Vec<usize>,
-    /// For each class, whether its rotation or a derivative of its angle is wanted.
-    pub wanted: Vec<bool>,
+    /// For each class, whether its rotation or a derivative of its angle is requested.
+    pub needed_classes: Vec<bool>,
     /// Whether points get the frame's origin added.
     shifted: bool,
 }
 
 impl Writer {
-    /// The writer of a request, made once for all calls that ask for the same.
+    /// The writer of a request, made once for all calls with the same request.
     pub(crate) fn of(
         mechanism: &Mechanism,
         derivatives: &DerivativeTables,
@@ -122,9 +122,9 @@ impl Writer {
         classes.sort_unstable();
         classes.dedup();
         classes.retain(|&class| class != 0);
-        let mut wanted = vec![false; plan.classes];
+        let mut needed_classes = vec![false; plan.classes];
         for &class in &classes {
-            wanted[class] = true;
+            needed_classes[class] = true;
         }
         let [mut points, mut slides, mut rates] = [const { Vec::new() }; 3];
         let mut angles = Vec::new();
@@ -172,7 +172,7 @@ impl Writer {
             angles,
             rates,
             classes,
-            wanted,
+            needed_classes,
             shifted: true,
         };
         if let Some(index) = request.by {
@@ -198,7 +198,7 @@ impl Writer {
     }
 
     /// The points that are written.
-    pub(crate) fn wanted_points(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn written_points(&self) -> impl Iterator<Item = usize> {
         self.points.iter().map(|entry| entry.source / self.jet)
     }
 
@@ -404,8 +404,9 @@ impl RowSlices<'_> {
         if !self.past_caches {
             return;
         }
-        for (column, of) in self.columns.iter().zip(columns) {
-            let rows = &column[range.first * of.width..(range.first + range.count) * of.width];
+        for (array, column) in self.columns.iter().zip(columns) {
+            let rows =
+                &array[range.first * column.width..(range.first + range.count) * column.width];
             if !rows.as_ptr().addr().is_multiple_of(LINE) {
                 R::prefetch(rows);
             }
@@ -473,7 +474,7 @@ fn write_scaled<R: Real>(
     out.len() / R::LANES
 }
 
-/// Stores one entry of each row, from as many lanes as there are rows.
+/// Stores one entry of each row, one lane per row.
 #[inline(always)]
 fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, index: usize, x: R) {
     for (lane, row) in out.chunks_exact_mut(width).enumerate() {

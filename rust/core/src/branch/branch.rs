@@ -21,7 +21,7 @@ pub(crate) const CELLS_PER_TURN: u32 = 31;
 pub(super) const CELLS_PER_UNIT: f64 = 16.0;
 /// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
-/// Most cells of a segment. Callers limit their coordinates accordingly.
+/// Most cells of a segment; callers limit their coordinates to fit.
 const MAX_CELLS: f64 = 1.0e6;
 /// Turns after which the signs must be those of the drawing again; a kite needs two.
 pub(crate) const MAX_TURNS: u32 = 64;
@@ -309,7 +309,7 @@ impl Branch {
         self.sign_intervals.len() == 1
     }
 
-    /// The change point (of the first period) within `reach` of a parameter, if there is one, and
+    /// The change point (of the first period) within `reach` of a parameter, if any, and
     /// the distance from it.
     pub(crate) fn change_near(&self, at: f64, reach: f64) -> Option<(ChangePoint, f64)> {
         if self.changes.is_empty() {
@@ -322,7 +322,7 @@ impl Branch {
     }
 
     /// Traces an island without a knot from its middle to the parameter: at its ends a joint may be at
-    /// infinity, where angles are nothing but rounding.
+    /// infinity, where angles are only rounding.
     pub(crate) fn trace_island(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Self {
         let (reduced, periods) = self.reduce(at);
         let after = self.at.partition_point(|&k| k <= reduced);

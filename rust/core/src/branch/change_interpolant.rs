@@ -28,7 +28,7 @@ impl ChangeWindow {
         Self { reach: 0.03, max_reach: 0.5, node_count: 24, uses_node_condition: true };
 }
 
-/// Least half-width of the polynomial: its nearest nodes, at a fifteenth of that, have hardly any
+/// Least half-width of the polynomial: its nearest nodes, at a fifteenth of that, have hardly any correct
 /// digits.
 const MIN_REACH: f64 = 2.0e-4;
 /// If a polynomial is truncated, one of half its width has at most this part of its error.
@@ -105,17 +105,17 @@ impl ChangeInterpolant {
         Some(Self { reach, nodes, states, condition2 })
     }
 
-    /// Distance from the motion between nodes, near the ends. (The change point itself tests nothing:
-    /// a flat dyad closes at any angle.)
+    /// Distance from the motion between nodes, near the ends. (The change point itself is no test: a flat dyad
+    /// closes at any angle.)
     fn error(&self, solve: impl Fn(f64) -> Option<State>) -> Option<FitError> {
         let count = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
         let mut max = FitError::default();
         for part in [1, 2, 3, count - 3, count - 2, count - 1] {
             let at = self.reach * chebyshev(f64::from(part), count).0;
-            let own = solve(at)?;
-            let smooth = self.interpolate(at, &own);
+            let solved = solve(at)?;
+            let smooth = self.interpolate(at, &solved);
             for (order, max) in max.0.iter_mut().enumerate() {
-                *max = max.max(smooth.distance(&own, order));
+                *max = max.max(smooth.distance(&solved, order));
             }
         }
         Some(max)
@@ -136,8 +136,8 @@ impl ChangeInterpolant {
         let total: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|w| w / total).collect();
         state.interpolate(&self.states, &weights);
-        if let Some(known) = self.condition2 {
-            state.conditions.greatest[0] = known;
+        if let Some(condition2) = self.condition2 {
+            state.conditions.greatest[0] = condition2;
         }
         state
     }
@@ -155,12 +155,13 @@ impl FitError {
     const ROUNDING: [f64; 3] = [1.0e-14, 1.0e-13, 1.0e-12];
 
     fn is_small(&self) -> bool {
-        self.0.iter().zip(Self::MAX).all(|(own, max)| *own <= max)
+        self.0.iter().zip(Self::MAX).all(|(error, max)| *error <= max)
     }
 
     fn is_far_below(&self, other: &Self) -> bool {
         let mut pairs = self.0.iter().zip(other.0).zip(Self::ROUNDING);
-        pairs.any(|((own, other), rounding)| *own <= TRUNCATION_GAIN * other && other > rounding)
+        pairs
+            .any(|((error, wider), rounding)| *error <= TRUNCATION_GAIN * wider && wider > rounding)
     }
 }
 

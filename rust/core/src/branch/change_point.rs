@@ -3,9 +3,9 @@
 //!
 //! The discriminant N of the dyad (sine of the angle between its legs, or its chord) crosses zero
 //! there; with a fixed assembly sign it touches zero from one side. N² is a smooth function of q in
-//! both cases. Its least value, found from points far enough away that nothing is singular,
-//! distinguishes a change point (zero, to rounding) from a near miss (positive) and from a gap
-//! between two dead points (negative).
+//! both cases. Its minimum, found from points far enough away to be regular, distinguishes a change
+//! point (zero, to rounding) from a near miss (positive) and from a gap between two dead points
+//! (negative).
 
 use super::knot::{ChangePoint, Knot, may_vanish};
 use super::tracer::BranchTracer;
@@ -28,8 +28,9 @@ impl BranchTracer<'_, '_> {
             if step >= a.solved.min(b.solved) {
                 continue;
             }
-            let known = |c: &ChangePoint| c.sign == sign && (c.at - a.at) * tracer.direction > 0.0;
-            if tracer.changes.iter().any(known) {
+            let is_recorded =
+                |c: &ChangePoint| c.sign == sign && (c.at - a.at) * tracer.direction > 0.0;
+            if tracer.changes.iter().any(is_recorded) {
                 continue;
             }
             let ((from, fall), (to, rise)) = (a.discriminants[index], b.discriminants[index]);
@@ -37,13 +38,13 @@ impl BranchTracer<'_, '_> {
                 continue;
             }
             let Some((at, certain)) = locate(tracer, (step, dyad), a.at, b.at) else { continue };
-            // Rounding may put it on the wrong side of the first knot, where it would be found again
-            // and again.
-            let least = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
+            // Rounding may put it on the wrong side of the first knot, where the search would find it for
+            // ever.
+            let smallest = (a.at.abs() * f64::EPSILON).max(f64::MIN_POSITIVE);
             let at = if (at - a.at) * tracer.direction > 0.0 {
                 at
             } else {
-                a.at + tracer.direction * least
+                a.at + tracer.direction * smallest
             };
             let change = ChangePoint { at, sign };
             let passed = certain && tracer.is_assembled_beside(at);
@@ -56,19 +57,19 @@ impl BranchTracer<'_, '_> {
     }
 
     /// Whether the whole mechanism closes right beside a change point, with either sign of its dyad. If
-    /// not, the change point lies in a gap, across which the assembly does not change, in whatever order
+    /// not, the change point lies in a gap. The assembly does not change across it, for any order in which
     /// the dyads are solved.
     fn is_assembled_beside(&mut self, at: f64) -> bool {
-        // On the other side this sign is what the other sign is on this one.
+        // The other side with this sign corresponds to this side with the other sign.
         self.visit(at - BESIDE) || self.visit(at + BESIDE)
     }
 }
 
-/// How far (rad, or units of the scale) from a change point the mechanism is solved to see whether it
-/// closes there: the dyad's own discriminant is known there to half of the digits.
+/// Distance (rad, or units of the scale) from a change point at which the mechanism is solved to see
+/// whether it closes: the dyad's own discriminant is known there to half of the digits.
 const BESIDE: f64 = 1.0e-6;
 
-/// How far past the first knot redundant links are checked, in cells: close to the change point
+/// Distance past the first knot at which redundant links are checked, in cells: close to the change point
 /// they fit on both branches.
 const CELLS_BEHIND: [f64; 3] = [1.0, 4.0, 16.0];
 
@@ -99,15 +100,15 @@ fn redundant_links_confirm(
 
 /// The smaller part of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105;
-/// How near the middle of the six points must be to a change point, in steps: the polynomials
-/// are then good to the sixth power of the step.
+/// Greatest distance of the middle of the six points from a change point, in steps: the polynomials are
+/// then accurate to the sixth power of the step.
 const NEAR_ENOUGH: f64 = 1e-6;
 
 /// Most times that the six points are centred; twice that with redundant links.
 const MAX_CENTRINGS: u32 = 3;
 
-/// The change point between `a` and `b`, if there is one, and whether it is one to rounding. Where
-/// redundant links may miss by a tolerance, so may the lengths that make a change point.
+/// The change point between `a` and `b`, if any, and whether it is exact to rounding. Where redundant links
+/// may miss by a tolerance, the lengths that make a change point may miss too.
 fn locate(
     tracer: &mut BranchTracer<'_, '_>,
     (step_index, dyad): (usize, &Dyad),
@@ -136,14 +137,14 @@ fn locate(
     for _ in 0..if redundant { 2 * MAX_CENTRINGS } else { MAX_CENTRINGS } {
         let fit = LocalFit::around(tracer, (step_index, dyad), centre, step)?;
         let zero = fit.zero();
-        let own = fit.upstream_condition.min(CHANGE_CONDITION) * fit.length_ratio;
-        let noise = strict * own;
-        // In a small cell the zero is known no better than the discriminant.
+        let closure = fit.upstream_condition.min(CHANGE_CONDITION) * fit.length_ratio;
+        let noise = strict * closure;
+        // In a small cell the zero is known only as well as the discriminant.
         let rise = fit.slope * step;
         if zero.abs() < NEAR_ENOUGH.max(noise / (rise * rise)) {
             let curved = (rise * zero) * (rise * zero);
             let certain = fit.square.abs() <= noise + curved;
-            let possible = redundant && fit.square.abs() <= REDUNDANT_CLOSURE * own + curved;
+            let possible = redundant && fit.square.abs() <= REDUNDANT_CLOSURE * closure + curved;
             return (certain || possible).then_some((centre + zero * step, certain));
         }
         centre += zero.clamp(-4.0, 4.0) * step;
@@ -151,7 +152,7 @@ fn locate(
     None
 }
 
-/// The discriminant on both sides of a point, as if that were a change point.
+/// The discriminant on both sides of a point, treated as a change point.
 struct LocalFit {
     /// N at the centre, by an even polynomial through six points.
     value: f64,

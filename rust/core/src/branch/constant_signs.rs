@@ -17,7 +17,7 @@ impl<'d, 'm> SignConstancy<'d, 'm> {
         Self { design, uniform }
     }
 
-    /// Whether an assembly with these signs certainly passes no change point; if false, it may.
+    /// Whether an assembly with these signs certainly never passes a change point; if false, it may.
     pub(crate) fn holds(&mut self, signs: &[f64]) -> bool {
         let Self { design, uniform } = self;
         let several = design.q0.len() > 1;

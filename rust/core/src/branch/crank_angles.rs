@@ -17,8 +17,8 @@ use crate::state::state::Context;
 /// Greatest ratio of the shorter of crank and frame to the longer: angles stay 0.014 rad away from half
 /// a turn.
 const MAX_RATIO: f64 = 0.9999;
-/// By how much (turns) an angle must differ from where the other way becomes the shorter; otherwise the
-/// tracer decides. At the end of a gap it is known to the square root of rounding.
+/// Least distance (turns) of an angle from the point where the other way becomes the shorter; nearer, the
+/// tracer decides. At the end of a gap the angle is known to the square root of rounding.
 const MIN_FROM_HALF: f64 = 1.0e-5;
 
 /// Sets the references of `classes`; false if they must be found by tracing. `start`: the drawing's
@@ -36,21 +36,21 @@ pub(super) fn find_references(
     let chord = CrankChord::of(cx, op, pin);
     let sign = op.sign.map_or(1.0, |sign| cx.signs[sign]);
     let legs = &cx.constants.legs[op.dyad];
-    let own = &cx.constants.dyads[op.dyad];
+    let dyad = &cx.constants.dyads[op.dyad];
     for &class in classes {
         let leg = usize::from(op.unknowns[0] != class);
         if op.unknowns[leg] != class {
             return false;
         }
-        let found = if let Op::StandingGuide(_) = &cx.tape.ops[index] {
-            guided(chord.at(q0) - own.offset, own.guides[1], &legs[0], (sign, start[class]))
+        let reference = if let Op::StandingGuide(_) = &cx.tape.ops[index] {
+            guided(chord.at(q0) - dyad.offset, dyad.guides[1], &legs[0], (sign, start[class]))
         } else {
             let side = if leg == 0 { sign } else { -sign };
-            let [own, other] = if leg == 0 { [0, 1] } else { [1, 0] }.map(|i| &legs[i]);
-            ChordTriangle { chord: &chord, own, other, side }.reference(q0, start[class])
+            let [leg, opposite] = if leg == 0 { [0, 1] } else { [1, 0] }.map(|i| &legs[i]);
+            ChordTriangle { chord: &chord, leg, opposite, side }.reference(q0, start[class])
         };
-        let Some(found) = found else { return false };
-        references[class] = found;
+        let Some(reference) = reference else { return false };
+        references[class] = reference;
     }
     true
 }
@@ -58,8 +58,8 @@ pub(super) fn find_references(
 /// The whole turns (rad) from `angle` to nearest `near`; `None` if either way is as short.
 fn turns(angle: f64, near: f64) -> Option<f64> {
     let apart = TAU * MIN_FROM_HALF;
-    let [least, most] = [-apart, apart].map(|apart| turns_between(angle, near + apart));
-    (least == most).then_some(TAU * least)
+    let [low, high] = [-apart, apart].map(|apart| turns_between(angle, near + apart));
+    (low == high).then_some(TAU * low)
 }
 
 /// Angles nearer than this to half a turn (rad) are not next to each other.
@@ -99,7 +99,7 @@ struct CrankChord {
     frame: Vector,
     /// From the pivot to the pin where the driver is at 0.
     arm: Vector,
-    /// 1, or −1 if the crank turns against the driver.
+    /// 1, or −1 if the crank turns opposite to the driver.
     rate: f64,
 }
 
@@ -125,7 +125,7 @@ impl CrankChord {
         self.rate * (angle_of(self.frame) - angle_of(self.arm))
     }
 
-    /// How far the crank turns from there until the chord has length `d`.
+    /// The angle that the crank turns from there until the chord has length `d`.
     fn turn_to(&self, d: f64) -> f64 {
         let [c2, f2] = [self.arm.norm2(), self.frame.norm2()];
         let cos = (c2 + f2 - d * d) / (2.0 * (c2 * f2).sqrt());
@@ -137,26 +137,26 @@ impl CrankChord {
 /// The triangle of the chord and both legs, seen from one leg.
 struct ChordTriangle<'a> {
     chord: &'a CrankChord,
-    own: &'a Leg,
-    other: &'a Leg,
-    /// 1 if the leg `own` is to the left of the chord, −1 if to the right.
+    leg: &'a Leg,
+    opposite: &'a Leg,
+    /// 1 if the leg `leg` is to the left of the chord, −1 if to the right.
     side: f64,
 }
 
 impl ChordTriangle<'_> {
     /// The angle of the leg's class; where the dyad does not close, that of the flat dyad.
     fn angle(&self, q: f64) -> f64 {
-        let (a, b, k) = (self.own.norm, self.other.norm, self.chord.at(q));
+        let (a, b, k) = (self.leg.norm, self.opposite.norm, self.chord.at(q));
         let d = k.norm();
         let cos = ((d * d + (a - b) * (a + b)) / (2.0 * d * a)).clamp(-1.0, 1.0);
         let beside = Vector::new(cos, self.side * (1.0 - cos * cos).sqrt());
-        (k * beside).angle() - angle_of(self.own.vector)
+        (k * beside).angle() - angle_of(self.leg.vector)
     }
 
     /// Half-widths of the gaps around the crank angles at which the chord is shortest and longest; 0
     /// without a gap.
     fn gaps(&self) -> [f64; 2] {
-        let (a, b) = (self.own.norm, self.other.norm);
+        let (a, b) = (self.leg.norm, self.opposite.norm);
         let (c, f) = (self.chord.arm.norm(), self.chord.frame.norm());
         let inner =
             if (c - f).abs() < (a - b).abs() { self.chord.turn_to((a - b).abs()) } else { 0.0 };
@@ -182,7 +182,7 @@ impl ChordTriangle<'_> {
     fn reference(&self, q0: f64, start: f64) -> Option<Reference> {
         let chord = self.chord;
         let (c, f) = (chord.arm.norm(), chord.frame.norm());
-        let beside = self.side * FRAC_PI_2 - angle_of(self.own.vector);
+        let beside = self.side * FRAC_PI_2 - angle_of(self.leg.vector);
         let away = if chord.sign < 0.0 { PI } else { 0.0 };
         if c < MAX_RATIO * f {
             let middle = angle_of(chord.frame) + PI - away + beside;
@@ -214,7 +214,7 @@ impl ChordTriangle<'_> {
                 [at - half, at + half].map(|q| unwrap_to(self.angle(q), turning.at(q)));
             turns(after, before)
         };
-        // No jumps are set yet.
+        // The jumps are not set yet.
         let at = chord.along_frame();
         let [inner, outer] = [jump(at, gaps[0])?, jump(at + PI, gaps[1])?];
         turning.jumps = [inner, inner + outer];

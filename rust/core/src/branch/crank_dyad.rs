@@ -7,10 +7,9 @@ use crate::plan::dyad::{Dyad, Form};
 use crate::plan::lengths::Slot;
 use crate::plan::plan::{EdgeSlide, Orientation, Plan, Step};
 
-/// A dyad that comes this near to flat at an extreme (relative to the sum of all lengths) is left to
-/// the tracer: far above rounding, and far below what a design meets by chance. The same bound holds
-/// for the square of the sine between its legs: with legs of one length that is the square of the
-/// distance.
+/// A dyad nearer than this to flat at an extreme (relative to the sum of all lengths) is left to the tracer.
+/// The bound is far above rounding, and few designs are this near by chance. It also holds for the square
+/// of the sine between the legs: with legs of one length that is the square of the distance.
 const NEAR: f64 = 1.0e-9;
 
 /// The attachment of a dyad to the pin of a crank and to the ground.
@@ -25,7 +24,7 @@ pub(crate) struct CrankDyad {
     pub(crate) pivot: usize,
     /// The dyad's fixed point; the crank's pin is its other one.
     pub(crate) ground: usize,
-    /// The guide's edge, if there is one, and whether it leads to the dyad's fixed point.
+    /// The guide's edge, if any, and whether it leads to the dyad's fixed point.
     guide: Option<(usize, bool)>,
 }
 
@@ -69,14 +68,14 @@ impl CrankDyad {
         })
     }
 
-    /// The direction of the guide, if there is one, and its distance from the crank's pivot, positive to
+    /// The direction of the guide, if any, and its distance from the crank's pivot, positive to
     /// the left of it.
     pub(crate) fn line(&self, constants: &DesignConstants) -> Option<(Vector, f64)> {
         let (edge, backward) = self.guide?;
         let frame = constants.fixed[self.ground] - constants.fixed[self.pivot];
-        let own = constants.edge_vector[edge];
+        let vector = constants.edge_vector[edge];
         let guide = constants.guide[edge];
-        Some((guide, guide.cross(if backward { frame - own } else { frame + own })))
+        Some((guide, guide.cross(if backward { frame - vector } else { frame + vector })))
     }
 
     /// Whether it has a guide.
@@ -90,7 +89,7 @@ impl CrankDyad {
         if self.backward { -edge } else { edge }
     }
 
-    /// The crank's turns for each turn of the driver: 1, or −1 if it turns against it.
+    /// The crank's turns for each turn of the driver: 1, or −1 if it turns the opposite way.
     pub(crate) fn rate(&self, plan: &Plan) -> f64 {
         f64::from(plan.orientations[plan.edges[self.crank].orientation].turns[0])
     }
@@ -133,8 +132,8 @@ impl CrankDyad {
     }
 }
 
-/// How far the cosine of the crank's angle to an extreme falls below 1 at most: from the extreme to the
-/// position nearest to it the crank turns by half a step at most, and no cosine is less than this.
+/// Greatest amount by which the cosine of the crank's angle to an extreme falls below 1: from the extreme to
+/// the nearest position the crank turns by at most half a step, which bounds the cosine.
 fn squeeze(step: f64) -> f64 {
     0.125 * step * step
 }
@@ -147,9 +146,9 @@ pub(super) fn chord_misses(crank: f64, frame: f64, legs: [f64; 2], step: f64) ->
     let nearer = 2.0 * squeeze(step) * crank * frame;
     let (longest, shortest) = (frame + crank, frame - crank);
     let near = NEAR * (longest + a + b);
-    let (most, least) = (a + b + near, (a - b).abs() - near);
-    longest * longest - nearer > most * most
-        || least > 0.0 && shortest * shortest + nearer < least * least
+    let (longest_reach, shortest_reach) = (a + b + near, (a - b).abs() - near);
+    longest * longest - nearer > longest_reach * longest_reach
+        || shortest_reach > 0.0 && shortest * shortest + nearer < shortest_reach * shortest_reach
 }
 
 /// The edge of the guide, if it stands still and nothing else turns or slides.
@@ -160,9 +159,9 @@ fn fixed_guide(plan: &Plan, dyad: &Dyad) -> Option<usize> {
     (still && term.slides == Some(1) && term.turns.is_none()).then_some(term.edge)
 }
 
-/// Where the lengths of a dyad of two links on a crank and the ground stand in the list of dimensions: whether
+/// Indices of the lengths of a dyad of two links on a crank and the ground in the list of dimensions: whether
 /// it misses a position follows from these alone. Most designs of a random design space do not go through a
-/// turn, and need no other constants.
+/// turn and do not need other constants.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CrankLengths {
     crank: [Slot; 2],
@@ -218,7 +217,7 @@ mod tests {
     use crate::state::status::Status;
     use crate::{Coordinates, Description, FourBar, FourBarMode, Outputs, Request};
 
-    /// A slider-crank whose guide starts at a joint of its own, 30° from horizontal, `offset` beside
+    /// A slider-crank whose guide starts at its own joint, 30° from horizontal, `offset` beside
     /// it.
     fn engine(rod: f64) -> Mechanism {
         let (sin, cos) = (0.5, 0.75_f64.sqrt());
@@ -283,8 +282,8 @@ mod tests {
 
     const POSITIONS: [u32; 4] = [3, 8, 72, 361];
 
-    /// Whether the design misses a position by its shape alone, and whether one of the positions, as
-    /// solved, is none.
+    /// Whether the design misses a position by its shape alone, and whether the solver fails at one of the
+    /// positions.
     fn misses(drawing: &Description, stretch: &[f64], q: &[f64]) -> [bool; 2] {
         let mechanism = Mechanism::new(drawing).unwrap_or_else(|error| panic!("{error}"));
         let dimensions: Vec<f64> =

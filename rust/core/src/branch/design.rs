@@ -107,7 +107,7 @@ impl Units {
     }
 }
 
-/// What a design fills when it is bound and traced: allocated once for all designs of a mechanism.
+/// The memory that a design fills when it is bound and traced: allocated once for all designs of a mechanism.
 #[derive(Default)]
 pub(crate) struct DesignMemory {
     constants: DesignConstants,
@@ -153,12 +153,12 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Whether its searches are to end.
+    /// Whether its searches have been cancelled.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
 
-    /// The same with the memory of an earlier one of the mechanism.
+    /// A new design with the memory of an earlier one of the mechanism.
     pub(crate) fn reusing(self, memory: DesignMemory) -> Self {
         let DesignMemory { constants, values, branch, settled, lane_tracer, at_drawing } = memory;
         Self { constants, values, branch, settled, lane_tracer, at_drawing, ..self }
@@ -169,7 +169,7 @@ impl<'a> Design<'a> {
         self.tracing_tape = Cow::Owned(tape);
     }
 
-    /// That tape, which another design may use, and the memory.
+    /// The tape for tracing, which another design may use, and the memory.
     pub(crate) fn into_memory(self) -> (Option<Tape>, DesignMemory) {
         let Self { constants, values, branch, settled, lane_tracer, at_drawing, .. } = self;
         let memory = DesignMemory { constants, values, branch, settled, lane_tracer, at_drawing };
@@ -184,7 +184,7 @@ impl<'a> Design<'a> {
         self.bind_within(values, self.mechanism.slots.scale(values), f64::INFINITY);
     }
 
-    /// The same with a known scale, for driven slides whose values never exceed `driven_reach`, m.
+    /// Sets the dimensions with a known scale, for driven slides whose values never exceed `driven_reach`, m.
     pub(crate) fn bind_within(&mut self, values: &[f64], scale: f64, driven_reach: f64) {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();
@@ -195,7 +195,7 @@ impl<'a> Design<'a> {
         self.q0.extend(mechanism.q0().iter().zip(&self.units.coordinate).map(|(q, unit)| q * unit));
         self.values.clear();
         self.values.extend_from_slice(values);
-        // What moves over an area in the drawing may move along a curve in a design, where joints
+        // A point that moves over an area in the drawing may move along a curve in a design, where joints
         // coincide.
         if mechanism.plan().may_change.contains(&false) {
             self.constants.may_change = self.may_change();
@@ -230,7 +230,7 @@ impl<'a> Design<'a> {
         })
     }
 
-    /// The same of a design that is not bound yet, where its lengths alone show it.
+    /// The same for a design that is not bound yet, where its lengths alone show it.
     pub(crate) fn lengths_miss_position(&self, tape: &Tape, values: &[f64], step: f64) -> bool {
         self.crank_lengths.iter().enumerate().any(|(dyad, lengths)| {
             let Some(lengths) = lengths else { return false };
@@ -268,7 +268,7 @@ impl<'a> Design<'a> {
         state
     }
 
-    /// Sets what all positions of the design share in a work space that others may have used.
+    /// Sets the data that all positions of the design share in a work space that other designs may have used.
     pub(crate) fn prepare(&self, state: &mut State) {
         state.prepare(self.mechanism.plan(), &self.constants, self.derivatives);
     }
@@ -288,18 +288,18 @@ impl<'a> Design<'a> {
     }
 }
 
-/// Signs as the solver needs them; those of lengths are +1, whatever is asked for.
+/// Signs as the solver needs them; those of lengths are always +1.
 fn signs_of(plan: &Plan, signs: &[i8]) -> Vec<f64> {
     let mut signs: Vec<f64> = signs.iter().map(|&sign| f64::from(sign)).collect();
     for dyad in plan.dyads().filter(|dyad| dyad.is_length) {
-        if let Some(own) = dyad.sign.and_then(|sign| signs.get_mut(sign)) {
-            *own = 1.0;
+        if let Some(sign_of_length) = dyad.sign.and_then(|sign| signs.get_mut(sign)) {
+            *sign_of_length = 1.0;
         }
     }
     signs
 }
 
-/// Whether the positions asked for need this dyad.
+/// Whether the requested positions need this dyad.
 fn is_solved(tape: &Tape, dyad: usize) -> bool {
     matches!(&tape.ops[tape.dyads[dyad]], Op::TwoLegs(op) | Op::StandingGuide(op) if op.is_used)
 }

@@ -1,23 +1,23 @@
-//! Knots of a branch: what is stored at them, and how each is predicted from the one before.
+//! Knots of a branch: the stored data, and the prediction of each from the one before.
 
 use std::f64::consts::TAU;
 
 use crate::math::lanes::{Mask, Real};
 use crate::plan::dyad::Unknown;
 
-/// How far (rad, or of the size) an unknown of a group may be from its Taylor prediction at the
-/// knot before: other assemblies are farther, except beside a fold, beyond which the determinant
-/// has the other sign.
+/// Greatest distance (rad, or of the size) of an unknown of a group from its Taylor prediction at the
+/// knot before: other assemblies are farther, except beside a fold, beyond which the determinant has the
+/// other sign.
 pub(crate) const MAX_PREDICTION_ERROR: f64 = 1.0 / 32.0;
 
-/// How long (rad, or of the size) the first Newton step may be, which corrects the first-order
-/// change: other assemblies are farther.
+/// Greatest length (rad, or of the size) of the first Newton step, which corrects the first-order change:
+/// other assemblies are farther.
 pub(crate) const MAX_FIRST_STEP: f64 = 0.25;
 /// The same for all later steps together.
 pub(crate) const MAX_LATER_STEPS: f64 = MAX_PREDICTION_ERROR;
 
-/// How near (rad, or of the size) the unknowns of a group must come to their first values for the
-/// branch to close: other assemblies are farther.
+/// Greatest distance (rad, or of the size) of the unknowns of a group from their first values where the
+/// branch closes: other assemblies are farther.
 const MAX_RETURN_ERROR: f64 = 1.0e-6;
 
 /// Where a branch begins.
@@ -47,7 +47,7 @@ pub(crate) struct Knot {
     pub open_step: Option<(usize, f64)>,
     /// With one driver, the square of that dyad's discriminant (negative) and its rate along the path.
     pub open_square: Option<(f64, f64)>,
-    /// Which way that dyad is flat ([`State::flat_side`](crate::state::state::State::flat_side)).
+    /// The side on which that dyad is flat ([`State::flat_side`](crate::state::state::State::flat_side)).
     pub open_side: bool,
     /// Number of the plan's steps that were solved.
     pub solved: usize,
@@ -119,15 +119,15 @@ pub(crate) fn predict<R: Real>([value, rate, second]: &[R; 3], step: f64) -> R {
     *value + R::splat(step) * (*rate + R::splat(0.5 * step) * *second)
 }
 
-/// How far an unknown, one cell on, is from its prediction; also backward, so that the polynomial
-/// between both holds.
+/// Distance of an unknown, one cell on, from its prediction; also backward, so that the polynomial
+/// between both is valid.
 #[inline(always)]
 pub(crate) fn prediction_error<R: Real>(a: &[R; 3], b: &[R; 3], cell: f64) -> R {
     let ahead = (predict(a, cell) - b[0]).abs();
     let back = (predict(b, -cell) - a[0]).abs();
     // NaN must count as far.
-    let known = ahead.finite().and(back.finite());
-    R::select(known, ahead.max(back), R::splat(f64::INFINITY))
+    let is_finite = ahead.finite().and(back.finite());
+    R::select(is_finite, ahead.max(back), R::splat(f64::INFINITY))
 }
 
 /// Whether an unknown, one cell on, may have left its branch.

@@ -97,7 +97,7 @@ impl Branch {
         location: &BranchLocation<R>,
         lane: usize,
     ) -> bool {
-        // The knot is one that can be reached, if there is one before or after the location.
+        // The knot can be reached if any knot before or after the location can.
         let at = location.reduced.lane(lane);
         let inside = self.at.first().is_some_and(|&first| first <= at)
             && self.at.last().is_some_and(|&last| at < last);

@@ -153,13 +153,13 @@ impl Design<'_> {
         if point.branch.in_untraced_island(&location, 0) {
             // An island between two knots.
             let cx = self.context(&self.tracing_derivatives);
-            let own = point.branch.trace_island(
+            let island = point.branch.trace_island(
                 &cx,
                 &mut self.state(&self.tracing_derivatives),
                 point.at,
             );
-            let location = own.locate(point.at);
-            return (0..classes).map(|class| own.reference_angle(&location, class)).collect();
+            let location = island.locate(point.at);
+            return (0..classes).map(|class| island.reference_angle(&location, class)).collect();
         }
         (0..classes).map(|class| point.branch.reference_angle(&location, class)).collect()
     }
@@ -175,8 +175,8 @@ impl Design<'_> {
         distance: f64,
     ) -> Option<State> {
         let mut interpolants = self.interpolants.borrow_mut();
-        let known = interpolants.iter().position(|(at, _)| *at == change.at);
-        let known = known.unwrap_or_else(|| {
+        let index = interpolants.iter().position(|(at, _)| *at == change.at);
+        let index = index.unwrap_or_else(|| {
             let solve = |derivatives: &DerivativeTables, distance: f64| {
                 let at = change.at + distance;
                 // A fresh state, so that nothing depends on the position that comes first.
@@ -200,7 +200,7 @@ impl Design<'_> {
             interpolants.push((change.at, interpolant));
             interpolants.len() - 1
         });
-        let smooth = interpolants[known].1.as_ref()?.state_at(distance, state)?;
+        let smooth = interpolants[index].1.as_ref()?.state_at(distance, state)?;
         (smooth.residual(&self.context(self.derivatives)) <= SMOOTH_CLOSURE).then_some(smooth)
     }
 

@@ -17,15 +17,15 @@ impl Branch {
         state: &State<R, G>,
         g: usize,
     ) -> R::Mask {
-        let mut other = R::Mask::NONE;
+        let mut wrong_side = R::Mask::NONE;
         for (groups, &expected) in state.work.det_sign.iter().zip(&self.det_signs) {
             let positive = R::ZERO.lt(groups[g]);
-            other = other.or(if expected { positive.not() } else { positive });
+            wrong_side = wrong_side.or(if expected { positive.not() } else { positive });
         }
-        other.not()
+        wrong_side.not()
     }
 
-    /// The groups' unknowns at a parameter, traced anew from the knot before: for cells whose
+    /// The groups' unknowns at a parameter, traced again from the knot before: for cells whose
     /// polynomial is too rough.
     #[cold]
     pub(crate) fn retrace(&self, cx: &Context<'_>, state: &mut State, at: f64) -> Option<Vec<f64>> {
@@ -93,23 +93,27 @@ impl Branch {
         if let Some([first, last]) = location.pair {
             let (a, b) = (cell(first)?, cell(last)?);
             let later = R::ZERO.lt(location.is_last);
-            let of = |a: f64, b: f64| R::select(later, R::splat(b), R::splat(a));
+            let of_lane = |a: f64, b: f64| R::select(later, R::splat(b), R::splat(a));
             let mut coefficients = [R::ZERO; 6];
-            for (own, (&a, &b)) in
+            for (coefficient, (&a, &b)) in
                 coefficients.iter_mut().zip(a.coefficients.iter().zip(&b.coefficients))
             {
-                *own = of(a, b);
+                *coefficient = of_lane(a, b);
             }
-            let unit = Vector::new(of(a.unit.x, b.unit.x), of(a.unit.y, b.unit.y));
-            return Some(LaneCells { at: of(self.at[first], self.at[last]), coefficients, unit });
+            let unit = Vector::new(of_lane(a.unit.x, b.unit.x), of_lane(a.unit.y, b.unit.y));
+            return Some(LaneCells {
+                at: of_lane(self.at[first], self.at[last]),
+                coefficients,
+                unit,
+            });
         }
         let mut cells = [cell(location.knot[0])?; LANES];
         for lane in 1..R::LANES {
             cells[lane] = cell(location.knot[lane])?;
         }
         let mut coefficients = [R::ZERO; 6];
-        for (k, own) in coefficients.iter_mut().enumerate() {
-            *own = R::from_lanes(|lane| cells[lane].coefficients[k]);
+        for (k, coefficient) in coefficients.iter_mut().enumerate() {
+            *coefficient = R::from_lanes(|lane| cells[lane].coefficients[k]);
         }
         let x = R::from_lanes(|lane| cells[lane].unit.x);
         let y = R::from_lanes(|lane| cells[lane].unit.y);

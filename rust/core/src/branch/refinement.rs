@@ -1,5 +1,5 @@
-//! Whether a cell between two knots must be halved: to count turns, to find the edge of a gap, or because
-//! an island may hide in it.
+//! The test whether a cell between two knots must be halved: to count turns, to find the edge of a gap, or
+//! because an island may hide in it.
 
 use super::knot::{Knot, may_vanish};
 use crate::math::tolerance::KNOT_MAX_TURN;
@@ -7,8 +7,8 @@ use crate::math::tolerance::KNOT_MAX_TURN;
 /// Halvings at an end of an interval that can be reached: the turn left there varies as the square
 /// root of the cell.
 const EDGE_HALVINGS: u32 = 14;
-/// How fast (of the size, per unit of the path) the gap of a dyad that does not close may shrink, if
-/// nothing else shows that it moves faster.
+/// Greatest rate (of the size, per unit of the path) at which the gap of a dyad that does not close may
+/// shrink, unless other data show a faster motion.
 const MAX_GAP_RATE: f64 = 8.0;
 /// A negative square stays below zero in a cell if it is below zero by this many times its rise over it.
 const MAX_FALLS: f64 = 4.0;

@@ -2,7 +2,7 @@
 //!
 //! A dyad has a change point where the length of its chord has an extreme at which it is flat. If
 //! one end of the chord moves over an area as seen from every body that is known before the dyad,
-//! extremes are single points of the coordinates, which no path meets but by chance; beside them
+//! extremes are single points of the coordinates, which a path meets only by chance; beside them
 //! nothing changes. If it moves along a curve, as a joint of the next body does, the length depends
 //! on one scalar, and paths in every direction lead through its extremes.
 
@@ -29,28 +29,28 @@ pub(super) fn may_change(cx: &Context<'_>, state: &mut State, q0: &[f64]) -> Vec
         let moved = |(driver, &q): (usize, &f64)| q + offset / (1.0 + driver as f64 / 3.0);
         let q: Vec<f64> = q0.iter().enumerate().map(moved).collect();
         state.solve(cx, &q);
-        // The chord of a dyad that does not close is known all the same.
+        // The chord of a dyad that does not close is still known.
         let last = match (state.status, state.fault) {
             (Status::Ok | Status::NearSingular, _) => usize::MAX,
             (Status::Unreachable, Some(Fault::NotClosed { step, .. })) => step,
             _ => continue,
         };
-        let mut known = vec![false; cx.plan.classes];
-        known[0] = true;
+        let mut is_known = vec![false; cx.plan.classes];
+        is_known[0] = true;
         for (step, what) in cx.plan.steps.iter().enumerate() {
             let Step::Dyad(dyad) = what else { continue };
             if step > last {
                 break;
             }
             if let Some(sign) = dyad.sign {
-                let mut links =
-                    (0..cx.plan.rotation.len()).filter(|&link| known[cx.plan.rotation[link].class]);
+                let mut links = (0..cx.plan.rotation.len())
+                    .filter(|&link| is_known[cx.plan.rotation[link].class]);
                 may_change[sign] &=
                     links.any(|link| greatest_area(state, cx.plan, dyad, link, q0.len()) < CURVE);
             }
             for unknown in dyad.unknowns {
                 if let Unknown::Class(class) = unknown {
-                    known[class] = true;
+                    is_known[class] = true;
                 }
             }
         }

@@ -58,8 +58,7 @@ impl Design<'_> {
         Traced::Surveyed
     }
 
-    /// Whether the branch just traced serves these coordinates, of one driver or all, without change
-    /// points.
+    /// Whether the traced branch serves these coordinates, of one driver or all, without change points.
     pub(crate) fn is_smooth(&self, q: &[f64]) -> bool {
         let branch = &self.branch;
         branch.is_whole()
@@ -131,8 +130,9 @@ impl Design<'_> {
             // A survey solves closer scans in their place.
             is_solved = surveyed.is_some();
             if surveyed.is_none() && grid.is_turn {
-                let of = (classes, start);
-                let surveyed = tracer.survey::<L, G>(&cx, uniform, of, settled, references, branch);
+                let angles = (classes, start);
+                let surveyed =
+                    tracer.survey::<L, G>(&cx, uniform, angles, settled, references, branch);
                 let Some(surveyed) = surveyed else { return Traced::No };
                 if surveyed != Traced::No {
                     return surveyed;
@@ -208,7 +208,7 @@ impl Design<'_> {
         [low.max(self.least_coordinate()).min(self.q0[0]), high.max(self.q0[0])]
     }
 
-    /// The least coordinate of the driver that may be reached: 0 of a length.
+    /// The least coordinate of the driver that may be reached: 0 for a length.
     fn least_coordinate(&self) -> f64 {
         let is_length = self.mechanism.plan().driven_length().is_some();
         if is_length { 0.0 } else { f64::NEG_INFINITY }
@@ -252,7 +252,7 @@ impl Design<'_> {
         self.trace_knot_by_knot(q);
     }
 
-    /// No slide goes farther than the sum of all lengths, in sizes.
+    /// The sum of all lengths, in sizes: slides do not go farther.
     pub(crate) fn reach(&self) -> f64 {
         let edges = self.mechanism.plan().edges.iter().zip(&self.constants.edge_vector);
         let paired = edges.filter(|(edge, _)| edge.paired).map(|(_, vector)| vector);

@@ -19,12 +19,12 @@ use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
 
-/// With so many knots cells are no longer halved: if angles are nothing but rounding (a link of 1e-17
-/// of the size), no cell would ever be fine enough.
+/// With this many knots cells are no longer halved: if angles are only rounding (a link of 1e-17 of the
+/// size), no cell would ever be fine enough.
 const MAX_KNOTS: usize = 100_000;
 /// Part of a cell by which a knot is moved off a flat dyad.
 const NUDGE: f64 = 0.0625;
-/// Number of such moves: change points of several dyads are seldom so close together.
+/// Number of such moves: change points of several dyads are rarely so close together.
 const MAX_NUDGES: u32 = 4;
 /// Nearest distance (rad, or units of the scale) to a change point at which rates are more than
 /// rounding: their error is 64 u κ², with κ about 1/distance.
@@ -67,8 +67,7 @@ pub(crate) struct BranchTracer<'a, 'b> {
     last_group: Option<usize>,
     /// Their values at the start.
     initial: Vec<Taylor2>,
-    /// Whether the branch has ended: a group folds ahead, or something upstream of it does not
-    /// close.
+    /// Whether the branch has ended: a group folds ahead, or a step upstream of it does not close.
     pub ended: bool,
 }
 
@@ -155,7 +154,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     pub(crate) fn solve_knot(&mut self, at: f64, from: &[f64]) -> Knot {
         let solved = self.solve(at);
         let reached = solved == usize::MAX;
-        // Dyads before the step that does not close are solved all the same.
+        // Dyads before the step that does not close are still solved.
         let discriminants = self
             .dyads()
             .map(|(step, dyad)| if step < solved { self.discriminant(dyad) } else { (0.0, 0.0) })
@@ -282,7 +281,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     fn prediction_failed(&self, from: &Knot, knot: &Knot) -> bool {
         let Some(step) = self.last_group else { return false };
         if knot.solved <= step || knot.det_signs != from.det_signs {
-            // Not solved, on the other side of a fold, or too near to it.
+            // Not solved, on the other side of a fold, or too near to the fold.
             return true;
         }
         let cell = knot.at - from.at;
@@ -331,7 +330,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
             let Some(from) = self.knots.last().cloned() else { return };
             let mut end = end;
             let mut knot = self.solve_knot(end, &from.angles);
-            // A change point is found from both sides of it, not from a knot at it.
+            // A change point is found from knots on both sides, not from a knot at the point.
             for _ in 0..MAX_NUDGES {
                 if !knot.is_flat() {
                     break;
@@ -369,7 +368,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     }
 
     /// Where the joints of a slide whose value is a length have coincided between two knots, it has
-    /// turned by half a turn at once, to either side: let that be counter-clockwise as the parameter
+    /// turned by half a turn at once, to either side: this counts as counter-clockwise as the parameter
     /// grows.
     fn turn_lengths_round(&self, from: &Knot, knot: &mut Knot) {
         if !(from.reached && knot.reached) {
@@ -392,7 +391,7 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
     }
 
     /// Unwraps the angles of a knot at the very edge of the gap between it and the knot before.
-    /// With several drivers every position has a branch and knots of its own: an angle that differs
+    /// With several drivers every position has its own branch and knots: an angle that differs
     /// by about half a turn across a gap would otherwise be unwrapped to either side. With one, knots
     /// in lanes would decide otherwise.
     fn unwrap_across_gap(&mut self, from: &Knot, mut knot: Knot) -> Knot {
@@ -424,8 +423,8 @@ impl<'a, 'b> BranchTracer<'a, 'b> {
         inside.angles.iter().zip(&edge).any(|(angle, edge)| (edge - angle).abs() > KNOT_MAX_TURN)
     }
 
-    /// Whether some angle differs by so much across a gap that the knots beside it may not show which
-    /// way is the shorter. (Angles of groups are followed from knot to knot.)
+    /// Whether some angle differs so much across a gap that the knots beside it may not show the shorter way.
+    /// (Angles of groups are followed from knot to knot.)
     fn is_ambiguous(&self, before: &[f64], behind: &[f64]) -> bool {
         let mut steps = before.iter().zip(behind).map(|(a, b)| (b - a).abs());
         self.last_group.is_none() && steps.any(|step| step > MAX_KNOWN_STEP)

@@ -7,7 +7,7 @@ use super::names::suggest;
 use crate::math::tolerance::{GREATEST_LENGTH, LEAST_LENGTH};
 use crate::math::trig::sin_cos;
 
-/// What one dimension measures.
+/// The quantity that a dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the fields are indices of what their names say")]
 pub enum Dimension {
@@ -51,7 +51,7 @@ impl Dimension {
         }
     }
 
-    /// What is wrong with a value of this dimension; `None` if it is valid.
+    /// The fault of a value of this dimension; `None` if it is valid.
     #[must_use]
     pub fn fault(self, value: f64) -> Option<&'static str> {
         if !value.is_finite() {
@@ -162,8 +162,8 @@ impl Dimensions {
     #[must_use]
     pub fn first_fault(&self, values: &[f64]) -> Option<SolveError> {
         let mut valid = true;
-        for (&[least, most], &value) in self.ranges.iter().zip(values) {
-            valid &= least <= value && value <= most;
+        for (&[low, high], &value) in self.ranges.iter().zip(values) {
+            valid &= low <= value && value <= high;
         }
         if valid {
             return None;

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use strum::{IntoStaticStr, VariantNames};
 use thiserror::Error;
 
-/// What a name of a description stands for.
+/// The kind of object that a name of a description denotes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Named {
     /// A joint.
@@ -48,9 +48,9 @@ impl fmt::Display for Item {
     }
 }
 
-/// What to do about an error.
+/// Advice on an error.
 pub trait Hint: fmt::Display {
-    /// Advice, if there is something to do.
+    /// Advice, if any.
     fn hint(&self) -> Option<String>;
 
     /// The message followed by the advice.
@@ -67,7 +67,7 @@ pub(crate) fn quoted_list(names: &[String]) -> String {
     names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")
 }
 
-/// The same with a noun before them.
+/// [`quoted_list`] with a noun before the names.
 fn counted_list(noun: &str, names: &[String]) -> String {
     format!("{noun}{} {}", if names.len() == 1 { "" } else { "s" }, quoted_list(names))
 }
@@ -83,7 +83,7 @@ pub struct Overconstraint {
     pub excess: usize,
     /// The links and slides they are in.
     pub links: Vec<String>,
-    /// Those of them that can be left out without freeing the linkage.
+    /// The parts that can be left out without freeing the linkage.
     pub redundant: Vec<String>,
 }
 
@@ -130,7 +130,7 @@ fn optional(overconstraint: Option<&Overconstraint>) -> String {
 
 fn some_links(links: &[String]) -> String {
     match links {
-        [one] => format!("{one:?} and others"),
+        [link] => format!("{link:?} and others"),
         links => quoted_list(links),
     }
 }
@@ -139,7 +139,7 @@ fn drivers_text(drivers: usize) -> String {
     if drivers == 1 { "is 1 driver".into() } else { format!("are {drivers} drivers") }
 }
 
-/// What numbers a drawing may have; `what`: the kind of object that the number belongs to.
+/// The numbers that a drawing may have; `what`: the kind of object that the number belongs to.
 fn range(what: Named) -> &'static str {
     match what {
         Named::Link => "a length must be from 1e-153 to 1e153 m",
@@ -211,7 +211,7 @@ pub enum StructureError {
         number(*x), number(*y)
     )]
     ZeroLength { link: String, first: String, second: String, x: f64, y: f64 },
-    /// There is no link called `ground`.
+    /// No link is called `ground`.
     #[error("there is no link \"ground\"")]
     NoGround,
     /// A slide or driver relates a link to itself.
@@ -389,7 +389,7 @@ pub(crate) fn number(x: f64) -> String {
     }
 }
 
-/// The same, rounded to a number of digits.
+/// [`number`], rounded to a number of digits.
 pub(crate) fn rounded(x: f64, digits: usize) -> String {
     number(format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x))
 }
@@ -397,8 +397,10 @@ pub(crate) fn rounded(x: f64, digits: usize) -> String {
 /// Coordinates as text.
 pub(crate) fn coordinate_text(q: &[f64]) -> String {
     match q {
-        [one] => number(*one),
-        many => format!("({})", many.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", ")),
+        [single] => number(*single),
+        several => {
+            format!("({})", several.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", "))
+        }
     }
 }
 
@@ -441,7 +443,7 @@ pub enum SolveError {
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),
-    /// What the work needs does not fit in memory.
+    /// The data that the work needs do not fit in memory.
     #[error("out of memory: {numbers} numbers at once do not fit")]
     OutOfMemory { numbers: usize },
     /// The order is outside 0..=3.

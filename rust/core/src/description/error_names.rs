@@ -1,4 +1,4 @@
-//! The names in the sentence of an error, for those who would else read them out of it.
+//! The names in the sentence of an error, for callers that would otherwise parse it.
 
 use super::error::{DriverFault, Item, Overconstraint, StructureError};
 
@@ -32,8 +32,8 @@ impl DriverFault {
 }
 
 impl StructureError {
-    /// Every joint, link, slide and driver that the sentence names, in its order; the advice at its
-    /// end counts for nothing.
+    /// Every joint, link, slide and driver that the sentence names, in its order, without the advice at its
+    /// end.
     #[must_use]
     pub fn names(&self) -> Vec<&str> {
         match self {

@@ -9,10 +9,10 @@ use super::{Driver, Linkage};
 use crate::math::tolerance::PARALLEL;
 use crate::math::trig::{atan2, sin_cos};
 
-/// Roundings of a place beside a guide that count as none.
+/// A distance from a guide below this many roundings counts as 0.
 const ROUNDINGS: f64 = 4.0;
 
-/// What sets the direction of the x axis of a link's frame.
+/// The object that sets the direction of the x axis of a link's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// The axes of the drawing (the ground).
@@ -42,7 +42,7 @@ fn principal(angle: f64) -> f64 {
 }
 
 impl Linkage {
-    /// What sets the direction of the x axis of the link's frame.
+    /// The object that sets the direction of the x axis of the link's frame.
     #[must_use]
     pub fn axis(&self, link: usize) -> Axis {
         if link == self.ground {
@@ -105,12 +105,12 @@ impl Linkage {
 
     /// A point, in the drawing, of a guide of a link without joints.
     fn guide_point(&self, slide: &super::Slide, link: usize) -> [f64; 2] {
-        let other = if slide.link == link { slide.on } else { slide.link };
+        let other_link = if slide.link == link { slide.on } else { slide.link };
         // A guide carried by this link passes through the first joint of the sliding
         // link; a guide along which this link slides passes through the slide's origin.
         let joint = match slide.origin {
             Some(origin) if slide.link == link => Some(origin),
-            _ => self.links[other].joints.first().copied(),
+            _ => self.links[other_link].joints.first().copied(),
         };
         joint.map_or([0.0; 2], |j| self.joints[j].at)
     }
@@ -139,7 +139,7 @@ impl Linkage {
         let angle = self.slides[slide].angle;
         let (sin, cos) = sin_cos(angle);
         let across = y * cos - x * sin;
-        // A guide drawn through the point: the angle, π/2 for example, is known to rounding only.
+        // A guide drawn through the point: the angle, for example π/2, is known only to rounding.
         let rounding = ROUNDINGS * f64::EPSILON * (1.0 + angle.abs()) * (x.abs() + y.abs());
         (x * cos + y * sin, if across.abs() <= rounding { 0.0 } else { across })
     }

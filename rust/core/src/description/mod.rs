@@ -260,8 +260,8 @@ impl Linkage {
         slides && link != self.ground && self.links[link].joints.len() == 1
     }
 
-    /// The only block that has this joint, if there is one. A fixed joint has none: what is fastened
-    /// there is fastened to the ground.
+    /// The only block that has this joint. `None` for a fixed joint: what is fastened there is fastened to the
+    /// ground.
     #[must_use]
     pub fn block_at(&self, joint: usize) -> Option<usize> {
         if self.links_at(joint).any(|link| link == self.ground) {

@@ -3,10 +3,10 @@
 use super::error::Named;
 
 /// Advice on an unknown name: "did you mean …?" with up to three names about as similar as the
-/// nearest, else the first twelve of `known` in order of distance. `None` if `known` is empty.
+/// nearest, else the first twelve of `candidates` in order of distance. `None` if `candidates` is empty.
 #[must_use]
-pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
-    let mut ranked: Vec<(usize, &str)> = known.map(|k| (distance(name, k), k)).collect();
+pub(crate) fn suggest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
+    let mut ranked: Vec<(usize, &str)> = candidates.map(|k| (distance(name, k), k)).collect();
     ranked.sort_unstable();
     let &(nearest, _) = ranked.first()?;
     // More than half of a similar name is the same, and swapped letters count twice.
@@ -26,8 +26,8 @@ pub(crate) fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> O
 
 /// Advice on a joint given for a link, or a link given for a joint.
 #[must_use]
-pub(crate) fn mistaken_kind(name: &str, wanted: Named, given: Named) -> Option<String> {
-    match (wanted, given) {
+pub(crate) fn mistaken_kind(name: &str, expected: Named, actual: Named) -> Option<String> {
+    match (expected, actual) {
         (Named::Link, Named::Joint) => Some(format!(
             "{name:?} is a joint: name a link that has it, or give it a link of its own, links={{\"block\": [{name:?}]}}"
         )),
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn names_that_are_not_similar_are_listed() {
-        let hint = |known: &[&'static str]| suggest("Z", known.iter().copied());
+        let hint = |names: &[&'static str]| suggest("Z", names.iter().copied());
         assert_eq!(hint(&["B", "A"]).as_deref(), Some("there are \"A\", \"B\""));
         assert_eq!(hint(&["C"]).as_deref(), Some("there is only \"C\""));
         assert_eq!(hint(&[]), None);

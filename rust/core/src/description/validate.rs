@@ -165,11 +165,11 @@ fn resolve(
     index: &HashMap<&str, usize>,
     kind: Named,
     name: &str,
-    others: &HashMap<&str, usize>,
+    other_names: &HashMap<&str, usize>,
     item: impl FnOnce() -> Item,
 ) -> Result<usize, StructureError> {
     let other_kind = if kind == Named::Joint { Named::Link } else { Named::Joint };
-    let is_other = others.contains_key(name);
+    let is_other = other_names.contains_key(name);
     let mistaken = is_other.then(|| mistaken_kind(name, kind, other_kind)).flatten();
     index.get(name).copied().ok_or_else(|| StructureError::Unknown {
         kind,

@@ -20,7 +20,7 @@ pub enum Line {
 pub struct Angle {
     /// The two lines.
     pub lines: [Line; 2],
-    /// Whether the complement is meant (at a slide it is the pressure angle).
+    /// Whether this is the complement (at a slide it is the pressure angle).
     pub complement: bool,
 }
 

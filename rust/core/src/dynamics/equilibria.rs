@@ -29,7 +29,7 @@ const NO_DIGITS: f64 = 1.0e-2;
 /// Within this part of a turn, rest at its two ends is the same: that of a moment that only touches
 /// zero is located no closer.
 const SAME_IN_A_TURN: f64 = 1.0e-7;
-/// Rest this close to an end of a range, in u of its greater end, is within it.
+/// Rest nearer than this to an end of a range, in u of its greater end, is within the range.
 const WITHIN_ULPS: f64 = 8.0;
 /// Distance from a station, relative to it (or to 1), beyond its rounding.
 const BESIDE: f64 = 1.0e-12;
@@ -82,8 +82,8 @@ pub struct Equilibria {
 }
 
 impl Machine {
-    /// Finds the positions of rest of a design of one driver (of several: none). Dampers do not act at
-    /// rest, and motors are off; loads with callbacks have no moment. Ends early once `cancel` is true.
+    /// Finds the positions of rest of a design with one driver (with several it finds none). Dampers do not
+    /// act at rest, and motors are off; loads with callbacks have no moment. Ends early once `cancel` is true.
     #[must_use]
     pub fn equilibria(
         &self,
@@ -128,33 +128,33 @@ impl Machine {
             let numbers = Numbers { tables: &tables, ..followers.numbers() };
             machine.add_speed_loads(&pose, &[0.0], numbers, &mut reduced);
             let reach = Reach { length: scale / unit, angle: 1.0 / unit };
-            let found = machine.moment_slope(&pose, numbers, reach);
+            let tangent = machine.moment_slope(&pose, numbers, reach);
             let error = ANALOGUE_PER_CONDITION_SQUARED * condition * condition;
             if error > NO_DIGITS {
                 return None;
             }
-            let noise = error * found.size;
-            let sample = Sample { x: q, value: reduced.moment(0), slope: found.slope, noise };
+            let noise = error * tangent.size;
+            let sample = Sample { x: q, value: reduced.moment(0), slope: tangent.slope, noise };
             Some((sample, reduced.inertia[0]))
         };
         knots = knots.into_iter().flat_map(beside).collect();
         for table in &self.tables {
-            let own = table.knots_within(range.widened());
+            let rows_within = table.knots_within(range.widened());
             // The value at a jump is the one behind it.
             if !table.jumps().is_empty() {
-                knots.extend(own.iter().map(|knot| knot.next_down()));
+                knots.extend(rows_within.iter().map(|knot| knot.next_down()));
             }
-            knots.extend(own);
+            knots.extend(rows_within);
         }
         let nodes = range.nodes(knots.into_iter());
         let roots = all_roots(&nodes, |q| sample(q).map(|pair| pair.0));
-        let mut found = Equilibria::of_roots(&roots, range, sample);
+        let mut equilibria = Equilibria::of_roots(&roots, range, sample);
         if !is_reached.get() {
             let q = [range.ends[0]];
-            found.failure =
+            equilibria.failure =
                 evaluator.solve(&q).err().map(|rejection| evaluator.failure(rejection, &q));
         }
-        found
+        equilibria
     }
 }
 
@@ -181,7 +181,7 @@ impl EquilibriumRange {
         (self.ends[1] - self.ends[0]) / f64::from(self.intervals)
     }
 
-    /// With an interval more on either side: rest at an end lies between positions.
+    /// Widened by one interval on either side: rest at an end lies between positions.
     fn widened(&self) -> [f64; 2] {
         [self.ends[0] - self.step(), self.ends[1] + self.step()]
     }
@@ -198,7 +198,7 @@ impl EquilibriumRange {
         nodes
     }
 
-    /// How far beyond its ends rest still counts.
+    /// Distance beyond its ends within which rest still counts.
     fn slack(&self) -> f64 {
         let [low, high] = self.ends;
         if self.is_turn {
@@ -211,13 +211,13 @@ impl EquilibriumRange {
 
 impl Equilibria {
     fn of_roots(
-        found: &Roots,
+        roots: &Roots,
         range: EquilibriumRange,
         mut sample: impl FnMut(f64) -> Option<(Sample, f64)>,
     ) -> Self {
         let ([low, high], slack) = (range.ends, range.slack());
         let is_within = |q: f64| q >= low - slack && q <= high + slack;
-        let mut isolated: Vec<Equilibrium> = found
+        let mut isolated: Vec<Equilibrium> = roots
             .isolated
             .iter()
             .filter(|root| is_within(root.at))
@@ -233,11 +233,11 @@ impl Equilibria {
         let clip = |[a, b]: &[f64; 2]| [a.max(low), b.min(high)];
         Self {
             isolated,
-            indifferent: found.zero.iter().map(clip).filter(|[a, b]| a < b).collect(),
-            jumps: found.jumps.iter().copied().filter(|&q| is_within(q)).collect(),
-            is_incomplete: found.incomplete,
+            indifferent: roots.zero.iter().map(clip).filter(|[a, b]| a < b).collect(),
+            jumps: roots.jumps.iter().copied().filter(|&q| is_within(q)).collect(),
+            is_incomplete: roots.incomplete,
             failure: None,
-            is_empty: !found.has_values,
+            is_empty: !roots.has_values,
         }
     }
 }

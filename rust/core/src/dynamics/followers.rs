@@ -1,16 +1,16 @@
 //! The coordinates that loads follow, at one position: values of the curves over them, and the
 //! directions in which they move.
 //!
-//! A motion is integrated from one [station](super::stations) to the next. In between each curve is in
-//! one piece, and each coordinate moves in one direction for a given sense of the driver; both are
-//! held, so that the equation of motion is smooth there, ends included.
+//! A motion is integrated from one [station](super::stations) to the next. Between them each curve stays on
+//! one piece, and each coordinate moves in one direction for a given sense of the driver. Both are fixed
+//! there, so that the equation of motion is smooth, ends included.
 
 use super::kinematics::SolvedPose;
 use super::measure::{Measure, Over};
 use super::tables::table::Cell;
 use super::value::Numbers;
 
-/// What loads follow: curves over coordinates, and coordinates whose direction counts.
+/// The objects that loads follow: curves over coordinates, and coordinates whose direction counts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Followed<'m> {
     pub over: &'m [Over],
@@ -33,7 +33,7 @@ pub(crate) struct Held {
 }
 
 impl Followers {
-    /// Reads a position on its own; `speed`: of the drivers, or their sense.
+    /// Reads a single position; `speed`: of the drivers, or their sense.
     pub(crate) fn read(
         &mut self,
         followed: Followed<'_>,
@@ -56,7 +56,7 @@ impl Followers {
     ) {
         self.read_curves(followed, pose, q, &held.cells);
         self.ways.clear();
-        // At rest, without a sense, no load acts that follows a direction.
+        // At rest, without a sense, loads that follow a direction do not act.
         self.ways.extend(held.ways.iter().map(|way| way * sense));
     }
 
@@ -82,11 +82,11 @@ impl Followers {
 }
 
 impl Held {
-    /// Holds what is true at a position.
+    /// Fixes the pieces and directions of a position.
     ///
     /// # Errors
     ///
-    /// Index of the curve whose table does not cover it, and the value that it lacks.
+    /// Index of the curve whose table does not cover the position, and the missing value.
     pub(crate) fn hold(
         &mut self,
         followed: Followed<'_>,

@@ -20,9 +20,9 @@ pub enum Load {
         force: [Value; 2],
         /// The link whose axes they are along; `None`: the frame's.
         axes: Option<usize>,
-        /// The link that takes it, of those at a joint; `None`: the first of them.
+        /// The link at a joint that takes it; `None`: the first one there.
         on: Option<usize>,
-        /// The direction in which it acts, if it does not in both.
+        /// The direction in which it acts, unless it acts in both.
         one_way: Option<OneWay>,
     },
     /// A pressure in the cylinder of a slide: a force along the guide on the sliding link at its
@@ -36,7 +36,7 @@ pub enum Load {
         pressure: Value,
         /// Pressure on the other side, Pa.
         ambient: f64,
-        /// The direction in which it acts, if it does not in both.
+        /// The direction in which it acts, unless it acts in both.
         one_way: Option<OneWay>,
     },
     /// A torque on a link; its reaction acts on another link (or the frame).
@@ -47,7 +47,7 @@ pub enum Load {
         on: usize,
         /// N·m, counter-clockwise on the link.
         torque: Value,
-        /// The direction in which it acts, if it does not in both.
+        /// The direction in which it acts, unless it acts in both.
         one_way: Option<OneWay>,
     },
     /// A spring between two points; pulls them together when longer than its free length.
@@ -139,8 +139,8 @@ impl Load {
         }
     }
 
-    /// Whether its tables cover the position where `numbers` were read. What acts one way only need not
-    /// have a value everywhere.
+    /// Whether its tables cover the position where `numbers` were read. A load that acts in one direction only
+    /// need not have a value everywhere.
     pub(crate) fn is_covered(&self, numbers: Numbers<'_>) -> bool {
         let has_value = |value: &Value| match value {
             Value::Table(_) | Value::Over(_) => !value.at(numbers).is_nan(),
@@ -168,7 +168,9 @@ impl Load {
             return None;
         };
         match over.get(*index)? {
-            Over { measure: Measure::Slide(own), curve: Curve::Gas(gas) } if own == slide => {
+            Over { measure: Measure::Slide(gas_slide), curve: Curve::Gas(gas) }
+                if gas_slide == slide =>
+            {
                 Some(gas)
             }
             _ => None,

@@ -47,9 +47,9 @@ pub struct DrivenPositions<'a> {
     pub q: &'a [f64],
     /// Speeds, drivers fastest.
     pub speed: &'a [f64],
-    /// In which sense each driver is about to move where all rest, +1 or −1. May be empty.
+    /// Sense in which each driver is about to move where all rest, +1 or −1. May be empty.
     pub sense: &'a [f64],
-    /// The callbacks' values, equally many for each position.
+    /// The callbacks' values, the same number for each position.
     pub external: &'a [f64],
 }
 
@@ -84,9 +84,9 @@ impl Machine {
         let DrivenPositions { q, speed, sense, external } = positions;
         let drivers = mechanism.q0().len();
         let derivatives = DerivativeTables::new(drivers, 2);
-        let asked = Queries::Listed(q);
+        let queries = Queries::Listed(q);
         let mut evaluator =
-            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.needs_angles());
+            Evaluator::new(mechanism, dimensions, &derivatives, queries, self.needs_angles());
         let per_position = external.len().checked_div(q.len() / drivers).unwrap_or(0);
         let mut rows = ReducedTable::default();
         let mut reduced = Reduced::new(drivers);

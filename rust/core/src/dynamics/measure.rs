@@ -1,5 +1,5 @@
-//! What a load may follow besides the first driver: the value of a slide or the angle of a link, and
-//! the direction in which it moves.
+//! Coordinates that a load may follow besides the first driver: the value of a slide or the angle of a link,
+//! and their direction of motion.
 
 use super::gas::Gas;
 use super::kinematics::SolvedPose;
@@ -59,7 +59,7 @@ impl Measure {
     pub(crate) fn rate(self, pose: &SolvedPose<'_>, driver: usize) -> f64 {
         let k = SolvedPose::first_order(driver);
         match self {
-            Self::Driver(own) => f64::from(own == driver),
+            Self::Driver(followed) => f64::from(followed == driver),
             Self::Slide(slide) => pose.slide(slide, k),
             Self::Angle(link) => pose.angle(link, k),
         }
@@ -75,7 +75,7 @@ impl Measure {
         }
     }
 
-    /// +1 or −1 as it grows or falls while the drivers move so fast; 0 where it rests.
+    /// +1 or −1 as it grows or falls at these speeds of the drivers; 0 where it rests.
     pub(crate) fn direction(self, pose: &SolvedPose<'_>, speed: &[f64]) -> f64 {
         let unit = |is_slide: bool| if is_slide { pose.size() } else { 1.0 };
         let (mut rate, mut fastest) = (0.0, 0.0);
@@ -93,7 +93,8 @@ pub(crate) fn sign(rate: f64, speeds: f64) -> f64 {
 }
 
 impl Over {
-    /// Value and slope by the coordinate, in a piece of its table or wherever it is; NaN beyond it.
+    /// Value and slope by the coordinate, in the given piece of its table or the one that contains it; NaN
+    /// beyond the table.
     pub(crate) fn read(&self, at: f64, cell: Option<Cell>) -> [f64; 2] {
         match (&self.curve, cell) {
             (Curve::Table(table), Some(cell)) => table.read(cell, at),

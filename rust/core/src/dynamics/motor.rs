@@ -113,8 +113,8 @@ mod tests {
         };
         let moment = |speed: f64| motor.moment(speed, cell(speed), Numbers::default());
         for &(speed, torque) in points {
-            let [found, slope] = moment(speed);
-            assert!((found - 4.0 * torque).abs() < 1e-12, "{found} at {speed}");
+            let [actual, slope] = moment(speed);
+            assert!((actual - 4.0 * torque).abs() < 1e-12, "{actual} at {speed}");
             let h = 1e-6;
             let difference = (moment(speed + h)[0] - moment(speed - h)[0]) / (2.0 * h);
             assert!((slope - difference).abs() < 1e-7 * (1.0 + slope.abs()), "{slope}");

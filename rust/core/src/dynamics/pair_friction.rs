@@ -1,4 +1,4 @@
-//! What a machine says of the friction in its pairs.
+//! Description of the friction in the pairs of a machine.
 
 /// Coulomb friction in a pair, and its viscous part.
 #[derive(Debug, Clone, Copy, PartialEq)]

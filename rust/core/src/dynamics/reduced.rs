@@ -93,10 +93,10 @@ impl Reduced {
         let weight = gravity.scale(body.mass);
         self.potential += -weight.dot(pose.point(body.at, 0));
         if n == 1 {
-            let (one, two) = (first(0), second(0, 0));
-            self.inertia[0] += product(one, one);
-            self.d_inertia[0] += 2.0 * product(one, two);
-            self.conservative[0] += weight.dot(one.0);
+            let (first_order, second_order) = (first(0), second(0, 0));
+            self.inertia[0] += product(first_order, first_order);
+            self.d_inertia[0] += 2.0 * product(first_order, second_order);
+            self.conservative[0] += weight.dot(first_order.0);
             return;
         }
         for a in 0..n {

@@ -13,15 +13,15 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, Queries};
 use crate::state::status::Status;
 
-/// Distance of the positions (rad, or of the size) between which the coordinates are followed: the
-/// search itself adds some where they are not cubics.
+/// Distance of the positions (rad, or of the size) between which the coordinates are followed: the search
+/// adds positions where the coordinates are not cubics.
 pub(crate) const STEP: f64 = std::f64::consts::TAU / 64.0;
 /// Least and greatest number of such steps in a range.
 const MIN_STEPS: f64 = 4.0;
 const MAX_STEPS: f64 = 1.0e6;
-/// A coordinate this near to a knot (rad, or of the size) is at it.
+/// A coordinate nearer than this to a knot (rad, or of the size) is at the knot.
 const AT_KNOT: f64 = 1.0e-13;
-/// A station this near to an end of a range (rad, or of the size; relative beyond 1) is in it.
+/// A station nearer than this to an end of a range (rad, or of the size; relative beyond 1) is in the range.
 const AT_END: f64 = 1.0e-13;
 /// Where a coordinate turns back at a knot, it is at the knot to rounding up to this distance (rad, or of
 /// the size).
@@ -52,7 +52,7 @@ struct Coordinate<'m> {
 }
 
 impl Machine {
-    /// The stations of a design of one driver between two coordinates, ends included, ascending; none
+    /// The stations of a design with one driver between two coordinates, ends included, ascending; empty
     /// with several drivers.
     #[must_use]
     pub fn stations(&self, mechanism: &Mechanism, dimensions: &[f64], range: [f64; 2]) -> Vec<f64> {
@@ -76,9 +76,9 @@ impl Machine {
         q: &[f64],
     ) -> Option<([f64; 2], f64)> {
         let derivatives = DerivativeTables::new(mechanism.q0().len(), 1);
-        let asked = Queries::Listed(q);
+        let queries = Queries::Listed(q);
         let mut evaluator =
-            Evaluator::new(mechanism, dimensions, &derivatives, asked, self.needs_angles());
+            Evaluator::new(mechanism, dimensions, &derivatives, queries, self.needs_angles());
         evaluator.solve(q).ok()?;
         let pose = SolvedPose::new(evaluator.position(), &derivatives);
         self.over.iter().find_map(|over| {
@@ -93,32 +93,34 @@ impl Machine {
         derivatives: &DerivativeTables,
         range: [f64; 2],
     ) -> Vec<f64> {
-        let mut found: Vec<f64> = self
+        let mut stations: Vec<f64> = self
             .coordinates()
             .iter()
             .flat_map(|coordinate| coordinate.stations(evaluator, derivatives, range))
             .collect();
-        found.sort_unstable_by(f64::total_cmp);
-        found.dedup();
-        found
+        stations.sort_unstable_by(f64::total_cmp);
+        stations.dedup();
+        stations
     }
 
     fn coordinates(&self) -> Vec<Coordinate<'_>> {
         let mut all: Vec<Coordinate<'_>> = Vec::new();
         let curves = self.over.iter().filter_map(|over: &Over| Some((over.measure, over.table()?)));
         for (measure, table) in curves {
-            match all.iter_mut().find(|own| own.measure == measure) {
-                Some(own) => own.tables.push(table),
+            match all.iter_mut().find(|coordinate| coordinate.measure == measure) {
+                Some(coordinate) => coordinate.tables.push(table),
                 None => all.push(Coordinate { measure, tables: vec![table] }),
             }
         }
         for &measure in &self.ways {
-            if all.iter().all(|own| own.measure != measure) {
+            if all.iter().all(|coordinate| coordinate.measure != measure) {
                 all.push(Coordinate { measure, tables: Vec::new() });
             }
         }
         // The direction of a driver is the sense of the motion.
-        all.retain(|own| !(own.tables.is_empty() && matches!(own.measure, Measure::Driver(_))));
+        all.retain(|coordinate| {
+            !(coordinate.tables.is_empty() && matches!(coordinate.measure, Measure::Driver(_)))
+        });
         all
     }
 }
@@ -152,16 +154,16 @@ impl Coordinate<'_> {
         };
         let turns = all_roots(&nodes, &mut at);
         passed.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut found: Vec<f64> = turns.isolated.iter().map(|root| root.at).collect();
-        found.extend(turns.jumps);
-        found.extend(turns.zero.into_iter().flatten());
+        let mut stations: Vec<f64> = turns.isolated.iter().map(|root| root.at).collect();
+        stations.extend(turns.jumps);
+        stations.extend(turns.zero.into_iter().flatten());
         // Where it turns back: the coordinate, and its value.
         let turned: Vec<[f64; 2]> = turns
             .isolated
             .iter()
             .filter_map(|root| passed.iter().find(|pair| pair[0] == root.at).copied())
             .collect();
-        // From one of these positions to the next the coordinate goes one way.
+        // From one of these positions to the next the coordinate is monotone.
         for pair in passed.windows(2) {
             let ([a, from], [b, to]) = (pair[0], pair[1]);
             let near = AT_KNOT * size.max(from.abs());
@@ -174,9 +176,9 @@ impl Coordinate<'_> {
                 if touches {
                     // The place where it turns back is a station already.
                 } else if (from - knot).abs() <= near {
-                    found.push(a);
+                    stations.push(a);
                 } else if (to - knot).abs() <= near {
-                    found.push(b);
+                    stations.push(b);
                 } else {
                     let sign = (from - knot).signum();
                     let width = WIDTH_ULPS * f64::EPSILON * a.abs().max(b.abs()).max(unit);
@@ -187,11 +189,11 @@ impl Coordinate<'_> {
                     };
                     let ends = ((a, sign * (from - knot)), (b, sign * (to - knot)));
                     // Between them the mechanism may not be possible.
-                    found.extend(itp(ends.0, ends.1, width, |far| far <= 0.0, distance));
+                    stations.extend(itp(ends.0, ends.1, width, |far| far <= 0.0, distance));
                 }
             }
         }
-        found.retain(|&q| within(q, [from, to], unit));
-        found
+        stations.retain(|&q| within(q, [from, to], unit));
+        stations
     }
 }

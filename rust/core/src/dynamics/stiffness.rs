@@ -10,8 +10,8 @@ use super::machine::Machine;
 use super::value::Numbers;
 use crate::math::vector::Vector;
 
-/// How far points and angles move with the coordinate at most, roughly: what remains of a term that
-/// vanishes is the rounding of this.
+/// Rough upper bounds of the motion of points and angles with the coordinate: a term that vanishes leaves
+/// the rounding of these.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach {
     /// Metres per unit of the coordinate.
@@ -44,11 +44,11 @@ impl Machine {
     ) -> Slope {
         let mut out = Slope::default();
         let gravity = Vector::new(self.gravity[0], self.gravity[1]);
-        let (one, two) = (SolvedPose::first_order(0), pose.second_order(0, 0));
+        let (order1, order2) = (SolvedPose::first_order(0), pose.second_order(0, 0));
         for body in &self.bodies {
             let weight = gravity.scale(body.mass);
-            let moved = pose.point(body.at, one).size() + reach.length;
-            out.add(weight.dot(pose.point(body.at, two)), weight.size() * moved);
+            let moved = pose.point(body.at, order1).size() + reach.length;
+            out.add(weight.dot(pose.point(body.at, order2)), weight.size() * moved);
         }
         for load in &self.loads {
             load.add_slope(pose, numbers, reach, &mut out);
@@ -69,22 +69,22 @@ impl Load {
             // At rest it does not act.
             return;
         }
-        let (one, two) = (SolvedPose::first_order(0), pose.second_order(0, 0));
+        let (order1, order2) = (SolvedPose::first_order(0), pose.second_order(0, 0));
         match self {
             Self::Force { at, force: [x, y], axes, .. } => {
                 let [x, y] = [x, y].map(|value| value.with_slope(numbers));
                 let axis = axis_of(pose, *axes);
                 let force = Vector::new(x[0], y[0]) * axis;
-                let turned = axes.map_or(0.0, |link| pose.angle(link, one));
+                let turned = axes.map_or(0.0, |link| pose.angle(link, order1));
                 let rate = Vector::new(x[1], y[1]) * axis + force.left().scale(turned);
-                let velocity = pose.point(*at, one);
-                let slope = rate.dot(velocity) + force.dot(pose.point(*at, two));
+                let velocity = pose.point(*at, order1);
+                let slope = rate.dot(velocity) + force.dot(pose.point(*at, order2));
                 out.add(slope, force.size() * (velocity.size() + reach.length));
             }
             Self::Pressure { slide, area, pressure, ambient, .. } => {
                 let [pressure, rate] = pressure.with_slope(numbers);
-                let (force, moved) = (area * (pressure - ambient), pose.slide(*slide, one));
-                let slope = area * rate * moved + force * pose.slide(*slide, two);
+                let (force, moved) = (area * (pressure - ambient), pose.slide(*slide, order1));
+                let slope = area * rate * moved + force * pose.slide(*slide, order2);
                 let most = (area * pressure).abs() + (area * ambient).abs();
                 out.add(slope, most * (moved.abs() + reach.length));
             }
@@ -97,7 +97,7 @@ impl Load {
             Self::Spring { ends, stiffness, length, preload } => {
                 let (unit, distance) = direction_and_length(pose, *ends);
                 let span = |k| pose.point(ends[1], k) - pose.point(ends[0], k);
-                let (velocity, acceleration) = (span(one), span(two));
+                let (velocity, acceleration) = (span(order1), span(order2));
                 let tension = stiffness * (distance - length) + preload;
                 let slope = if distance == 0.0 && tension == 0.0 {
                     // With u any direction; |d′| is the rate of the length, either way.
@@ -124,6 +124,6 @@ impl Load {
 }
 
 fn second_rate(pose: &SolvedPose<'_>, link: usize, on: usize) -> f64 {
-    let two = pose.second_order(0, 0);
-    pose.angle(link, two) - pose.angle(on, two)
+    let order2 = pose.second_order(0, 0);
+    pose.angle(link, order2) - pose.angle(on, order2)
 }

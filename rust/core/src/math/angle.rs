@@ -8,8 +8,8 @@ use super::lanes::Real;
 const ABOUT_HALF: f64 = 0.5 - 1.0 / 1024.0;
 
 /// Number of whole turns to add to `angle` to come nearest to `near`. About half a turn away (a
-/// link that points to where a joint went through infinity) the sum is clockwise of `near`, whatever
-/// the rounding errors.
+/// link that points to where a joint went through infinity) the sum is clockwise of `near` for any
+/// rounding errors.
 #[inline(always)]
 pub(crate) fn turns_between<R: Real>(angle: R, near: R) -> R {
     ((near - angle) * R::splat(1.0 / TAU) + R::splat(ABOUT_HALF)).floor()
@@ -28,7 +28,7 @@ pub(crate) fn is_tie(step: f64, slack: f64) -> bool {
     step + slack > most || step - slack < most - TAU
 }
 
-/// The same of the step that [`whole_turns`] leaves of a change.
+/// The same for the step that remains of a change after [`whole_turns`].
 #[inline(always)]
 pub(crate) fn is_tie_over_period(change: f64, slack: f64) -> bool {
     is_tie((TAU * whole_turns(change) - change) * change.signum(), slack)
@@ -83,19 +83,18 @@ impl Reference {
             Self::Principal => angle + R::ZERO,
             Self::Near(near) => {
                 // A principal value gets one of two numbers of turns.
-                let [most, least] = [-PI, PI].map(|angle| turns_between(angle, near));
-                let last = near + TAU * (ABOUT_HALF - most);
+                let [at_low, at_high] = [-PI, PI].map(|angle| turns_between(angle, near));
+                let last = near + TAU * (ABOUT_HALF - at_low);
                 let is_low = angle.le(R::splat(last));
-                angle + R::select(is_low, R::splat(TAU * most), R::splat(TAU * least))
+                angle + R::select(is_low, R::splat(TAU * at_low), R::splat(TAU * at_high))
             }
             Self::Turning(turning) => unwrap_to(angle, turning.at(q)),
         }
     }
 }
 
-/// Whole turns in the change of an angle over a period, to the nearest. An angle may change by half
-/// a turn exactly, from one dead point to another: that counts as none, whatever the rounding
-/// errors.
+/// Whole turns in the change of an angle over a period, to the nearest. An angle may change by exactly half
+/// a turn, from one dead point to another: that counts as 0 for any rounding errors.
 pub(crate) fn whole_turns(change: f64) -> f64 {
     (change.abs() * (1.0 / TAU) + ABOUT_HALF).floor().copysign(change)
 }
@@ -131,14 +130,14 @@ mod tests {
         }
     }
 
-    /// Whatever the rounding errors, and whichever of both is the greater.
+    /// For any rounding errors, whichever of both is the greater.
     #[test]
     fn half_a_turn_is_clockwise() {
         for near in [0.0, 1.0, -40.0] {
             for (turn, nearest) in [(0.5, -0.5), (0.500_1, -0.499_9), (0.49, 0.49), (1.2, 0.2)] {
                 for (turn, nearest) in [(turn, nearest), (turn - 3.0, nearest)] {
-                    let found = unwrap_to(near + TAU * turn, near);
-                    assert!((found - (near + TAU * nearest)).abs() < 1e-12, "{near} {turn}");
+                    let actual = unwrap_to(near + TAU * turn, near);
+                    assert!((actual - (near + TAU * nearest)).abs() < 1e-12, "{near} {turn}");
                 }
             }
             assert!((unwrap_to(near - TAU * 0.499_9, near) - (near - TAU * 0.499_9)).abs() < 1e-12);
@@ -154,10 +153,13 @@ mod tests {
                     let angle = part + TAU * turns;
                     // 2π as a double, and its error.
                     let lost = (angle - TAU * turns) - part;
-                    let wanted = part + lost - turns * 2.449_293_598_294_706_4e-16;
+                    let expected = part + lost - turns * 2.449_293_598_294_706_4e-16;
                     let rounding = 2.0 * f64::EPSILON * angle.abs().max(TAU);
-                    let found = reduce_turns(angle, turns);
-                    assert!((found - wanted).abs() <= rounding, "{turns} {part}: {found} {wanted}");
+                    let actual = reduce_turns(angle, turns);
+                    assert!(
+                        (actual - expected).abs() <= rounding,
+                        "{turns} {part}: {actual} {expected}"
+                    );
                 }
             }
         }
@@ -167,8 +169,11 @@ mod tests {
     #[test]
     fn small_angles_keep_their_digits() {
         for angle in [-0.735_422_665_253_286_5, -1e-9, 0.1, 3.0] {
-            let found = reduce_turns(angle, -1.0);
-            assert!((found - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU, "{angle}: {found}");
+            let actual = reduce_turns(angle, -1.0);
+            assert!(
+                (actual - (angle + TAU)).abs() <= 2.0 * f64::EPSILON * TAU,
+                "{angle}: {actual}"
+            );
         }
     }
 }

@@ -36,7 +36,7 @@ pub(crate) const ONE_DRIVER_MIXED: [&[Term]; 4] = [
     &[Term { factor: 3.0, left: 2, right: 1 }, Term { factor: 3.0, left: 1, right: 2 }],
 ];
 
-/// Terms of rotation, and of a slide along what turns, for one driver.
+/// Terms of rotation, and of a slide along a turning guide, for one driver.
 pub(crate) fn one_driver(k: usize) -> (&'static [Term], &'static [Term]) {
     (ONE_DRIVER[k], ONE_DRIVER_MIXED[k])
 }
@@ -52,11 +52,11 @@ pub(crate) struct DerivativeTables {
     pub powers: Vec<Vec<usize>>,
     /// The driver of a first-order entry, else `None`.
     pub driver_of: Vec<Option<usize>>,
-    /// For each entry but the first, a driver it contains and the entry of one order less in it.
+    /// For each entry except the first, a driver that it contains and the entry of one order less in it.
     pub lowered: Vec<(usize, usize)>,
     /// Terms of the derivative of a product, for each multi-index.
     pub product: Vec<Vec<Term>>,
-    /// Those of them in which both factors are differentiated.
+    /// The terms in which both factors are differentiated.
     pub mixed: Vec<Vec<Term>>,
     /// Terms of the derivative of a unit vector (times i), except the one in the highest derivative
     /// of its angle: left is U, right is Θ.

@@ -12,12 +12,12 @@ pub(crate) fn invert<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -
 
 /// Three rows: minors over the determinant, without pivots.
 ///
-/// None are needed. Scaling a row changes minors and determinant only by its factor, so let the rows
+/// Pivots are not needed. Scaling a row changes minors and determinant only by its factor, so let the rows
 /// have length 1 and the matrix the singular values σ₁ ≥ σ₂ ≥ σ₃; then σ₁ ≥ 1. A minor is the
 /// difference of two products, good to 2 u (by Cauchy and Schwarz both products together are at most
 /// 1). All minors together are σ₁ σ₂ or more, so they are good to 6 u/σ₂ ≤ 6 u ‖A⁻¹‖, as by pivots. The
 /// determinant σ₁ σ₂ σ₃ is a sum of three entries times minors, good to 8 u; so all entries of the
-/// inverse have a factor 1 + ε in common, |ε| ≤ 8 u/(σ₂ σ₃) ≤ 8 u ‖A⁻¹‖². Such a factor does nothing to
+/// inverse have a factor 1 + ε in common, |ε| ≤ 8 u/(σ₂ σ₃) ≤ 8 u ‖A⁻¹‖². Such a factor does not affect
 /// Newton's iteration. In an analogue it makes an error of 8 u κ², within the 64 u κ² of
 /// [`crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED`]; and where ε is not small, κ is beyond
 /// [`crate::math::tolerance::SINGULAR_CONDITION`], from which on a position is singular in any case.
@@ -52,8 +52,8 @@ fn by_pivots<R: Real, const G: usize>(matrix: &mut [[R; G]], n: usize) -> [R; G]
     let width = 2 * n;
     for row in 0..n {
         for column in 0..n {
-            let one = if row == column { R::ONE } else { R::ZERO };
-            matrix[row * width + n + column] = [one; G];
+            let entry = if row == column { R::ONE } else { R::ZERO };
+            matrix[row * width + n + column] = [entry; G];
         }
     }
     let mut determinant = [R::ONE; G];
@@ -166,13 +166,13 @@ mod tests {
             // Twice, in two groups.
             let mut eight: Vec<[Lanes; 2]> = (0..2 * n * n).map(|i| [all(i); 2]).collect();
             let [_, determinant] = invert(&mut eight, n);
-            for (lane, mut one) in ones.into_iter().enumerate() {
-                let [own] = invert(&mut one, n);
-                assert_eq!(own.to_bits(), determinant.lane(lane).to_bits());
+            for (lane, mut single) in ones.into_iter().enumerate() {
+                let [alone] = invert(&mut single, n);
+                assert_eq!(alone.to_bits(), determinant.lane(lane).to_bits());
                 for row in 0..n {
                     for column in n..2 * n {
                         let i = row * 2 * n + column;
-                        assert_eq!(one[i][0].to_bits(), eight[i][1].lane(lane).to_bits());
+                        assert_eq!(single[i][0].to_bits(), eight[i][1].lane(lane).to_bits());
                     }
                 }
             }

@@ -2,7 +2,7 @@
 //!
 //! [`Real`] is a plain `f64`, two side by side, or several in a register. Each operation is the IEEE
 //! 754 one in each lane separately (no fused multiplication, no library function unless it is exact).
-//! So a lane has the same bits as the scalar, on every machine and whatever the other lanes hold.
+//! So a lane has the same bits as the scalar, on every machine and for any numbers in the other lanes.
 
 use std::fmt::Debug;
 use std::mem::MaybeUninit;
@@ -59,8 +59,8 @@ pub trait Real:
     const ONE: Self;
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
-    /// Calls `of` for the number of each lane.
-    fn from_lanes(of: impl FnMut(usize) -> f64) -> Self;
+    /// Calls `number` for the number of each lane.
+    fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;
     /// The number of one lane.
     fn lane(self, lane: usize) -> f64;
     /// Square root.
@@ -132,7 +132,7 @@ pub trait Real:
             out[lane] = MaybeUninit::new(self.lane(lane));
         }
     }
-    /// The same past the caches, if the slice is aligned for that. Nobody may read or overwrite these
+    /// The same past the caches, if the slice is aligned for that. Code must not read or overwrite these
     /// numbers before [`fence`](Self::fence).
     #[inline(always)]
     fn stream(self, out: &mut [MaybeUninit<f64>]) {
@@ -188,8 +188,8 @@ impl Real for f64 {
         value
     }
     #[inline(always)]
-    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
-        of(0)
+    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
+        number(0)
     }
     #[inline(always)]
     fn lane(self, _: usize) -> f64 {

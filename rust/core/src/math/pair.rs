@@ -106,10 +106,10 @@ impl<R: Real> Real for Pair<R> {
         Self(R::splat(value), R::splat(value))
     }
     #[inline(always)]
-    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
+    fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
         let mut numbers = [0.0; LANES];
         for lane in 0..Self::LANES {
-            numbers[lane] = of(lane);
+            numbers[lane] = number(lane);
         }
         Self(R::from_lanes(|lane| numbers[lane]), R::from_lanes(|lane| numbers[R::LANES + lane]))
     }

@@ -8,10 +8,10 @@ pub(crate) fn value(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// Passes each root of a cubic in [0, `width`] to `found`. Between its extremes the cubic is
+/// Passes each root of a cubic in [0, `width`] to `visit`. Between its extremes the cubic is
 /// monotone, so a sign change brackets a root. A double root is an extreme, and rounding decides
 /// whether it is found.
-pub(crate) fn roots(cubic: &[f64; 4], width: f64, mut found: impl FnMut(f64)) {
+pub(crate) fn roots(cubic: &[f64; 4], width: f64, mut visit: impl FnMut(f64)) {
     let [_, c1, c2, c3] = *cubic;
     let mut bounds = [0.0, width, width, width];
     // Roots of c1 + 2 c2 x + 3 c3 x², without cancellation.
@@ -29,7 +29,7 @@ pub(crate) fn roots(cubic: &[f64; 4], width: f64, mut found: impl FnMut(f64)) {
         if let [low, high] = *ends
             && let Some(root) = root_between(cubic, low, high)
         {
-            found(root);
+            visit(root);
         }
     }
 }
@@ -54,9 +54,9 @@ mod tests {
     use super::*;
 
     fn all_roots(cubic: [f64; 4], width: f64) -> Vec<f64> {
-        let mut found = Vec::new();
-        roots(&cubic, width, |x| found.push(x));
-        found
+        let mut list = Vec::new();
+        roots(&cubic, width, |x| list.push(x));
+        list
     }
 
     #[test]

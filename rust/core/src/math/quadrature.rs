@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn rounding_noise_gives_nan() {
-        // What rounding leaves of 1 beside 1e16.
+        // The rest of 1 after rounding beside 1e16.
         assert!(integral(&|x: f64| (1e16 * x + 1.0) - 1e16 * x, 0.0, 1.0).is_nan());
         let root = integral(&|x: f64| 1.0 / x.sqrt(), 0.0, 1.0);
         assert!((root - 2.0).abs() < 1e-6, "{root}");

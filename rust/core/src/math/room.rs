@@ -1,11 +1,11 @@
-//! Whether memory has room, asked before it is needed.
+//! Checks that memory has room before it is needed.
 
 use std::hint::black_box;
 
-/// Whether memory has room for so many numbers. A list of the standard library cannot refuse to grow:
-/// what is as long as a user's arrays is asked for first.
+/// Whether memory has room for `numbers` numbers. A list of the standard library aborts where it cannot
+/// grow, so lists as long as a user's arrays are checked first.
 pub(crate) fn has_room(numbers: usize) -> bool {
-    // The compiler may leave out memory that nobody uses.
+    // The compiler may remove an allocation that is never used.
     black_box(Vec::<f64>::new()).try_reserve_exact(numbers).is_ok()
 }
 

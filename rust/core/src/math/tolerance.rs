@@ -1,7 +1,7 @@
 //! The thresholds that decide what is returned, each with its reason. Thresholds of a single search
 //! stand beside that search.
 //!
-//! All but the limits of lengths are pure numbers: they are compared with lengths divided by the
+//! All except the limits of lengths are pure numbers: they are compared with lengths divided by the
 //! size of the mechanism, or with sines of angles.
 
 /// Unit roundoff u of binary64 as used in the error bounds (the spacing at 1).
@@ -15,7 +15,7 @@ pub const GREATEST_LENGTH: f64 = 1.0e153;
 pub const LEAST_LENGTH: f64 = 1.0e-153;
 
 /// Two joints coincide when their distance is below this fraction of their coordinates: it is then
-/// nothing but the rounding of the coordinates.
+/// only the rounding of the coordinates.
 pub const ZERO_LENGTH: f64 = 4.0 * UNIT_ROUNDOFF;
 
 /// Two guides of a drawing are parallel when their sine is below this (angles carry a few u).
@@ -78,7 +78,7 @@ pub const NEAR_SINGULAR_CONDITION: f64 = 8388.608;
 
 /// Condition from which a dyad cannot be distinguished from a flat one. 1/κ is the square root of a
 /// difference of rounded lengths, so beyond 1/(4 √u) = 2^24 it holds no correct digit. (The
-/// condition upstream of the dyad may be greater, but it seldom acts across the flat dyad: chains
+/// condition upstream of the dyad may be greater, but it rarely acts across the flat dyad: chains
 /// of parallelograms pass their change points without loss.)
 pub const SINGULAR_CONDITION: f64 = 16_777_216.0;
 
@@ -116,7 +116,7 @@ pub const CHANGE_MISFIT: f64 = 4.0 * CLOSURE_PER_CONDITION;
 pub const NEWTON_TOLERANCE: f64 = UNIT_ROUNDOFF;
 /// Limit of (first step × condition)² of a round for its Jacobian to be close to the one at the
 /// solution, so that the second step may reuse it. Beyond a condition of 2^25 no step is that
-/// short, and nothing is known any more.
+/// short, and the Jacobian is not known well enough.
 pub const NEWTON_FROZEN_MAX2: f64 = 1.0 / 16.0;
 /// Step below which the iteration has converged in any case: the next would be about its square.
 pub const NEWTON_LAST_STEP: f64 = 1.0 / 67_108_864.0;

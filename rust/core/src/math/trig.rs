@@ -415,8 +415,8 @@ mod tests {
             assert!(same(atan2(y, x), angle), "{y} {x}: {}", atan2(y, x));
             assert!(same(atan2(-y, x), -angle), "{} {x}: {}", -y, atan2(-y, x));
         }
-        for other in [0.0, 1.0, -INFINITY, f64::NAN] {
-            assert!(atan2(other, f64::NAN).is_nan() && atan2(f64::NAN, other).is_nan());
+        for x in [0.0, 1.0, -INFINITY, f64::NAN] {
+            assert!(atan2(x, f64::NAN).is_nan() && atan2(f64::NAN, x).is_nan());
         }
     }
 
@@ -438,8 +438,8 @@ mod tests {
             8..8,
             [0.0, -0.0, INFINITY, -INFINITY, f64::NAN, f64::MAX, TINY, MAX_FAST_ANGLE],
         );
-        let other: Vec<f64> = all.iter().rev().copied().collect();
-        for (x, y) in all.chunks_exact(LANES).zip(other.chunks_exact(LANES)) {
+        let reversed: Vec<f64> = all.iter().rev().copied().collect();
+        for (x, y) in all.chunks_exact(LANES).zip(reversed.chunks_exact(LANES)) {
             let xs: Lanes = Lanes::from_lanes(|i| x[i]);
             let ys: Lanes = Lanes::from_lanes(|i| y[i]);
             let (sin, cos) = sin_cos(xs);

@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 use super::lanes::Real;
 use super::trig;
 
-/// A vector, or a unit vector that stands for an orientation. With [`super::pair::Lanes`] as `R`,
+/// A vector, or a unit vector that represents an orientation. With [`super::pair::Lanes`] as `R`,
 /// eight of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vector<R = f64> {
@@ -31,8 +31,8 @@ impl<R: Real> Vector<R> {
     /// The same vector on every lane.
     #[inline(always)]
     #[must_use]
-    pub fn splat(one: Vector) -> Self {
-        Self { x: R::splat(one.x), y: R::splat(one.y) }
+    pub fn splat(vector: Vector) -> Self {
+        Self { x: R::splat(vector.x), y: R::splat(vector.y) }
     }
 
     /// Unit vector at an angle.

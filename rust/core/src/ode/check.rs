@@ -22,8 +22,9 @@ impl Options<'_> {
         }
         for component in 0..n {
             // A list of one holds for all components.
-            let of = |list: &[f64]| list.get(component).or(list.first()).copied().unwrap_or(0.0);
-            let (relative, absolute) = (of(self.relative), of(self.absolute));
+            let for_component =
+                |list: &[f64]| list.get(component).or(list.first()).copied().unwrap_or(0.0);
+            let (relative, absolute) = (for_component(self.relative), for_component(self.absolute));
             let in_range = (LEAST_RELATIVE..1.0).contains(&relative);
             if !(absolute >= 0.0 && (in_range || relative == 0.0 && absolute > 0.0)) {
                 return Err(Error::Tolerance { component, relative, absolute });

@@ -12,7 +12,7 @@ const SAFETY: f64 = 0.9;
 const MIN_FACTOR: f64 = 0.2;
 /// Greatest ratio of a width to the one before.
 const MAX_FACTOR: f64 = 8.0;
-/// Least error used in the control: smaller ones are mostly rounding and luck and predict nothing.
+/// Least error used in the control: smaller ones are mostly rounding and chance and predict nothing.
 const MIN_ERROR: f64 = 1e-4;
 /// Exponent β of the previous error (0.04 for DOPRI5 in Hairer's program). A greater one smooths
 /// the widths where stability limits them, a smaller one gives wider steps elsewhere.
@@ -70,10 +70,10 @@ pub(super) fn first_width<S: System>(
     (limit, direction): (f64, f64),
     probe: &mut [Block],
 ) -> Result<f64, S::Error> {
-    /// A change by less than this many tolerances up to `limit` says nothing about the width; and the part of
-    /// `limit` that is the unit instead.
+    /// A change by less than this many tolerances up to `limit` does not determine the width; and the part of
+    /// `limit` that is then the unit.
     const NEGLIGIBLE: (f64, f64) = (1e-5, 1e-4);
-    /// The part of the unit that Euler's step is.
+    /// Euler's step as a part of the unit.
     const EULER: f64 = 0.01;
     let norm = |e: &[Block]| scale.square_sum(e, y, y).sqrt();
     let (d0, d1) = (norm(y).max(scale.usual_size), norm(stages.rates(0)));

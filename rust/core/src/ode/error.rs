@@ -51,14 +51,14 @@ pub enum Error<E> {
         /// Index of the first one.
         index: usize,
     },
-    /// Rates or a state that stay NaN or infinite however small the step.
+    /// Rates or a state that stay NaN or infinite for any step, however small.
     NotFinite {
         /// Where.
         t: f64,
         /// The component.
         component: usize,
     },
-    /// What the run records does not fit in memory.
+    /// The record of the run does not fit in memory.
     OutOfMemory {
         /// The steps that it has taken.
         steps: usize,

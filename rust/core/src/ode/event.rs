@@ -31,7 +31,7 @@ pub(super) struct EventTracker {
     /// Values at the point evaluated last.
     pub current: Vec<f64>,
     /// Events between two samples: θ and the function.
-    pub found: Vec<(f64, usize)>,
+    pub detected: Vec<(f64, usize)>,
 }
 
 fn sign(value: f64) -> Option<i8> {
@@ -63,7 +63,7 @@ impl EventTracker {
         // About one more sample for each function with a dip.
         self.thetas.reserve(SAMPLES.len() + count);
         self.values.reserve((SAMPLES.len() + count) * count);
-        self.found.reserve(count);
+        self.detected.reserve(count);
     }
 
     /// Number of event functions.
@@ -85,8 +85,8 @@ impl EventTracker {
         for j in 0..self.len() {
             let value = self.values[j];
             let same = value.to_bits() == self.current[j].to_bits();
-            // A boundary is left at once, to either side; any other function at zero has just made
-            // its event.
+            // The run leaves a boundary at once, to either side; any other function at zero has just had its
+            // event.
             let on_zero = !self.is_boundary(j) && value.abs() <= SIGNIFICANT * self.magnitudes[j];
             let just_fired = self.fired[j] && (same || on_zero);
             self.signs[j] = match (self.crossings[j], just_fired) {
@@ -104,7 +104,7 @@ impl EventTracker {
         self.crossings[j] == Crossing::Boundary
     }
 
-    /// Whether a function makes an event by changing to a value.
+    /// Whether a change of a function to a value is an event.
     pub(super) fn is_event(&self, j: usize, value: f64) -> bool {
         let Some(new) = sign(value) else { return false };
         let old = self.signs[j];
@@ -181,22 +181,22 @@ impl EventTracker {
         self.thetas.len() - 1
     }
 
-    /// Finds the events in an interval: `found`, in order.
+    /// Finds the events in an interval: `detected`, in order.
     pub(super) fn find_events<E>(
         &mut self,
         interval: usize,
         width: f64,
         mut f: impl FnMut(f64, &mut [f64]) -> Result<(), E>,
     ) -> Result<(), E> {
-        self.found.clear();
+        self.detected.clear();
         for j in 0..self.len() {
             let from = self.start_of_sign(j, interval, &mut f)?;
             if self.is_event(j, self.value(interval + 1, j)) {
                 let theta = self.locate(j, from, interval + 1, width, &mut f)?;
-                self.found.push((theta, j));
+                self.detected.push((theta, j));
             }
         }
-        self.found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        self.detected.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         Ok(())
     }
 

@@ -148,13 +148,13 @@ impl<S: System> Step<'_, S> {
             tracker.find_events(interval, spacing, |theta, values| {
                 self.events_by_dense_output(theta, values)
             })?;
-            let mut found = std::mem::take(&mut tracker.found);
-            for (theta, j) in &mut found {
+            let mut detected = std::mem::take(&mut tracker.detected);
+            for (theta, j) in &mut detected {
                 *theta = self.polish(*j, *theta, spacing, &mut tracker.current)?;
             }
-            found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-            let cut = self.apply_events(&found, SIMULTANEOUS * spacing, tracker, &mut record)?;
-            tracker.found = found;
+            detected.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            let cut = self.apply_events(&detected, SIMULTANEOUS * spacing, tracker, &mut record)?;
+            tracker.detected = detected;
             if cut.is_some() {
                 return Ok(cut);
             }
@@ -167,20 +167,20 @@ impl<S: System> Step<'_, S> {
     /// Records the events of one interval in order and applies their actions.
     fn apply_events(
         &mut self,
-        found: &[(f64, usize)],
+        events: &[(f64, usize)],
         tolerance: f64,
         tracker: &mut EventTracker,
         record: &mut impl FnMut(usize, f64, &[f64]),
     ) -> Result<Option<Cut>, S::Error> {
-        for (i, &(theta, j)) in found.iter().enumerate() {
+        for (i, &(theta, j)) in events.iter().enumerate() {
             let t = self.time(theta);
             // A single event is the point evaluated last.
-            if found.len() > 1 || theta == 0.0 {
+            if events.len() > 1 || theta == 0.0 {
                 self.evaluate_event(theta, &mut tracker.current)?;
             }
             self.event_state.copy_from_slice(self.state);
             record(j, t, &self.event_state.as_flattened()[..self.n]);
-            // After the event the system may be another.
+            // After the event the system may have changed.
             let may_cut = self.system.may_cut(j);
             if may_cut {
                 self.evaluate_event_rates(theta)?;
@@ -193,8 +193,8 @@ impl<S: System> Step<'_, S> {
             }
             tracker.fired[j] = true;
             // Simultaneous events already recorded must not occur again.
-            for &(before, other) in &found[..i] {
-                tracker.fired[other] = theta - before <= tolerance;
+            for &(before, function) in &events[..i] {
+                tracker.fired[function] = theta - before <= tolerance;
             }
             let mut width = self.h;
             if theta > 0.0 {
@@ -203,30 +203,30 @@ impl<S: System> Step<'_, S> {
                 width = self.interpolant.end_at(theta, widths, state, self.event_rates);
             }
             let mut cut = Cut { t, width, stop: Some(j).filter(|_| action == Action::Stop) };
-            // Other functions that cross here must make their events now: after the restart they
-            // are past their crossing.
-            for other in 0..tracker.len() {
+            // Events of other functions that cross here must occur now: after the restart the functions are
+            // past their crossing.
+            for function in 0..tracker.len() {
                 // Rounding may put the event just after this one.
-                let mut near = found[i + 1..].iter();
-                let is_near = !tracker.is_boundary(other)
-                    && near.any(|&(at, which)| which == other && at - theta <= tolerance);
-                let occurs = is_near || tracker.is_event(other, tracker.current[other]);
-                if tracker.fired[other] || !occurs {
+                let mut near = events[i + 1..].iter();
+                let is_near = !tracker.is_boundary(function)
+                    && near.any(|&(at, which)| which == function && at - theta <= tolerance);
+                let occurs = is_near || tracker.is_event(function, tracker.current[function]);
+                if tracker.fired[function] || !occurs {
                     continue;
                 }
-                record(other, t, &self.event_state.as_flattened()[..self.n]);
+                record(function, t, &self.event_state.as_flattened()[..self.n]);
                 let state = &mut self.state.as_flattened_mut()[..self.n];
-                let action = self.system.on_event(other, t, state)?;
-                tracker.fired[other] = true;
-                cut.stop = cut.stop.or(Some(other).filter(|_| action == Action::Stop));
+                let action = self.system.on_event(function, t, state)?;
+                tracker.fired[function] = true;
+                cut.stop = cut.stop.or(Some(function).filter(|_| action == Action::Stop));
             }
             return Ok(Some(cut));
         }
         Ok(None)
     }
 
-    /// The rates at an event, before it changes anything. Where they have no value, those of dense
-    /// output: the step itself went on.
+    /// The rates at an event, before it changes anything. Where they have no value, those of dense output:
+    /// the step was accepted beyond the event.
     fn evaluate_event_rates(&mut self, theta: f64) -> Result<(), S::Error> {
         self.stages.evaluations += 1;
         let (t, state) = (self.time(theta), &self.event_state.as_flattened()[..self.n]);

@@ -24,7 +24,7 @@ impl Method {
     }
 }
 
-/// What a run stores besides its last state and its events.
+/// The output of a run besides its last state and its events.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Output<'a> {
     /// Nothing.
@@ -58,9 +58,9 @@ pub struct Options<'a> {
     pub max_steps: u64,
     /// Where the right-hand side is not smooth in t, ascending. Steps end there.
     pub breaks: &'a [f64],
-    /// Which sign changes of each event function are events.
+    /// The sign changes of each event function that are events.
     pub events: &'a [Crossing],
-    /// What to store.
+    /// The output to store.
     pub output: Output<'a>,
 }
 

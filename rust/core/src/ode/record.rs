@@ -63,7 +63,7 @@ impl<'a> Record<'a> {
     ///
     /// # Errors
     ///
-    /// Memory has no room for it.
+    /// The step does not fit in memory.
     pub(super) fn step(
         &mut self,
         interpolant: &Interpolant,

@@ -13,8 +13,8 @@ use super::system::{Attempt, System};
 /// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a
 /// lock, and a hundred evaluations are a short wait.
 const CANCEL_CHECK_STEPS: u64 = 16;
-/// A step goes to the end of its smooth interval if that widens it by no more than this factor, so
-/// that no sliver is left (Hairer's programs).
+/// A step goes to the end of its smooth interval if that widens it by at most this factor, so that no
+/// sliver remains (Hairer's programs).
 const LAST_STEP_STRETCH: f64 = 1.01;
 /// The last steps of a smooth interval, up to this many, are made equal instead of leaving a narrow
 /// one at its end: the same number of steps with smaller errors.
@@ -24,7 +24,7 @@ const EQUAL_STEPS: f64 = 4.0;
 /// tolerances occurred). From a narrow step the width grows within a step or two, each checked by
 /// the one before.
 const FIRST_STEP_FACTOR: f64 = 0.1;
-/// Least width of a step, in spacings of t: a narrower one has no room for its stages.
+/// Least width of a step, in spacings of t: the stages of a narrower one coincide.
 const MIN_STEP: f64 = 4.0;
 /// Least width of the first step, in spacings of t: it can still be halved a few times.
 const MIN_FIRST_STEP: f64 = 256.0;
@@ -33,8 +33,8 @@ const MIN_FIRST_STEP: f64 = 256.0;
 /// component may stay on its last number before the boundary while the others go on for ever.
 /// Halving alone needs about a hundred.
 const MAX_REFUSALS: u32 = 256;
-/// Refusals are forgotten after this many steps without one: each step may be several times as wide
-/// as the one before, so near a boundary a refusal comes sooner.
+/// Refusals are forgotten after this many steps without one: each step may be several times wider than the
+/// one before, so near a boundary a refusal comes sooner.
 const REFUSAL_MEMORY: u32 = 8;
 
 /// Limit of retries of a step because of its drift: a drift that remains does not depend on the
@@ -61,7 +61,7 @@ enum Next {
 impl Integrator {
     /// Integrates from `t` with state `y` to `t_end`, which may be before `t`.
     ///
-    /// A run may end before `t_end`; [`Solution::end`] says why.
+    /// A run may end before `t_end`; [`Solution::end`] gives the reason.
     ///
     /// # Errors
     ///
@@ -194,7 +194,7 @@ impl<'a, S: System> Run<'a, S> {
     }
 
     /// Integrates a smooth interval. Returns `Next::Step` if nothing ends it before `to`. With
-    /// `reset_signs`, the signs of the event functions are taken anew at its start.
+    /// `reset_signs`, the signs of the event functions are taken again at its start.
     fn smooth_interval(&mut self, to: f64, reset_signs: bool) -> Result<Next, Error<S::Error>> {
         let Integrator { n, stages, tracker, y, new, .. } = &mut *self.integrator;
         let flat = &y.as_flattened()[..*n];
@@ -275,8 +275,8 @@ impl<'a, S: System> Run<'a, S> {
         let factor = match self.attempt(h, t_new) {
             Ok(error) if error <= 1.0 => {
                 let factor = self.control.factor_after_accept(error);
-                // A step cut short by the end of its interval says little about the width it
-                // might have had.
+                // A step cut short by the end of its interval shows little of the width that the tolerance
+                // allows.
                 let wider =
                     if last { (h * factor).abs().max(proposed.abs()) } else { (h * factor).abs() };
                 self.h = Some(self.direction * wider.min(self.options.max_step));
@@ -385,11 +385,11 @@ impl<'a, S: System> Run<'a, S> {
         }
     }
 
-    /// Asks how far it is to the domain boundary after an attempted step of width `h`.
+    /// Requests the width of a step toward the domain boundary after an attempted step of width `h`.
     fn look_for_boundary(&mut self, h: f64) -> Result<(), Error<S::Error>> {
         let Integrator { n, y, .. } = &*self.integrator;
         self.refused = self.refused.filter(|t| (t - self.t) * self.direction > 0.0);
-        // Steps that aim at a boundary are not refused.
+        // Steps that aim at a boundary do not count as refused.
         let has_left_domain = self.refusals > 0 || self.to_boundary.is_some();
         let last = Attempt { h, refused: self.refused, has_left_domain };
         let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n], last);

@@ -16,7 +16,7 @@ impl<E> From<E> for Fault<E> {
     }
 }
 
-/// What to do after an event. Among simultaneous events, the action last in this list wins.
+/// The action after an event. Among simultaneous events, the action last in this list wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Action {
     /// Record the event and go on. Neither the state nor the right-hand side may have changed.
@@ -27,7 +27,7 @@ pub enum Action {
     Stop,
 }
 
-/// Which sign changes of an event function g are events.
+/// The sign changes of an event function g that are events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
     /// From g < 0 to g ≥ 0, in the direction of the run. A start at zero is not an event.
@@ -89,9 +89,9 @@ pub trait System {
         Ok(())
     }
 
-    /// Greatest width, without its sign, of the next step toward the boundary of the domain: the few steps
-    /// there have widths that follow from the state. It is 0 where the boundary is reached, `None` if none
-    /// is known ahead. Called after steps that left the domain, and after accepted ones.
+    /// Greatest width, without its sign, of the next step toward the boundary of the domain: the widths of the
+    /// few steps there follow from the state. 0 where the boundary is reached, `None` if no boundary is known
+    /// ahead. Called after steps that left the domain, and after accepted ones.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Published theories with formulas of their own.
+//! Published theories with their own formulas.
 
 pub mod crank_rocker;
 pub mod slider_crank;

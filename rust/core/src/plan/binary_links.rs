@@ -47,9 +47,9 @@ impl BinaryLoops {
             && (2..=MAX_UNKNOWNS).contains(&bar_classes.len())
             && classes.len() == bar_classes.len();
         let (mut first_span, mut first_bar) = (0, 0);
-        for other in earlier {
-            first_span += other.classes.len() * other.classes.len();
-            first_bar += other.bar_classes.len();
+        for group in earlier {
+            first_span += group.classes.len() * group.classes.len();
+            first_bar += group.bar_classes.len();
         }
         fits.then_some(Self { first_span, first_bar, classes, bar_classes, arms })
     }

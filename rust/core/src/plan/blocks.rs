@@ -28,9 +28,9 @@ pub(crate) fn add_steps(
     })?;
     let blocks = groups_first(blocks, &nodes);
     let mut known = plan.fixed.clone();
-    for (slide, own) in linkage.slides.iter().enumerate() {
-        if own.length && linkage.drivers.contains(&Driver::Slide(slide)) {
-            plan.steps.push(Step::Length { slide });
+    for (index, slide) in linkage.slides.iter().enumerate() {
+        if slide.length && linkage.drivers.contains(&Driver::Slide(index)) {
+            plan.steps.push(Step::Length { slide: index });
         }
     }
     for block in &blocks {
@@ -46,8 +46,8 @@ pub(crate) fn add_steps(
             }
             _ => {
                 let links = plan_links(linkage, &plan.edges, &edges);
-                let own = tables.owner(&unknowns);
-                let name = own.map_or_else(
+                let assur_group = tables.owner(&unknowns);
+                let name = assur_group.map_or_else(
                     || named(linkage, 3, &links),
                     |g| named(linkage, g.class, &g.links),
                 );
@@ -62,8 +62,8 @@ pub(crate) fn add_steps(
     Ok(known)
 }
 
-/// Groups above class II and the blocks that they depend on come first. So no dyad that does not close
-/// keeps a group from being followed that does not depend on it.
+/// Groups above class II and the blocks that they depend on come first. So a dyad that does not close never
+/// stops the solver before a group that does not depend on it.
 fn groups_first(blocks: Vec<Block>, nodes: &Nodes) -> Vec<Block> {
     let mut block_of = vec![0; nodes.unknowns.len()];
     for (index, block) in blocks.iter().enumerate() {
@@ -102,16 +102,18 @@ fn add_length_checks(plan: &mut Plan, linkage: &Linkage) {
     plan.steps.extend(checks);
 }
 
-fn plan_links(linkage: &Linkage, edges: &[PlanEdge], of: &[usize]) -> Vec<usize> {
-    let mut links: Vec<usize> = of.iter().map(|&e| edges[e].edge.link).collect();
-    links.extend(of.iter().filter_map(|&e| edges[e].edge.slide()).map(|s| linkage.slides[s].link));
+fn plan_links(linkage: &Linkage, edges: &[PlanEdge], chosen: &[usize]) -> Vec<usize> {
+    let mut links: Vec<usize> = chosen.iter().map(|&e| edges[e].edge.link).collect();
+    links.extend(
+        chosen.iter().filter_map(|&e| edges[e].edge.slide()).map(|s| linkage.slides[s].link),
+    );
     links.sort_unstable();
     links.dedup();
     links.retain(|&l| l != linkage.ground);
     links
 }
 
-/// What is looked up for every block.
+/// Tables to look up for every block.
 struct Tables<'s> {
     groups: &'s [AssurGroup],
     /// The first group in solving order that has each slide, and each class.
@@ -143,8 +145,8 @@ impl<'s> Tables<'s> {
         Self { groups, of_slide, of_class, orientations, names: HashSet::new(), dyads: 0 }
     }
 
-    /// The Assur group that some unknowns belong to: a slide is a pair of one group, an angle is that of
-    /// links of the first group in solving order that has it, and known to those after.
+    /// The Assur group of some unknowns. A slide is a pair of one group; an angle belongs to the links of the
+    /// first group in solving order that has it, and later groups know it.
     fn owner(&self, unknowns: &[Unknown]) -> Option<&'s AssurGroup> {
         let of_slide = unknowns.iter().find_map(|unknown| match unknown {
             Unknown::Slide(slide) => self.of_slide.get(slide),
@@ -279,7 +281,7 @@ fn closing(plan: &Plan, edges: &[usize], known: &[bool]) -> Option<(usize, Path,
                     path.insert(next, extended);
                     queue.push_back(next);
                 }
-                Some(other) => closing = Some((i, extended, other.clone())),
+                Some(other_path) => closing = Some((i, extended, other_path.clone())),
             }
         }
     }
@@ -316,7 +318,7 @@ fn dyad(
     let end = loop_path.last().map_or(0, |&x| tip(x));
     let (start, end) = if start == end {
         rotate_to_first(plan, &mut loop_path, unknowns[0]);
-        // A closed loop depends on no point and may pass through no known one: start at the origin.
+        // A closed loop does not depend on any point and may avoid all known ones: start at the origin.
         (0, 0)
     } else {
         (start, end)
@@ -329,9 +331,9 @@ fn dyad(
             |&l: &usize| plan.rotation[l].class != 0 || linkage.slides.iter().any(|s| s.link == l);
         let moving: Vec<usize> = links.into_iter().filter(moves).collect();
         let names: Vec<&str> = moving.iter().map(|&l| linkage.links[l].name.as_str()).collect();
-        let own = tables.owner(&unknowns);
-        let group =
-            own.map_or_else(|| named(linkage, 2, &moving), |g| named(linkage, g.class, &g.links));
+        let assur_group = tables.owner(&unknowns);
+        let group = assur_group
+            .map_or_else(|| named(linkage, 2, &moving), |g| named(linkage, g.class, &g.links));
         (name, names.join("-"), group)
     });
     let sign = sign.map(|(name, links, group)| {
@@ -372,7 +374,7 @@ fn dyad(
     }
 }
 
-/// Whether a dyad is nothing but a slide that turns about both its joints and whose value is a length.
+/// Whether a dyad consists only of a slide that turns about both its joints and whose value is a length.
 fn is_length(linkage: &Linkage, form: Form, unknowns: [Unknown; 2], path: &[LoopTerm]) -> bool {
     let is_alone = matches!(path, [term] if term.slides.is_some());
     form == Form::TurningGuide

@@ -121,7 +121,7 @@ impl Plan {
 
     /// Marks the edges that are legs, and drops the orientations that only legs and bars would use.
     fn mark_legs(&mut self) {
-        let mut found = Vec::new();
+        let mut leg_edges = Vec::new();
         for dyad in self.dyads() {
             for unknown in 0..2 {
                 let mut turned = dyad.path.iter().filter(|term| term.turns == Some(unknown));
@@ -130,7 +130,7 @@ impl Plan {
                     && term.slides.is_none()
                 {
                     let index = 2 * dyad.index + unknown;
-                    found.push((term.edge, LegEdge { index, backward: term.backward }));
+                    leg_edges.push((term.edge, LegEdge { index, backward: term.backward }));
                 }
             }
         }
@@ -172,7 +172,7 @@ impl Plan {
             for (index, edge) in group.edges.iter().enumerate() {
                 if !group.is_chord(index) {
                     let leg = group.first_leg + index;
-                    found.push((edge.edge, LegEdge { index: leg, backward: false }));
+                    leg_edges.push((edge.edge, LegEdge { index: leg, backward: false }));
                 }
                 let is_arm = self.is_arm(group, index);
                 without[edge.edge] |= edge.is_bar || is_arm;
@@ -181,7 +181,7 @@ impl Plan {
                 }
             }
         }
-        for (edge, leg) in found {
+        for (edge, leg) in leg_edges {
             self.edges[edge].leg = Some(leg);
         }
         for (index, edge) in self.edges.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Compiles the tape of a plan for what a request needs.
+//! Compiles the tape of a plan for the needs of a request.
 
 use std::collections::HashMap;
 
@@ -6,7 +6,7 @@ use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::plan::{EdgeSlide, Plan, Step};
 use super::tape::{CrankPin, DyadOp, Op, PlaceKind, PlaceOp, Tape};
 
-/// What a request needs.
+/// The needs of a request.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Needs<'a> {
     pub points: &'a [bool],
@@ -179,7 +179,7 @@ impl Dyads {
     }
 
     fn add_all(&mut self, earlier: &Self) {
-        self.0.iter_mut().zip(&earlier.0).for_each(|(own, bits)| *own |= bits);
+        self.0.iter_mut().zip(&earlier.0).for_each(|(word, bits)| *word |= bits);
     }
 
     fn contains(&self, dyad: usize) -> bool {
@@ -197,7 +197,7 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
         dyads.dedup();
         let all = dyads.clone();
         dyads.retain(|dyad| {
-            !all.iter().any(|other| other != dyad && before[*other].contains(*dyad))
+            !all.iter().any(|later| later != dyad && before[*later].contains(*dyad))
         });
     };
     for op in ops {
@@ -211,9 +211,9 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
                 let carrier = op.carrier.and_then(|o| of_class[plan.orientations[o].class]);
                 op.upstream.extend(carrier);
                 last(&mut op.upstream, &before);
-                let mut own = Dyads::one(op.dyad);
-                op.upstream.iter().for_each(|&dyad| own.add_all(&before[dyad]));
-                before.push(own);
+                let mut dependencies = Dyads::one(op.dyad);
+                op.upstream.iter().for_each(|&dyad| dependencies.add_all(&before[dyad]));
+                before.push(dependencies);
                 if let Step::Dyad(dyad) = &plan.steps[op.step] {
                     for unknown in dyad.unknowns {
                         if let Unknown::Class(class) = unknown {
@@ -235,8 +235,8 @@ fn add_upstream(plan: &Plan, ops: &mut [Op]) {
     }
 }
 
-/// Whether all steps have closed forms, and no dyad starts or ends at a point that a slide places
-/// whose value a dyad finds.
+/// Whether all steps have closed forms, and no dyad starts or ends at a point placed by a slide whose
+/// value a dyad finds.
 fn is_bounded(plan: &Plan) -> bool {
     let mut bounded = plan.fixed.clone();
     for step in &plan.steps {
@@ -247,7 +247,7 @@ fn is_bounded(plan: &Plan) -> bool {
                 bounded[to] = bounded[from] && !matches!(along, EdgeSlide::Slide(_));
             }
             Step::Dyad(dyad) => {
-                // A path that is closed starts at the origin.
+                // A closed path starts at the origin.
                 if ![dyad.start, dyad.end].iter().all(|&point| point == 0 || bounded[point]) {
                     return false;
                 }
@@ -380,7 +380,7 @@ impl Dyad {
         }
     }
 
-    /// Whether all its terms but the legs are fixed, and it has no slides but its unknowns.
+    /// Whether all its terms except the legs are fixed, and its only slides are its unknowns.
     pub(crate) fn has_standing_terms(&self, plan: &Plan) -> bool {
         self.others.iter().all(|term| {
             stands(plan, term.edge)
@@ -392,8 +392,8 @@ impl Dyad {
     pub(crate) fn moving_guide(&self, plan: &Plan) -> Option<&LoopTerm> {
         match &self.others[..] {
             [term] if self.form == Form::CircleAndLine => {
-                let known = term.turns.is_none() && term.slides == Some(1) && !term.in_leg;
-                (self.leg[0] && known && !stands(plan, term.edge)).then_some(term)
+                let is_solved = term.turns.is_none() && term.slides == Some(1) && !term.in_leg;
+                (self.leg[0] && is_solved && !stands(plan, term.edge)).then_some(term)
             }
             _ => None,
         }
@@ -410,24 +410,24 @@ impl Dyad {
 
 impl PlaceOp {
     pub(super) fn new(plan: &Plan, edge: usize, backward: bool) -> Self {
-        let of = &plan.edges[edge];
-        let [from, to] = of.ends(backward);
-        let orientation = &plan.orientations[of.orientation];
-        let kind = match (of.along, of.leg, of.on_leg) {
+        let plan_edge = &plan.edges[edge];
+        let [from, to] = plan_edge.ends(backward);
+        let orientation = &plan.orientations[plan_edge.orientation];
+        let kind = match (plan_edge.along, plan_edge.leg, plan_edge.on_leg) {
             (EdgeSlide::Nothing, Some(leg), _) => {
                 PlaceKind::Leg { leg: leg.index, negative: leg.backward != backward }
             }
             (EdgeSlide::Nothing, None, Some(leg)) => PlaceKind::OnLeg { leg },
             (EdgeSlide::Nothing, ..) => match orientation.single_driver {
-                Some((driver, conj)) if of.class == 0 => PlaceKind::Crank { driver, conj },
-                _ => PlaceKind::Rigid { orientation: of.orientation },
+                Some((driver, conj)) if plan_edge.class == 0 => PlaceKind::Crank { driver, conj },
+                _ => PlaceKind::Rigid { orientation: plan_edge.orientation },
             },
             _ => PlaceKind::Along,
         };
         let from_ground = plan.fixed[from];
         Self {
             edge,
-            class: of.class,
+            class: plan_edge.class,
             from,
             to,
             backward,
@@ -467,7 +467,7 @@ mod tests {
         assert!(!pin.is_used && dyad.pin.is_some() && dyad.keeps == [false; 2]);
         assert_eq!((dyad.turns, dyad.orientations.len()), ([false, true], 0));
         assert!(of_rocker.driven.is_empty() && of_rocker.is_bounded);
-        // All joints, and no other.
+        // All joints and no other points.
         assert_eq!(Tape::whole(mechanism.plan()).ops.len(), 3);
     }
 

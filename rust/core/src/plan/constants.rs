@@ -153,7 +153,7 @@ impl DimensionMap {
             .collect();
         let joints = &linkage.links[linkage.ground].joints;
         let ground = joints.iter().map(|&joint| (joint, on_ground(joint))).collect();
-        // The first ground joint, or the drawing's own origin if there is none.
+        // The first ground joint, or the drawing's own origin without one.
         let origin = joints.first().map_or([None, None], |&joint| on_ground(joint));
         let lengths = Lengths::of(linkage, closure, dimensions);
         Self { edges, slides, ground, origin, lengths }
@@ -192,8 +192,9 @@ impl DesignConstants {
     pub(crate) fn across_slide(&self, plan: &Plan, link: usize, slide: usize) -> (usize, Vector) {
         let [sliding, carrying] = plan.slide_links[slide];
         let turn = self.slide_turn[slide];
-        let (other, turn) = if link == sliding { (carrying, turn) } else { (sliding, turn.conj()) };
-        (other, self.turn[other] * turn * self.turn[link].conj())
+        let (other_link, turn) =
+            if link == sliding { (carrying, turn) } else { (sliding, turn.conj()) };
+        (other_link, self.turn[other_link] * turn * self.turn[link].conj())
     }
 
     /// Constants for these values of the dimensions (in the order of [`Dimensions`]).
@@ -309,7 +310,7 @@ pub(crate) fn unit(angle: f64) -> Vector {
 }
 
 impl DesignConstants {
-    /// How far from the origin the tip of a leg can be, given the lengths of its dyad.
+    /// Greatest distance of the tip of a leg from the origin, given the lengths of its dyad.
     fn inner_reach(&self, leg: usize) -> f64 {
         self.dyads.get(leg / 2).map_or(f64::INFINITY, |dyad| dyad.inner_reach)
     }
@@ -342,36 +343,36 @@ impl DesignConstants {
             };
             let Step::Dyad(dyad) = &plan.steps[step] else { continue };
             let legs = &self.legs[dyad.index];
-            let own = &mut self.dyads[dyad.index];
-            (own.inner_reach, own.offset) = (f64::INFINITY, Vector::ZERO);
+            let constants = &mut self.dyads[dyad.index];
+            (constants.inner_reach, constants.offset) = (f64::INFINITY, Vector::ZERO);
             let [start, end] = [self.reach[dyad.start], self.reach[dyad.end]];
             let rounding = 0.5 * start.max(end);
             let arm2 = |class: usize| self.max_arm2[class].max(rounding * rounding);
             let [u, v] = dyad.unknowns;
-            own.reach = start + end + legs[0].norm;
+            constants.reach = start + end + legs[0].norm;
             for term in &dyad.others {
                 let sign = if term.backward { -1.0 } else { 1.0 };
                 if let Some(i) = term.slides {
-                    own.guides[i] = self.guide[term.edge].scale(sign);
+                    constants.guides[i] = self.guide[term.edge].scale(sign);
                 }
                 if !term.in_leg {
                     let offset = self.edge_vector[term.edge];
-                    own.offset += offset.scale(sign);
-                    own.reach += offset.x.abs() + offset.y.abs();
+                    constants.offset += offset.scale(sign);
+                    constants.reach += offset.x.abs() + offset.y.abs();
                 }
             }
             let greatest = match op {
                 Op::TwoLegs(_) => {
-                    own.sides = Sides::of(&legs[0], &legs[1]);
-                    own.inner_reach = (start + legs[0].norm).min(end + legs[1].norm);
+                    constants.sides = Sides::of(&legs[0], &legs[1]);
+                    constants.inner_reach = (start + legs[0].norm).min(end + legs[1].norm);
                     (arm2(u.class()) * legs[0].inv_norm2).max(arm2(v.class()) * legs[1].inv_norm2)
                 }
                 Op::StandingGuide(_) | Op::MovingGuide(_) => arm2(u.class()) * legs[0].inv_norm2,
                 Op::TurningGuide(_) => arm2(u.class()),
                 _ => 1.0,
             };
-            own.inverse_arm2 = 1.0 / greatest.max(1.0);
-            own.bounding_per_sine2 = own.sides.per_sine2 * own.inverse_arm2;
+            constants.inverse_arm2 = 1.0 / greatest.max(1.0);
+            constants.bounding_per_sine2 = constants.sides.per_sine2 * constants.inverse_arm2;
         }
     }
 }

@@ -29,7 +29,7 @@ impl ConstantsRate {
         values: &[f64],
         index: usize,
     ) -> Self {
-        // The constants are linear in all dimensions but angles.
+        // The constants are linear in all dimensions except angles.
         let mut by = vec![0.0; values.len()];
         by[index] = 1.0;
         let origin = read_two(&by, slots.origin);

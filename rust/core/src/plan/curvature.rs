@@ -1,10 +1,10 @@
-//! How strongly the equations of a group above class II are curved.
+//! Curvature of the equations of a group above class II.
 
 use super::group::{Chord, Group};
 use super::plan::{EdgeSlide, Plan};
 use crate::math::vector::Vector;
 
-/// How much of the square of a step of Newton's iteration remains in the equations, at least one.
+/// The part of the square of a Newton step that remains in the equations, at least 1.
 ///
 /// The edges of a loop's path turn the end of a bar across it, which lengthens it by half the square
 /// of that over its own length: much, if the bar is short. (Bars that a driver lengthens have no

@@ -56,14 +56,13 @@ pub(crate) struct Dyad {
     /// The unknowns; a rotation comes before a slide, and the rotation of the
     /// link listed first before the other.
     pub unknowns: [Unknown; 2],
-    /// The orientations that turn with each unknown (none with a slide) and that more than the legs
-    /// need.
+    /// The orientations that turn with each unknown (none with a slide), unless only the legs need them.
     pub orientations: [Vec<usize>; 2],
     /// The loop, edge by edge.
     pub path: Vec<LoopTerm>,
     /// The terms that are not entirely in a leg.
     pub others: Vec<LoopTerm>,
-    /// Whether each unknown has a leg: all that turns with it is constant, apart from its slide.
+    /// Whether each unknown has a leg: all that turns with it is constant, except its slide.
     pub leg: [bool; 2],
     /// The classes of its two legs, if it has nothing else (RRR).
     pub rrr_classes: Option<[usize; 2]>,
@@ -75,7 +74,7 @@ pub(crate) struct Dyad {
     pub end: usize,
     /// Index among the assembly signs, if it has two solutions.
     pub sign: Option<usize>,
-    /// Whether it is nothing but a slide that turns about both its joints and whose value is a
-    /// length: a cylinder. Its sign is +1 always.
+    /// Whether it consists only of a slide that turns about both its joints and whose value is a
+    /// length: a cylinder. Its sign is always +1.
     pub is_length: bool,
 }

@@ -14,8 +14,8 @@ pub(crate) struct Sides<R = f64> {
     pub difference2: R,
     /// a² − b²
     pub split: R,
-    /// By how much the square of the chord may exceed `sum2` and fall below `difference2` for the
-    /// triangle still to count as flat.
+    /// The square of the chord may exceed `sum2` and fall below `difference2` by these: the triangle still
+    /// counts as flat.
     pub tolerances: [R; 2],
     /// 1 / (4 a² b²)
     pub per_sine2: R,
@@ -32,18 +32,18 @@ impl<R: Real> Sides<R> {
         // relative error of the chord doubles in its square.
         let within = R::splat(2.0 * FLAT_CLOSURE);
         let per_sine2 = R::splat(0.25) * (a.inv_norm2 * b.inv_norm2);
-        // Within the tolerances, (sum² − d²)(d² − difference²) is at least minus the greater one
-        // times the other factor, 4 a b at most and as much again; twice that is safe.
-        let most = within * (sum * sum);
-        let least = R::splat(-2.0) * (most * (R::splat(4.0) * (a.norm * b.norm) + most));
+        // Within the tolerances, (sum² − d²)(d² − difference²) is at least minus the greater tolerance times
+        // the other factor, at most 4 a b plus the same tolerance; twice that is safe.
+        let excess = within * (sum * sum);
+        let lower_bound = R::splat(-2.0) * (excess * (R::splat(4.0) * (a.norm * b.norm) + excess));
         Self {
-            open_area2: least,
+            open_area2: lower_bound,
             per_sine2,
             sum2: sum * sum,
             difference2: difference * difference,
             // Keeps digits when a ≈ b.
             split: difference * sum,
-            tolerances: [most, within * (a.norm.max(b.norm) * difference.abs())],
+            tolerances: [excess, within * (a.norm.max(b.norm) * difference.abs())],
         }
     }
 }

@@ -10,7 +10,7 @@ use super::group::{Chord, ColumnTerm, Group, GroupEdge, Loop, LoopEdge};
 use super::plan::{EdgeSlide, Plan};
 
 impl Group {
-    /// Finds the loops of a block; also returns their chords, which place no point.
+    /// Finds the loops of a block; also returns their chords, which do not place points.
     pub(crate) fn new(
         plan: &Plan,
         edges: &[usize],
@@ -78,8 +78,8 @@ fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     let mut column = Vec::new();
     let mut add = |index: usize, backward: bool| {
         let edge = &edges[index];
-        for (own, turns) in [(edge.turns, true), (edge.slides, false)] {
-            if own == Some(unknown) {
+        for (moved_by, turns) in [(edge.turns, true), (edge.slides, false)] {
+            if moved_by == Some(unknown) {
                 column.push(ColumnTerm { edge: Some(index), turns, backward });
             }
         }
@@ -90,7 +90,7 @@ fn column(edges: &[GroupEdge], l: &Loop, unknown: usize) -> Vec<ColumnTerm> {
     match l.chord {
         Chord::Whole => add(l.edge, true),
         Chord::Guide { .. } if edges[l.edge].turns == Some(unknown) => {
-            // Seen from the guide that turns, the chord turns back.
+            // In the frame of the turning guide the chord turns back.
             column.push(ColumnTerm { edge: None, turns: true, backward: true });
         }
         _ => {}
@@ -159,7 +159,7 @@ fn spanning_tree(plan: &Plan, order: &[usize], known: &[bool]) -> (Tree, Vec<usi
         if grown {
             continue;
         }
-        // A component without a known point grows from any point of its own.
+        // A component without a known point grows from any of its points.
         let Some(&edge) = inside.iter().find(|&&e| !seen[plan.edges[e].edge.from]) else { break };
         seen[plan.edges[edge].edge.from] = true;
     }

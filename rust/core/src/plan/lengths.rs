@@ -31,7 +31,7 @@ impl Lengths {
                     (at_pair(joint), None)
                 }
                 Dimension::Length { link } => (at_pair(linkage.links[link].joints[1]), None),
-                other if other.is_length() => (true, None),
+                dimension if dimension.is_length() => (true, None),
                 _ => continue,
             };
             if paired { &mut lengths.paired } else { &mut lengths.loose }.push((index, axis));

@@ -18,12 +18,12 @@ use crate::structure::Structure;
 use crate::structure::closure::Closure;
 use crate::structure::fitted::{Fitted, fitted};
 
-/// What becomes of dyads whose links are drawn in line.
+/// Treatment of dyads whose links are drawn in line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Flat {
-    /// The drawing does not show their assembly: it is refused, unless the description names it.
+    /// The drawing does not show their assembly: an error, unless the description names it.
     Refused,
-    /// The drawing's assembly is not asked for: all signs are +1.
+    /// The drawing's assembly is not needed: all signs are +1.
     Positive,
 }
 
@@ -51,7 +51,7 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// The same mechanism, solved by the general formulas alone: for derivatives of higher orders, and to
+    /// The same mechanism, solved only by the general formulas: for derivatives of higher orders, and to
     /// compare kernels with them.
     #[doc(hidden)]
     #[must_use]
@@ -171,7 +171,7 @@ impl Mechanism {
         &self.plan.dyad_names
     }
 
-    /// The slides among them whose values are lengths: their sign is +1 always.
+    /// The slides among them whose values are lengths: their sign is always +1.
     #[must_use]
     pub fn lengths(&self) -> Vec<&str> {
         let dyads = self.plan.dyads().filter(|dyad| dyad.is_length);
@@ -192,8 +192,8 @@ impl Mechanism {
     pub fn joint(&self, name: &str) -> Result<usize, SolveError> {
         let (joints, links) = (&self.linkage.joints, &self.linkage.links);
         let is_link = links.iter().any(|link| link.name == name);
-        let given = is_link.then_some(Named::Link);
-        find(name, Named::Joint, given, joints.iter().map(|x| x.name.as_str()))
+        let other_kind = is_link.then_some(Named::Link);
+        find(name, Named::Joint, other_kind, joints.iter().map(|x| x.name.as_str()))
     }
 
     /// Index of a link by name.
@@ -204,8 +204,8 @@ impl Mechanism {
     pub fn link(&self, name: &str) -> Result<usize, SolveError> {
         let (joints, links) = (&self.linkage.joints, &self.linkage.links);
         let is_joint = joints.iter().any(|joint| joint.name == name);
-        let given = is_joint.then_some(Named::Joint);
-        find(name, Named::Link, given, links.iter().map(|x| x.name.as_str()))
+        let other_kind = is_joint.then_some(Named::Joint);
+        find(name, Named::Link, other_kind, links.iter().map(|x| x.name.as_str()))
     }
 
     /// Index of a slide by name.
@@ -231,10 +231,10 @@ impl Mechanism {
             return Ok((Named::Link, link));
         }
         let kind = if slides.is_empty() { Named::Link } else { Named::Slide };
-        let known = slides.iter().map(|x| &x.name).chain(links.iter().map(|x| &x.name));
-        let known =
-            known.enumerate().filter(|(index, _)| *index != slides.len() + self.linkage.ground);
-        let hint = suggest(name, known.map(|(_, name)| name.as_str()));
+        let names = slides.iter().map(|x| &x.name).chain(links.iter().map(|x| &x.name));
+        let names =
+            names.enumerate().filter(|(index, _)| *index != slides.len() + self.linkage.ground);
+        let hint = suggest(name, names.map(|(_, name)| name.as_str()));
         Err(SolveError::Unknown { kind, name: name.into(), hint })
     }
 }
@@ -242,14 +242,14 @@ impl Mechanism {
 fn find<'a>(
     name: &str,
     kind: Named,
-    given: Option<Named>,
+    other_kind: Option<Named>,
     names: impl Iterator<Item = &'a str> + Clone,
 ) -> Result<usize, SolveError> {
     names.clone().position(|n| n == name).ok_or_else(|| SolveError::Unknown {
         kind,
         name: name.into(),
-        hint: given
-            .and_then(|given| mistaken_kind(name, kind, given))
+        hint: other_kind
+            .and_then(|other_kind| mistaken_kind(name, kind, other_kind))
             .or_else(|| suggest(name, names)),
     })
 }
@@ -267,9 +267,9 @@ pub(super) fn class_angles(linkage: &Linkage, plan: &Plan) -> Vec<f64> {
 
 /// Assembly signs of the drawing, unless the user gives them by name.
 pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, StructureError> {
-    let known: HashSet<&String> = plan.dyad_names.iter().collect();
+    let names_of_dyads: HashSet<&String> = plan.dyad_names.iter().collect();
     for (name, _) in &linkage.assembly {
-        if !known.contains(name) {
+        if !names_of_dyads.contains(name) {
             return Err(StructureError::Unknown {
                 kind: Named::Dyad,
                 name: name.clone(),
@@ -279,13 +279,13 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
         }
     }
     // If a name is given twice, the last counts.
-    let given: HashMap<&str, i8> =
+    let named_signs: HashMap<&str, i8> =
         linkage.assembly.iter().map(|(name, sign)| (name.as_str(), *sign)).collect();
     let mut signs = vec![1; plan.signs()];
     for dyad in plan.dyads() {
         let Some(sign) = dyad.sign else { continue };
         let name = &plan.dyad_names[sign];
-        let named = given.get(name.as_str()).copied();
+        let named = named_signs.get(name.as_str()).copied();
         let sine = drawn_sine(linkage, plan, dyad);
         signs[sign] = match named {
             Some(-1) if dyad.is_length => {

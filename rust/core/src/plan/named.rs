@@ -37,7 +37,7 @@ impl SliderCrank {
 fn drawing_with(mechanism: &Mechanism, replaced: &[(&str, f64)]) -> Vec<f64> {
     let names = mechanism.dimensions().iter().map(|(name, _)| name);
     let value = |(name, &drawn): (&str, &f64)| {
-        replaced.iter().find(|(own, _)| *own == name).map_or(drawn, |&(_, value)| value)
+        replaced.iter().find(|(key, _)| *key == name).map_or(drawn, |&(_, value)| value)
     };
     names.zip(mechanism.drawing()).map(value).collect()
 }

@@ -92,7 +92,7 @@ pub(crate) struct RedundantLink {
     pub name: String,
     /// How its orientation is found; `None` for a slide alone.
     pub angle_from: Option<AngleFrom>,
-    /// Edges to points that nothing else places; true for an edge traversed backward.
+    /// Edges to points that no other step places; true for an edge traversed backward.
     pub places: Vec<(usize, bool)>,
     /// Edges that must close (a slide along them takes the value that fits best).
     pub checks: Vec<usize>,
@@ -155,8 +155,7 @@ pub(crate) struct Plan {
     pub is_general: bool,
     /// All steps as they are run.
     pub tape: Tape,
-    /// What tracing runs where nothing is known of the angles asked for: it needs no points but
-    /// those of dyads.
+    /// The tape for tracing where the requested angles are not known: it needs only the points of dyads.
     pub tracing_tape: Tape,
 }
 
@@ -210,12 +209,12 @@ impl Plan {
         self.steps.iter().any(|step| matches!(*step, Step::Length { slide } if is_passive(slide)))
     }
 
-    /// What ends where the value of a slide, a length, is 0: an index after those of all that may fold.
+    /// The index of an end where the value of a slide, a length, is 0: after the indices of all that may fold.
     pub(crate) fn end_of_length(&self, slide: usize) -> usize {
         self.signs() + self.groups().count() + slide
     }
 
-    /// Whether the sign of a dyad is +1 always.
+    /// Whether the sign of a dyad is always +1.
     pub(crate) fn is_length(&self, sign: usize) -> bool {
         self.dyads().any(|dyad| dyad.sign == Some(sign) && dyad.is_length)
     }

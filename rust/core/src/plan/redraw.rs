@@ -9,7 +9,7 @@ use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
 use crate::structure::closure::Rotation;
 
-/// Where everything is at one position.
+/// The places of all parts at one position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Pose {
     /// Joints, m.
@@ -20,7 +20,7 @@ pub struct Pose {
     pub slides: Vec<f64>,
 }
 
-/// What a mechanism knows of its drawing beside the dimensions.
+/// The data of a drawing that a mechanism keeps besides the dimensions.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Drawing {
     pub q0: Vec<f64>,

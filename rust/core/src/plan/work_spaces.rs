@@ -22,7 +22,7 @@ impl PlanNumber {
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 
-    /// Takes a kept work space that fits, if there is one.
+    /// Takes a kept work space that fits, if any.
     pub(crate) fn take<T: Any + Send>(&self, fits: impl Fn(&T) -> bool) -> Option<Box<T>> {
         // Must not wait: in a forked process the lock may be held by a thread that no longer exists.
         let mut kept = KEPT.try_lock().ok()?;
@@ -33,7 +33,7 @@ impl PlanNumber {
         kept.remove(index).1.downcast().ok()
     }
 
-    /// A kept object that fits, which calls share, or a new one.
+    /// A kept object that fits, shared by calls, or a new one.
     pub(crate) fn share<T: Any + Send + Sync>(
         &self,
         fits: impl Fn(&T) -> bool,
@@ -46,7 +46,7 @@ impl PlanNumber {
         shared
     }
 
-    /// Keeps a work space, in place of the oldest if there are [`MAX_KEPT`].
+    /// Keeps a work space, in place of the oldest if [`MAX_KEPT`] are kept.
     pub(crate) fn keep<T: Any + Send>(&self, space: Box<T>) {
         let oldest = {
             let Ok(mut kept) = KEPT.try_lock() else { return };
@@ -69,26 +69,26 @@ impl PartialEq for PlanNumber {
 mod tests {
     use super::*;
 
-    /// A type of its own, because other tests keep work spaces at the same time.
+    /// A separate type, because other tests keep work spaces at the same time.
     #[derive(Debug, PartialEq)]
     struct Space(usize);
 
     /// Other tests may push this work space out, but a wrong one is never found.
     #[test]
     fn what_is_kept_is_found_once_and_for_its_plan_alone() {
-        let (one, other) = (PlanNumber::next(), PlanNumber::next());
-        assert_eq!(one.take(|_: &Space| true), None);
-        let found = (0..100).any(|_| {
-            one.keep(Box::new(Space(1)));
-            one.keep(Box::new(Space(2)));
-            assert_eq!(other.take(|_: &Space| true), None);
-            assert_eq!(one.take(|_: &u8| true), None);
-            let latest = one.take(|_: &Space| true);
+        let (number, other_number) = (PlanNumber::next(), PlanNumber::next());
+        assert_eq!(number.take(|_: &Space| true), None);
+        let is_found = (0..100).any(|_| {
+            number.keep(Box::new(Space(1)));
+            number.keep(Box::new(Space(2)));
+            assert_eq!(other_number.take(|_: &Space| true), None);
+            assert_eq!(number.take(|_: &u8| true), None);
+            let latest = number.take(|_: &Space| true);
             latest.is_some_and(|space| *space == Space(2))
         });
-        assert!(found);
-        while one.take(|_: &Space| true).is_some() {}
-        assert_eq!(one.take(|_: &Space| true), None);
+        assert!(is_found);
+        while number.take(|_: &Space| true).is_some() {}
+        assert_eq!(number.take(|_: &Space| true), None);
     }
 
     #[test]

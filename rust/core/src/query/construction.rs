@@ -23,7 +23,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`StructureError`]: what keeps the description from being a mechanism with as many drivers
+    /// [`StructureError`]: the reason why the description is not a mechanism with as many drivers
     /// as freedoms and a definite assembly.
     pub fn new(description: &Description) -> Result<Self, StructureError> {
         Self::new_unless(description, None)
@@ -70,16 +70,16 @@ impl Mechanism {
             let coordinates: Vec<f64> =
                 samples.map(|sample| self.q0()[0] + step * sample).collect();
             let mut residual = 0.0_f64;
-            for found in
+            for diagnosis in
                 self.diagnose(self.drawing(), &coordinates, self.signs()).unwrap_or_default()
             {
-                let Some(failure) = found.failure else {
-                    residual = residual.max(found.residual);
+                let Some(failure) = diagnosis.failure else {
+                    residual = residual.max(diagnosis.residual);
                     continue;
                 };
                 let Reason::RedundantMisfit { name, gap, .. } = failure.reason else {
                     if failure.status == Status::Singular {
-                        residual = residual.max(found.residual);
+                        residual = residual.max(diagnosis.residual);
                     }
                     continue;
                 };

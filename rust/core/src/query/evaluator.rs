@@ -1,4 +1,4 @@
-//! One design, one position after another: what a motion in time needs.
+//! One design, one position after another, for a motion in time.
 
 use std::borrow::Cow;
 use std::sync::atomic::AtomicBool;
@@ -65,9 +65,9 @@ pub(crate) struct NearMiss {
 /// Greatest distance (rad, or of the size) of a near miss from a position beside it, times the
 /// condition there.
 const NEAR_MISS_REACH: f64 = 64.0;
-/// Shortest driven length (in sizes), times the condition there, that is not what makes the condition.
+/// Shortest driven length (in sizes), times the condition there, that does not cause the condition.
 const SHORT: f64 = 8.0;
-/// Steps of the search for it, each to two thirds.
+/// Steps of the search for a near miss; each shortens the interval to two thirds.
 const NARROWINGS: u32 = 60;
 
 /// A position from which the next one is traced.
@@ -101,8 +101,8 @@ impl<'m> Evaluator<'m> {
         queries: Queries<'_>,
         needs_angles: bool,
     ) -> Self {
-        let own = (dimensions, mechanism.signs());
-        Self::with_signs(mechanism, own, derivatives, queries, needs_angles, None)
+        let design = (dimensions, mechanism.signs());
+        Self::with_signs(mechanism, design, derivatives, queries, needs_angles, None)
     }
 
     /// The same in another assembly; once `cancel` is true the branch ends where it is.
@@ -157,7 +157,7 @@ impl<'m> Evaluator<'m> {
         self.design.constants.scale
     }
 
-    /// How far a slide may go, m.
+    /// Greatest distance that a slide may go, m.
     pub(crate) fn reach(&self) -> f64 {
         self.design.reach() * self.design.constants.scale
     }
@@ -190,8 +190,8 @@ impl<'m> Evaluator<'m> {
         (Some(step).filter(|&step| has_two_solutions(&steps[step])), condition)
     }
 
-    /// The condition of every step of the plan on its own at the last position; NaN of those without
-    /// one, and of a dyad that is nearly flat where the position is interpolated.
+    /// The condition of every step of the plan on its own at the last position; NaN for steps without
+    /// one, and for a dyad that is nearly flat where the position is interpolated.
     pub(crate) fn own_conditions(&self, conditions: &mut Vec<f64>) {
         let cx = self.design.context(self.design.derivatives);
         // The greatest condition is that of the interpolant's nodes there.
@@ -203,8 +203,8 @@ impl<'m> Evaluator<'m> {
         }));
     }
 
-    /// What makes a position of one driver so ill-conditioned, if that is a length of nearly 0: the step
-    /// of its dyad, or the check of a driven one. `step`: the dyad with the greatest condition.
+    /// The cause of an ill-conditioned position of one driver, if it is a length of nearly 0: the step of
+    /// its dyad, or the check of a driven one. `step`: the dyad with the greatest condition.
     pub(crate) fn zero_length(
         &self,
         q: &[f64],
@@ -214,9 +214,9 @@ impl<'m> Evaluator<'m> {
         let &[q] = q else { return None };
         let plan = self.design.mechanism.plan();
         if q < SHORT / condition * self.unit(0)
-            && let Some(own) = plan.length_step(0)
+            && let Some(length_step) = plan.length_step(0)
         {
-            return Some(own);
+            return Some(length_step);
         }
         let is_length =
             |&step: &usize| matches!(&plan.steps[step], Step::Dyad(dyad) if dyad.is_length);
@@ -251,7 +251,7 @@ impl<'m> Evaluator<'m> {
         miss.is_finite().then(|| NearMiss { dyad: name.clone(), miss, q: at })
     }
 
-    /// How far the sides of a dyad's triangle at a coordinate are from those of a flat one,
+    /// Difference between the sides of a dyad's triangle at a coordinate and those of a flat one,
     /// relative to the size; negative if it does not close.
     fn excess_to_flat(&mut self, dyad: &Dyad, at: f64) -> f64 {
         let solved = self.solve(&[at]).is_ok();
@@ -357,7 +357,7 @@ impl Position<'_> {
         let lengths = points.flat_map(|point| [point[0].x, point[0].y]);
         let rates = [&pose.slides, &pose.theta].into_iter();
         let rates = rates.flat_map(|jets| jets.iter().skip(order).step_by(len).map(|rate| rate[0]));
-        lengths.chain(rates).fold(0.0, |greatest, own| own.abs().max(greatest))
+        lengths.chain(rates).fold(0.0, |greatest, rate| rate.abs().max(greatest))
     }
 
     /// Angle of a link, rad, continuous along the branch.

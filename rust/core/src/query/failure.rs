@@ -16,7 +16,7 @@ use crate::plan::plan::{EdgeSlide, Step};
 use crate::state::status::{Fault, Rejection, Status};
 
 /// If a joint is farther (in sizes) than this at the end of a branch, the distance ended it, not a
-/// dead point: the condition of a group grows with its square, so no branch is followed all the way
+/// dead point: the condition of a group grows with its square, so a branch is never followed all the way
 /// to a pole.
 const FAR_JOINT: f64 = 100.0;
 
@@ -27,7 +27,7 @@ pub struct Failure {
     pub status: Status,
     /// Coordinates of the drivers, rad or m.
     pub q: Vec<f64>,
-    /// What failed there.
+    /// The reason.
     pub reason: Reason,
 }
 
@@ -52,7 +52,7 @@ impl fmt::Display for GroupName {
     }
 }
 
-/// What failed at a position; it begins with the verb or the subject after "at q = …".
+/// The reason of a failed position; it begins with the verb or the subject after "at q = …".
 #[derive(Debug, Clone, PartialEq, Error, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "snake_case")]
 #[non_exhaustive]
@@ -265,8 +265,8 @@ fn of_lost(design: &Design<'_>, q: &[f64]) -> Reason {
             }
             let mut state = design.state(design.tracing_derivatives());
             let step = folding_step(design, &mut state, at);
-            let own = step.map(|step| vec![fold_name(design.mechanism, step)]);
-            Reason::BeyondDeadPoint { groups: own.unwrap_or(groups), end }
+            let folding = step.map(|step| vec![fold_name(design.mechanism, step)]);
+            Reason::BeyondDeadPoint { groups: folding.unwrap_or(groups), end }
         }
         _ => Reason::DeadPointOnPath { groups },
     }

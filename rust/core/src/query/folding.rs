@@ -1,4 +1,4 @@
-//! What folds at an end of a branch.
+//! The dyad, group or length that folds at an end of a branch.
 
 use crate::branch::design::Design;
 use crate::plan::plan::{Plan, Step};
@@ -9,7 +9,7 @@ use crate::state::state::{Context, State};
 const BEFORE_FOLD: [f64; 2] = [1.0e-5, 1.0e-7];
 
 /// The step of the plan that ends the branch at a coordinate (scaled): of all dyads, groups and lengths
-/// the one whose own condition grows the most toward it, whatever the order of the steps.
+/// the one whose own condition grows the most toward it, for any order of the steps.
 pub(crate) fn folding_step(design: &Design<'_>, state: &mut State, end: f64) -> Option<usize> {
     let [q0] = design.q0[..] else { return None };
     let [far, near] = BEFORE_FOLD.map(|part| {
@@ -17,11 +17,11 @@ pub(crate) fn folding_step(design: &Design<'_>, state: &mut State, end: f64) -> 
         conditions2(state, &cx)
     });
     let growth = far.iter().zip(&near).enumerate().map(|(step, (far, near))| (step, near / far));
-    let known = growth.filter(|(_, growth)| growth.is_finite());
-    known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(step, _)| step)
+    let finite = growth.filter(|(_, growth)| growth.is_finite());
+    finite.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(step, _)| step)
 }
 
-/// The index of [`Mechanism::fold_names`](crate::Mechanism::fold_names) of what a step solves; none of
+/// The index in [`Mechanism::fold_names`](crate::Mechanism::fold_names) of what a step solves; `None` for
 /// two guides.
 pub(crate) fn fold_of(plan: &Plan, step: usize) -> Option<usize> {
     match &plan.steps[step] {
@@ -36,21 +36,21 @@ pub(crate) fn fold_of(plan: &Plan, step: usize) -> Option<usize> {
 pub(super) fn solve<'d>(design: &'d Design<'_>, state: &mut State, q: f64) -> Context<'d> {
     let branch = &design.branch;
     design.guess(0, state, branch, &branch.locate(q));
-    let own = design.context(design.tracing_derivatives());
-    let cx = Context { signs: branch.signs(q), ..own };
+    let tracing = design.context(design.tracing_derivatives());
+    let cx = Context { signs: branch.signs(q), ..tracing };
     state.solve(&cx, &[q]);
     cx
 }
 
-/// Squares of the conditions of all steps on their own; of a length the inverse of its square. NaN of
-/// those without a condition.
+/// Squares of the conditions of all steps on their own; for a length the inverse of its square. NaN for
+/// steps without a condition.
 fn conditions2(state: &State, cx: &Context<'_>) -> Vec<f64> {
-    let of = |(index, step): (usize, &Step)| match step {
+    let condition2 = |(index, step): (usize, &Step)| match step {
         &Step::Length { slide } => {
             let length = state.pose.slides[slide * state.len][0];
             1.0 / (length * length)
         }
         _ => state.own_condition2(cx, index).unwrap_or(f64::NAN),
     };
-    cx.plan.steps.iter().enumerate().map(of).collect()
+    cx.plan.steps.iter().enumerate().map(condition2).collect()
 }

@@ -1,4 +1,4 @@
-//! No driver, or one that cannot drive: what can.
+//! Remedies for a missing driver, or one that cannot drive.
 
 use super::edit::drive::{drive, drive_instead, driver_name, leave_undriven};
 use super::search::{Search, Tried};
@@ -24,7 +24,7 @@ pub(super) fn replace(
         _ => return Ok(()),
     };
     let drivers = &sketch.description.drivers;
-    // If drivers leave something free, any of them may be one too many: the last is changed first.
+    // If drivers leave something free, any of them may be redundant: the last is changed first.
     let concerned = |index: &usize| {
         if !preferred.is_empty() {
             return true;
@@ -33,7 +33,7 @@ pub(super) fn replace(
         faulty.contains(&name)
     };
     let mut able = candidates(sketch);
-    able.sort_by_key(|name| !preferred.iter().any(|own| own == name));
+    able.sort_by_key(|name| !preferred.iter().any(|first| first == name));
     for index in (0..drivers.len()).rev().filter(concerned) {
         for name in &able {
             search.attempt_first(drive_instead(sketch, name, index))?;
@@ -45,8 +45,8 @@ pub(super) fn replace(
     Ok(())
 }
 
-/// Finds drivers where there is none. If nothing can drive, returns the first link or slide for which
-/// the reason lies elsewhere, with this reason.
+/// Finds drivers where none is given. If nothing can drive, returns the first link or slide for which the
+/// reason lies elsewhere, with this reason.
 pub(super) fn choose(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,
@@ -66,10 +66,10 @@ pub(super) fn choose(
             break;
         }
     }
-    Ok(elsewhere.filter(|_| search.found.is_empty()))
+    Ok(elsewhere.filter(|_| search.remedies.is_empty()))
 }
 
-/// Whether an error is the same whatever drives.
+/// Whether an error is the same for every driver.
 fn is_of_any_driver(error: &StructureError) -> bool {
     matches!(
         error,
@@ -94,7 +94,7 @@ pub(super) fn give_once(
     Ok(())
 }
 
-/// What may drive, the likeliest first: links on the ground, slides on it, other slides and links.
+/// Candidates for a driver, the likeliest first: links on the ground, slides on it, other slides and links.
 fn candidates<'a>(sketch: &Sketch<'a>) -> Vec<&'a str> {
     let slides = || sketch.description.slides.iter();
     let on_ground = |name: &&str| sketch.is_on_ground(name);

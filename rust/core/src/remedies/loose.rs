@@ -1,4 +1,4 @@
-//! More freedoms than drivers: ends are joined, guided or held, or more is driven.
+//! Remedies for more freedoms than drivers: ends are joined, guided or held, or more parts driven.
 
 use super::edit::drive::{drive_too, leave_undriven};
 use super::edit::hold::{hold, unite};
@@ -10,7 +10,7 @@ use super::search::Search;
 use super::sketch::{GROUND, Sketch};
 use crate::description::error::{Interrupted, StructureError};
 
-/// Pairs of joints that are tried at most for a new link.
+/// Most pairs of joints that are tried for a new link.
 const PAIRS: usize = 6;
 
 /// Finds remedies for links that still move while all drivers are held, or for too many drivers.
@@ -103,13 +103,13 @@ fn join_two(
             !shared && sketch.between(from, to).norm2() > 0.0
         };
         for joint in sketch.joints_of(link) {
-            for (other, _) in &sketch.description.joints {
+            for (partner, _) in &sketch.description.joints {
                 if search.is_over() || tried == PAIRS {
                     return Ok(());
                 }
-                if apart(joint, other) {
+                if apart(joint, partner) {
                     tried += 1;
-                    if search.attempt(join(sketch, joint, other))?.is_accepted() {
+                    if search.attempt(join(sketch, joint, partner))?.is_accepted() {
                         return Ok(());
                     }
                 }
@@ -119,7 +119,7 @@ fn join_two(
     Ok(())
 }
 
-/// Two free links that meet become one.
+/// Unites two free links that meet.
 fn make_one(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,
@@ -127,19 +127,22 @@ fn make_one(
 ) -> Result<(), Interrupted> {
     for link in free {
         for joint in sketch.joints_of(link) {
-            let later = sketch.links_at(joint).iter().skip_while(|other| *other != link).skip(1);
-            for &other in later.filter(|&&other| free.iter().any(|own| own == other)) {
+            let later =
+                sketch.links_at(joint).iter().skip_while(|partner| *partner != link).skip(1);
+            for &partner in
+                later.filter(|&&partner| free.iter().any(|free_link| free_link == partner))
+            {
                 if search.is_over() {
                     return Ok(());
                 }
-                search.attempt_first(unite(sketch, link, other, joint))?;
+                search.attempt_first(unite(sketch, link, partner, joint))?;
             }
         }
     }
     Ok(())
 }
 
-/// Leaves out drivers of which there are too many: the last first.
+/// Leaves out surplus drivers, the last first.
 fn leave_out(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,

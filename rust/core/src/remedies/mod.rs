@@ -1,7 +1,7 @@
-//! What would make a mechanism of a description that is refused.
+//! Edits that turn a refused description into a mechanism.
 //!
 //! Each kind of error has its edits (`stuck`, `loose`, `driving`, `unfinished`), the likeliest
-//! first. `search` builds what they give and offers what the structure and the solver accept.
+//! first. `search` builds the edited descriptions and offers those that the structure and the solver accept.
 
 mod driving;
 mod edit;
@@ -26,8 +26,8 @@ use crate::description::error::{Interrupted, Item, StructureError};
 use crate::description::{Description, DriverDescription};
 use crate::plan::mechanism::Mechanism;
 
-/// Up to three edits after which a description that is refused is a mechanism, the likeliest first;
-/// none if it is one, or if no edit was found. Stops once `cancel` is true.
+/// Up to three edits after which a refused description is a mechanism, the likeliest first; empty if it
+/// already is one, or if no edit was found. Stops once `cancel` is true.
 ///
 /// # Errors
 ///
@@ -49,9 +49,9 @@ use crate::plan::mechanism::Mechanism;
 ///     .link("rocker", ["C", "D"])
 ///     .link("brace", ["A", "C"])
 ///     .driver("crank");
-/// let found = remedies(&braced, None)?;
-/// assert_eq!(found[1].text, "Take out brace");
-/// assert!(Mechanism::new(&found[1].description).is_ok());
+/// let offers = remedies(&braced, None)?;
+/// assert_eq!(offers[1].text, "Take out brace");
+/// assert!(Mechanism::new(&offers[1].description).is_ok());
 /// # Ok::<(), assur::StructureError>(())
 /// ```
 pub fn remedies(
@@ -64,7 +64,7 @@ pub fn remedies(
         Err(StructureError::Interrupted) => return Err(StructureError::Interrupted),
         Err(error) => propose(&mut search, description, &error)?,
     }
-    Ok(search.found)
+    Ok(search.remedies)
 }
 
 fn propose(

@@ -1,4 +1,4 @@
-//! Tries remedies: what is offered was built and accepted as any mechanism is.
+//! Tries remedies: every offered one was built and accepted like any mechanism.
 
 use std::sync::atomic::AtomicBool;
 
@@ -8,21 +8,21 @@ use crate::description::Description;
 use crate::description::error::{Interrupted, Named, StructureError};
 use crate::plan::mechanism::Mechanism;
 
-/// Remedies that are offered at most.
+/// Most remedies that are offered.
 const OFFERED: usize = 3;
-/// Descriptions that are built at most.
+/// Most descriptions that are built.
 const TRIES: usize = 64;
-/// The same times the square of the links, with which the time to build one grows: a fraction of a
+/// The same times the square of the number of links, with which the time to build one grows: a fraction of a
 /// second for 200 links. With more than 565 links nothing is tried.
 const WORK: usize = 320_000;
-/// Edits of one kind that are combined at most.
+/// Most edits of one kind that are combined.
 pub(super) const COMBINED: usize = 3;
 
-/// What became of an edit.
+/// Result of trying an edit.
 pub(super) enum Tried {
-    /// It is a mechanism, and offered.
+    /// The edited description is a mechanism, and offered.
     Accepted,
-    /// It is none, or drawn at a dead point.
+    /// It is not a mechanism, or is drawn at a dead point.
     Refused(Option<StructureError>),
 }
 
@@ -34,7 +34,7 @@ impl Tried {
 
 /// The remedies found so far.
 pub(super) struct Search<'a> {
-    pub(super) found: Vec<Remedy>,
+    pub(super) remedies: Vec<Remedy>,
     tries: usize,
     pub(super) cancel: Option<&'a AtomicBool>,
 }
@@ -43,34 +43,34 @@ impl<'a> Search<'a> {
     pub(super) fn new(description: &Description, cancel: Option<&'a AtomicBool>) -> Self {
         let links = description.links.len().max(1);
         let tries = TRIES.min(WORK / links.saturating_mul(links));
-        Self { found: Vec::new(), tries, cancel }
+        Self { remedies: Vec::new(), tries, cancel }
     }
 
-    /// Whether there are as many as are offered, or enough was tried.
+    /// Whether enough remedies were found or tried.
     pub(super) fn is_over(&self) -> bool {
-        self.found.len() >= OFFERED || self.tries == 0
+        self.remedies.len() >= OFFERED || self.tries == 0
     }
 
     /// Builds an edited description, and keeps it if it is a mechanism with as many drivers as
     /// freedoms in a position that is solved.
     pub(super) fn attempt(&mut self, mut remedy: Remedy) -> Result<Tried, Interrupted> {
-        if self.is_over() || self.found.iter().any(|own| own.text == remedy.text) {
+        if self.is_over() || self.remedies.iter().any(|earlier| earlier.text == remedy.text) {
             return Ok(Tried::Refused(None));
         }
         self.tries -= 1;
         loop {
             return match Mechanism::new_unless(&remedy.description, self.cancel) {
                 Ok(mechanism) if is_well_drawn(&mechanism) => {
-                    self.found.push(remedy);
+                    self.remedies.push(remedy);
                     Ok(Tried::Accepted)
                 }
                 Ok(_) => Ok(Tried::Refused(None)),
                 Err(StructureError::Interrupted) => Err(Interrupted),
                 // A sign of a dyad that the edit resolved.
                 Err(StructureError::Unknown { kind: Named::Dyad, name, .. })
-                    if remedy.description.assembly.iter().any(|(own, _)| *own == name) =>
+                    if remedy.description.assembly.iter().any(|(dyad, _)| *dyad == name) =>
                 {
-                    remedy.description.assembly.retain(|(own, _)| *own != name);
+                    remedy.description.assembly.retain(|(dyad, _)| *dyad != name);
                     continue;
                 }
                 Err(error) => Ok(Tried::Refused(Some(error))),
@@ -94,8 +94,8 @@ impl<'a> Search<'a> {
         Ok(false)
     }
 
-    /// Edits one thing after another until the whole is accepted. `build` makes the edit of all that
-    /// are named, `next` names one more from the error that is left.
+    /// Edits one part after another until the whole is accepted. `build` edits all named parts, `next` names
+    /// one more from the remaining error.
     pub(super) fn combine(
         &mut self,
         sketch: &Sketch<'_>,
@@ -118,12 +118,12 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether the drawing moves as freely as it is driven, and is no dead point.
+/// Whether the drawing moves as freely as it is driven, and is not a dead point.
 fn is_well_drawn(mechanism: &Mechanism) -> bool {
     let (structure, q0) = (mechanism.structure(), mechanism.q0());
     if structure.mobility != q0.len() || structure.mobility_at_drawing != q0.len() {
         return false;
     }
-    let found = mechanism.diagnose(mechanism.drawing(), q0, mechanism.signs());
-    found.is_ok_and(|all| all.iter().all(|one| one.failure.is_none()))
+    let diagnoses = mechanism.diagnose(mechanism.drawing(), q0, mechanism.signs());
+    diagnoses.is_ok_and(|all| all.iter().all(|diagnosis| diagnosis.failure.is_none()))
 }

@@ -1,4 +1,4 @@
-//! A description that is refused, as edits read it: by names, with what meets at each joint.
+//! A refused description as edits read it: by names, with the links at each joint.
 
 use std::collections::{HashMap, HashSet};
 
@@ -35,7 +35,7 @@ impl<'a> Sketch<'a> {
         self.links_at.get(joint).map_or(&[], Vec::as_slice)
     }
 
-    /// Joints of a link; none if there is no such link.
+    /// Joints of a link; empty if the link does not exist.
     pub(super) fn joints_of(&self, link: &str) -> &'a [String] {
         self.joints_of.get(link).copied().unwrap_or_default()
     }
@@ -67,7 +67,7 @@ impl<'a> Sketch<'a> {
     /// Whether a driver names a link or a slide.
     pub(super) fn is_driven(&self, name: &str) -> bool {
         self.description.drivers.iter().any(|driver| match driver {
-            DriverDescription::Named(own) => own == name,
+            DriverDescription::Named(driver_name) => driver_name == name,
             DriverDescription::Relative { link, relative_to } => {
                 link == name || relative_to == name
             }
@@ -82,8 +82,8 @@ impl<'a> Sketch<'a> {
                 .iter()
                 .any(|s| s.on == link && s.origin.as_deref() == Some(joint))
         };
-        let own = self.joints_of(link).iter().map(String::as_str);
-        own.filter(|joint| self.links_at(joint).len() > 1 || is_origin(joint)).collect()
+        let joints = self.joints_of(link).iter().map(String::as_str);
+        joints.filter(|joint| self.links_at(joint).len() > 1 || is_origin(joint)).collect()
     }
 
     /// Whether a link slides, or carries a guide.
@@ -91,7 +91,7 @@ impl<'a> Sketch<'a> {
         self.description.slides.iter().any(|slide| slide.link == link || slide.on == link)
     }
 
-    /// The one joint by which a link hangs on others, if there is but one and no slide.
+    /// The joint by which a link hangs on others, if it is the only one and the link has no slide.
     pub(super) fn hangs_by(&self, link: &str) -> Option<&'a str> {
         match self.paired(link)[..] {
             [joint] if !self.has_slide(link) => Some(joint),
@@ -99,12 +99,12 @@ impl<'a> Sketch<'a> {
         }
     }
 
-    /// The end of a link that hangs by a joint: of its joints that are on no other link the one that
-    /// is nearest to a joint of the ground that waits for a link, else the farthest from the pin.
+    /// The end of a link that hangs by a joint: the joint, among those on no other link, that is nearest to a
+    /// joint of the ground without a moving link, else the farthest from the pin.
     pub(super) fn free_end(&self, link: &str, pin: &str) -> Option<&'a str> {
-        let own = self.joints_of(link).iter().map(String::as_str);
+        let joints = self.joints_of(link).iter().map(String::as_str);
         let ends: Vec<&str> =
-            own.filter(|&joint| joint != pin && self.links_at(joint).len() == 1).collect();
+            joints.filter(|&joint| joint != pin && self.links_at(joint).len() == 1).collect();
         let to_foot = |joint: &str| {
             let feet = self.waiting_feet().map(|foot| self.between(joint, foot).norm2());
             feet.fold(f64::INFINITY, f64::min)
@@ -117,25 +117,26 @@ impl<'a> Sketch<'a> {
 
     /// Joints of the ground that are on no moving link.
     pub(super) fn waiting_feet(&self) -> impl Iterator<Item = &'a str> {
-        let own = self.joints_of(GROUND).iter().map(String::as_str);
-        own.filter(|joint| self.links_at(joint).len() == 1)
+        let joints = self.joints_of(GROUND).iter().map(String::as_str);
+        joints.filter(|joint| self.links_at(joint).len() == 1)
     }
 
     /// The joint of a link that is nearest to another joint, but not in the same place.
     pub(super) fn nearest(&self, link: &str, to: &str) -> Option<&'a str> {
-        let own = self.joints_of(link).iter().map(String::as_str);
-        own.filter(|joint| self.between(to, joint).norm2() > 0.0)
+        let joints = self.joints_of(link).iter().map(String::as_str);
+        joints
+            .filter(|joint| self.between(to, joint).norm2() > 0.0)
             .min_by(|a, b| self.between(to, a).norm2().total_cmp(&self.between(to, b).norm2()))
     }
 
-    /// A name that nothing has yet: the wanted one, or the same with the least number from 2.
-    pub(super) fn unused(&self, wanted: &str) -> String {
+    /// An unused name: `base_name`, or the same with the least number from 2.
+    pub(super) fn unused(&self, base_name: &str) -> String {
         let taken = self.names();
-        if !taken.contains(wanted) {
-            return wanted.into();
+        if !taken.contains(base_name) {
+            return base_name.into();
         }
-        let base = wanted.trim_end_matches(|c: char| c.is_ascii_digit());
-        let base = if base.is_empty() { wanted } else { base };
+        let base = base_name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let base = if base.is_empty() { base_name } else { base };
         let numbered = (2..).map(|n| format!("{base}{n}"));
         numbered.into_iter().find(|name| !taken.contains(&name[..])).unwrap_or_default()
     }

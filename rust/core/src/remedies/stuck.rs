@@ -1,4 +1,4 @@
-//! Links that hold each other: one of them slides, is taken out, or becomes two.
+//! Remedies for links that hold each other: one of them slides, is taken out, or becomes two.
 
 use super::edit::insert::part;
 use super::edit::slide::let_slide;
@@ -10,8 +10,8 @@ use crate::description::Linkage;
 use crate::description::error::{Interrupted, StructureError};
 use crate::structure::holding_drivers;
 
-/// Finds remedies for what cannot move. Where there is too much, the last drawn is the first suspect: a
-/// link without which the rest moves.
+/// Finds remedies for links that cannot move. Where links are redundant, the last drawn is the first suspect:
+/// a link without which the rest moves.
 pub(super) fn free(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,
@@ -25,37 +25,37 @@ pub(super) fn free(
         .filter(|link| suspects.iter().any(|name| name == link))
         .collect();
     let slides = suspects.iter().rev().filter(|name| sketch.is_slide(name));
-    let mut others = Vec::new();
+    let mut kept = Vec::new();
     for &link in &links {
         if search.is_over() {
             return Ok(());
         }
         let Some(out) = take_out(sketch, &[link.into()]) else {
-            others.push(link);
+            kept.push(link);
             continue;
         };
-        let at = search.found.len();
+        let at = search.remedies.len();
         if !search.attempt(out)?.is_accepted() {
-            others.push(link);
+            kept.push(link);
             continue;
         }
         // A link that slides is kept: this comes first.
         if search.attempt_first(slidings(sketch, link))? {
-            search.found.swap(at, at + 1);
+            search.remedies.swap(at, at + 1);
         }
         search.attempt_first(partings(sketch, link))?;
     }
     for slide in slides {
         search.attempt_first(take_out(sketch, std::slice::from_ref(slide)))?;
     }
-    for link in others {
+    for link in kept {
         if search.is_over() {
             return Ok(());
         }
         search.attempt_first(slidings(sketch, link))?;
         search.attempt_first(partings(sketch, link))?;
     }
-    if search.found.is_empty() {
+    if search.remedies.is_empty() {
         let last = |error: &StructureError, taken: &[String]| {
             let suspects = self::suspects(error);
             let free = |name: &&str| !sketch.is_driven(name) && !taken.iter().any(|t| t == name);
@@ -67,7 +67,7 @@ pub(super) fn free(
     Ok(())
 }
 
-/// The links and slides of which one is too much.
+/// The links and slides one of which is redundant.
 fn suspects(error: &StructureError) -> Vec<String> {
     match error {
         StructureError::Immovable { overconstraint: Some(over), .. } => over.links.clone(),
@@ -79,7 +79,7 @@ fn suspects(error: &StructureError) -> Vec<String> {
     }
 }
 
-/// Keeps those that hold the drivers, if this is known: without another, nothing would be driven.
+/// Keeps those that hold the drivers, if they are known: without another one nothing would be driven.
 fn keep_holding(
     suspects: &mut Vec<String>,
     sketch: &Sketch<'_>,
@@ -97,13 +97,13 @@ fn keep_holding(
     Ok(())
 }
 
-/// A link's joints slide: those on the ground first, then those on other links.
+/// Lets a link's joints slide: those on the ground first, then those on other links.
 fn slidings(sketch: &Sketch<'_>, link: &str) -> impl Iterator<Item = Remedy> {
     let pairs = |on_ground: bool| {
         let joints = sketch.joints_of(link).iter();
         joints.rev().filter_map(move |joint| {
-            let others = || sketch.links_at(joint).iter().filter(|&&other| other != link);
-            let host = others().find(|&&other| (other == GROUND) == on_ground)?;
+            let other_links = || sketch.links_at(joint).iter().filter(|&&carrier| carrier != link);
+            let host = other_links().find(|&&carrier| (carrier == GROUND) == on_ground)?;
             let is_ground_joint = sketch.links_at(joint).contains(&GROUND);
             (is_ground_joint == on_ground).then(|| let_slide(sketch, link, joint, host))
         })
@@ -111,7 +111,7 @@ fn slidings(sketch: &Sketch<'_>, link: &str) -> impl Iterator<Item = Remedy> {
     pairs(true).chain(pairs(false)).flatten().collect::<Vec<_>>().into_iter()
 }
 
-/// A link is parted from a joint: from those on moving links first.
+/// Parts a link from a joint: from those on moving links first.
 fn partings(sketch: &Sketch<'_>, link: &str) -> impl Iterator<Item = Remedy> {
     let mut joints = sketch.paired(link);
     joints.sort_by_key(|joint| sketch.links_at(joint).contains(&GROUND));

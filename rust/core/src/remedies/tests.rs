@@ -2,16 +2,16 @@
 
 use super::*;
 
-/// What is offered, each with what becomes of the rest.
+/// The offered remedies, each with its effect on the rest.
 fn offered(description: &Description) -> Vec<String> {
-    let found = remedies(description, None).expect("not cancelled");
-    for one in &found {
-        let mechanism = Mechanism::new(&one.description).expect("a remedy gives a mechanism");
+    let offers = remedies(description, None).expect("not cancelled");
+    for remedy in &offers {
+        let mechanism = Mechanism::new(&remedy.description).expect("a remedy gives a mechanism");
         let structure = mechanism.structure();
-        assert_eq!(structure.mobility, one.description.drivers.len(), "{}", one.text);
-        assert_eq!(structure.mobility_at_drawing, structure.mobility, "{}", one.text);
+        assert_eq!(structure.mobility, remedy.description.drivers.len(), "{}", remedy.text);
+        assert_eq!(structure.mobility_at_drawing, structure.mobility, "{}", remedy.text);
     }
-    found.into_iter().map(|one| format!("{} — {}", one.text, one.detail)).collect()
+    offers.into_iter().map(|remedy| format!("{} — {}", remedy.text, remedy.detail)).collect()
 }
 
 fn four_bar() -> Description {
@@ -44,7 +44,7 @@ fn chain() -> Description {
     three_joints().link("ground", ["A"]).link("crank", ["A", "B"]).link("rod", ["B", "C"])
 }
 
-/// Two four-bars side by side; the second is joined to nothing.
+/// Two four-bars side by side; the second is not joined to anything.
 fn twice() -> Description {
     four_bar()
         .joint("A2", [10.0, 0.0])
@@ -58,19 +58,19 @@ fn twice() -> Description {
 
 #[test]
 fn a_brace_slides_or_goes_or_becomes_two_links() {
-    let wanted = [
+    let expected = [
         "Let F slide on the ground — brace stays, its foot follows",
         "Take out brace — crank, coupler and rocker remain",
         "Add a link between E and brace — two links in place of one",
     ];
-    assert_eq!(offered(&braced()), wanted);
+    assert_eq!(offered(&braced()), expected);
 }
 
 #[test]
 fn only_the_brace_slides_where_others_are_pinned_too() {
-    let found = remedies(&four_bar().link("brace", ["A", "C"]), None).expect("not cancelled");
-    assert_eq!(found[0].text, "Let brace slide on the ground at A");
-    let links = &found[0].description.links;
+    let offers = remedies(&four_bar().link("brace", ["A", "C"]), None).expect("not cancelled");
+    assert_eq!(offers[0].text, "Let brace slide on the ground at A");
+    let links = &offers[0].description.links;
     assert_eq!(links[0].1, ["A", "D"]);
     assert_eq!(links[1].1, ["A", "B"]);
     assert_eq!(links[4].1, ["E", "C"]);
@@ -81,14 +81,14 @@ fn only_the_brace_slides_where_others_are_pinned_too() {
 fn a_triangle_becomes_a_slider_crank() {
     let truss =
         three_joints().link("ground", ["A", "C"]).link("crank", ["A", "B"]).link("rod", ["B", "C"]);
-    let wanted = [
+    let expected = [
         "Let C slide on the ground — rod stays, its foot follows",
         "Take out rod — crank remains",
         "Add a link between B and rod — two links in place of one",
     ];
-    assert_eq!(offered(&truss.clone().driver("crank")), wanted);
+    assert_eq!(offered(&truss.clone().driver("crank")), expected);
     // Without a driver one is chosen.
-    assert_eq!(offered(&truss), wanted);
+    assert_eq!(offered(&truss), expected);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn row(stages: u32) -> Description {
 
 #[test]
 fn in_many_links_only_those_that_hold_the_driver_are_tried() {
-    // The brace of the first stage is drawn first; of the links behind that stage none holds it.
+    // The brace of the first stage is drawn first; no link behind that stage holds it.
     let mut held = row(40);
     held.links.insert(1, ("brace".into(), vec!["A".into(), "C0".into()]));
     let linkage = crate::description::Linkage::new(&held).expect("valid");
@@ -133,12 +133,12 @@ fn in_many_links_only_those_that_hold_the_driver_are_tried() {
 
 #[test]
 fn what_hangs_is_joined_guided_or_driven() {
-    let wanted = [
+    let expected = [
         "Add a link between C and the ground — it turns about a new fixed joint D",
         "Let C slide on the ground — a block on a guide, pinned to rod",
         "Drive rod too — two drivers for mobility 2",
     ];
-    assert_eq!(offered(&chain().driver("crank")), wanted);
+    assert_eq!(offered(&chain().driver("crank")), expected);
     let mut without_rocker = four_bar();
     without_rocker.links.truncate(3);
     assert_eq!(
@@ -150,12 +150,12 @@ fn what_hangs_is_joined_guided_or_driven() {
 #[test]
 fn a_piston_gets_its_guide() {
     let engine = chain().link("piston", ["C"]).driver("crank");
-    let wanted = [
+    let expected = [
         "Let piston slide on the ground — along a guide through C",
         "Drive rod and piston too — three drivers for mobility 3",
         "Take out piston and rod — crank remains",
     ];
-    assert_eq!(offered(&engine), wanted);
+    assert_eq!(offered(&engine), expected);
 }
 
 #[test]
@@ -178,52 +178,53 @@ fn a_five_bar_gets_a_second_driver() {
         .link("l2", ["B", "C"])
         .link("l3", ["C", "D"])
         .link("right", ["D", "E"]);
-    let wanted = [
+    let expected = [
         "Drive right too — two drivers for mobility 2",
         "Add a link between D and the ground — it turns about a new fixed joint F",
         "Add a link between C and the ground — it turns about a new fixed joint F",
     ];
-    assert_eq!(offered(&five.driver("left")), wanted);
+    assert_eq!(offered(&five.driver("left")), expected);
 }
 
 #[test]
 fn drivers_are_found_replaced_and_left_out() {
-    let wanted = ["Drive crank", "Drive rocker", "Drive coupler"];
+    let expected = ["Drive crank", "Drive rocker", "Drive coupler"];
     let undriven = Description { drivers: Vec::new(), ..four_bar() };
     let held = "with it held, nothing moves";
-    assert_eq!(offered(&undriven), wanted.map(|text| format!("{text} — {held}")));
-    let wanted = [
+    assert_eq!(offered(&undriven), expected.map(|text| format!("{text} — {held}")));
+    let expected = [
         "Leave rocker undriven — crank drives alone",
         "Leave crank undriven — rocker drives alone",
     ];
-    assert_eq!(offered(&four_bar().driver("rocker")), wanted);
+    assert_eq!(offered(&four_bar().driver("rocker")), expected);
     for (name, first) in [("crnk", "Drive crank"), ("ground", "Drive crank")] {
         let wrong = undriven.clone().driver(name);
-        let wanted = format!("{first} instead of {name} — with what is driven held, nothing moves");
-        assert_eq!(offered(&wrong)[0], wanted);
+        let expected =
+            format!("{first} instead of {name} — with what is driven held, nothing moves");
+        assert_eq!(offered(&wrong)[0], expected);
     }
     let engine = chain().link("piston", ["C"]).slide("bore", "piston", "ground", 0.0, Some("A"));
-    let found = remedies(&engine.driver("piston"), None).expect("not cancelled");
-    let texts: Vec<&str> = found.iter().map(|one| one.text.as_str()).collect();
+    let offers = remedies(&engine.driver("piston"), None).expect("not cancelled");
+    let texts: Vec<&str> = offers.iter().map(|remedy| remedy.text.as_str()).collect();
     assert_eq!(texts[..2], ["Drive crank instead of piston", "Drive bore instead of piston"]);
 }
 
 #[test]
 fn what_is_joined_to_nothing_is_held_or_goes() {
-    let wanted = "Take out crank2, coupler2 and rocker2 — crank, coupler and rocker remain";
-    assert_eq!(offered(&twice()), [wanted]);
+    let expected = "Take out crank2, coupler2 and rocker2 — crank, coupler and rocker remain";
+    assert_eq!(offered(&twice()), [expected]);
     let afloat = four_bar().joint("Q", [9.0, 9.0]).joint("R", [1.0, 9.0]).link("x", ["Q", "R"]);
     assert_eq!(offered(&afloat), ["Take out x — crank, coupler and rocker remain"]);
     let mut afloat = four_bar();
     afloat.links[0].1.clear();
     assert_eq!(offered(&afloat), ["Hold A and D on the ground — crank and rocker turn about them"]);
     let loose = four_bar().joint("P", [2.0, 4.0]);
-    let wanted = [
+    let expected = [
         "Fix P to crank — it moves with the link, as a point of it",
         "Fix P to coupler — it moves with the link, as a point of it",
         "Take out P — it is on no link",
     ];
-    assert_eq!(offered(&loose), wanted);
+    assert_eq!(offered(&loose), expected);
 }
 
 #[test]
@@ -231,8 +232,8 @@ fn the_second_of_two_four_bars_is_driven() {
     let mut both = twice();
     both.links[0].1.extend(["A2".into(), "D2".into()]);
     assert_eq!(offered(&both)[0], "Drive crank2 too — two drivers for mobility 2");
-    let found = remedies(&both.driver("rocker"), None).expect("not cancelled");
-    assert_eq!(found[0].text, "Drive crank2 instead of rocker");
+    let offers = remedies(&both.driver("rocker"), None).expect("not cancelled");
+    assert_eq!(offers[0].text, "Drive crank2 instead of rocker");
 }
 
 #[test]
@@ -245,6 +246,6 @@ fn nothing_is_offered_where_nothing_is_wrong_or_names_are() {
 #[test]
 fn it_can_be_cancelled() {
     let cancel = AtomicBool::new(true);
-    let found = remedies(&braced(), Some(&cancel));
-    assert_eq!(found.err(), Some(StructureError::Interrupted));
+    let result = remedies(&braced(), Some(&cancel));
+    assert_eq!(result.err(), Some(StructureError::Interrupted));
 }

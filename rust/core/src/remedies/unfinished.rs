@@ -1,4 +1,5 @@
-//! A drawing that is not finished: joints on no link, links on nothing, guides that pass nowhere.
+//! Remedies for an unfinished drawing: joints without a link, links without a connection, guides that do not
+//! pass through a point.
 
 use super::edit::hold::hold;
 use super::edit::place::{fix_joint, guide_through, leave_out_joints};
@@ -7,10 +8,10 @@ use super::search::Search;
 use super::sketch::Sketch;
 use crate::description::error::{Interrupted, StructureError};
 
-/// Joints that are held at most on the ground, to connect links.
+/// Most joints that are held on the ground to connect links.
 const HELD: usize = 3;
 
-/// Finds remedies for what is not joined yet.
+/// Finds remedies for parts that are not joined yet.
 pub(super) fn finish(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,
@@ -33,7 +34,7 @@ pub(super) fn finish(
     }
 }
 
-/// Fixes a joint that is on no link to the link that is nearest, or leaves all such joints out.
+/// Fixes a joint without a link to the nearest link, or leaves out all such joints.
 fn place_joint(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,
@@ -57,7 +58,7 @@ fn place_joint(
     Ok(())
 }
 
-/// Holds ends of links that nothing connects to the ground there, or takes these links out.
+/// Holds on the ground the ends of links that are not connected to it, or takes these links out.
 fn connect(
     search: &mut Search<'_>,
     sketch: &Sketch<'_>,

@@ -1,14 +1,14 @@
 //! Names in sentences.
 
-/// Names that are listed one by one; of more, how many there are.
+/// Most names that are listed one by one; for more, their number is given.
 const FEW: usize = 4;
 
 /// `a`, `a and b`, `a, b and c`.
 pub(super) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),
-        [one] => one.clone(),
-        [most @ .., last] => format!("{} and {last}", most.join(", ")),
+        [name] => name.clone(),
+        [earlier @ .., last] => format!("{} and {last}", earlier.join(", ")),
     }
 }
 
@@ -16,9 +16,9 @@ pub(super) fn listed(names: &[String]) -> String {
 pub(super) fn remaining(links: &[String]) -> String {
     match links {
         [] => "nothing else is drawn".into(),
-        [one] => format!("{one} remains"),
+        [name] => format!("{name} remains"),
         few if few.len() <= FEW => format!("{} remain", listed(few)),
-        many => format!("the other {} links remain", many.len()),
+        several => format!("the other {} links remain", several.len()),
     }
 }
 

@@ -15,9 +15,9 @@ pub(crate) struct Closing<R: Real> {
     /// Square of the sine of the angle between the columns of the closure matrix: between the legs
     /// of two binary links.
     pub sine2: R,
-    /// By how much it closes, relative to the scale; negative where it does not (`CHECKED`).
+    /// The margin with which it closes, relative to the scale; negative where it does not close (`CHECKED`).
     pub margin: R,
-    /// The length that is missing where it does not close; infinite if no length would do (`CHECKED`).
+    /// The missing length where it does not close; infinite if no length suffices (`CHECKED`).
     pub gap: R,
     /// For each unknown, the factor of its squared arm in the condition; 0 for a slide.
     pub per_arm2: [R; 2],

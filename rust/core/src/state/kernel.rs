@@ -21,7 +21,7 @@ pub(crate) const BLOCK: usize = 144;
 pub(crate) trait Level: Sized {
     /// Its register.
     type Register: Real;
-    /// How many registers the longer kernels without checks take at once.
+    /// Number of registers that the longer kernels without checks take at once.
     type Stride: Stride<Self::Register>;
     /// See [`State::run`].
     fn solve<const G: usize>(state: &mut State<Self::Register, G>, cx: &Context<'_>);
@@ -154,7 +154,7 @@ macro_rules! level {
 // One number: for single positions.
 level!(alone, Alone, f64, f64);
 // Two numbers on any processor; the compiler puts them into one register if it can: by SSE2's own
-// instructions positions take 0.85 of the time, which no processor that still runs is worth.
+// instructions positions take 0.85 of the time, which is not worth it for the processors that lack AVX2.
 level!(baseline, Baseline, super::Pair<f64>, super::Pair<f64>);
 #[cfg(target_arch = "x86_64")]
 level!(avx2, Avx2, super::Pair<super::F64x4>, super::Pair<super::F64x4>, "avx2");

@@ -1,4 +1,4 @@
-//! Condition of each dyad and group on its own, and by how much the lengths of a dyad miss a change
+//! Condition of each dyad and group on its own, and the amount by which the lengths of a dyad miss a change
 //! point.
 //!
 //! The condition of a position is a product along a chain. It is large everywhere in a long chain,
@@ -23,12 +23,12 @@ impl State {
     pub(crate) fn own_condition2(&self, cx: &Context<'_>, step: usize) -> Option<f64> {
         match &cx.plan.steps[step] {
             Step::Dyad(dyad) => {
-                let of = self.condition2_of(dyad.unknowns[0]);
-                Some(of / self.upstream_of_dyad(cx, dyad))
+                let total = self.condition2_of(dyad.unknowns[0]);
+                Some(total / self.upstream_of_dyad(cx, dyad))
             }
             Step::Group(group) => {
-                let of = self.condition2_of(*group.unknowns.first()?);
-                Some(of / self.upstream_of_group(cx, group))
+                let total = self.condition2_of(*group.unknowns.first()?);
+                Some(total / self.upstream_of_group(cx, group))
             }
             _ => None,
         }
@@ -44,7 +44,7 @@ impl State {
     /// Square of the condition of all that a dyad depends on.
     fn upstream_of_dyad(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let ends = [dyad.start, dyad.end].map(|point| self.conditions.of_point[point][0]);
-        let others = dyad.others.iter().map(|term| {
+        let carried = dyad.others.iter().map(|term| {
             let class = cx.plan.class_of(term.edge);
             let turned =
                 if term.turns.is_none() { self.conditions.of_class[class][0] } else { 1.0 };
@@ -53,23 +53,22 @@ impl State {
                 _ => turned,
             }
         });
-        others.fold(ends[0].max(ends[1]), f64::max)
+        carried.fold(ends[0].max(ends[1]), f64::max)
     }
 
     /// Square of the condition of all that a group depends on.
     fn upstream_of_group(&self, cx: &Context<'_>, group: &Group) -> f64 {
-        let found: Vec<Unknown> = group.all_unknowns().collect();
+        let unknowns: Vec<Unknown> = group.all_unknowns().collect();
         let ends = group.loops.iter().flat_map(|l| [l.start, l.end]);
         let points = ends.map(|point| self.conditions.of_point[point][0]);
         let classes = group.edges.iter().map(|edge| cx.plan.class_of(edge.edge));
         let carried = classes
-            .filter(|&class| !found.contains(&Unknown::Class(class)))
+            .filter(|&class| !unknowns.contains(&Unknown::Class(class)))
             .map(|class| self.conditions.of_class[class][0]);
         points.chain(carried).fold(1.0, f64::max)
     }
 
-    /// By how much the sides of a dyad's triangle differ from those of a flat one, in units of the
-    /// scale.
+    /// Difference between the sides of a dyad's triangle and those of a flat one, in units of the scale.
     pub(crate) fn flatness_gap(&self, cx: &Context<'_>, dyad: &Dyad) -> f64 {
         let a = self.leg_vector(0, cx, dyad, 0, 0);
         match dyad.form {

@@ -116,10 +116,10 @@ impl<R: Real, const G: usize> State<R, G> {
                         for k in 1..len {
                             // Only derivatives by this driver alone are not 0.
                             let power = &cx.derivatives.powers[k];
-                            let own = power[driver];
-                            let alone = power.iter().sum::<usize>() == own;
+                            let order = power[driver];
+                            let alone = power.iter().sum::<usize>() == order;
                             let mut entry = if alone { first } else { Vector::ZERO };
-                            for _ in 0..if alone { own } else { 0 } {
+                            for _ in 0..if alone { order } else { 0 } {
                                 entry = if conj { -entry.left() } else { entry.left() };
                             }
                             out[k][g] = base.entry(k, g) + entry;

@@ -107,8 +107,8 @@ impl<R: Real, const G: usize> State<R, G> {
     fn turn_by_slide(&mut self, g: usize, cx: &Context<'_>, link: usize, slide: usize) {
         let len = self.len;
         let o = cx.plan.link_orientation[link];
-        let (other, constant) = cx.constants.across_slide(cx.plan, link, slide);
-        let from = cx.plan.link_orientation[other];
+        let (other_link, constant) = cx.constants.across_slide(cx.plan, link, slide);
+        let from = cx.plan.link_orientation[other_link];
         let value = self.pose.orient[from * len][g] * Vector::splat(constant);
         self.set_orientation(g, cx, o, value);
         for k in 1..len {
@@ -177,9 +177,9 @@ impl State {
     /// Fills points and orientations with NaN, so that those the next position does not solve stay
     /// NaN.
     pub(crate) fn fill_nan(&mut self, cx: &Context<'_>) {
-        let known = |point: usize| cx.plan.fixed[point];
+        let is_fixed = |point: usize| cx.plan.fixed[point];
         for (i, point) in self.pose.points.iter_mut().enumerate() {
-            if !known(i / self.len) {
+            if !is_fixed(i / self.len) {
                 *point = [Vector::splat(Vector::new(f64::NAN, f64::NAN))];
             }
         }

@@ -161,7 +161,7 @@ impl Sensitivity {
                 for (column, &unknown) in closures.unknowns.iter().enumerate() {
                     let v = match (unknown, edge.along) {
                         (Unknown::Class(class), _) if class == edge.class => vector.left(),
-                        (Unknown::Slide(slide), EdgeSlide::Slide(own)) if slide == own => guide,
+                        (Unknown::Slide(slide), EdgeSlide::Slide(along)) if slide == along => guide,
                         _ => continue,
                     };
                     matrix[(2 * i, column)] += v.x;

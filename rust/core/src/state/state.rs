@@ -29,7 +29,7 @@ pub(crate) struct State<R: Real = f64, const G: usize = 1> {
     /// Closure and condition.
     pub(crate) conditions: Conditions<R, G>,
     pub(crate) work: Workspace<R, G>,
-    /// Whether it was interpolated, so that even what all positions share carries rounding.
+    /// Whether it was interpolated, so that even the values that all positions share carry rounding.
     pub(crate) is_interpolated: bool,
     /// Status of a single position (with several lanes see `needs_scalar`).
     pub status: Status,
@@ -50,12 +50,12 @@ pub(crate) struct Context<'a> {
     pub signs: &'a [f64],
     /// The operations to run.
     pub tape: &'a Tape,
-    /// Once it is true, what is traced along a branch ends.
+    /// Once it is true, tracing along a branch ends.
     pub cancel: Option<&'a AtomicBool>,
 }
 
 impl Context<'_> {
-    /// Whether work along a branch is to end, without a result.
+    /// Whether work along a branch must end without a result.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
     }
@@ -77,7 +77,7 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Sets, in the lane groups in use, what the unchecked path needs and all positions of a design share.
+    /// Sets, in the lane groups in use, the data of the unchecked path that all positions of a design share.
     #[inline(always)]
     pub(crate) fn prepare_unchecked(&mut self, cx: &Context<'_>) {
         let groups = self.groups.min(G);
@@ -95,15 +95,15 @@ impl<R: Real, const G: usize> State<R, G> {
         for driver in 0..plan.drivers.len() {
             let Some(slide) = plan.driven_slide(driver) else { continue };
             for k in 1..self.len {
-                let own = derivatives.driver_of[k] == Some(driver);
-                let rate = if own { R::ONE } else { R::ZERO };
+                let is_rate = derivatives.driver_of[k] == Some(driver);
+                let rate = if is_rate { R::ONE } else { R::ZERO };
                 self.pose.slides[slide * self.len + k][..groups].fill(rate);
             }
         }
     }
 
-    /// Sets, in the lane groups in use, what all positions of a design share; call it before the first of
-    /// them.
+    /// Sets, in the lane groups in use, the data that all positions of a design share; call it before the
+    /// first of them.
     #[inline(always)]
     pub(crate) fn prepare(
         &mut self,
@@ -174,7 +174,7 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 }
 
-/// Coordinates, assembly, and what follows from them.
+/// Coordinates, assembly, and the pose that follows from them.
 #[derive(Debug, Clone)]
 pub(crate) struct Pose<R: Real = f64, const G: usize = 1> {
     /// Coordinates (rad; slide drivers in units of the scale).
@@ -243,7 +243,7 @@ pub(crate) struct Conditions<R: Real = f64, const G: usize = 1> {
     pub(crate) bounds: Vec<[R; G]>,
     /// The same for everything that the present dyad depends on.
     pub(crate) bound: [R; G],
-    /// By how much each dyad closes (relative to the scale), negative where it does not.
+    /// The margin with which each dyad closes (relative to the scale), negative where it does not close.
     pub(crate) margin: Vec<[R; G]>,
     /// Lanes where a dyad does not close.
     pub(crate) open: [R::Mask; G],
@@ -281,7 +281,7 @@ pub(crate) struct Workspace<R: Real = f64, const G: usize = 1> {
     pub(crate) chords: Vec<[Vector<R>; G]>,
     /// 1/length of every chord of known length.
     pub(crate) inv_length: Vec<[R; G]>,
-    /// Whether the caller wants the rotation of each class; used for bars that no step needs.
+    /// Whether the caller needs the rotation of each class; used for bars that no step needs.
     pub(crate) angle_wanted: Vec<bool>,
     /// Determinant of every group's matrix at the solution (with analogues only).
     pub(crate) determinants: Vec<[R; G]>,

@@ -13,7 +13,7 @@ pub enum Status {
     Ok = 0,
     /// Solved, but the analogues keep fewer than six digits.
     NearSingular = 1,
-    /// Solved, but the analogues are NaN, except at a change point; where a length is 0, its own alone.
+    /// Solved, but the analogues are NaN, except at a change point; where a length is 0, only its own.
     Singular = 2,
     /// The assembly does not exist at this coordinate, or a length would be negative.
     Unreachable = 3,

@@ -176,11 +176,11 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Whether in some lane a dyad does not close.
     #[inline(always)]
     pub(crate) fn has_open(&self) -> bool {
-        let mut some = R::Mask::NONE;
+        let mut open_lanes = R::Mask::NONE;
         for &open in &self.conditions.open[..self.groups.min(G)] {
-            some = some.or(open);
+            open_lanes = open_lanes.or(open);
         }
-        some.any()
+        open_lanes.any()
     }
 
     #[inline(always)]
@@ -248,8 +248,8 @@ impl State {
     /// Computes one position at `q` (rad; slide drivers in units of the scale).
     #[inline(never)]
     pub(crate) fn solve(&mut self, cx: &Context<'_>, q: &[f64]) {
-        for (own, &sign) in self.pose.signs.iter_mut().zip(cx.signs) {
-            own[0] = sign;
+        for (lanes, &sign) in self.pose.signs.iter_mut().zip(cx.signs) {
+            lanes[0] = sign;
         }
         for (driver, &value) in q.iter().enumerate() {
             self.pose.q[driver][0] = value;

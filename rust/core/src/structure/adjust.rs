@@ -1,4 +1,4 @@
-//! Adjusts drawings of linkages with redundant links so that these fit at every position.
+//! Adjusts drawings of linkages with redundant links so that the links fit at every position.
 //!
 //! A linkage with redundant links moves only if some lengths agree, and typed coordinates agree
 //! only to their digits. Along its motion such a linkage leaves a residual `r`; the self-stress `ω`
@@ -30,7 +30,7 @@ const CONVERGED: f64 = 2.0 * UNIT_ROUNDOFF;
 /// of linear conditions grow with the inverse square of the pivot; other poses give the same
 /// conditions.
 const REGULAR_PIVOT_RATIO: f64 = 0.3;
-/// How often an adjustment within a tolerance is weighed anew.
+/// Most new weightings of an adjustment within a tolerance.
 const MAX_WEIGHINGS: usize = 6;
 
 /// From within the rounding of a drawing each iteration squares the error of the one before.
@@ -43,8 +43,8 @@ const OF_ROUNDING: Stage = Stage {
     overshoot: 1.0,
 };
 
-/// The poses near change points, at the end of an adjustment within a tolerance. They show a misfit
-/// that the others did not, so it may grow at first.
+/// The poses near change points, at the end of an adjustment within a tolerance. They show a misfit that the
+/// other poses do not, so it may grow at first.
 const NEAR_CHANGE_POINTS: Stage =
     Stage { iterations: 20, progress: f64::INFINITY, until: EXACT, overshoot: 4.0, ..OF_ROUNDING };
 
@@ -69,7 +69,7 @@ impl Stage {
 pub(crate) enum Adjusted {
     /// The drawing fits, or nothing is redundant.
     AsDrawn,
-    /// A drawing that fits, and how it differs.
+    /// A drawing that fits, and its differences from the original.
     By(Box<Linkage>, Change),
     /// Lengths that should agree do not: the links concerned and their misfit, in m and relative
     /// to the size.
@@ -104,41 +104,41 @@ pub(crate) fn adjust(
     if tolerance.is_some() {
         for _ in 0..MAX_WEIGHINGS {
             let equal = with_equal_parts(linkage, &initial.links, allowed, &weights, size);
-            let Some(other) = equal else { break };
-            if !fits(&other, closure, cancel)? {
+            let Some(fitted) = equal else { break };
+            if !fits(&fitted, closure, cancel)? {
                 break;
             }
-            let change = Change::between(linkage, &other);
+            let change = Change::between(linkage, &fitted);
             if allowed.allows(change) {
-                return Ok(Adjusted::By(Box::new(other), change));
+                return Ok(Adjusted::By(Box::new(fitted), change));
             }
-            weights.stiffen(linkage, &other, allowed);
+            weights.stiffen(linkage, &fitted, allowed);
         }
         weights = Weights::of(linkage, allowed, size);
     }
     for _ in 0..if tolerance.is_some() { MAX_WEIGHINGS } else { 1 } {
         let adjusted = converged(linkage, closure, &stages, &initial, allowed, &weights, cancel)?;
-        let Some(other) = adjusted else { break };
-        let change = Change::between(linkage, &other);
+        let Some(fitted) = adjusted else { break };
+        let change = Change::between(linkage, &fitted);
         if allowed.allows(change) {
-            return Ok(Adjusted::By(Box::new(other), change));
+            return Ok(Adjusted::By(Box::new(fitted), change));
         }
-        weights.stiffen(linkage, &other, allowed);
+        weights.stiffen(linkage, &fitted, allowed);
     }
     Ok(Adjusted::TooFar { links: initial.links, gap: part * size, part })
 }
 
-/// Whether a drawing fits along its motion, near its change points too.
+/// Whether a drawing fits along its motion, also near its change points.
 fn fits(
     linkage: &Linkage,
     closure: &Closure,
     cancel: Option<&AtomicBool>,
 ) -> Result<bool, StructureError> {
-    let found = FitConditions::of(linkage, closure, NEAR_CHANGE_POINTS, cancel)?;
-    Ok(found.is_some_and(|conditions| conditions.misfit() <= ACCEPTED))
+    let fit_conditions = FitConditions::of(linkage, closure, NEAR_CHANGE_POINTS, cancel)?;
+    Ok(fit_conditions.is_some_and(|conditions| conditions.misfit() <= ACCEPTED))
 }
 
-/// The drawing that the stages lead to; `None` if it does not fit, or is far beyond what is allowed.
+/// The drawing that the stages lead to; `None` if it does not fit, or is far beyond the tolerance.
 fn converged(
     linkage: &Linkage,
     closure: &Closure,
@@ -152,10 +152,10 @@ fn converged(
     let mut conditions = initial.clone();
     for (index, &stage) in stages.iter().enumerate() {
         if index > 0 {
-            let Some(found) = FitConditions::of(&best, closure, stage, cancel)? else {
+            let Some(next_conditions) = FitConditions::of(&best, closure, stage, cancel)? else {
                 return Ok(None);
             };
-            conditions = found;
+            conditions = next_conditions;
         }
         for _ in 0..stage.iterations {
             if conditions.misfit() <= stage.until {

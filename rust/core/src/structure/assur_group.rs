@@ -94,7 +94,7 @@ impl<'a> Bodies<'a> {
     }
 }
 
-/// What is on each body without what is left out, in the description's order.
+/// The joints and slides on each body, without those that are left out, in the description's order.
 struct Parts {
     links: Vec<Vec<usize>>,
     /// Joints of bodies that move.
@@ -143,7 +143,7 @@ fn of_bodies(lists: &[Vec<usize>], bodies: &[usize]) -> BTreeSet<usize> {
     bodies.iter().flat_map(|&body| &lists[body]).copied().collect()
 }
 
-/// What an unknown of the pattern stands for.
+/// The meaning of an unknown of the pattern.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Node {
     Body(usize),
@@ -261,10 +261,10 @@ impl Members {
             let members: Vec<usize> =
                 self.bodies.iter().copied().filter(|b| on.contains(b)).collect();
             let is_inner = self.joints.contains(&j);
-            let others = on.iter().any(|b| self.point_bodies.contains(b));
+            let has_point_body = on.iter().any(|b| self.point_bodies.contains(b));
             let solved_before = |b: &usize| solved.contains(b) && !self.bodies.contains(b);
             let is_outer = *grounded || on.iter().any(solved_before);
-            if (is_inner && members.len() < 2 && !others) || !(is_inner || is_outer) {
+            if (is_inner && members.len() < 2 && !has_point_body) || !(is_inner || is_outer) {
                 continue;
             }
             joints.push(j);
@@ -291,7 +291,7 @@ impl Members {
             }
             slides.push(s);
         }
-        // A locked angle between two bodies of the group closes a contour, as a pair does.
+        // A locked angle between two bodies of the group closes a contour like a pair.
         let locked_pairs = bodies
             .locked_angles
             .iter()
@@ -338,8 +338,7 @@ impl Members {
         let letters = if let [(middle, _)] = inner {
             [outer_pair(first)?, *middle, outer_pair(second)?]
         } else {
-            // Both outer pairs are on one link, to which a driven angle leaves no rotation of its
-            // own.
+            // Both outer pairs are on one link, whose rotation a driven angle determines.
             let mut all: Vec<char> = outer.iter().map(|(_, c)| *c).collect();
             all.extend(inner.iter().map(|(c, _)| *c));
             let slides = inner.iter().filter(|(c, _)| *c == 'P').count();

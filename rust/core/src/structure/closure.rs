@@ -36,7 +36,7 @@ pub struct Edge {
     pub from: usize,
     /// Point where it ends.
     pub to: usize,
-    /// Link with whose orientation the vector turns.
+    /// Link with which the vector turns.
     pub link: usize,
     /// Its vector in the link's frame.
     pub span: Span,
@@ -70,7 +70,7 @@ pub(crate) struct Rotation {
 pub struct LeftOut {
     /// Links left out with all their pairs.
     pub links: Vec<usize>,
-    /// Slides left out by themselves.
+    /// Slides left out alone.
     pub slides: Vec<usize>,
 }
 
@@ -98,7 +98,7 @@ impl LeftOut {
     }
 }
 
-/// Points and edges of the whole linkage, including what may be left out.
+/// Points and edges of the whole linkage, including those that may be left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Closure {
     /// Number of points.
@@ -279,8 +279,8 @@ pub(crate) fn rotations(
     Ok((rotation.into_iter().map(Option::unwrap_or_default).collect(), classes))
 }
 
-/// The link from whose angle those of its class follow: one that no driver turns relative to another,
-/// whatever the order of the links. (If there are several, that of the first driver.)
+/// The link whose angle gives those of its class: one that no driver turns relative to another, for any order
+/// of the links. (If there are several, that of the first driver.)
 fn base(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], first: usize) -> usize {
     let class = joined(linkage, left_out, drivers, first);
     let mut base = first;
@@ -301,8 +301,8 @@ fn base(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], first: usize)
     if driven[first] { first } else { base }
 }
 
-/// Whether each link is joined to one by slides and drivers that turn.
-fn joined(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], one: usize) -> Vec<bool> {
+/// Whether each link is joined to `start` by slides and drivers that turn.
+fn joined(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], start: usize) -> Vec<bool> {
     let slides = linkage.slides.iter().enumerate();
     let slides = slides.filter(|&(slide, _)| !left_out.has_slide(linkage, slide));
     let turned = drivers.iter().filter_map(|driver| match *driver {
@@ -311,7 +311,7 @@ fn joined(linkage: &Linkage, left_out: &LeftOut, drivers: &[Driver], one: usize)
     });
     let pairs: Vec<[usize; 2]> = slides.map(|(_, s)| [s.link, s.on]).chain(turned).collect();
     let mut joined = vec![false; linkage.links.len()];
-    joined[one] = true;
+    joined[start] = true;
     while let Some(&[a, b]) = pairs.iter().find(|pair| joined[pair[0]] != joined[pair[1]]) {
         (joined[a], joined[b]) = (true, true);
     }

@@ -1,14 +1,14 @@
-//! Changes of a drawing: how large they may be, how they are weighed, and their effect.
+//! Changes of a drawing: their limits, their weights and their effect.
 
 use nalgebra::DVector;
 
 use crate::description::Linkage;
 use crate::math::tolerance::REDUNDANT_CLOSURE;
 
-/// Share of the tolerance that is aimed at where it was exceeded.
+/// Target for a change that exceeded the tolerance, as a share of the tolerance.
 const STIFFER: f64 = 0.7;
 
-/// How far a drawing may be from what was meant.
+/// Allowed distance of a drawing from the intended one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tolerance {
     /// Greatest change of a joint's coordinate, m.
@@ -43,16 +43,16 @@ pub struct Change {
 }
 
 impl Change {
-    pub(super) fn between(one: &Linkage, other: &Linkage) -> Self {
-        let joints = one.joints.iter().zip(&other.joints);
-        let slides = one.slides.iter().zip(&other.slides);
+    pub(super) fn between(before: &Linkage, after: &Linkage) -> Self {
+        let joints = before.joints.iter().zip(&after.joints);
+        let slides = before.slides.iter().zip(&after.slides);
         let lengths = joints.flat_map(|(a, b)| [0, 1].map(|k| (a.at[k] - b.at[k]).abs()));
         let angles = slides.map(|(a, b)| (a.angle - b.angle).abs());
         Self { length: lengths.fold(0.0, f64::max), angle: angles.fold(0.0, f64::max) }
     }
 }
 
-/// How readily each coordinate of a joint, then each guide, changes.
+/// Weight of each coordinate of a joint, then of each guide: greater ones change more.
 pub(super) struct Weights(pub(super) DVector<f64>);
 
 impl Weights {
@@ -64,12 +64,12 @@ impl Weights {
         }))
     }
 
-    /// Lowers those of what changed too much: the smallest change of all together may be large in
-    /// one of them.
-    pub(super) fn stiffen(&mut self, linkage: &Linkage, other: &Linkage, allowed: Tolerance) {
-        let joints = linkage.joints.iter().zip(&other.joints);
+    /// Lowers the weights of coordinates that changed too much: the smallest change of all together may
+    /// be large in one of them.
+    pub(super) fn stiffen(&mut self, linkage: &Linkage, changed: &Linkage, allowed: Tolerance) {
+        let joints = linkage.joints.iter().zip(&changed.joints);
         let lengths = joints.flat_map(|(a, b)| [0, 1].map(|k| (a.at[k] - b.at[k]).abs()));
-        let slides = linkage.slides.iter().zip(&other.slides);
+        let slides = linkage.slides.iter().zip(&changed.slides);
         let angles = slides.map(|(a, b)| (a.angle - b.angle).abs() / allowed.angle);
         let changes = lengths.map(|length| length / allowed.length).chain(angles);
         for (weight, change) in self.0.iter_mut().zip(changes) {

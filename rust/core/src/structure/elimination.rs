@@ -1,9 +1,9 @@
 //! Sparse Gaussian elimination of closure equations: rank, null spaces, solutions.
 //!
 //! Markowitz's count (1957) chooses pivots among entries that are large in their row and column
-//! (threshold pivoting; Duff, Erisman & Reid 2017, 5.3 and 7.2). If there are none, the largest
-//! remaining entry is the pivot (complete pivoting), so that the elimination reveals the rank:
-//! what remains at its end counts as zero. The closure of a linkage is a tree of small groups:
+//! (threshold pivoting; Duff, Erisman & Reid 2017, 5.3 and 7.2). Without such entries the largest
+//! remaining entry is the pivot (complete pivoting), so that the elimination reveals the rank: the
+//! remaining entries at its end count as zero. The closure of a linkage is a tree of small groups:
 //! rows stay short, and the work grows little faster than the number of links.
 
 use std::collections::BTreeSet;
@@ -105,32 +105,32 @@ impl Active {
         let value = pivot_row.iter().find(|e| e.0 == column).map_or(1.0, |e| e.1);
         let entries: Vec<_> = pivot_row.into_iter().filter(|e| e.0 != column).collect();
         let mut multipliers = Vec::new();
-        for other in std::mem::take(&mut self.rows_with[column]) {
-            let multiplier = self.entry(other, column) / value;
-            multipliers.push((other, multiplier));
-            self.by_count.remove(&(self.rows[other].len(), other));
-            let updated = subtract_multiple(&self.rows[other], &entries, multiplier, column);
+        for target in std::mem::take(&mut self.rows_with[column]) {
+            let multiplier = self.entry(target, column) / value;
+            multipliers.push((target, multiplier));
+            self.by_count.remove(&(self.rows[target].len(), target));
+            let updated = subtract_multiple(&self.rows[target], &entries, multiplier, column);
             for &(c, _) in &updated {
-                self.rows_with[c].insert(other);
+                self.rows_with[c].insert(target);
             }
-            self.by_count.insert((updated.len(), other));
-            self.rows[other] = updated;
+            self.by_count.insert((updated.len(), target));
+            self.rows[target] = updated;
         }
         Pivot { row, column, value, entries, multipliers }
     }
 }
 
-/// `row − multiplier · other`, without the entry in `column`.
+/// `row − multiplier · pivot_row`, without the entry in `column`.
 fn subtract_multiple(
     row: &[(usize, f64)],
-    other: &[(usize, f64)],
+    pivot_row: &[(usize, f64)],
     multiplier: f64,
     column: usize,
 ) -> Vec<(usize, f64)> {
-    let mut result = Vec::with_capacity(row.len() + other.len());
+    let mut result = Vec::with_capacity(row.len() + pivot_row.len());
     let (mut i, mut j) = (0, 0);
-    while i < row.len() || j < other.len() {
-        let (a, b) = (row.get(i), other.get(j));
+    while i < row.len() || j < pivot_row.len() {
+        let (a, b) = (row.get(i), pivot_row.get(j));
         let current = a.map_or(usize::MAX, |e| e.0).min(b.map_or(usize::MAX, |e| e.0));
         let mut value = 0.0;
         if let Some(&(_, entry)) = a.filter(|e| e.0 == current) {
@@ -174,7 +174,7 @@ impl Elimination {
         self.pivots.len()
     }
 
-    /// Least pivot; infinite if there is none.
+    /// Least pivot; infinite without a pivot.
     pub(crate) fn least_pivot(&self) -> f64 {
         self.pivots.iter().map(|pivot| pivot.value.abs()).fold(f64::INFINITY, f64::min)
     }
@@ -225,8 +225,9 @@ impl Elimination {
     /// Computes the unknowns of the pivots from the right-hand sides and the free unknowns.
     fn substitute_back(&self, rhs: &DVector<f64>, solution: &mut [f64]) {
         for (pivot, rhs) in self.pivots.iter().zip(rhs.iter()).rev() {
-            let known: f64 = pivot.entries.iter().map(|&(c, value)| value * solution[c]).sum();
-            solution[pivot.column] = (rhs - known) / pivot.value;
+            let solved_part: f64 =
+                pivot.entries.iter().map(|&(c, value)| value * solution[c]).sum();
+            solution[pivot.column] = (rhs - solved_part) / pivot.value;
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Equal parts of a drawing: the sides of parallelograms, and parallel guides. Most redundant links
-//! fit because of such, and to make them equal is linear.
+//! Equal parts of a drawing: the sides of parallelograms, and parallel guides. Most redundant links fit
+//! because of equal parts, and the equations that make parts equal are linear.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,18 +7,18 @@ use super::drawing_change::{Tolerance, Weights, changed};
 use super::least_norm::least_norm;
 use crate::description::Linkage;
 
-/// Difference of two vectors that are equal but for the tolerance of their four ends.
+/// Greatest difference of two equal vectors, in units of the tolerance of their four ends.
 const ENDS: f64 = 4.0;
 /// Least length of a vector, in units of the tolerance: the direction of a shorter one is not known.
 const LEAST_LENGTH: f64 = 16.0;
-/// Limit of equations: more are not solved for.
+/// Most equations that are solved.
 const MOST_EQUATIONS: usize = 2000;
 
 /// One equation: the unknowns with their factors, and its misfit.
 type Equation = (Vec<(usize, f64)>, f64);
 
-/// The drawing in which what is equal within a tolerance, among parts of the links and slides named,
-/// is equal to rounding. `None` if nothing is.
+/// The drawing in which parts of the named links and slides that are equal within a tolerance are equal to
+/// rounding. `None` if no parts are equal.
 pub(super) fn with_equal_parts(
     linkage: &Linkage,
     named: &[String],
@@ -66,15 +66,16 @@ fn equal_vectors(
     }
     let mut equations = Vec::new();
     for (n, &(link, from, to, span)) in vectors.iter().enumerate() {
-        for &(other, start, end, other_span) in &vectors[..n] {
+        for &(other_link, start, end, other_span) in &vectors[..n] {
             let apart = [0, 1].map(|k| span[k] - other_span[k]);
             let is_near = apart.iter().all(|x| x.abs() <= ENDS * tolerance.length);
             // Each pair is met in both senses.
-            let is_new = link != other && from > to && (from, to) != (start, end);
+            let is_new = link != other_link && from > to && (from, to) != (start, end);
             if is_near && is_new && equations.len() <= MOST_EQUATIONS {
                 for (k, misfit) in apart.into_iter().enumerate() {
-                    let of = |joint: usize, factor: f64| (2 * joint + k, factor);
-                    let terms = vec![of(to, 1.0), of(from, -1.0), of(end, -1.0), of(start, 1.0)];
+                    let term = |joint: usize, factor: f64| (2 * joint + k, factor);
+                    let terms =
+                        vec![term(to, 1.0), term(from, -1.0), term(end, -1.0), term(start, 1.0)];
                     equations.push((terms, misfit / size));
                 }
             }
@@ -89,13 +90,13 @@ fn parallel_guides(linkage: &Linkage, named: &[String], tolerance: Tolerance) ->
     let is_named = |slide: usize| named.contains(&linkage.slides[slide].name);
     let guides: Vec<usize> = (0..linkage.slides.len()).filter(|&s| is_named(s)).collect();
     let mut equations = Vec::new();
-    for (n, &one) in guides.iter().enumerate() {
-        for &other in &guides[..n] {
-            let between = linkage.slides[one].angle - linkage.slides[other].angle;
+    for (n, &guide) in guides.iter().enumerate() {
+        for &earlier in &guides[..n] {
+            let between = linkage.slides[guide].angle - linkage.slides[earlier].angle;
             let half_turns = (between / std::f64::consts::PI).round();
             let apart = between - half_turns * std::f64::consts::PI;
             if apart.abs() <= 2.0 * tolerance.angle {
-                equations.push((vec![(first + one, 1.0), (first + other, -1.0)], apart));
+                equations.push((vec![(first + guide, 1.0), (first + earlier, -1.0)], apart));
             }
         }
     }

@@ -19,17 +19,17 @@ pub(super) const OTHER_BRANCH: f64 = 100.0 * NEARLY_REDUNDANT;
 /// sense.
 const STEP: f64 = 0.2;
 const STEPS: usize = 16;
-/// Number of nearly fitting poses from which on a drawing is taken as meant to fit, although it
-/// stops fitting along its motion.
+/// With at least this many nearly fitting poses a drawing counts as meant to fit, although it stops fitting
+/// along its motion.
 const MIN_POSES: usize = 4;
 /// Directions to try if the drawing has several motions.
 const DIRECTIONS: usize = 4;
 /// Least share of poses with a self-stress for links to be redundant everywhere.
 const MIN_STRESSED_SHARE: f64 = 0.75;
-/// Remainder of the conditions, in units of the squared misfit, that a change leaves: they are linear.
+/// Remainder of the conditions after a change, in units of the squared misfit: the conditions are linear.
 const CURVATURE: f64 = 16.0;
 
-/// A stage of an adjustment: which poses give conditions, and how long it goes on.
+/// A stage of an adjustment: the poses that give conditions, and the end of the stage.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stage {
     /// Greatest misfit, relative to the size, at which links that should be redundant nearly fit.
@@ -38,11 +38,11 @@ pub(super) struct Stage {
     pub(super) least_pivot_ratio: f64,
     /// Limit of iterations.
     pub(super) iterations: usize,
-    /// Factor by which each must lower the misfit.
+    /// Factor by which each iteration must lower the misfit.
     pub(super) progress: f64,
     /// Misfit at which it ends.
     pub(super) until: f64,
-    /// Greatest change on the way, in units of what is allowed at its end.
+    /// Greatest change on the way, in units of the change allowed at the end.
     pub(super) overshoot: f64,
 }
 
@@ -77,21 +77,21 @@ impl FitConditions {
             return Ok(None);
         }
         let (stressed, _) = skeleton.stressed_parts(&system, &rank.stresses);
-        let others = (0..linkage.links.len())
+        let unstressed = (0..linkage.links.len())
             .filter(|l| *l != linkage.ground && !stressed.contains(l))
             .collect();
         // Other links are left out: they could only limit the motion.
-        let left_out = LeftOut { links: others, slides: Vec::new() };
+        let left_out = LeftOut { links: unstressed, slides: Vec::new() };
         let (free, classes) = rotations(linkage, &left_out, false)?;
         let part = Skeleton::new(linkage, closure, &free, classes, cancel);
         let part_system = System::new(linkage, closure, &left_out, &free, false);
-        let found = match Self::along_motion(&part, &part_system, stage)? {
-            Some(found) => Some(found),
-            // The stressed part by itself may have other motions, along which it does not fit.
+        let conditions = match Self::along_motion(&part, &part_system, stage)? {
+            Some(conditions) => Some(conditions),
+            // The stressed part alone may have other motions, along which it does not fit.
             None => Self::along_motion(&skeleton, &system, stage)?,
         };
         let links = skeleton.stressed_names(&system, &rank.stresses);
-        Ok(found.map(|found| Self { links, ..found }))
+        Ok(conditions.map(|conditions| Self { links, ..conditions }))
     }
 
     /// The conditions along the motions of a system; `None` if it does not nearly fit there.
@@ -100,19 +100,19 @@ impl FitConditions {
         system: &System,
         stage: Stage,
     ) -> Result<Option<Self>, StructureError> {
-        let mut found = Vec::new();
+        let mut poses = Vec::new();
         for pose in poses_along_motion(skeleton, system, stage)? {
             let rank = skeleton.tolerant_rank(system, &pose)?;
-            found.push((pose, rank));
+            poses.push((pose, rank));
         }
-        let with_stress = found.iter().filter(|(_, rank)| rank.excess > 0).count();
-        if found.is_empty() || (with_stress as f64) < MIN_STRESSED_SHARE * (found.len() as f64) {
+        let with_stress = poses.iter().filter(|(_, rank)| rank.excess > 0).count();
+        if poses.is_empty() || (with_stress as f64) < MIN_STRESSED_SHARE * (poses.len() as f64) {
             return Ok(None);
         }
-        let most_regular = found.iter().map(|(_, rank)| rank.least_pivot).fold(0.0, f64::max);
+        let most_regular = poses.iter().map(|(_, rank)| rank.least_pivot).fold(0.0, f64::max);
         let least_pivot = stage.least_pivot_ratio * most_regular;
         let (mut rows, mut misfits) = (Vec::new(), Vec::new());
-        for (pose, rank) in found.iter().filter(|(_, rank)| rank.least_pivot >= least_pivot) {
+        for (pose, rank) in poses.iter().filter(|(_, rank)| rank.least_pivot >= least_pivot) {
             let residual = skeleton.residual(system, pose);
             for stress in rank.stresses.column_iter() {
                 misfits.push(stress.dot(&residual));
@@ -155,7 +155,7 @@ fn poses_along_motion(
     stage: Stage,
 ) -> Result<Vec<SkeletonPose>, StructureError> {
     let start = skeleton.tolerant_rank(system, skeleton.drawing())?;
-    let (mut found, mut stops_fitting) = (Vec::new(), false);
+    let (mut poses, mut stops_fitting) = (Vec::new(), false);
     let directions = if start.mobility == 1 { 1 } else { DIRECTIONS };
     for direction in 0..directions {
         // Arbitrary weights, but the same in every run.
@@ -185,12 +185,12 @@ fn poses_along_motion(
                 // Continue in the direction closest to the previous one.
                 let Some(gram) = motions.tr_mul(&motions).cholesky() else { break };
                 tangent = &motions * gram.solve(&motions.tr_mul(&tangent));
-                found.push(next.clone());
+                poses.push(next.clone());
                 pose = next;
             }
         }
     }
     // Near a change point the square root of the misfit appears, after several poses that nearly
     // fit. A drawing that is only singular by chance stops fitting at once.
-    Ok(if stops_fitting && found.len() < MIN_POSES { Vec::new() } else { found })
+    Ok(if stops_fitting && poses.len() < MIN_POSES { Vec::new() } else { poses })
 }

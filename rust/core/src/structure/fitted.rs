@@ -35,17 +35,17 @@ pub(crate) fn fitted(
     let as_drawn = match Structure::of(&linkage, closure, cancel) {
         Err(StructureError::Interrupted) => return Err(StructureError::Interrupted),
         // Without redundant links no lengths need to agree. Guides that are nearly parallel, or a
-        // dyad that is nearly flat, are meant as drawn: were they adjusted, another link could move.
+        // dyad that is nearly flat, are meant as drawn: an adjustment could free another link.
         Ok(structure) if structure.redundant.is_empty() => {
             return Ok(Fitted { linkage, structure, change: unchanged });
         }
-        found => found,
+        result => result,
     };
     match adjust(&linkage, closure, tolerance, cancel)? {
         Adjusted::AsDrawn => Ok(Fitted { linkage, structure: as_drawn?, change: unchanged }),
-        Adjusted::By(other, change) => {
-            let structure = Structure::of(&other, closure, cancel)?;
-            Ok(Fitted { linkage: *other, structure, change })
+        Adjusted::By(fitted, change) => {
+            let structure = Structure::of(&fitted, closure, cancel)?;
+            Ok(Fitted { linkage: *fitted, structure, change })
         }
         Adjusted::TooFar { links, gap, part } => {
             let limit = tolerance.map(|tolerance| tolerance.length);
@@ -79,8 +79,8 @@ pub fn fit(
     for ((_, at), joint) in adjusted.joints.iter_mut().zip(&linkage.joints) {
         *at = joint.at;
     }
-    for (own, slide) in adjusted.slides.iter_mut().zip(&linkage.slides) {
-        own.angle = slide.angle;
+    for (adjusted_slide, slide) in adjusted.slides.iter_mut().zip(&linkage.slides) {
+        adjusted_slide.angle = slide.angle;
     }
     Ok((adjusted, change))
 }

@@ -139,7 +139,7 @@ impl Skeleton<'_> {
             }
             total += &correction;
             pose = pose.after_step(&correction, system);
-            // Which equations are ignored may change from step to step. The steps then remain as
+            // The ignored equations may change from step to step. The steps then remain as
             // long as the residuals of these equations.
             let converged =
                 length < REGULAR_CLOSURE || (length < nearly && length > 0.5 * previous);

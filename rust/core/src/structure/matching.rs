@@ -1,6 +1,5 @@
-//! Which equations determine which unknowns, and in what order: the fine
-//! Dulmage-Mendelsohn decomposition of a square system (Dulmage & Mendelsohn
-//! 1958; Pothen & Fan 1990). Each node stands for several scalars.
+//! The equations that determine each unknown, and their order: the fine Dulmage-Mendelsohn decomposition of
+//! a square system (Dulmage & Mendelsohn 1958; Pothen & Fan 1990). Each node represents several scalars.
 
 /// Unknowns that must be solved together, with their equations.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -11,7 +10,7 @@ pub(crate) struct Block {
     pub equations: Vec<usize>,
 }
 
-/// Structure of a system: which unknowns appear in which equations.
+/// Structure of a system: the unknowns in each equation.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Pattern {
     /// Number of scalars of each unknown.
@@ -170,11 +169,11 @@ impl Pattern {
     }
 }
 
-/// What the search for an augmenting path has met.
+/// The unknowns that the search for an augmenting path has visited.
 ///
-/// Where it comes back from unknowns whose partners lead to no others (a component that is closed, as in
-/// Tarjan's algorithm), no later path gets through them either: it need not try. Without this it would go
-/// back over the whole linkage for each equation.
+/// Unknowns whose partners do not lead to other unknowns form a closed component, as in Tarjan's algorithm.
+/// Later paths cannot pass through them either and skip them. Otherwise the search would go over the whole
+/// linkage for each equation.
 struct Met {
     /// For each unknown its place in `order`; beyond all places once it is closed.
     number: Vec<Option<usize>>,

@@ -207,7 +207,7 @@ fn moving_link_names(linkage: &Linkage) -> Vec<String> {
     names_of(linkage, &moving)
 }
 
-/// The constraints in excess, if there are any.
+/// The constraints in excess, if any.
 fn overconstraint(
     linkage: &Linkage,
     skeleton: &Skeleton<'_>,
@@ -256,9 +256,8 @@ fn locked_rank(
     Ok(skeleton.rank(&system, pose)?)
 }
 
-/// Names of the links and slides of a linkage that cannot move which keep its drivers from moving:
-/// they bear a load where one drives, and without one of them it would move. Together with the links
-/// that are over-constrained, if there are any.
+/// Names of the links and slides of a rigid linkage that keep its drivers from moving: they bear a load from
+/// a driver, and without one of them the linkage would move. Includes the over-constrained links, if any.
 ///
 /// # Errors
 ///
@@ -273,12 +272,12 @@ pub(crate) fn holding_drivers(
     let skeleton = Skeleton::new(linkage, &closure, &free, classes, cancel);
     let (rotation, _) = rotations(linkage, &none_left_out, true)?;
     let locked = System::new(linkage, &closure, &none_left_out, &rotation, true);
-    // A coordinate of a driver is one unknown less: the load it makes is a self-stress.
+    // A coordinate of a driver removes one unknown: the driver's load is a self-stress.
     let rank = skeleton.rank(&locked, skeleton.drawing())?;
     Ok(skeleton.stressed_names(&locked, &rank.stresses))
 }
 
-/// Checks that nothing can move while all drivers are locked; else names a driver at fault.
+/// Checks that all links stand still while all drivers are locked; else names a driver at fault.
 fn check_drivers(
     linkage: &Linkage,
     closure: &Closure,
@@ -300,9 +299,9 @@ fn check_drivers(
     let links = names_of(linkage, &skeleton.moving_links(&system, &rank.motions));
     let fault = DriverFault::LeavesFree { links };
     for (index, &driver) in linkage.drivers.iter().enumerate() {
-        let mut others = linkage.drivers.clone();
-        others.remove(index);
-        if rank_with(&others)?.mobility == rank.mobility {
+        let mut remaining = linkage.drivers.clone();
+        remaining.remove(index);
+        if rank_with(&remaining)?.mobility == rank.mobility {
             return Err(StructureError::CannotDrive {
                 drivers: vec![linkage.driver_name(driver)],
                 fault,

@@ -153,14 +153,14 @@ mod tests {
         for seed in 1..400 {
             let (rows, n) = matrix(seed);
             let (all, m) = (dense(&rows, n), rows.len());
-            let found = rank(rows, n, RANK, || false).expect("not cancelled");
-            let wanted = rank_by_singular_values(all.clone());
-            assert_eq!((found.mobility, found.excess), (n - wanted, m - wanted), "{seed}");
-            deficient += usize::from(found.mobility.min(found.excess) > 0);
-            assert!((&all * &found.motions).amax() < 1e-12, "{seed}");
-            assert!((found.stresses.transpose() * &all).amax() < 1e-12, "{seed}");
+            let actual = rank(rows, n, RANK, || false).expect("not cancelled");
+            let expected = rank_by_singular_values(all.clone());
+            assert_eq!((actual.mobility, actual.excess), (n - expected, m - expected), "{seed}");
+            deficient += usize::from(actual.mobility.min(actual.excess) > 0);
+            assert!((&all * &actual.motions).amax() < 1e-12, "{seed}");
+            assert!((actual.stresses.transpose() * &all).amax() < 1e-12, "{seed}");
             for (span, dimension) in
-                [(&found.motions, found.mobility), (&found.stresses, found.excess)]
+                [(&actual.motions, actual.mobility), (&actual.stresses, actual.excess)]
             {
                 assert_eq!(span.ncols(), dimension, "{seed}");
                 assert!(dimension == 0 || span.rank(1e-9) == dimension, "{seed}");

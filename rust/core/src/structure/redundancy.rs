@@ -10,7 +10,7 @@ use crate::description::{Driver, Linkage};
 /// Leaves out links (last listed first), then slides, until no equation depends on others.
 /// Leaving them out must not change the mobility.
 ///
-/// Returns what it left out and how many dependent equations remain.
+/// Returns the parts left out and the number of dependent equations that remain.
 ///
 /// # Errors
 ///
@@ -26,7 +26,7 @@ pub(crate) fn find_redundant(
     let mut left_out = start;
     let mut excess = full.excess;
     while excess > 0 {
-        let mut found = None;
+        let mut removable = None;
         for candidate in candidates(linkage, &left_out) {
             let (rotation, _) = rotations(linkage, &candidate, false)?;
             let system = System::new(linkage, closure, &candidate, &rotation, false);
@@ -35,11 +35,11 @@ pub(crate) fn find_redundant(
             }
             let rank = skeleton.rank(&system, pose)?;
             if rank.mobility == full.mobility && rank.excess < excess {
-                found = Some((candidate, rank.excess));
+                removable = Some((candidate, rank.excess));
                 break;
             }
         }
-        match found {
+        match removable {
             Some((candidate, remaining)) => (left_out, excess) = (candidate, remaining),
             None => break,
         }

@@ -156,8 +156,8 @@ impl<'a> Skeleton<'a> {
             let unrotated = self.edge_rotation(pose, e).conj() * weight;
             for (point, sign) in [(edge.to, 1.0), (edge.from, -1.0)] {
                 let Some(joint) = joint_of_point(point).filter(|&j| j < joints) else { continue };
-                let own = if self.closure.fixed[point] { weight } else { Vector::ZERO };
-                let change = (own - unrotated).scale(sign);
+                let translated = if self.closure.fixed[point] { weight } else { Vector::ZERO };
+                let change = (translated - unrotated).scale(sign);
                 gradient[2 * joint] += change.x;
                 gradient[2 * joint + 1] += change.y;
             }

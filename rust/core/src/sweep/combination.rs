@@ -26,7 +26,7 @@ pub enum Operand {
 
 /// Two metrics, or a metric and a number: weighted sums are combinations of combinations.
 pub struct Combination {
-    /// What is done with both.
+    /// The operation.
     pub operation: Operation,
     /// The first.
     pub left: Operand,
@@ -42,9 +42,9 @@ impl Operand {
         }
     }
 
-    fn value(&self, of: impl Fn(&dyn Metric) -> f64) -> f64 {
+    fn value(&self, evaluate: impl Fn(&dyn Metric) -> f64) -> f64 {
         match self {
-            Self::Metric(metric) => of(metric.as_ref()),
+            Self::Metric(metric) => evaluate(metric.as_ref()),
             Self::Number(number) => *number,
         }
     }
@@ -76,13 +76,13 @@ impl Metric for Combination {
     fn of(&self, positions: &Positions<'_>) -> f64 {
         let count = self.left.needs().len().min(positions.values.len());
         let (left, right) = positions.values.split_at(count);
-        let of = |operand: &Operand, values| {
+        let value_of = |operand: &Operand, values| {
             operand.value(|metric| metric.of(&Positions { values, ..*positions }))
         };
-        self.combine(of(&self.left, left), of(&self.right, right))
+        self.combine(value_of(&self.left, left), value_of(&self.right, right))
     }
 
-    /// Rounding keeps it: the rounded sum or product of greater numbers is not less.
+    /// Rounding preserves the growth: the rounded sum or product of greater numbers is not less.
     fn growth(&self) -> Growth {
         use {Operand as X, Operation as O};
         let scaled = |metric: &dyn Metric, factor: f64| {
@@ -113,8 +113,8 @@ impl Metric for Combination {
     }
 
     fn of_failed(&self) -> f64 {
-        let of = |operand: &Operand| operand.value(|metric| metric.of_failed());
-        self.combine(of(&self.left), of(&self.right))
+        let failed_value = |operand: &Operand| operand.value(|metric| metric.of_failed());
+        self.combine(failed_value(&self.left), failed_value(&self.right))
     }
 
     fn asks_return(&self) -> bool {

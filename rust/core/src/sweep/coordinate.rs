@@ -48,8 +48,8 @@ impl Coordinate {
 }
 
 impl From<Tracked> for Coordinate {
-    fn from(of: Tracked) -> Self {
-        match of {
+    fn from(tracked: Tracked) -> Self {
+        match tracked {
             Tracked::Joint(index, component) => Self::joint(index, component),
             Tracked::Link(index) => Self::link(index),
             Tracked::Slide(index) => Self::slide(index),

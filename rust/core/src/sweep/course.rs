@@ -1,9 +1,9 @@
-//! The coordinates that all designs of a sweep go through.
+//! The coordinates of all designs of a sweep.
 
 use std::f64::consts::TAU;
 
-/// Steps of a turn are even if they differ by no more than this part: coordinates from degrees, or
-/// written with ten digits, are.
+/// Steps of a turn are even if they differ by at most this part: coordinates from degrees, or written with
+/// ten digits, are even.
 const EVEN: f64 = 1.0e-9;
 
 /// The coordinates of a sweep.
@@ -39,8 +39,8 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// The coordinates, and after a turn the first two again: what is solved for metrics that ask
-    /// whether the motion returns.
+    /// The coordinates, and after a turn the first two again: the positions to solve for metrics that need to
+    /// know whether the motion returns.
     pub(super) fn with_return(&self) -> Option<Vec<f64>> {
         let (turn, [first, second, ..]) = (self.turn?, self.q) else { return None };
         Some([self.q, &[first + turn, second + turn]].concat())

@@ -1,4 +1,4 @@
-//! How straight, or how round, the best part of a path is.
+//! Deviation of the best part of a path from a line or a circle.
 
 use super::course::Course;
 use super::line_bounds::LineBounds;
@@ -7,10 +7,10 @@ use super::moments::{Moments, SIDE_BY_SIDE};
 use crate::batch::request::Quantity;
 use crate::math::vector::Vector;
 
-/// Products of a part and a number of positions that should be whole are below that by less.
+/// Products of a part and a number of positions that should be whole may fall short by less than this.
 const WHOLE: f64 = 1.0e-9;
 
-/// What the path is compared with.
+/// The shape with which the path is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// The line with the least squares of distances.
@@ -26,7 +26,7 @@ pub enum Shape {
 pub struct Deviation {
     /// Index of the joint.
     pub joint: usize,
-    /// What its path is compared with.
+    /// The shape with which its path is compared.
     pub shape: Shape,
     /// The part of the positions that are consecutive: more than 0, at most 1. Where the motion
     /// [returns](Positions::returns) they pass from the last to the first.
@@ -53,26 +53,26 @@ impl Metric for Deviation {
         path.extend_from_within(..starts + count - 1 - points.len());
         let bounds = (self.shape == Shape::Line).then(|| LineBounds::of(&path, count));
         let size = if self.is_relative { diagonal(points) } else { 1.0 };
-        // Three points show where the best stretch is likely to be, and which are worse.
+        // Three points show the likely place of the best stretch, and stretches that are worse.
         let [of_three2, of_sums2] =
             bounds.as_ref().map_or([&[][..]; 2], |bounds| [bounds.of_three(), bounds.of_sums()]);
         let likely = (0..of_three2.len())
             .fold(0, |best, at| if of_three2[at] < of_three2[best] { at } else { best });
-        let mut least = self.greatest(&path[likely..likely + count], f64::INFINITY);
+        let mut best_distance = self.greatest(&path[likely..likely + count], f64::INFINITY);
         for (start, stretch) in path.windows(count).enumerate() {
             if positions.is_cancelled() {
                 return f64::NAN;
             }
             let is_worse = bounds.as_ref().is_some_and(|bounds| {
-                let (limit, slack) = (least * size, least * size + bounds.rounding);
+                let (limit, slack) = (best_distance * size, best_distance * size + bounds.rounding);
                 of_three2[start] >= limit * limit || of_sums2[start] > slack * slack
             });
             if !is_worse {
-                let found = self.greatest(stretch, least);
-                least = if found < least { found } else { least };
+                let distance = self.greatest(stretch, best_distance);
+                best_distance = if distance < best_distance { distance } else { best_distance };
             }
         }
-        if least == f64::INFINITY { f64::NAN } else { least }
+        if best_distance == f64::INFINITY { f64::NAN } else { best_distance }
     }
 
     fn asks_return(&self) -> bool {
@@ -83,14 +83,14 @@ impl Metric for Deviation {
         if !(self.part > 0.0 && self.part <= 1.0) {
             return Err(format!("part is {}: more than 0 and at most 1 is needed", self.part));
         }
-        let (all, least) = (course.count(), self.least_count());
+        let (all, minimum) = (course.count(), self.least_count());
         let count = self.count(all, course.turn.is_some());
-        if count >= least {
+        if count >= minimum {
             return Ok(());
         }
         let part = self.part;
         Err(format!(
-            "part={part} of {all} positions are {count}: too few, {least} are needed at least"
+            "part={part} of {all} positions are {count}: too few, {minimum} are needed at least"
         ))
     }
 }
@@ -112,17 +112,17 @@ impl Deviation {
         }
     }
 
-    /// The greatest distance of a stretch; infinite if it is not below `least`.
-    fn greatest(&self, stretch: &[Vector], least: f64) -> f64 {
+    /// The greatest distance of a stretch; infinite if it is not below `limit`.
+    fn greatest(&self, stretch: &[Vector], limit: f64) -> f64 {
         let moments = Moments::of(stretch);
         match self.shape {
-            Shape::Line => self.off_line(stretch, moments, least),
-            Shape::Circle => self.off_circle(stretch, moments, least),
+            Shape::Line => self.off_line(stretch, moments, limit),
+            Shape::Circle => self.off_circle(stretch, moments, limit),
         }
     }
 
-    /// The greatest distance from the line of least squares; infinite if it is not below `least`.
-    fn off_line(&self, stretch: &[Vector], moments: Moments, least: f64) -> f64 {
+    /// The greatest distance from the line of least squares; infinite if it is not below `limit`.
+    fn off_line(&self, stretch: &[Vector], moments: Moments, limit: f64) -> f64 {
         let (axis, middle) = (moments.axis(), moments.middle);
         let length = if self.is_relative {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -134,11 +134,11 @@ impl Deviation {
         } else {
             1.0
         };
-        farthest(stretch, least * length, |point| axis.cross(point - middle)) / length
+        farthest(stretch, limit * length, |point| axis.cross(point - middle)) / length
     }
 
-    /// The same from the circle of least squares; that of points on a line is infinitely large.
-    fn off_circle(&self, stretch: &[Vector], moments: Moments, least: f64) -> f64 {
+    /// The same for the circle of least squares; points on a line give an infinitely large one.
+    fn off_circle(&self, stretch: &[Vector], moments: Moments, limit: f64) -> f64 {
         let Moments { middle, squares: [xx, xy, yy] } = moments;
         let determinant = xx * yy - xy * xy;
         if determinant == 0.0 {
@@ -163,11 +163,11 @@ impl Deviation {
             let power = from_middle.norm2() - 2.0 * from_middle.dot(centre) - mean_square;
             power / ((from_middle - centre).norm() + radius)
         };
-        farthest(stretch, least * length, distance) / length
+        farthest(stretch, limit * length, distance) / length
     }
 }
 
-/// The diagonal of the box around some points: no stretch is longer.
+/// The diagonal of the box around some points, an upper bound of the length of a stretch.
 fn diagonal(points: &[[f64; 2]]) -> f64 {
     let mut ends = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     for &[x, y] in points {

@@ -1,4 +1,4 @@
-//! What becomes of a design, and its metrics, given its positions.
+//! The outcome of a design, and its metrics, given its positions.
 
 use std::sync::Arc;
 
@@ -15,18 +15,18 @@ use crate::math::lanes::LANES;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
-/// Positions that are solved first, spread over all: most designs that do not move over all of these,
-/// or miss a condition, are known by them.
+/// Positions that are solved first, spread over all: they show most designs that do not move over all
+/// positions, or miss a condition.
 const PROBES: usize = LANES;
-/// Positions from which that is worth it.
+/// Number of positions from which probes are worth their time.
 const MANY_POSITIONS: usize = 4 * PROBES;
 
 /// Columns that a metric reads without an allocation.
 const FEW_SOURCES: usize = 8;
 
-/// What a motion is at the end of a turn and at its start is the same to this part of its size. Near
-/// a change point positions are known to 1.5e-8, the root of the rounding; assemblies that differ do
-/// so by far more.
+/// A motion returns if its positions at the end of a turn and at its start agree to this part of the size.
+/// Near a change point positions are known to 1.5e-8, the root of the rounding; different assemblies differ
+/// by far more.
 const SAME: f64 = 1.0e-6;
 
 /// Code from which a position has failed.
@@ -48,7 +48,7 @@ impl Probes {
     }
 }
 
-/// What all chunks of a batch share.
+/// The data that all chunks of a batch share.
 pub(super) struct SweepBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub sweep: &'b Sweep<'b>,
@@ -65,7 +65,7 @@ pub(super) struct SweepBatch<'b> {
     pub control: &'b Control<'b>,
 }
 
-/// What becomes of a design.
+/// The outcome of a design.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
     /// It moves, with the worst status of its positions.
@@ -77,48 +77,49 @@ pub(super) enum Outcome {
 }
 
 impl SweepBatch<'_> {
-    /// What becomes of a design, given its positions at `q`, all or the probes alone; and its metrics,
-    /// of all.
+    /// The outcome of a design, given its positions at `q`, all or only the probes; and its metrics, over all
+    /// positions.
     pub(super) fn evaluate(
         &self,
         rows: &ScratchRows<'_>,
         (row, q): (DesignRow<'_>, &[f64]),
         are_probes: bool,
-        found: &mut [f64],
+        results: &mut [f64],
     ) -> Outcome {
         let status = &rows.status()[..q.len() / self.shape.drivers];
         let worst = status.iter().fold(0, |worst, &code| worst.max(code));
         if worst >= FIRST_FAILURE {
-            // The probes come first, whether or not they were solved before.
+            // The probes come first, also if they were solved before.
             let places: &[usize] = if are_probes { &[] } else { &self.probes.places };
             let mut all = places.iter().map(|&place| &status[place]).chain(status);
             let failed = all.find(|&&code| code >= FIRST_FAILURE);
             return Outcome::Fails(failed.copied().unwrap_or(worst));
         }
         let metrics = self.sweep.metrics;
-        found.fill(f64::NAN);
+        results.fill(f64::NAN);
         for condition in self.sweep.conditions {
             let metric = metrics[condition.metric];
             if !are_probes || condition.stays_false(metric.growth()) {
                 let value = self.value(rows, (row, q), condition.metric, worst);
-                found[condition.metric] = value;
-                // A part of the positions may have no probe.
+                results[condition.metric] = value;
+                // A part of the positions may lack a probe.
                 if !(condition.holds(value) || are_probes && value.is_nan()) {
                     return Outcome::FailsCondition;
                 }
             }
         }
         if !are_probes {
-            let asked = |metric: usize| self.sweep.conditions.iter().any(|c| c.metric == metric);
-            for metric in (0..metrics.len()).filter(|&metric| !asked(metric)) {
-                found[metric] = self.value(rows, (row, q), metric, worst);
+            let has_condition =
+                |metric: usize| self.sweep.conditions.iter().any(|c| c.metric == metric);
+            for metric in (0..metrics.len()).filter(|&metric| !has_condition(metric)) {
+                results[metric] = self.value(rows, (row, q), metric, worst);
             }
         }
         Outcome::Moves(worst)
     }
 
-    /// A metric of the positions at `q`, the first of the rows, whose worst status is given. At singular
-    /// ones there are no derivatives.
+    /// A metric of the positions at `q`, the first of the rows, with their worst status. Singular positions
+    /// have no derivatives.
     fn value(
         &self,
         rows: &ScratchRows<'_>,
@@ -136,15 +137,15 @@ impl SweepBatch<'_> {
         let sources = &self.sources[metric][..];
         // Most read few columns; an allocation would take as long as the metric of the probes.
         let mut few = [&[][..]; FEW_SOURCES];
-        let many: Vec<&[f64]>;
+        let collected: Vec<&[f64]>;
         let values = if let Some(few) = few.get_mut(..sources.len()) {
             for (values, source) in few.iter_mut().zip(sources) {
                 *values = column(source);
             }
             few
         } else {
-            many = sources.iter().map(column).collect();
-            &many[..]
+            collected = sources.iter().map(column).collect();
+            &collected[..]
         };
         let metric = (self.sweep.metrics[metric], sources);
         let returns = q.len() == self.course.q.len() && self.returns(rows, metric);
@@ -153,7 +154,7 @@ impl SweepBatch<'_> {
         metric.0.of(&Positions { q, drivers, dimensions, values, returns, cancel })
     }
 
-    /// Whether what a metric reads is the same after a turn, at two positions.
+    /// Whether the numbers that a metric reads are the same after a turn, at two positions.
     fn returns(&self, rows: &ScratchRows<'_>, (metric, sources): (&dyn Metric, &[usize])) -> bool {
         let (count, next) = (self.course.count(), 2);
         let is_solved = self.q.len() > self.course.q.len();

@@ -1,10 +1,10 @@
-//! How far a coordinate goes: its extremes, where they are, and what is between them.
+//! Extremes of a coordinate: their values, their places and their difference.
 
 use super::coordinate::Coordinate;
 use super::course::Course;
 use super::metric::{Growth, Metric, Need, Positions};
 
-/// The greatest value less the least.
+/// The greatest value minus the least.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Span(pub Coordinate);
 
@@ -27,7 +27,7 @@ impl Metric for Span {
     }
 }
 
-/// Which extreme.
+/// The kind of an extreme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extreme {
     /// The least value of a coordinate.
@@ -45,17 +45,17 @@ impl Extreme {
 
     /// The extreme, and the first position that has it.
     fn find(&self, positions: &Positions<'_>) -> Option<(usize, f64)> {
-        let mut found: Option<(usize, f64)> = None;
+        let mut extreme: Option<(usize, f64)> = None;
         for (index, value) in self.coordinate().values(positions).enumerate() {
             let exceeds = |most: f64| match self {
                 Self::Least(_) => value < most,
                 Self::Greatest(_) => value > most,
             };
-            if found.is_none_or(|(_, most)| exceeds(most)) {
-                found = Some((index, value));
+            if extreme.is_none_or(|(_, most)| exceeds(most)) {
+                extreme = Some((index, value));
             }
         }
-        found
+        extreme
     }
 }
 
@@ -76,7 +76,7 @@ impl Metric for Extreme {
     }
 }
 
-/// The driver's coordinate where an extreme is; of several equal ones the first. For one driver.
+/// The driver's coordinate at an extreme; the first of several equal ones. For one driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlaceOf(pub Extreme);
 
@@ -86,8 +86,8 @@ impl Metric for PlaceOf {
     }
 
     fn of(&self, positions: &Positions<'_>) -> f64 {
-        let found = self.0.find(positions).and_then(|(index, _)| positions.q.get(index));
-        found.copied().unwrap_or(f64::NAN)
+        let place = self.0.find(positions).and_then(|(index, _)| positions.q.get(index));
+        place.copied().unwrap_or(f64::NAN)
     }
 
     fn check(&self, course: &Course<'_>) -> Result<(), String> {

@@ -14,16 +14,16 @@ use crate::query::metrics::acute;
 pub enum Line {
     /// From the first joint to the second.
     Joints([usize; 2]),
-    /// Along a guide on a link, at the angle that a dimension says, or along the link.
+    /// Along a guide on a link, at the angle of a dimension, or along the link.
     Guide(usize, Option<usize>),
 }
 
-/// The least acute angle between two lines, rad; of a slide the complement of the greatest.
+/// The least acute angle between two lines, rad; for a slide the complement of the greatest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeastTransmission {
     /// The lines.
     pub lines: [Line; 2],
-    /// Whether the angle to the normal of the second line is meant.
+    /// Whether this is the angle to the normal of the second line.
     pub complement: bool,
 }
 
@@ -50,9 +50,9 @@ impl Line {
             (Self::Joints(_), [from, to]) => {
                 Vector::new(to[2 * at] - from[2 * at], to[2 * at + 1] - from[2 * at + 1])
             }
-            (Self::Guide(_, own), [angle]) => {
-                let own = own.and_then(|index| dimensions.get(index)).copied().unwrap_or(0.0);
-                let (y, x) = sin_cos(angle[at] + own);
+            (Self::Guide(_, offset), [angle]) => {
+                let offset = offset.and_then(|index| dimensions.get(index)).copied().unwrap_or(0.0);
+                let (y, x) = sin_cos(angle[at] + offset);
                 Vector::new(x, y)
             }
             _ => Vector::new(f64::NAN, f64::NAN),
@@ -68,16 +68,16 @@ impl Metric for LeastTransmission {
     fn of(&self, positions: &Positions<'_>) -> f64 {
         let [first, second] = self.lines;
         let (a, b) = positions.values.split_at(first.count().min(positions.values.len()));
-        let found = match (first, second, a, b) {
+        let directions = match (first, second, a, b) {
             (Line::Joints(_), Line::Joints(_), &[from, to], &[start, end]) => {
                 self.least_of_lines([points(from), points(to)], [points(start), points(end)])
             }
             _ => self.least((0..positions.count()).map(|at| {
-                let own = positions.dimensions;
-                [first.direction(a, own, at), second.direction(b, own, at)]
+                let dimensions = positions.dimensions;
+                [first.direction(a, dimensions, at), second.direction(b, dimensions, at)]
             })),
         };
-        let angle = found.map_or(f64::NAN, |[u, v]| acute(u, v));
+        let angle = directions.map_or(f64::NAN, |[u, v]| acute(u, v));
         if self.complement { FRAC_PI_2 - angle } else { angle }
     }
 
@@ -87,7 +87,7 @@ impl Metric for LeastTransmission {
 }
 
 impl LeastTransmission {
-    /// The same of lines between joints: as many positions side by side as are worth it.
+    /// The same for lines between joints, with several positions side by side.
     fn least_of_lines(
         &self,
         [from, to]: [&[[f64; 2]]; 2],
@@ -96,38 +96,38 @@ impl LeastTransmission {
         let along = |[a, b]: [&[f64; 2]; 2]| Vector::new(b[0] - a[0], b[1] - a[1]);
         let at = |at: usize| [along([&from[at], &to[at]]), along([&start[at], &end[at]])];
         let count = from.len().min(to.len()).min(start.len()).min(end.len());
-        let (mut least, mut found) = (f64::INFINITY, None);
+        let (mut smallest, mut place) = (f64::INFINITY, None);
         for first in (0..count).step_by(LANES) {
-            let own = LANES.min(count - first);
+            let used = LANES.min(count - first);
             let mut squares = [f64::INFINITY; LANES];
-            for (lane, square) in squares[..own].iter_mut().enumerate() {
+            for (lane, square) in squares[..used].iter_mut().enumerate() {
                 let [u, v] = at(first + lane);
                 let part = if self.complement { u.dot(v) } else { u.cross(v) };
                 *square = part * part / (u.norm2() * v.norm2());
             }
             for (lane, &square) in squares.iter().enumerate() {
-                if square < least {
-                    (least, found) = (square, Some(first + lane));
+                if square < smallest {
+                    (smallest, place) = (square, Some(first + lane));
                 }
             }
         }
-        found.map(at)
+        place.map(at)
     }
 
     /// The directions whose angle is least.
     #[inline]
     fn least(&self, directions: impl Iterator<Item = [Vector; 2]>) -> Option<[Vector; 2]> {
-        let mut least = f64::INFINITY;
-        let mut found = None;
+        let mut smallest = f64::INFINITY;
+        let mut best = None;
         for [u, v] in directions {
-            // The square of the sine, or of the cosine, orders as the angle does.
+            // The square of the sine, or of the cosine, has the order of the angle.
             let part = if self.complement { u.dot(v) } else { u.cross(v) };
             let square = part * part / (u.norm2() * v.norm2());
-            if square < least {
-                (least, found) = (square, Some([u, v]));
+            if square < smallest {
+                (smallest, best) = (square, Some([u, v]));
             }
         }
-        found
+        best
     }
 }
 

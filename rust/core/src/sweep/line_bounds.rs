@@ -1,4 +1,4 @@
-//! How far stretches of a path are from a line, at least: from few points of each and from running
+//! Lower bounds of the distances of a path's stretches from a line: from few points of each and from running
 //! sums, for all stretches side by side.
 
 use std::cell::Cell;
@@ -8,8 +8,8 @@ use crate::math::lanes::{LANES, Real};
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 
-/// Distances by running sums differ from others by no more than this part of the size of the path: a
-/// stretch that is a thousandth of it has moments to nine digits, and a direction to as many.
+/// Distances by running sums differ from others by at most this part of the size of the path: a stretch of a
+/// thousandth of the path has moments and a direction to nine digits.
 const RUNNING_SUMS: f64 = 1.0e-6;
 
 /// Rows of the table: x and y of each point, sums of x, y, xx, xy and yy over all points before one
@@ -21,7 +21,7 @@ const OF_SUMS: usize = 8;
 const ROWS: usize = 9;
 
 thread_local! {
-    /// The table of the last path: to make one takes as long as to fill it.
+    /// The table of the last path: allocating one takes as long as filling it.
     static TABLE: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
 }
 
@@ -33,7 +33,7 @@ pub(super) struct LineBounds {
     width: usize,
     count: usize,
     starts: usize,
-    /// How far a distance by running sums may be off.
+    /// Error of a distance by running sums.
     pub rounding: f64,
 }
 
@@ -42,7 +42,7 @@ impl LineBounds {
     pub(super) fn of(path: &[Vector], count: usize) -> Self {
         let width = path.len() + 1 + LANES;
         let starts = (path.len() + 1).saturating_sub(count);
-        // Whatever is read is written before, but for the sums over no points.
+        // Every number is written before it is read, except the sums over no points.
         let mut table = TABLE.take();
         table.resize(ROWS * width, 0.0);
         for k in 0..5 {
@@ -144,7 +144,7 @@ impl<R: Real> Task<R> for &mut LineBounds {
             for point in [from, self.point(start + (self.count - 1) / 2), to] {
                 most = along.cross(point - mean).abs().max(most);
             }
-            // Without a direction nothing is known.
+            // Without a direction the bound is 0.
             let far2 = (most * most / along.norm2()).max(R::ZERO);
             self.set(OF_SUMS, start, far2);
         }

@@ -31,7 +31,7 @@ impl Metric for RootMeanSquare {
     }
 }
 
-/// NaN of none.
+/// NaN without values.
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for value in values {

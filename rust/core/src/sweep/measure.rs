@@ -1,4 +1,4 @@
-//! Measures a batch: solves one design after another and keeps the metrics alone.
+//! Measures a batch: solves one design after another and keeps only the metrics.
 
 use super::course::Course;
 use super::evaluate_design::{Probes, SweepBatch};
@@ -98,14 +98,14 @@ impl Mechanism {
         Ok(Measured { values, status, kept })
     }
 
-    /// What metrics are [checked](Metric::check) with: the coordinates that all designs go through.
+    /// The course with which metrics are [checked](Metric::check): the coordinates of all designs.
     #[must_use]
     pub fn course<'a>(&self, q: &'a [f64]) -> Course<'a> {
         Course::new(q, self.q0().len(), self.plan().driven_slide(0).is_none())
     }
 }
 
-/// What all metrics read, each quantity once, and the highest order.
+/// The quantities that all metrics read, each once, and the highest order.
 fn needed(metrics: &[&dyn Metric]) -> (Outputs, usize) {
     let mut outputs = Outputs::default();
     let mut highest = 0;

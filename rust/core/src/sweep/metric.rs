@@ -1,14 +1,14 @@
-//! What a metric is: one number of a motion.
+//! A metric: one number of a motion.
 
 use super::course::Course;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::batch::request::Quantity;
 
-/// A quantity, and which of its derivatives by the driver: 0 is the value.
+/// A quantity, and the order of its derivative by the driver: 0 is the value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Need {
-    /// Which joint, link or slide.
+    /// The joint, link or slide.
     pub quantity: Quantity,
     /// Order of the derivative.
     pub order: usize,
@@ -27,26 +27,26 @@ impl Need {
 /// The positions of one design.
 #[derive(Debug, Clone, Copy)]
 pub struct Positions<'a> {
-    /// The coordinates, rad or m: of each position those of all drivers.
+    /// The coordinates, rad or m: those of all drivers for each position.
     pub q: &'a [f64],
     /// Number of drivers.
     pub drivers: usize,
     /// The design's dimensions, in the order of [`Mechanism::dimensions`](crate::Mechanism::dimensions).
     pub dimensions: &'a [f64],
-    /// What the metric [needs](Metric::needs), in that order: position after position, of a point x and
-    /// y.
+    /// The quantities that the metric [needs](Metric::needs), in that order: position after position, x and y
+    /// for a point.
     pub values: &'a [&'a [f64]],
-    /// Whether what the metric needs is at the end of the turn as it was at its start, so that the
-    /// first position follows the last: after a change point, and in higher classes, it may take two
-    /// turns. Only known to metrics that [ask](Metric::asks_return).
+    /// Whether the quantities that the metric needs are the same at the end of the turn as at its start,
+    /// so that the first position follows the last: after a change point, and in higher classes, this may
+    /// take two turns. Known only to metrics that [ask](Metric::asks_return).
     pub returns: bool,
     /// See [`Self::is_cancelled`].
     pub(super) cancel: Option<&'a AtomicBool>,
 }
 
 impl Positions<'_> {
-    /// Whether the caller has cancelled the work: then any number will do. A metric that takes long
-    /// for many positions asks now and then.
+    /// Whether the caller has cancelled the work: then the metric may return any number. A metric that takes
+    /// long for many positions checks this now and then.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
@@ -66,12 +66,12 @@ pub enum Growth {
     Falls,
     /// It never falls.
     Rises,
-    /// It may do either.
+    /// It may grow and fall.
     Either,
 }
 
 impl Growth {
-    /// That of the negative.
+    /// The growth of the negative.
     #[must_use]
     pub fn reversed(self) -> Self {
         match self {
@@ -111,7 +111,7 @@ impl Growth {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Metric: Sync {
-    /// What it reads.
+    /// The quantities that it reads.
     fn needs(&self) -> Vec<Need>;
 
     /// The number; NaN where it has no meaning.
@@ -128,18 +128,18 @@ pub trait Metric: Sync {
         f64::NAN
     }
 
-    /// Whether it asks if the motion [returns](Positions::returns): two more positions are solved. A
-    /// metric that depends on the order of positions asks: else a [part](super::Part) may leave gaps
-    /// between those that it is given.
+    /// Whether it needs to know if the motion [returns](Positions::returns): two more positions are solved. A
+    /// metric that depends on the order of positions needs it: otherwise a [part](super::Part) may leave gaps
+    /// between those that it gets.
     fn asks_return(&self) -> bool {
         false
     }
 
-    /// Checks that it has a meaning for a mechanism with so many drivers at such coordinates.
+    /// Checks that it has a meaning for a mechanism at the coordinates of `course`.
     ///
     /// # Errors
     ///
-    /// Why it has none. Unless a metric says otherwise, derivatives are for one driver.
+    /// The reason why it has no meaning. By default, derivatives are for one driver.
     fn check(&self, course: &Course<'_>) -> Result<(), String> {
         if course.drivers > 1 && self.needs().iter().any(|need| need.order > 0) {
             return Err(format!("derivatives need one driver, here are {}", course.drivers));
@@ -174,7 +174,7 @@ impl<M: Metric + ?Sized + Send> Metric for Box<M> {
     }
 }
 
-/// The number 1 for every design that moves over all positions, and 0 for every other.
+/// The number 1 for every design that moves over all positions, and 0 for all others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Moves;
 
@@ -217,7 +217,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// Whether a value meets it; NaN does not.
+    /// Whether a value meets the condition; NaN does not.
     #[must_use]
     pub fn holds(&self, value: f64) -> bool {
         match self.relation {

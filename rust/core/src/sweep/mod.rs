@@ -1,8 +1,8 @@
-//! One number a design: metrics of its motion, without keeping its positions.
+//! One number per design: metrics of its motion, without storing its positions.
 //!
 //! [`Mechanism::measure`] solves one design after another into the memory of a thread,
-//! [`Metric`]s make a number of each motion, [`Condition`]s drop designs early. The metrics here cover
-//! what is often asked; others implement the trait.
+//! [`Metric`]s compute a number from each motion, [`Condition`]s drop designs early. The metrics here cover
+//! frequent needs; others implement the trait.
 //!
 //! ```
 //! use assur::sweep::{Coordinate, Span, Sweep};
@@ -23,8 +23,8 @@
 //! let q = [0.0, std::f64::consts::PI];
 //! let stroke = Span(Coordinate::slide(engine.slide("bore")?));
 //! let sweep = Sweep { metrics: &[&stroke], ..Sweep::of(&engine, engine.drawing(), &q) };
-//! let found = engine.measure(&sweep, &Control::default())?;
-//! assert!((found.values[0][0] - 0.1).abs() < 1e-15);
+//! let measures = engine.measure(&sweep, &Control::default())?;
+//! assert!((measures.values[0][0] - 0.1).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

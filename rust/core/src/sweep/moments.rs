@@ -14,7 +14,7 @@ pub(super) struct Moments {
 
 impl Moments {
     pub(super) fn of(stretch: &[Vector]) -> Self {
-        // About a point among them, squares are hardly greater than about the mean.
+        // About one of the points, squares are hardly greater than about the mean.
         let origin = stretch[stretch.len() / 2];
         let sums = sums(stretch, |point| {
             let Vector { x, y } = point - origin;
@@ -47,19 +47,19 @@ impl Moments {
 
 /// Sums over all points, [`SIDE_BY_SIDE`] at once: one addition need not wait for the last.
 fn sums<const N: usize>(points: &[Vector], terms: impl Fn(Vector) -> [f64; N]) -> [f64; N] {
-    let mut some = [[0.0; SIDE_BY_SIDE]; N];
+    let mut lane_sums = [[0.0; SIDE_BY_SIDE]; N];
     let (whole, rest) = points.as_chunks::<SIDE_BY_SIDE>();
     for points in whole {
         for (lane, &point) in points.iter().enumerate() {
-            for (some, term) in some.iter_mut().zip(terms(point)) {
-                some[lane] += term;
+            for (lane_sums, term) in lane_sums.iter_mut().zip(terms(point)) {
+                lane_sums[lane] += term;
             }
         }
     }
     for (lane, &point) in rest.iter().enumerate() {
-        for (some, term) in some.iter_mut().zip(terms(point)) {
-            some[lane] += term;
+        for (lane_sums, term) in lane_sums.iter_mut().zip(terms(point)) {
+            lane_sums[lane] += term;
         }
     }
-    some.map(|lanes| lanes.iter().sum())
+    lane_sums.map(|lanes| lanes.iter().sum())
 }

@@ -4,7 +4,7 @@ use super::course::Course;
 use super::metric::{Growth, Metric, Need, Positions};
 
 /// Coordinates are compared with the ends of a part to this share of the greatest of them: sums and
-/// conversions from degrees end some roundings beside what they should be.
+/// conversions from degrees are some roundings off.
 const END: f64 = 1.0e-12;
 
 /// A metric of the positions whose coordinate is within a range, its ends included. For one driver.
@@ -16,7 +16,7 @@ pub struct Part<M> {
     pub from: f64,
     /// See `from`.
     pub to: f64,
-    /// What coordinates are counted modulo: a turn, for angles.
+    /// The modulus of the coordinates: a turn, for angles.
     pub period: Option<f64>,
 }
 
@@ -25,7 +25,7 @@ struct Chosen {
     places: Vec<usize>,
     /// Whether the path passes the end of q, from the last position to the first.
     passes_end: bool,
-    /// Whether no other position is between them.
+    /// Whether the positions are consecutive.
     is_one_stretch: bool,
 }
 

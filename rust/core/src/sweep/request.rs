@@ -1,9 +1,9 @@
-//! What to measure, and what is found.
+//! The request for a sweep, and its result.
 
 use super::metric::{Condition, Metric};
 use crate::plan::mechanism::Mechanism;
 
-/// What to measure.
+/// A request for a sweep.
 #[derive(Clone, Copy)]
 pub struct Sweep<'a> {
     /// Dimensions: the first of every design, then the second of every design, and so on.
@@ -14,18 +14,18 @@ pub struct Sweep<'a> {
     pub signs: &'a [i8],
     /// The metrics.
     pub metrics: &'a [&'a dyn Metric],
-    /// What designs must meet, in the order in which it is asked.
+    /// The conditions on designs, in the order in which they are checked.
     pub conditions: &'a [Condition],
 }
 
 /// The metrics of a batch.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
-    /// For every metric, its value of every design. Those that do not move have its
-    /// [number of these](Metric::of_failed), mostly NaN, and those that miss a condition NaN.
+    /// For every metric, its value for every design. Designs that do not move have its
+    /// [number for these](Metric::of_failed), mostly NaN, and those that miss a condition NaN.
     pub values: Vec<Vec<f64>>,
-    /// For every design a [`Status`](crate::Status) code: that of a position that cannot be solved, if one was found,
-    /// or the worst. A design that misses a condition has 0: it is not solved further.
+    /// For every design a [`Status`](crate::Status) code: that of a position that cannot be solved, if one was
+    /// found, or the worst. A design that misses a condition has 0: it is not solved further.
     pub status: Vec<u8>,
     /// Whether it moves over all positions and meets all conditions.
     pub kept: Vec<bool>,

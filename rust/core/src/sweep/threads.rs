@@ -12,12 +12,12 @@ use crate::description::error::SolveError;
 use crate::math::lanes::Real;
 use crate::state::status::Status;
 
-/// Designs after which it is decided whether probes are worth their time, and the least part of them
-/// that these must drop.
+/// Designs after which the solver decides whether probes are worth their time, and the least part of them
+/// that the probes must drop.
 const TRIAL: usize = 64;
 const LEAST_PART_DROPPED: usize = 8;
 
-/// Positions of a design that are solved at once: more would be loaded before a signal is heard.
+/// Positions of a design that are solved at once: with more, a signal would wait until all are loaded.
 const POSITIONS: usize = 65_536;
 
 /// Measures all chunks.
@@ -26,7 +26,7 @@ pub(super) struct Measure<'b, 'r> {
     pub chunks: Chunks<'r>,
 }
 
-/// What one thread works with.
+/// The working data of one thread.
 struct ThreadState<'b, R: Real, const G: usize> {
     solver: Solver<'b, R, G>,
     designs: Designs,
@@ -49,9 +49,9 @@ impl ForLevel for Measure<'_, '_> {
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
         let SweepBatch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
-        let one = || Worker::new(mechanism, request, derivatives, writer, control);
+        let new_worker = || Worker::new(mechanism, request, derivatives, writer, control);
         let worker = || ThreadState::<'_, L::Register, G> {
-            solver: Solver { worker: one(), probe: one(), probed: 0, dropped: 0 },
+            solver: Solver { worker: new_worker(), probe: new_worker(), probed: 0, dropped: 0 },
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
         };
@@ -73,7 +73,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
         batch: &SweepBatch<'_>,
         (row, design): (DesignRow<'_>, usize),
         rows: &mut ScratchRows<'_>,
-        found: &mut [f64],
+        values: &mut [f64],
     ) -> Outcome {
         let (all, q, probes) = (batch.q, batch.course.q, &batch.probes.q[..]);
         let step = batch.course.turn.map(|turn| turn / batch.course.count() as f64);
@@ -81,7 +81,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             return Outcome::Fails(Status::Unreachable as u8);
         }
         if !self.worker.bind(row, &mut rows.job(all, design)) {
-            return batch.evaluate(rows, (row, q), false, found);
+            return batch.evaluate(rows, (row, q), false, values);
         }
         if step.is_some_and(|step| self.worker.misses_position(step)) {
             return Outcome::Fails(Status::Unreachable as u8);
@@ -92,7 +92,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             self.worker.swap_space(&mut self.probe);
             L::run(&mut self.worker, &mut rows.job(probes, design));
             self.worker.swap_space(&mut self.probe);
-            let outcome = batch.evaluate(rows, (row, probes), true, found);
+            let outcome = batch.evaluate(rows, (row, probes), true, values);
             let is_dropped = !matches!(outcome, Outcome::Moves(_));
             self.probed += 1;
             self.dropped += usize::from(is_dropped);
@@ -107,7 +107,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             }
             L::run(&mut self.worker, &mut rows.part(q, part * POSITIONS, design));
         }
-        batch.evaluate(rows, (row, q), false, found)
+        batch.evaluate(rows, (row, q), false, values)
     }
 }
 
@@ -123,13 +123,13 @@ impl SweepBatch<'_> {
         let all = self.shape.designs;
         designs.read(self.mechanism, self.sweep.dimensions, all, chunk.designs.clone());
         let mut rows = scratch.rows();
-        let mut found = vec![f64::NAN; self.sweep.metrics.len()];
+        let mut values = vec![f64::NAN; self.sweep.metrics.len()];
         for (place, design) in chunk.designs.clone().enumerate() {
             if self.control.is_cancelled() {
                 return;
             }
             let row = designs.row(place);
-            let outcome = solver.solve::<L>(self, (row, design), &mut rows, &mut found);
+            let outcome = solver.solve::<L>(self, (row, design), &mut rows, &mut values);
             let (status, is_kept) = match outcome {
                 Outcome::Moves(status) => (status, true),
                 Outcome::Fails(status) => (status, false),
@@ -138,17 +138,17 @@ impl SweepBatch<'_> {
             match outcome {
                 Outcome::Moves(_) => {}
                 Outcome::Fails(_) => {
-                    for (value, metric) in found.iter_mut().zip(self.sweep.metrics) {
+                    for (value, metric) in values.iter_mut().zip(self.sweep.metrics) {
                         *value = metric.of_failed();
                     }
                 }
-                Outcome::FailsCondition => found.fill(f64::NAN),
+                Outcome::FailsCondition => values.fill(f64::NAN),
             }
-            found.push(f64::from(u8::from(is_kept)));
-            for (column, &value) in results.columns.iter_mut().zip(&found) {
+            values.push(f64::from(u8::from(is_kept)));
+            for (column, &value) in results.columns.iter_mut().zip(&values) {
                 column[place] = MaybeUninit::new(value);
             }
-            found.pop();
+            values.pop();
             results.status[place] = MaybeUninit::new(status);
         }
         L::Register::fence();

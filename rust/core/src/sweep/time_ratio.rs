@@ -1,4 +1,4 @@
-//! The time ratio of a motion to and fro.
+//! The time ratio of a motion back and forth.
 
 use std::f64::consts::TAU;
 
@@ -24,9 +24,9 @@ impl Metric for TimeRatio {
         }
         let place = |extreme: Extreme| PlaceOf(extreme).of(positions);
         let turned = place(Extreme::Greatest(self.0)) - place(Extreme::Least(self.0));
-        let one = turned.abs() - TAU * (turned.abs() / TAU).floor();
-        let other = TAU - one;
-        if one > 0.0 { one.max(other) / one.min(other) } else { f64::NAN }
+        let stroke = turned.abs() - TAU * (turned.abs() / TAU).floor();
+        let return_stroke = TAU - stroke;
+        if stroke > 0.0 { stroke.max(return_stroke) / stroke.min(return_stroke) } else { f64::NAN }
     }
 
     fn asks_return(&self) -> bool {

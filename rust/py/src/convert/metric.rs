@@ -1,4 +1,4 @@
-//! Metrics and conditions of sweeps: what `assur.metric` makes, with the names of a mechanism.
+//! Metrics and conditions of sweeps: the objects of `assur.metric`, with the names of a mechanism.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ const MODULE: Classes = Classes("assur.sweeps.terms");
 
 type Own = Box<dyn Metric + Send>;
 
-/// What is measured.
+/// The measured quantity.
 #[derive(Clone, Copy)]
 enum Kind {
     Moves,
@@ -64,8 +64,8 @@ impl Leaf<'_> {
     fn metric(self, mechanism: &Mechanism) -> PyResult<Own> {
         let name = self.of.unwrap_or_default();
         let coordinate = || -> PyResult<assur::sweep::Coordinate> {
-            let of = mechanism.coordinate(&name).map_err(error_map::solve)?;
-            Ok(assur::sweep::Coordinate::from(of).derivative(self.order))
+            let tracked = mechanism.coordinate(&name).map_err(error_map::solve)?;
+            Ok(assur::sweep::Coordinate::from(tracked).derivative(self.order))
         };
         let metric: Own = match self.kind.0 {
             Kind::Moves => Box::new(Moves),

@@ -44,7 +44,7 @@ pub(crate) fn link(mechanism: &Mechanism, name: &str) -> PyResult<usize> {
     mechanism.link(name).map_err(error_map::solve)
 }
 
-/// `JointLine` or `GuideLine` of `assur.kinematics.transmission`: the fields tell which.
+/// `JointLine` or `GuideLine` of `assur.kinematics.transmission`: the fields show which.
 #[derive(FromPyObject)]
 pub(crate) enum LineOf {
     Joints { start: String, end: String },

@@ -55,8 +55,8 @@ impl Values<'_> {
     ) -> PyResult<Option<OneWay>> {
         let Some(word) = while_ else { return Ok(None) };
         let measure = over.map_or(Ok(default), |name| measure(self.mechanism, name))?;
-        let known = self.ways.iter().position(|&way| way == measure);
-        let way = known.unwrap_or_else(|| {
+        let index = self.ways.iter().position(|&way| way == measure);
+        let way = index.unwrap_or_else(|| {
             self.ways.push(measure);
             self.ways.len() - 1
         });

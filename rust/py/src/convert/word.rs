@@ -11,7 +11,7 @@ use crate::error;
 
 /// An enum with a word for each variant.
 pub(crate) trait Words: Copy + 'static {
-    /// What the word chooses, for the message.
+    /// The choice that the word makes, for the message.
     const WHAT: &'static str;
     const KNOWN: &'static [(&'static str, Self)];
 }
@@ -23,14 +23,14 @@ impl<'a, 'py, T: Words> FromPyObject<'a, 'py> for Word<T> {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let given = object.extract::<String>().ok();
-        let known = T::KNOWN.iter().find(|(word, _)| given.as_deref() == Some(word));
+        let text = object.extract::<String>().ok();
+        let variant = T::KNOWN.iter().find(|(word, _)| text.as_deref() == Some(word));
         let refuse = || -> PyResult<PyErr> {
             let words: Vec<_> = T::KNOWN.iter().map(|(word, _)| format!("'{word}'")).collect();
-            let (given, words) = (object.repr()?, words.join(", "));
-            Ok(error::input(&format!("{} is {given}: one of {words} is needed", T::WHAT), None))
+            let (text, words) = (object.repr()?, words.join(", "));
+            Ok(error::input(&format!("{} is {text}: one of {words} is needed", T::WHAT), None))
         };
-        known.map(|&(_, case)| Self(case)).ok_or_else(|| refuse().unwrap_or_else(|error| error))
+        variant.map(|&(_, case)| Self(case)).ok_or_else(|| refuse().unwrap_or_else(|error| error))
     }
 }
 

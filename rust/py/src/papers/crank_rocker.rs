@@ -32,7 +32,7 @@ pub(crate) fn crank_rocker_solve<'py>(
         columns.push(column);
     }
     let assembly = if printed { core::Assembly::Printed } else { core::Assembly::Other };
-    let found = detach::map(py, phi1.len(), |i| {
+    let positions = detach::map(py, phi1.len(), |i| {
         let at = |column: usize| columns[column][i];
         let lengths = [at(0), at(1), at(2), at(3)];
         let (p, r) = core::position(phi1[i], lengths, assembly, [at(4), at(5)])?;
@@ -45,8 +45,9 @@ pub(crate) fn crank_rocker_solve<'py>(
         }
         Some(all)
     })?;
-    let row = |row: usize| found.iter().map(move |one| one.map_or(f64::NAN, |all| all[row]));
-    let numbers = reserve::collected(ROWS * found.len(), (0..ROWS).flat_map(row))?;
+    let row =
+        |row: usize| positions.iter().map(move |numbers| numbers.map_or(f64::NAN, |all| all[row]));
+    let numbers = reserve::collected(ROWS * positions.len(), (0..ROWS).flat_map(row))?;
     Ok(PyArray1::from_vec(py, numbers))
 }
 
@@ -67,7 +68,7 @@ pub(crate) fn crank_rocker_grashof<'py>(
     lengths: [Flat<'py>; 4],
     tolerance: f64,
 ) -> PyResult<Bound<'py, PyList>> {
-    let name = |one: &core::Lengths| match core::grashof(*one, tolerance) {
+    let name = |lengths: &core::Lengths| match core::grashof(*lengths, tolerance) {
         core::Grashof::CrankRocker => "crank-rocker",
         core::Grashof::RockerCrank => "rocker-crank",
         core::Grashof::DoubleCrank => "double-crank",
@@ -111,16 +112,16 @@ pub(crate) fn crank_rocker_ground_range<'py>(
     Ok(PyArray1::from_vec(py, ends.into_iter().flatten().collect()))
 }
 
-/// Least and greatest transmission angle over a turn; NaN if the crank makes no full turn.
+/// Least and greatest transmission angle over a turn; NaN if the crank does not make a full turn.
 #[pyfunction]
 pub(crate) fn crank_rocker_extremes<'py>(
     py: Python<'py>,
     lengths: [Flat<'py>; 4],
 ) -> PyResult<Array<'py>> {
-    let ends = |one: &core::Lengths| {
-        let turns = core::crank_turns(*one);
-        let found = if turns { core::transmission_extremes(*one) } else { None };
-        found.unwrap_or([f64::NAN; 2])
+    let ends = |lengths: &core::Lengths| {
+        let turns = core::crank_turns(*lengths);
+        let extremes = if turns { core::transmission_extremes(*lengths) } else { None };
+        extremes.unwrap_or([f64::NAN; 2])
     };
     let designs = designs(&lengths)?;
     let all = detach::map(py, designs.len(), |i| ends(&designs[i]))?;
@@ -146,12 +147,12 @@ pub(crate) fn crank_rocker_least_gamma<'py>(
 ) -> PyResult<Array<'py>> {
     let (rows, rocker) = (designs(&friction)?, reserve::copied(&rocker)?);
     check_same_length(rows.len(), rocker.len())?;
-    let least = |i: usize| core::least_gamma(rows[i], rocker[i]).unwrap_or(f64::NAN);
-    Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least)?))
+    let least_angle = |i: usize| core::least_gamma(rows[i], rocker[i]).unwrap_or(f64::NAN);
+    Ok(PyArray1::from_vec(py, detach::map(py, rows.len(), least_angle)?))
 }
 
-/// The exact ones without masses, of radii of the friction circles at B, C and D, and of coupler and rocker;
-/// NaN where friction prevents all motion.
+/// The exact least transmission angles without masses, from the radii of the friction circles at B, C and D,
+/// and the lengths of coupler and rocker; NaN where friction prevents all motion.
 #[pyfunction]
 pub(crate) fn crank_rocker_exact_least_gamma<'py>(
     py: Python<'py>,
@@ -162,18 +163,18 @@ pub(crate) fn crank_rocker_exact_least_gamma<'py>(
     let column = |flat: &Flat<'py>| flat.as_slice().map(<[f64]>::to_vec);
     let [b, c, d] = [column(&circles[0])?, column(&circles[1])?, column(&circles[2])?];
     let [coupler, rocker] = [column(&lengths[0])?, column(&lengths[1])?];
-    for other in [&c, &d, &coupler, &rocker] {
-        check_same_length(b.len(), other.len())?;
+    for list in [&c, &d, &coupler, &rocker] {
+        check_same_length(b.len(), list.len())?;
     }
     let side = if is_outer { core::Side::Outer } else { core::Side::Inner };
-    let least = |i: usize| {
+    let least_angle = |i: usize| {
         core::exact_least_gamma([b[i], c[i], d[i]], [coupler[i], rocker[i]], side)
             .unwrap_or(f64::NAN)
     };
-    Ok(PyArray1::from_vec(py, detach::map(py, b.len(), least)?))
+    Ok(PyArray1::from_vec(py, detach::map(py, b.len(), least_angle)?))
 }
 
-/// What is asked of a run that may jam.
+/// The request for a run that may jam.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Case {
@@ -245,7 +246,8 @@ pub(crate) fn crank_rocker_run<'py>(
         })
     };
     let (rows, events) = detach::catch_panic(|| Ok(simulate()))?.map_err(error_map::jamming)?;
-    let column = |of: fn(&core::Row) -> f64| PyArray1::from_vec(py, rows.iter().map(of).collect());
+    let column =
+        |number: fn(&core::Row) -> f64| PyArray1::from_vec(py, rows.iter().map(number).collect());
     let points = |which: usize| {
         PyArray1::from_vec(py, rows.iter().flat_map(|r| r.positions[which]).collect())
     };

@@ -21,11 +21,11 @@ type Orders<'py> = (Array<'py>, Array<'py>, Array<'py>);
 type AnglesAndValues<'py> = (Array<'py>, Array<'py>);
 
 fn orders<'py>(py: Python<'py>, jets: &[Jet]) -> PyResult<Orders<'py>> {
-    let of = |k: usize| -> PyResult<_> {
+    let column = |k: usize| -> PyResult<_> {
         let values = reserve::collected(jets.len(), jets.iter().map(|jet| jet.order(k)))?;
         Ok(PyArray1::from_vec(py, values))
     };
-    Ok((of(0)?, of(1)?, of(2)?))
+    Ok((column(0)?, column(1)?, column(2)?))
 }
 
 fn angles_and_values(py: Python<'_>, angles: Vec<f64>, values: Vec<f64>) -> AnglesAndValues<'_> {
@@ -37,11 +37,11 @@ fn map_pairs<'py>(
     py: Python<'py>,
     phi: &Flat<'py>,
     ratio: &Flat<'py>,
-    of: impl Fn(f64, f64) -> Jet + Sync,
+    function: impl Fn(f64, f64) -> Jet + Sync,
 ) -> PyResult<Orders<'py>> {
     let (phi, ratio) = (reserve::copied(phi)?, reserve::copied(ratio)?);
     check_same_length(phi.len(), ratio.len())?;
-    let jets = detach::map(py, phi.len(), |i| of(phi[i], ratio[i]))?;
+    let jets = detach::map(py, phi.len(), |i| function(phi[i], ratio[i]))?;
     orders(py, &jets)
 }
 
@@ -152,12 +152,13 @@ pub(crate) fn slider_crank_greatest_speed<'py>(
     exact: bool,
 ) -> PyResult<AnglesAndValues<'py>> {
     let k = reserve::copied(&k)?;
-    let of = |k: f64| {
+    let greatest = |k: f64| {
         if exact { Ok(core::greatest_speed(k)) } else { core::greatest_speed_by_series(k) }
     };
-    let found = detach::map(py, k.len(), |i| of(k[i]))?;
-    let found = found.into_iter().collect::<Result<Vec<_>, _>>().map_err(error_map::series)?;
-    let (angles, values) = found.iter().map(|g| (g.at, g.value)).unzip();
+    let extremes = detach::map(py, k.len(), |i| greatest(k[i]))?;
+    let extremes =
+        extremes.into_iter().collect::<Result<Vec<_>, _>>().map_err(error_map::series)?;
+    let (angles, values) = extremes.iter().map(|g| (g.at, g.value)).unzip();
     Ok(angles_and_values(py, angles, values))
 }
 
@@ -168,8 +169,8 @@ pub(crate) fn slider_crank_greatest_acceleration<'py>(
     k: Flat<'py>,
 ) -> PyResult<AnglesAndValues<'py>> {
     let k = reserve::copied(&k)?;
-    let found = detach::map(py, k.len(), |i| core::greatest_acceleration(k[i]))?;
-    let (angles, values) = found.iter().map(|g| (g.at, g.value)).unzip();
+    let extremes = detach::map(py, k.len(), |i| core::greatest_acceleration(k[i]))?;
+    let (angles, values) = extremes.iter().map(|g| (g.at, g.value)).unzip();
     Ok(angles_and_values(py, angles, values))
 }
 
@@ -183,13 +184,14 @@ pub(crate) fn slider_crank_deviation<'py>(
 ) -> PyResult<(Array<'py>, Array<'py>, Array<'py>, Array<'py>)> {
     let quantity = [Quantity::Stroke, Quantity::First, Quantity::Second][order.min(2)];
     let lambda = reserve::copied(&lambda_)?;
-    let found = detach::map_slow(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
-    let relative = |of: fn(&core::Greatest) -> f64| {
-        let one = |d: &core::Deviation| d.relative.as_ref().map_or(f64::NAN, of);
-        PyArray1::from_vec(py, found.iter().map(one).collect())
+    let deviations =
+        detach::map_slow(py, lambda.len(), |i| core::deviation(lambda[i], n, quantity))?;
+    let relative = |number: fn(&core::Greatest) -> f64| {
+        let relative_number = |d: &core::Deviation| d.relative.as_ref().map_or(f64::NAN, number);
+        PyArray1::from_vec(py, deviations.iter().map(relative_number).collect())
     };
-    let absolute = |of: fn(&core::Greatest) -> f64| {
-        PyArray1::from_vec(py, found.iter().map(|d| of(&d.absolute)).collect())
+    let absolute = |number: fn(&core::Greatest) -> f64| {
+        PyArray1::from_vec(py, deviations.iter().map(|d| number(&d.absolute)).collect())
     };
     Ok((relative(|g| g.value), relative(|g| g.at), absolute(|g| g.value), absolute(|g| g.at)))
 }

@@ -28,7 +28,7 @@ pub(crate) struct PythonCallbacks {
     events: Vec<Py<PyAny>>,
     last_check: Instant,
     refusals: usize,
-    /// What a signal handler raised, or `MemoryError`.
+    /// The exception of a signal handler, or `MemoryError`.
     pub(crate) signal: Option<PyErr>,
 }
 
@@ -43,7 +43,7 @@ impl PythonCallbacks {
         }
     }
 
-    /// Whether there are functions to call, so that the work must hold the GIL.
+    /// Whether the run calls functions, so that the work must hold the GIL.
     pub(crate) fn need_gil(&self) -> bool {
         !(self.loads.is_empty() && self.events.is_empty())
     }
@@ -71,7 +71,7 @@ fn call(
     let result = result.bind(py);
     match number(result) {
         Ok(number) if number.is_finite() => Ok(number),
-        other => {
+        rejected => {
             let name = function.bind(py).getattr("__name__").map_or_else(
                 |_| function.bind(py).repr().map_or_else(|_| "?".into(), |text| text.to_string()),
                 |name| name.to_string(),
@@ -82,7 +82,7 @@ fn call(
                 q.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
             );
             let fields = Fields { q: Some(q), t: Some(t), ..Fields::default() };
-            let kind = other.is_ok().then_some("not_finite");
+            let kind = rejected.is_ok().then_some("not_finite");
             Err(exception(Class::Input, kind, &message, None, &fields))
         }
     }
@@ -169,16 +169,16 @@ impl Run {
         })
     }
 
-    /// The same without energies at given times, or coordinates for a run over the coordinate; NaN
+    /// The samples without energies at given times, or coordinates for a run over the coordinate; NaN
     /// outside the run.
     fn at<'py>(
         &self,
         py: Python<'py>,
         points: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Vec<Array<'py>>> {
-        let own = &self.0.samples;
+        let samples = &self.0.samples;
         let points = reserve::copied(&points)?;
-        let nan = vec![f64::NAN; own.q.len() / own.len().max(1)];
+        let nan = vec![f64::NAN; samples.q.len() / samples.len().max(1)];
         let _room = reserve::room_for(py, points.len() * (3 * nan.len() + 2))?;
         let nothing = Sample {
             t: f64::NAN,

@@ -25,7 +25,7 @@ pub(crate) struct StopReasonState {
     slide: Option<String>,
 }
 
-/// A near miss of a change point: the dyad, by how much its lengths miss (m), and the coordinate.
+/// A near miss of a change point: the dyad, the miss of its lengths (m), and the coordinate.
 #[derive(FromPyObject, IntoPyObject, Debug, Clone, PartialEq)]
 #[pyo3(from_item_all)]
 pub(crate) struct NearChangePoint {
@@ -36,27 +36,27 @@ pub(crate) struct NearChangePoint {
 
 impl From<StopReason> for StopReasonState {
     fn from(reason: StopReason) -> Self {
-        let of = |kind: &str| Self { kind: kind.into(), ..Self::default() };
+        let of_kind = |kind: &str| Self { kind: kind.into(), ..Self::default() };
         match reason {
-            StopReason::Reached => of("reached"),
-            StopReason::Event(event) => Self { event: Some(event), ..of("event") },
-            StopReason::Rest => of("rest"),
-            StopReason::DeadPoint => of("dead point"),
-            StopReason::Locked => of("locked"),
-            StopReason::Lost(why) => Self { why: Some(why), ..of("lost") },
+            StopReason::Reached => of_kind("reached"),
+            StopReason::Event(event) => Self { event: Some(event), ..of_kind("event") },
+            StopReason::Rest => of_kind("rest"),
+            StopReason::DeadPoint => of_kind("dead point"),
+            StopReason::Locked => of_kind("locked"),
+            StopReason::Lost(why) => Self { why: Some(why), ..of_kind("lost") },
             StopReason::NearChangePoint { dyad, miss, q } => {
                 let near_change_point = Some(NearChangePoint { dyad, miss, q });
-                Self { near_change_point, ..of("near_change_point") }
+                Self { near_change_point, ..of_kind("near_change_point") }
             }
-            StopReason::ZeroLength(slide) => Self { slide: Some(slide), ..of("zero length") },
-            StopReason::TableEnds(table) => Self { table: Some(table), ..of("table ends") },
+            StopReason::ZeroLength(slide) => Self { slide: Some(slide), ..of_kind("zero length") },
+            StopReason::TableEnds(table) => Self { table: Some(table), ..of_kind("table ends") },
             StopReason::MotorTableEnds(motor) => {
-                Self { motor: Some(motor), ..of("motor table ends") }
+                Self { motor: Some(motor), ..of_kind("motor table ends") }
             }
-            StopReason::StepLimit(stiff) => Self { stiff: Some(stiff), ..of("step limit") },
-            StopReason::TimeLimit => of("time limit"),
-            StopReason::Cancelled => of("cancelled"),
-            _ => of("stalled"),
+            StopReason::StepLimit(stiff) => Self { stiff: Some(stiff), ..of_kind("step limit") },
+            StopReason::TimeLimit => of_kind("time limit"),
+            StopReason::Cancelled => of_kind("cancelled"),
+            _ => of_kind("stalled"),
         }
     }
 }
@@ -64,8 +64,8 @@ impl From<StopReason> for StopReasonState {
 impl StopReasonState {
     /// The reason. Raises `InputError` for anything that is not the state of one.
     pub(crate) fn reason(self) -> PyResult<StopReason> {
-        let known = self.known().filter(|reason| Self::from(reason.clone()) == self);
-        known.ok_or_else(|| error::input(&format!("{:?} is not an end of a run", self.kind), None))
+        let reason = self.known().filter(|reason| Self::from(reason.clone()) == self);
+        reason.ok_or_else(|| error::input(&format!("{:?} is not an end of a run", self.kind), None))
     }
 
     fn known(&self) -> Option<StopReason> {

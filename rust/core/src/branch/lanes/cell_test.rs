@@ -1,6 +1,6 @@
-//! What may happen between two knots, judged from samples of the dyads at both.
+//! Tests of the cell between two knots, from samples of the dyads at both.
 //!
-//! Signs change at change points only, and a generic design has none: between two knots the
+//! Signs change only at change points, and a generic design has none: between two knots the
 //! discriminant of every dyad stays away from zero. A cell needs a closer scan if a discriminant may
 //! vanish in it, or if a gap may begin or end there.
 
@@ -152,8 +152,8 @@ impl DyadSamples {
             }
             let side_before = previous(last.side.lane(R::LANES - 1), side);
             let curvature = (square - before) - half * (rate + rate_before);
-            let least = square.min(before);
-            let straight = curvature.abs().lt(R::splat(MAX_CURVATURE) * least);
+            let smaller = square.min(before);
+            let straight = curvature.abs().lt(R::splat(MAX_CURVATURE) * smaller);
             let slowest = rate.abs().min(rate_before.abs()) * cell;
             let falls_or_rises = R::ZERO.lt(rate * rate_before);
             let is_steady = curvature.abs().lt(R::splat(MAX_UNSTEADY) * slowest);
@@ -164,13 +164,13 @@ impl DyadSamples {
             last = sample;
         }
         let count = grid.groups * R::LANES;
-        let own = Bits::MAX >> (Bits::BITS as usize - count);
-        if known & flat & own != 0 {
+        let in_scan = Bits::MAX >> (Bits::BITS as usize - count);
+        if known & flat & in_scan != 0 {
             return None;
         }
         (self.known, self.closes) = (known, known & closes);
         // The cell before the first knot is not part of the scan.
-        let (cells, closes) = (at_both_ends(known) & own & !1, self.closes);
+        let (cells, closes) = (at_both_ends(known) & in_scan & !1, self.closes);
         let inside = cells & at_both_ends(closes);
         let outside = cells & at_both_ends(!closes);
         let mut flags =
@@ -217,7 +217,7 @@ impl DyadSamples {
                 rise = R::select(rise.lt(start), start, rise);
                 fall = R::select(fall.lt(-end), -end, fall);
             }
-            // What is unknown may be anything.
+            // An unknown square may have any value.
             let unknown = start.finite().and(end.finite()).not();
             let both = R::ZERO.lt(rise).and(R::ZERO.lt(fall));
             let mut may_close = both.and((-from).lt(falls * rise)).and((-to).lt(falls * fall));
@@ -274,12 +274,12 @@ impl DyadSamples {
             (false, true) => (knot, Some(knot + 1)),
             _ => return true,
         };
-        // A dyad that does not close here is in a gap of its own.
+        // A dyad that does not close here is in its own gap.
         !has(self.closes, near)
             || far.is_some_and(|far| {
-                let known = far < Bits::BITS as usize && has(self.closes, far);
+                let is_closed = far < Bits::BITS as usize && has(self.closes, far);
                 let [near, far] = [near, far].map(|at| self.square[BEFORE + at]);
-                known && (near - far).abs() * (CHANGE_MARGIN * change) < near
+                is_closed && (near - far).abs() * (CHANGE_MARGIN * change) < near
             })
     }
 }

@@ -5,7 +5,7 @@ use super::grid::KNOTS;
 use crate::math::angle::unwrap_to;
 use crate::math::tolerance::KNOT_MAX_TURN;
 
-/// Most ends searched for together; a turn seldom has more.
+/// Most ends searched for together; a turn rarely has more.
 pub(super) const MAX_ENDS: usize = 8;
 /// A position on either side of each.
 pub(super) const POSITIONS: usize = 2 * MAX_ENDS;
@@ -20,7 +20,7 @@ const MARGIN: f64 = 0.25;
 /// Steps of Newton's method on the polynomial between two knots.
 const STEPS: usize = 4;
 
-/// What a scan shows about the ends of gaps.
+/// The data of a scan on the ends of gaps.
 #[derive(Clone, Copy)]
 pub(in crate::branch) struct ScanView<'l> {
     /// The first knot, and the width of a cell.
@@ -172,7 +172,7 @@ impl GapEnd {
         first: usize,
     ) -> bool {
         let [inside, outside] = self.lanes(first);
-        let known = self.known();
+        let closing_knot = self.known();
         for (index, [squares, rates, flats]) in samples.iter().enumerate().skip(self.dyad) {
             let [square, rate] = [squares[inside], rates[inside]];
             if index == self.dyad {
@@ -186,7 +186,7 @@ impl GapEnd {
                 }
                 continue;
             }
-            let [at_knot, rate_at_knot] = scan.dyads[index].at(known);
+            let [at_knot, rate_at_knot] = scan.dyads[index].at(closing_knot);
             let y = self.part_of_root();
             let slopes = [rate_at_knot, y * rate].map(|rate| self.per_part(scan, rate));
             if !stays_away([at_knot, slopes[0]], y, [square, slopes[1]]) {
@@ -201,8 +201,8 @@ impl GapEnd {
 }
 
 /// Whether the square of a later dyad keeps its sign between a knot and the end. It varies smoothly
-/// with y, the square root of the distance from the end (1 at the knot). Given are the square and its
-/// derivative by y, at the knot and at another `y`.
+/// with y, the square root of the distance from the end (1 at the knot). The arguments are the square and
+/// its derivative by y, at the knot and at another `y`.
 fn stays_away([at_knot, slope]: [f64; 2], y: f64, [at_y, slope_at_y]: [f64; 2]) -> bool {
     let back = y - 1.0;
     let curvature = (at_y - at_knot - slope * back) / (back * back);
@@ -212,12 +212,13 @@ fn stays_away([at_knot, slope]: [f64; 2], y: f64, [at_y, slope_at_y]: [f64; 2]) 
     let turns = 0.0 < vertex && vertex < 1.0;
     let squares = [at_knot, at_y, at_end, if turns { at_vertex } else { at_knot }];
     let sign = at_knot.signum();
-    let least = squares.iter().fold(f64::INFINITY, |least, s| least.min(sign * s));
-    let most = squares.iter().fold(0.0, |most: f64, s| most.max(sign * s));
-    // The cubic through both derivatives leaves the parabola by 4/27 of this at most.
+    let smallest = squares.iter().fold(f64::INFINITY, |smallest, s| smallest.min(sign * s));
+    let greatest = squares.iter().fold(0.0, |greatest: f64, s| greatest.max(sign * s));
+    // The cubic through both derivatives differs from the parabola by at most 4/27 of this.
     let apart = (slope_at_y - (slope + 2.0 * curvature * back)).abs();
     // NaN fails this.
-    squares.iter().all(|square| square.is_finite()) && least > MARGIN * (most - least) + apart
+    squares.iter().all(|square| square.is_finite())
+        && smallest > MARGIN * (greatest - smallest) + apart
 }
 
 #[cfg(test)]

@@ -40,15 +40,15 @@ pub(in crate::branch) struct AngleAtEnd {
     /// At the position that can be reached, and at the one beyond.
     pub inside: f64,
     pub beyond: f64,
-    /// How far the one beyond may be from the angle at the very end.
+    /// Greatest distance of the one beyond from the angle at the end itself.
     pub slack: f64,
 }
 
-/// How far (rad) an angle may turn on the way to a position beyond the end of a gap and back.
+/// Greatest turn (rad) of an angle on the way to a position beyond the end of a gap and back.
 pub(in crate::branch) const TIE_AT_ENDS: f64 = 0.0078125;
 /// Distance from half a turn (rad) at which rounding might decide which way an angle steps across a gap.
 pub(in crate::branch) const TIE: f64 = TIE_AT_ENDS / 32.0;
-/// Error of an angle extrapolated to the end, as a part of how far it turned between both positions.
+/// Error of an angle extrapolated to the end, as a part of its turn between both positions.
 const EXTRAPOLATED: f64 = 0.0625;
 
 impl GapEnds {
@@ -84,12 +84,12 @@ impl GapEnds {
         self.ends.iter().enumerate().filter(is_open).map(move |(index, end)| {
             let (angles, rates) = (&self.angles[class], &self.rates[class]);
             let [inside, beyond] = end.lanes(2 * index);
-            let known = (angles[inside], rates[inside]);
-            let extrapolated = end.extrapolated(scan, known, at_knots);
+            let at_inside = (angles[inside], rates[inside]);
+            let extrapolated = end.extrapolated(scan, at_inside, at_knots);
             let [inside, beyond] = [inside, beyond].map(|lane| angles[lane]);
-            let own = unwrap_to(inside, beyond) - beyond;
+            let turned = unwrap_to(inside, beyond) - beyond;
             let apart = unwrap_to(extrapolated, beyond) - beyond;
-            let slack = apart.abs() + EXTRAPOLATED * own.abs();
+            let slack = apart.abs() + EXTRAPOLATED * turned.abs();
             (end, AngleAtEnd { inside, beyond, slack })
         })
     }
@@ -143,8 +143,8 @@ impl GapEnds {
 
     /// The cells with a confirmed end.
     pub(in crate::branch) fn cells(&self) -> Bits {
-        let found = self.ends.iter().filter(|end| end.is_confirmed);
-        found.fold(0, |cells, end| cells | 1 << end.knot)
+        let confirmed = self.ends.iter().filter(|end| end.is_confirmed);
+        confirmed.fold(0, |cells, end| cells | 1 << end.knot)
     }
 
     /// Solves the positions before and after all ends, whether or not they close.

@@ -13,8 +13,8 @@ const _: () = assert!(KNOTS <= BLOCK, "the knots of a turn are solved at once");
 /// Width of a cell.
 pub(crate) const CELL: f64 = TAU / CELLS_PER_TURN as f64;
 
-/// Cells of a turn where nothing but groups above class II is followed: these say themselves, by their
-/// predictions, whether the cells are narrow enough.
+/// Cells of a turn where only groups above class II are followed: their predictions show whether the cells
+/// are narrow enough.
 const WIDE_CELLS_PER_TURN: u32 = 15;
 const _: () = assert!((WIDE_CELLS_PER_TURN as usize + 1).is_multiple_of(LANES), "whole registers");
 
@@ -59,7 +59,7 @@ impl Grid {
     /// Knots over a range that contains the drawing's coordinate; `None` if the range is empty or too
     /// long for them.
     pub(in crate::branch) fn stretch(q0: f64, [low, high]: [f64; 2]) -> Option<Self> {
-        // Two knots are spare, because the grid is shifted to have one at the drawing's coordinate.
+        // Two spare knots, because the grid is shifted to have one at the drawing's coordinate.
         let cell = (high - low) / (KNOTS - 2) as f64;
         if !(0.0 < cell && cell <= MAX_CELL) {
             return None;

@@ -81,9 +81,10 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             for group in 0..registers {
                 let here = taylor.map(|knots| knots[group]);
                 let next = taylor.map(|knots| one_on(knots, group, registers));
-                // The last knot has no next one.
-                let own = (grid.count - 1 - group * R::LANES).min(R::LANES);
-                let failed = prediction_failed(&here, &next, grid.cell).bits() & ((1 << own) - 1);
+                // No knot follows the last one.
+                let with_next = (grid.count - 1 - group * R::LANES).min(R::LANES);
+                let failed =
+                    prediction_failed(&here, &next, grid.cell).bits() & ((1 << with_next) - 1);
                 if failed != 0 {
                     return false;
                 }
@@ -98,7 +99,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                         *out = c.lane(lane);
                     }
                     cell.unit = Vector::new(unit.x.lane(lane), unit.y.lane(lane));
-                    if lane >= own {
+                    if lane >= with_next {
                         let [c0, c1, c2, ..] = cell.coefficients;
                         cell.coefficients = [c0, c1, c2, 0.0, 0.0, 0.0];
                     }

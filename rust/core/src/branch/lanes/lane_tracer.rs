@@ -1,9 +1,9 @@
 //! Traces the branch of one driver by knots solved in lanes, also across gaps: shows that the signs
 //! are constant, and unwraps the angles.
 //!
-//! A scan classifies the cells between its knots. A cell that may hide something gets a closer scan of
-//! its own, and so on. Designs that may have a change point, or angles that cannot be unwrapped in
-//! this way, are left to [`super::super::tracer`].
+//! A scan classifies the cells between its knots. A cell that may hide a change gets a closer scan, and so
+//! on. Designs that may have a change point, or angles that cannot be unwrapped in this way, are left to
+//! [`super::super::tracer`].
 
 use std::f64::consts::TAU;
 
@@ -29,7 +29,7 @@ const LEVELS: usize = 5;
 /// Levels at which dead points are scanned: down to the 3 000th part of a cell. Angles at the knot
 /// beyond, where the dyad is computed as flat, are those at the dead point to about this accuracy.
 const DEAD_POINT_LEVELS: usize = 3;
-/// How far (rad) an angle may be from that at a dead point, if it is not defined beyond.
+/// Greatest distance (rad) of an angle from that at a dead point, if it is not defined beyond.
 const UNDEFINED: f64 = 0.03125;
 /// Most scans of one design.
 const MAX_SCANS: usize = 256;
@@ -53,16 +53,16 @@ pub(crate) struct LaneTracer {
     pub(in crate::branch) ends: [GapEnds; LEVELS],
     /// Angles of the requested classes in a survey.
     pub(in crate::branch) surveyed: Vec<SurveyedAngle>,
-    /// Whether these ends stand in for closer scans of dead points.
+    /// Whether these ends replace closer scans of dead points.
     ends_serve: bool,
-    /// How far each angle turns between the last knot that can be reached and the next.
+    /// The turn of each angle between the last knot that can be reached and the next.
     into_gap: Vec<f64>,
     /// The same at the first position that can be reached.
     into_first: Vec<f64>,
     /// Levels at which dead points are scanned.
     dead_point_levels: usize,
-    /// Whether an angle steps so nearly by half a turn across a gap that what it turns between the knots
-    /// beside the gap's ends decides which way is the shorter.
+    /// Whether an angle steps so nearly by half a turn across a gap that its turn between the knots beside the
+    /// gap's ends decides which way is the shorter.
     is_tie: bool,
 }
 
@@ -129,7 +129,7 @@ impl LaneTracer {
     }
 
     /// Scans the cell before the next knot of a scan more closely, one level down; false if one of the
-    /// knots is singular. `flat`: whether the angles of flat dyads are wanted beyond dead points.
+    /// knots is singular. `flat`: whether the angles of flat dyads are needed beyond dead points.
     #[inline(always)]
     pub(in crate::branch) fn scan_closer<L: Level, const G: usize>(
         &mut self,
@@ -368,7 +368,7 @@ fn follow(last: &mut f64, next: f64) {
     }
 }
 
-/// How far an angle turns between two knots beside a dead point.
+/// The turn of an angle between two knots beside a dead point.
 #[inline(always)]
 fn turn_between(a: f64, b: f64) -> f64 {
     if a.is_finite() && b.is_finite() { (unwrap_to(b, a) - a).abs() } else { UNDEFINED }

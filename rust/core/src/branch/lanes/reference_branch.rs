@@ -12,7 +12,7 @@ use crate::plan::plan::Plan;
 /// Unknowns of groups at the knots of the drawing's branch.
 #[derive(Debug)]
 pub(crate) struct ReferenceBranch<R, const G: usize> {
-    /// Rotations; of slides the value (m) as x. At the knots of a turn, and of one in wide cells.
+    /// Rotations; for slides the value (m) as x. At the knots of a turn, and of one in wide cells.
     unknowns: [Vec<[Vector<R>; G]>; 2],
     /// Whether each group's determinant is positive.
     pub(in crate::branch) det_signs: Vec<bool>,

@@ -1,5 +1,5 @@
-//! A scan: evenly spaced knots solved in lanes over the whole grid or over one cell, to see what may
-//! happen between them.
+//! A scan: evenly spaced knots solved in lanes over the whole grid or over one cell, to classify the cells
+//! between them.
 
 use super::cell_test::{Bits, DyadSamples, ScanGrid};
 use super::gap_end::ScanView;
@@ -66,7 +66,7 @@ impl Scan {
         let last = cx.plan.dyads().filter(|dyad| unsettled(dyad)).last();
         let last = last.map_or(0, |dyad| dyad.index);
         let grid = ScanGrid { groups, cell, islands };
-        let mut known = Bits::MAX;
+        let mut closing = Bits::MAX;
         [self.uncertain, self.curved, self.dead_point, self.may_hide_island] = [0; 4];
         self.fast = 0;
         for (index, dyad) in cx.plan.dyads().enumerate() {
@@ -76,12 +76,12 @@ impl Scan {
             if self.dyads.len() == index {
                 self.dyads.push(DyadSamples::NONE);
             }
-            let own = &mut self.dyads[index];
+            let samples = &mut self.dyads[index];
             let settled = settled[index];
-            let Some(cells) = own.classify(state, cx, dyad, grid, (known, settled)) else {
+            let Some(cells) = samples.classify(state, cx, dyad, grid, (closing, settled)) else {
                 return false;
             };
-            known = own.closes;
+            closing = samples.closes;
             self.uncertain |= cells.uncertain;
             self.curved |= cells.curved;
             if islands || index < last {
@@ -90,8 +90,8 @@ impl Scan {
             self.may_hide_island |= cells.may_hide_island;
         }
         if islands {
-            // A later dyad that nothing asked for depends on is sampled, but not solved.
-            self.reached &= known;
+            // A later dyad that no requested quantity depends on is sampled, but not solved.
+            self.reached &= closing;
         }
         self.angles.resize(classes.len(), [0.0; KNOTS]);
         self.rates.resize(classes.len(), [0.0; KNOTS]);
@@ -118,7 +118,7 @@ impl Scan {
         true
     }
 
-    /// What the scan shows about the ends of gaps.
+    /// The data of the scan on the ends of gaps.
     pub(in crate::branch) fn view(&self) -> ScanView<'_> {
         ScanView {
             from: self.from,
@@ -150,8 +150,8 @@ impl Scan {
         }
     }
 
-    /// The knot at the end of the cells from [`Self::next`] on that need no closer look and lie within or
-    /// outside the reachable range.
+    /// The knot at the end of the cells from [`Self::next`] on that do not need a closer scan and lie
+    /// within or outside the reachable range.
     pub(in crate::branch) fn end_of_quiet_cells(&self, with_islands: bool) -> usize {
         if self.next >= self.count {
             return self.next;
@@ -177,8 +177,8 @@ impl Scan {
     }
 }
 
-/// Whether an angle turns so fast over a cell that two knots do not show how. `turned`: its change, in which
-/// whole turns may be missing; `tangents`: its rates at both knots, times the cell.
+/// Whether an angle turns too fast over a cell for two knots to count its turns. `turned`: its change, in
+/// which whole turns may be missing; `tangents`: its rates at both knots, times the cell.
 #[inline(always)]
 fn turns_fast<R: Real>(turned: R, tangents: [R; 2], limit: R) -> R::Mask {
     let [from, to] = tangents;

@@ -1,4 +1,5 @@
-//! Survey of a design with gaps: shows that it needs no checks without recording its angles beside the gaps.
+//! Survey of a design with gaps: shows that the design does not need checks, without recording its angles
+//! beside the gaps.
 
 use std::f64::consts::TAU;
 
@@ -11,15 +12,16 @@ use crate::math::angle::Reference;
 use crate::state::kernel::Level;
 use crate::state::state::Context;
 
-/// Levels of scans of a survey. What these do not show is left to [`LaneTracer::trace`].
+/// Levels of scans of a survey. Cells that these do not decide are left to [`LaneTracer::trace`].
 const SURVEY_LEVELS: usize = 3;
 /// Most closer scans of a survey.
 const MAX_CLOSER: u32 = 6;
 
 impl LaneTracer {
-    /// Scans the solved knots. Whether a design with gaps needs no checks: no sign may change, the ends of all
-    /// gaps are confirmed, and no requested angle turns fast. Sets the reference of each class, or if one is
-    /// not enough for an angle, those at the knots of `branch`. `None` if one of the knots is singular.
+    /// Scans the solved knots. Returns whether a design with gaps needs no checks: signs cannot change,
+    /// the ends of all gaps are confirmed, and requested angles turn slowly. Sets the reference of each
+    /// class, or if one is not enough for an angle, those at the knots of `branch`. `None` if one of the
+    /// knots is singular.
     #[inline(always)]
     pub(crate) fn survey<L: Level, const G: usize>(
         &mut self,

@@ -1,4 +1,4 @@
-//! What a survey shows about one angle: the references to which all its values are unwrapped.
+//! The result of a survey for one angle: the references to which all its values are unwrapped.
 
 use std::f64::consts::{PI, TAU};
 use std::ops;
@@ -15,7 +15,7 @@ use crate::math::tolerance::KNOT_MAX_TURN;
 /// it leaves the range by less than a step.
 const MAX_OF_CELL: f64 = TAU - 2.0 * KNOT_MAX_TURN;
 
-/// What the cells surveyed so far show about an angle.
+/// The survey of an angle over the cells so far.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::branch) struct SurveyedAngle {
     /// The drawing's, to which the first is unwrapped.
@@ -27,7 +27,7 @@ pub(in crate::branch) struct SurveyedAngle {
     turns: f64,
     /// Whether the last position can be reached.
     is_reached: bool,
-    /// How far it turned beside the last end of a gap.
+    /// Its turn beside the last end of a gap.
     slack: f64,
     /// Its value and slack at the first position that can be reached.
     first: Option<[f64; 2]>,
@@ -45,16 +45,16 @@ pub(in crate::branch) struct SurveyedAngle {
 /// A range of values.
 #[derive(Debug, Clone, Copy)]
 struct Range {
-    least: f64,
-    most: f64,
+    low: f64,
+    high: f64,
 }
 
 impl Range {
-    const EMPTY: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+    const EMPTY: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 
     #[inline(always)]
     fn extend(&mut self, value: f64) {
-        (self.least, self.most) = (self.least.min(value), self.most.max(value));
+        (self.low, self.high) = (self.low.min(value), self.high.max(value));
     }
 }
 
@@ -131,12 +131,12 @@ impl SurveyedAngle {
     /// Sets the reference of the cell of the first scan before a knot.
     #[inline(always)]
     pub(in crate::branch) fn end_cell(&mut self, knot: usize) {
-        let Range { least, most } = self.cell;
-        // Nothing can be reached in an empty one.
-        let reference = if least <= most { 0.5 * (least + most) } else { self.last };
+        let Range { low, high } = self.cell;
+        // An empty cell has no position that can be reached.
+        let reference = if low <= high { 0.5 * (low + high) } else { self.last };
         // By rounding, a coordinate at the end of the turn may be beyond the last cell.
         self.of_cells[knot - 1..=knot].fill(reference);
-        self.serves_cells &= most - least <= MAX_OF_CELL;
+        self.serves_cells &= high - low <= MAX_OF_CELL;
         self.cell = Range::EMPTY;
         if self.is_reached {
             self.cell.extend(self.last);
@@ -178,8 +178,8 @@ impl SurveyedAngle {
         self.cell.extend(next);
     }
 
-    /// How much it gains in a turn; `None` if it is not clear which way it turns over the gap that is open
-    /// at the first knot.
+    /// Its gain in a turn; `None` if it is not clear which way it turns over the gap that is open at the first
+    /// knot.
     pub(in crate::branch) fn gain(&self) -> Option<f64> {
         let Some([first, slack]) = self.first else { return Some(0.0) };
         let (change, slack) = (self.last - first, self.slack + slack + TIE);
@@ -192,8 +192,8 @@ impl SurveyedAngle {
         if self.first.is_none() {
             return Some(Reference::Near(self.start));
         }
-        let Range { least, most } = self.range;
-        reference_of([least, most]).filter(|_| self.gain() == Some(0.0))
+        let Range { low, high } = self.range;
+        reference_of([low, high]).filter(|_| self.gain() == Some(0.0))
     }
 
     /// References for the values in each cell of the first scan, at the knots before these; `None` if the

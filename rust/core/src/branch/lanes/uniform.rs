@@ -29,7 +29,7 @@ use crate::state::state::{Context, State};
 /// Cosine of [`KNOT_MAX_TURN`].
 const COS_MAX_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// How far a branch was traced in closed form or by knots in lanes.
+/// The result of tracing a branch in closed form or by knots in lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Traced {
     /// The design needs the tracer.
@@ -44,7 +44,7 @@ pub(crate) enum Traced {
     Whole,
 }
 
-/// Work space: at every knot what the checks need. `G` registers hold at least all knots.
+/// Work space: the data of every knot that the checks need. `G` registers hold at least all knots.
 #[derive(Debug)]
 pub(crate) struct UniformTracer<R: Real, const G: usize> {
     /// All knots.
@@ -90,7 +90,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
-    /// The drawing's branch, if others can start from it.
+    /// The drawing's branch, if other branches can start from it.
     pub(in crate::branch) fn reference(
         &self,
         make: impl FnOnce() -> Option<ReferenceBranch<R, G>>,
@@ -226,7 +226,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
     }
 
-    /// Traces with the angles of `classes`; of all others checks that they turn slowly if `with_others`.
+    /// Traces with the angles of `classes`; with `with_others`, checks that all other angles turn slowly.
     #[inline(always)]
     fn trace_classes(
         &mut self,
@@ -303,7 +303,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
                     let before = (previous(last, square), previous(last_rate, rate));
                     suspect =
                         suspect.or(may_touch(before, (square, rate), R::splat(self.grid.cell)));
-                    // A dyad that nothing asked for depends on is sampled, but not solved.
+                    // A dyad that no requested quantity depends on is sampled, but not solved.
                     suspect = suspect.or(R::ZERO.lt(square).not());
                     self.squares[sign] = (square.lane(R::LANES - 1), rate.lane(R::LANES - 1));
                 }
@@ -324,8 +324,8 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         !suspect.any()
     }
 
-    /// Shows whether the design needs no checks without unwrapping its angles knot by knot: every knot can be
-    /// reached, no sign may change between two, and no requested angle turns fast or far. `None` if it
+    /// Shows without unwrapping angles knot by knot whether the design does not need checks: every knot can be
+    /// reached, signs cannot change between two, and requested angles turn neither fast nor far. `None` if it
     /// needs checks; false if only an angle fails. Sets the reference of each class.
     #[inline(always)]
     pub(crate) fn survey(
@@ -359,7 +359,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         let at = self.grid.home;
         let home = unwrap_to(units[at / R::LANES].unit_angle().lane(at % R::LANES), start);
         let near = R::splat(home);
-        let (mut least, mut most) = (near, near);
+        let (mut low, mut high) = (near, near);
         let mut last = unwrap_to(units[0].unit_angle(), near);
         last = R::splat(last.lane(0));
         let mut slow = R::Mask::NONE.not();
@@ -369,7 +369,7 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
             let rate = rates[group] * R::splat(self.grid.cell);
             let limit = R::splat(KNOT_MAX_TURN);
             slow = slow.and(step.abs().le(limit)).and(rate.abs().le(limit));
-            (least, most) = (least.min(angle), most.max(angle));
+            (low, high) = (low.min(angle), high.max(angle));
             last = angle;
         }
         if !slow.all() {
@@ -377,12 +377,12 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
         }
         let mut range = [home; 2];
         for lane in 0..R::LANES {
-            range = [range[0].min(least.lane(lane)), range[1].max(most.lane(lane))];
+            range = [range[0].min(low.lane(lane)), range[1].max(high.lane(lane))];
         }
         Some(range)
     }
 
-    /// Whether the links of all classes but these turn slowly between the knots of a register and those
+    /// Whether the links of all other classes turn slowly between the knots of a register and those
     /// before. Groups are predicted with all of them.
     #[inline(always)]
     fn others_turn_slowly(&self, group: usize, classes: &[usize]) -> bool {
@@ -445,11 +445,11 @@ impl<R: Real, const G: usize> UniformTracer<R, G> {
 }
 
 /// A reference for all angles whose values at the knots are in a range; `None` if it is too wide.
-pub(crate) fn reference_of([least, most]: [f64; 2]) -> Option<Reference> {
+pub(crate) fn reference_of([low, high]: [f64; 2]) -> Option<Reference> {
     // Between two knots an angle leaves the range by less than one step.
     let margin = KNOT_MAX_TURN;
-    if -PI < least - margin && most + margin < PI {
+    if -PI < low - margin && high + margin < PI {
         return Some(Reference::Principal);
     }
-    (most - least <= TAU - 2.0 * margin).then_some(Reference::Near(0.5 * (least + most)))
+    (high - low <= TAU - 2.0 * margin).then_some(Reference::Near(0.5 * (low + high)))
 }

@@ -9,7 +9,7 @@ use crate::dynamics::tables::passes::is_cancelled;
 use crate::dynamics::tables::spline::{EndCondition, Pieces, fit_sections};
 use crate::math::polynomial::{roots, value};
 
-/// How far the inertia's curve may fall below zero between rows that do not, relative to the
+/// Greatest fall of the inertia's curve below zero between rows that are not negative, relative to the
 /// greatest inertia: tables have three or four digits, and a spline overshoots beside rows of zero.
 /// With the flywheel added the inertia must still be positive.
 const UNDERSHOOT_RTOL: f64 = 1.0e-3;
@@ -58,19 +58,19 @@ impl Cycle {
         let (knots, moment, inertia) = (&rows[0][..], &rows[1][..], &rows[2][..]);
         check(knots, [("moment", moment), ("inertia", inertia)])?;
         go_on()?;
-        let (own, smooth) = without_jumps(knots, inertia)?;
+        let (merged, smooth) = without_jumps(knots, inertia)?;
         go_on()?;
         let jump = (1..knots.len()).find(|&row| knots[row] == knots[row - 1]);
         if let (Some(row), EndCondition::Periodic) = (jump, ends) {
             return Err(TableError::PeriodicJump { at: knots[row] });
         }
-        let whole = 0..own.len();
+        let whole = 0..merged.len();
         let inertia =
-            fit_sections(&own, &smooth, ends, std::slice::from_ref(&whole), true, cancel)?;
-        Self::of_pieces(own, fit(knots, moment, ends, &[], cancel)?, inertia, cancel)
+            fit_sections(&merged, &smooth, ends, std::slice::from_ref(&whole), true, cancel)?;
+        Self::of_pieces(merged, fit(knots, moment, ends, &[], cancel)?, inertia, cancel)
     }
 
-    /// The same with corners at some rows: a separate curve is fitted from each corner to the next.
+    /// [`Cycle::new`] with corners at some rows: a separate curve is fitted from each corner to the next.
     /// The first and the last row may be among them. Two rows at one coordinate are a jump.
     ///
     /// # Errors
@@ -86,9 +86,9 @@ impl Cycle {
     ) -> Result<Self, TableError> {
         check(knots, [("moment", moment), ("inertia", inertia)])?;
         let fit = |values: &[f64]| fit(knots, values, ends, corners, cancel);
-        let mut own = knots.to_vec();
-        own.dedup();
-        Self::of_pieces(own, fit(moment)?, fit(inertia)?, cancel)
+        let mut merged = knots.to_vec();
+        merged.dedup();
+        Self::of_pieces(merged, fit(moment)?, fit(inertia)?, cancel)
     }
 
     fn of_pieces(
@@ -249,7 +249,7 @@ fn fit(
 }
 
 /// The coordinates, moments and inertias of a period. Where the moment jumps, and its ends differ, it
-/// jumps at the seam too: the first row is then there twice, with the last moment before.
+/// jumps at the seam too: the first row then appears twice, first with the last moment.
 pub(crate) fn with_seam(knots: &[f64], moment: &[f64], inertia: &[f64]) -> [Vec<f64>; 3] {
     let mut rows = [knots, moment, inertia].map(<[f64]>::to_vec);
     let jumps: Vec<usize> = (1..knots.len()).filter(|&i| knots[i] == knots[i - 1]).collect();
@@ -263,7 +263,7 @@ pub(crate) fn with_seam(knots: &[f64], moment: &[f64], inertia: &[f64]) -> [Vec<
     rows
 }
 
-/// The rows of an inertia: of two at one coordinate one, for they must be equal.
+/// The rows of an inertia, with one of two at the same coordinate: they must be equal.
 ///
 /// # Errors
 ///

@@ -66,18 +66,18 @@ impl Flywheel {
         }
         check_speed("mean_speed", mean)?;
         let range = fluctuation * mean;
-        let least = match by {
+        let slowest = match by {
             Mean::Extremes => Some(mean - 0.5 * range),
             Mean::Period => {
-                let residual = |least: f64| {
-                    let [inertia, constant] = tangents(&cycle, [least, least + range], cancel);
+                let residual = |slowest: f64| {
+                    let [inertia, constant] = tangents(&cycle, [slowest, slowest + range], cancel);
                     cycle.period() / duration(&cycle, [inertia, constant], cancel) - mean
                 };
                 illinois::find_root(residual, mean - 0.5 * range)
             }
         };
-        let found = least.map(|least| tangents(&cycle, [least, least + range], cancel));
-        if let Some([inertia, constant]) = found
+        let energy = slowest.map(|slowest| tangents(&cycle, [slowest, slowest + range], cancel));
+        if let Some([inertia, constant]) = energy
             && inertia >= 0.0
         {
             if inertia.is_infinite() {
@@ -112,14 +112,14 @@ impl Flywheel {
         }
         let residual = |above: f64| {
             let constant = least.value + above;
-            let own_mean = match by {
+            let mean_of_motion = match by {
                 Mean::Extremes => {
                     let [a, b] = speeds(&cycle, [inertia, constant], cancel);
                     0.5 * (a.value + b.value)
                 }
                 Mean::Period => cycle.period() / duration(&cycle, [inertia, constant], cancel),
             };
-            own_mean - mean
+            mean_of_motion - mean
         };
         let above = illinois::find_root(residual, guess).ok_or(TableError::NoMean { mean })?;
         Self::with_energy(cycle, inertia, least.value + above, ("mean_speed", mean), cancel)

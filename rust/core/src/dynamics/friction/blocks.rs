@@ -1,12 +1,12 @@
-//! Pairs whose frictions depend on one another: the strongly connected parts, those that others depend on
-//! first (R. Tarjan, *Depth-first search and linear graph algorithms*, SIAM J. Comput. 1 (1972) 146).
+//! Pairs whose frictions depend on one another: the strongly connected components, each after those on which
+//! it depends (R. Tarjan, *Depth-first search and linear graph algorithms*, SIAM J. Comput. 1 (1972) 146).
 
 use super::problem::FrictionProblem;
 
 /// Depth-first search.
 struct Search<'a> {
     problem: &'a FrictionProblem<'a>,
-    /// Order of the visit, 0 before it.
+    /// Order of the visits, 0 before a visit.
     visited: Vec<usize>,
     lowest: Vec<usize>,
     stack: Vec<usize>,
@@ -16,7 +16,7 @@ struct Search<'a> {
 }
 
 impl FrictionProblem<'_> {
-    /// The pairs in blocks, each of which depends on itself and those before it alone.
+    /// The pairs in blocks; each block depends only on itself and on those before it.
     pub(super) fn blocks(&self) -> Vec<Vec<usize>> {
         let n = self.pairs.len();
         let mut search = Search {
@@ -36,23 +36,23 @@ impl FrictionProblem<'_> {
         search.blocks
     }
 
-    /// Whether the reaction of a pair depends on the friction of another. Where it does not, forces pass
-    /// by exactly.
+    /// Whether the reaction of a pair depends on the friction of another. Where it does not, its slope is
+    /// exactly 0.
     fn depends(&self, pair: usize, on: usize) -> bool {
         self.pairs[pair].slopes[on] != [0.0; 2]
     }
 
-    /// The block alone, when the friction of all pairs before it is known.
+    /// The problem of one block, given the friction of all pairs before it.
     pub(super) fn block(&self, block: &[usize], friction: &[f64]) -> Self {
-        let mut known = friction.to_vec();
+        let mut earlier_friction = friction.to_vec();
         for &pair in block {
-            known[pair] = 0.0;
+            earlier_friction[pair] = 0.0;
         }
         let pairs = block.iter().map(|&pair| {
-            let mut own = self.pairs[pair].clone();
-            own.base = self.reaction(pair, &known);
-            own.slopes = block.iter().map(|&on| self.pairs[pair].slopes[on]).collect();
-            own
+            let mut pair_in_block = self.pairs[pair].clone();
+            pair_in_block.base = self.reaction(pair, &earlier_friction);
+            pair_in_block.slopes = block.iter().map(|&on| self.pairs[pair].slopes[on]).collect();
+            pair_in_block
         });
         Self { pairs: pairs.collect(), cancel: self.cancel }
     }
@@ -79,10 +79,10 @@ impl Search<'_> {
             return;
         }
         let mut block = Vec::new();
-        while let Some(other) = self.stack.pop() {
-            self.is_open[other] = false;
-            block.push(other);
-            if other == pair {
+        while let Some(member) = self.stack.pop() {
+            self.is_open[member] = false;
+            block.push(member);
+            if member == pair {
                 break;
             }
         }

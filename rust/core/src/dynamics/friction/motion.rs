@@ -1,12 +1,12 @@
 //! The acceleration of a machine with friction: the drive is given, and both the acceleration and the
 //! friction follow.
 //!
-//! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D₁ α + D₂ τ, is what the
-//! motor gives; so α is linear in the friction τ, and with it each pair's reaction. What remains is the law
-//! of friction as for a given motion.
+//! Reactions are linear in the acceleration α too. The effort of the drive, D₀ + D₁ α + D₂ τ, equals the
+//! motor's, so α and each pair's reaction are linear in the friction τ. Then the law of friction applies
+//! as for a given motion.
 //!
 //! D₁ is the effort of the inertia forces at α = 1 alone, without loads and speeds: a difference of two
-//! efforts would have lost its digits beside the loads.
+//! efforts would lose its digits beside large loads.
 
 use super::pairs::FrictionPair;
 use super::workspace::FrictionWorkspace;
@@ -24,7 +24,7 @@ use crate::plan::mechanism::Mechanism;
 /// The drive of a machine at one state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Drive {
-    /// What motors give, N·m or N.
+    /// Effort of the motors, N·m or N.
     pub effort: f64,
     /// Inertia of their rotors and of a flywheel.
     pub inertia: f64,
@@ -55,8 +55,8 @@ pub(crate) struct FrictionMotion<'m> {
     values: Vec<Vec<f64>>,
     scene: Scene<f64>,
     friction: FrictionWorkspace<f64>,
-    /// The way in which every pair slides while the driver moves forward, +1 or −1, or 0 where it rests;
-    /// none before a motion begins.
+    /// The sense in which every pair slides while the driver moves forward, +1 or −1, or 0 where it rests;
+    /// empty before a motion begins.
     held: Option<Vec<f64>>,
 }
 
@@ -94,8 +94,8 @@ impl<'m> FrictionMotion<'m> {
         }
     }
 
-    /// Holds the ways in which pairs slide at a position, until one reverses: in between the acceleration
-    /// is a smooth function, ends included.
+    /// Fixes the senses in which pairs slide at a position until one reverses: between reversals the
+    /// acceleration is a smooth function, ends included.
     pub(crate) fn hold(&mut self, pose: &SolvedPose<'_>) {
         self.read_values(pose);
         let Self { plan, pairs, sources, guides, values, scene, friction, .. } = self;
@@ -112,7 +112,7 @@ impl<'m> FrictionMotion<'m> {
         self.held = Some(friction.speeds.iter().zip(&friction.still).map(way).collect());
     }
 
-    /// The acceleration; `None` where friction leaves none. `numbers`: what the loads read.
+    /// The acceleration; `None` where the law of friction has no solution. `numbers`: what the loads read.
     pub(crate) fn acceleration(
         &mut self,
         pose: &SolvedPose<'_>,

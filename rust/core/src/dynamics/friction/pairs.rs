@@ -11,12 +11,12 @@ use crate::dynamics::reactions::pair_forces::JointForce;
 pub(crate) struct FrictionPair {
     pub kind: PairKind,
     pub law: Law,
-    /// The law of what is about to move.
+    /// The law of a pair that is about to move.
     pub static_law: Law,
     pub viscous: f64,
 }
 
-/// Where they touch.
+/// Where the links touch.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum PairKind {
     /// A link on the pin, which is fast in another one.
@@ -26,7 +26,7 @@ pub(crate) enum PairKind {
 }
 
 impl FrictionPair {
-    /// The columns of which the rates, one less the other, are the speed at which it slides.
+    /// The columns of two rates; their difference is the speed of sliding.
     pub(crate) fn speed_columns(&self, plan: &ForcePlan, sources: &Sources) -> [Option<usize>; 2] {
         match self.kind {
             PairKind::Journal { on, fast, .. } => {
@@ -42,12 +42,12 @@ impl FrictionPair {
         links_at: &[Vec<usize>],
         friction: &[Friction],
     ) -> Vec<Self> {
-        let mut found = Vec::new();
+        let mut pairs = Vec::new();
         for friction in friction {
             match *friction {
                 Friction::Joint { joint, circle, static_circle, viscous } => {
-                    let Some((&fast, others)) = links_at[joint].split_first() else { continue };
-                    found.extend(others.iter().map(|&on| Self {
+                    let Some((&fast, bearings)) = links_at[joint].split_first() else { continue };
+                    pairs.extend(bearings.iter().map(|&on| Self {
                         kind: PairKind::Journal {
                             joint,
                             on,
@@ -62,7 +62,7 @@ impl FrictionPair {
                 Friction::Slide { slide, coefficient, static_coefficient, length, viscous } => {
                     let [sliding, carrying] = plan.slide_links[slide];
                     let half_length = 0.5 * length;
-                    found.push(Self {
+                    pairs.push(Self {
                         kind: PairKind::Guide { slide, sliding, carrying },
                         law: Law::Guide { coefficient, half_length },
                         static_law: Law::Guide { coefficient: static_coefficient, half_length },
@@ -71,6 +71,6 @@ impl FrictionPair {
                 }
             }
         }
-        found
+        pairs
     }
 }

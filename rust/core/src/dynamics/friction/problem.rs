@@ -1,4 +1,4 @@
-//! Coulomb friction at one position: what slides, and how every reaction depends on the friction.
+//! Coulomb friction at one position: the sliding pairs, and how every reaction depends on the friction.
 //!
 //! At given speeds and accelerations reactions are linear in the loads, friction among them. So with
 //! the friction τ of all pairs (moments on links at pins, forces along guides) each pair's reaction is
@@ -30,7 +30,7 @@ impl Law {
         }
     }
 
-    /// The slope of the size: by the first and second number of R. At a kink that of one side.
+    /// The slope of the size by the first and second number of R; at a kink the slope on one side.
     fn slope(self, [x, y]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Journal { circle } => {
@@ -46,8 +46,8 @@ impl Law {
         }
     }
 
-    /// Which of its linear forms is the size, of those that it has: a law is smooth within a face, and has
-    /// a kink where it comes to another one.
+    /// The index of the linear form that gives the size: a law is smooth within a face, and has a kink where
+    /// it enters another one.
     fn face(self, [x, y]: [f64; 2]) -> u8 {
         match self {
             Self::Journal { .. } => 0,
@@ -68,8 +68,7 @@ impl Law {
         }
     }
 
-    /// The unit of its friction, if moments are divided by a unit of length: that of a moment, or of a
-    /// force.
+    /// The unit of its friction if moments are divided by a unit of length: that of a moment or of a force.
     pub(super) fn unit(self, length: f64) -> f64 {
         match self {
             Self::Journal { .. } => length,
@@ -77,7 +76,7 @@ impl Law {
         }
     }
 
-    /// The forms, linear in R, of which one is the size where it is greatest.
+    /// The forms, linear in R; the size is the greatest of them.
     pub(super) fn faces(self) -> Vec<[f64; 2]> {
         match self {
             Self::Journal { .. } => Vec::new(),
@@ -95,11 +94,11 @@ pub(crate) struct SlidingPair {
     pub law: Law,
     /// +1 or −1.
     pub sense: f64,
-    /// How fast it slides, rad/s or m/s: 0 or more.
+    /// Speed of sliding, rad/s or m/s: 0 or more.
     pub rate: f64,
     /// Its reaction without friction.
     pub base: [f64; 2],
-    /// What the friction of every pair adds to that, per unit.
+    /// The part of the reaction from the friction of every pair, per unit.
     pub slopes: Vec<[f64; 2]>,
 }
 
@@ -115,23 +114,23 @@ impl SlidingPair {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct FrictionProblem<'c> {
     pub pairs: Vec<SlidingPair>,
-    /// When true, nobody wants the solutions any more: some take half a second.
+    /// Set to true when the caller no longer needs the solutions: some take half a second.
     pub cancel: Option<&'c AtomicBool>,
 }
 
 impl FrictionProblem<'_> {
-    /// The same with all moments divided by a unit of length, so that frictions, and what is small beside
+    /// The problem with all moments divided by a unit of length, so that frictions, and what is small beside
     /// them, compare as forces.
     pub(super) fn in_forces(mut self, unit: f64) -> Self {
         let units: Vec<f64> = self.pairs.iter().map(|pair| pair.law.unit(unit)).collect();
-        for (pair, own) in self.pairs.iter_mut().zip(&units) {
+        for (pair, pair_unit) in self.pairs.iter_mut().zip(&units) {
             // The second number of R is a force at a pin, a moment at a guide.
             let second = match pair.law {
                 Law::Journal { .. } => 1.0,
                 Law::Guide { .. } => unit,
             };
             pair.law = pair.law.in_forces(unit);
-            pair.rate *= own;
+            pair.rate *= pair_unit;
             pair.base[1] /= second;
             for (slope, by) in pair.slopes.iter_mut().zip(&units) {
                 *slope = [slope[0] * by, slope[1] * by / second];
@@ -157,14 +156,14 @@ impl FrictionProblem<'_> {
     }
 
     /// Whether the laws of all pairs are in the same face with two frictions.
-    pub(super) fn is_same_face(&self, one: &[f64], other: &[f64]) -> bool {
+    pub(super) fn is_same_face(&self, a: &[f64], b: &[f64]) -> bool {
         (0..self.pairs.len()).all(|pair| {
             let law = self.pairs[pair].law;
-            law.face(self.reaction(pair, one)) == law.face(self.reaction(pair, other))
+            law.face(self.reaction(pair, a)) == law.face(self.reaction(pair, b))
         })
     }
 
-    /// By how much the law is missed, if all coefficients are multiplied by `scale`.
+    /// The residuals of the law if all coefficients are multiplied by `scale`.
     pub(super) fn residual(&self, friction: &[f64], scale: f64) -> DVector<f64> {
         DVector::from_fn(self.pairs.len(), |row, _| {
             let pair = &self.pairs[row];
@@ -172,7 +171,7 @@ impl FrictionProblem<'_> {
         })
     }
 
-    /// By how much frictions miss the law, in parts of the greatest of them.
+    /// The greatest residual of the law, relative to the greatest friction.
     pub(crate) fn missed(&self, friction: &[f64]) -> f64 {
         let greatest = friction.iter().fold(0.0_f64, |most, friction| most.max(friction.abs()));
         if greatest == 0.0 { 0.0 } else { self.residual(friction, 1.0).amax() / greatest }
@@ -191,12 +190,13 @@ impl FrictionProblem<'_> {
         matrix
     }
 
-    /// A size that friction is compared with: that without any feedback.
+    /// The size with which friction is compared: that without any feedback.
     pub(super) fn size(&self) -> f64 {
         self.pairs.iter().map(|pair| pair.law.size(pair.base)).fold(0.0, f64::max)
     }
 
-    /// Whether there is exactly one solution because friction changes the friction by less than itself.
+    /// Whether the solution is certainly unique, because a change of the friction changes it by less than
+    /// itself.
     ///
     /// With B ≥ 0 the bounds of those changes the law is a contraction in a weighted norm if B has a
     /// spectral radius below 1, which it has if (I − B) y = 1 has a positive solution y (A. Berman and
@@ -215,5 +215,5 @@ impl FrictionProblem<'_> {
     }
 }
 
-/// Beyond this the spectral radius is 1 but for rounding.
+/// Above this the spectral radius is 1 to rounding.
 const MOST_FEEDBACK: f64 = 1.0e6;

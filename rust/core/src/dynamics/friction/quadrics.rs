@@ -3,7 +3,7 @@
 //!
 //! A total-degree homotopy (A. J. Sommese and C. W. Wampler, *The Numerical Solution of Systems of
 //! Polynomials*, 2005, ch. 8): the 2ⁿ solutions of uₖ² = 1 are followed to those of the equations in
-//! complex numbers. By Bézout's theorem no isolated solution is left out. In homogeneous coordinates
+//! complex numbers. By Bézout's theorem they reach every isolated solution. In homogeneous coordinates
 //! paths that lead to infinity end like others.
 
 use nalgebra::Complex;
@@ -18,18 +18,19 @@ const SHORTEST: f64 = 1.0e-12;
 /// Steps of a path, and of Newton's iteration on it.
 const MAX_STEPS: usize = 10_000;
 const CORRECTIONS: usize = 3;
-/// A correction that is this small is the last one: the next would be as its square.
+/// A correction below this is the last: the next would be about its square.
 const LAST_CORRECTION: f64 = 1.0e-5;
-/// The first correction of a step: at most, in parts of the point, and so small that the next step may be longer.
+/// The first correction of a step, relative to the point: the greatest allowed, and the greatest after which
+/// the next step may be longer.
 const MOST_CORRECTION: f64 = 0.02;
 const EASY: f64 = 2.0e-3;
-/// A solution whose first homogeneous coordinate is this small is at infinity; a larger one may be, too.
+/// A solution with a first homogeneous coordinate below this is at infinity; others may be, too.
 const AT_INFINITY: f64 = 1.0e-15;
 
-/// Most unknowns: vectors and matrices of this size need no allocation, which would take most of the time.
+/// Most unknowns. Vectors and matrices of a fixed size need no allocation, which would take most of the time.
 pub(super) const MAX_UNKNOWNS: usize = 15;
 
-/// Homogeneous coordinates, and what has as many entries; of the rest nothing is used.
+/// Homogeneous coordinates, and vectors of the same length; the other entries are not used.
 type Point = [Number; MAX_UNKNOWNS + 1];
 
 /// The equations; each form lists its constant term, then the factors of the unknowns.
@@ -39,8 +40,7 @@ pub(super) struct Quadrics {
 
 impl Quadrics {
     /// All isolated finite solutions, real or not, each as often as its multiplicity; some may be at
-    /// infinity but for rounding. At most [`MAX_UNKNOWNS`] unknowns. Those found so far where the work
-    /// does not go on.
+    /// infinity to rounding. At most [`MAX_UNKNOWNS`] unknowns. If the work is cancelled, those found so far.
     pub(super) fn solutions(&self, goes_on: impl Fn() -> bool) -> Vec<Vec<Number>> {
         let paths = (0..1_usize << self.forms.len()).take_while(|_| goes_on());
         paths.filter_map(|signs| self.end_of_path(signs)).collect()
@@ -66,13 +66,13 @@ impl Quadrics {
             }
             let next = f64::min(at + step, 1.0);
             match self.advance(&point, at, next) {
-                Some((found, is_easy)) => {
-                    point = found;
+                Some((corrected, is_easy)) => {
+                    point = corrected;
                     at = next;
                     step *= if is_easy { 2.0 } else { 1.0 };
                 }
                 None if step > SHORTEST => step *= 0.25,
-                // A multiple solution: its path has come as near as it can.
+                // A multiple solution: its path can come no nearer.
                 None => break,
             }
         }
@@ -88,7 +88,7 @@ impl Quadrics {
             .then(|| point[1..=n].iter().map(|u| u / first).collect())
     }
 
-    /// Against which the point moves as the way goes on.
+    /// The negative rate of the point along the path.
     fn tangent(&self, point: &Point, at: f64) -> Option<Point> {
         let mut rate = [Number::ZERO; MAX_UNKNOWNS + 1];
         for (k, rate) in rate.iter_mut().enumerate().take(self.forms.len()) {
@@ -98,7 +98,7 @@ impl Quadrics {
         self.solve(point, at, rate)
     }
 
-    /// A step by the midpoint rule, corrected; and whether a longer one would have done.
+    /// A step by the midpoint rule, corrected; and whether a longer one would have been accepted.
     fn advance(&self, from: &Point, at: f64, next: f64) -> Option<(Point, bool)> {
         let half = self.tangent(from, at)?;
         let mut middle = *from;
@@ -169,8 +169,8 @@ impl Quadrics {
         }
         for column in 0..=n {
             let pivot = (column..=n).fold(column, |best, row| {
-                let [one, other] = [row, best].map(|row| matrix[row][column].norm_sqr());
-                if one > other { row } else { best }
+                let [size, best_size] = [row, best].map(|row| matrix[row][column].norm_sqr());
+                if size > best_size { row } else { best }
             });
             matrix.swap(column, pivot);
             right.swap(column, pivot);
@@ -178,14 +178,15 @@ impl Quadrics {
                 return None;
             }
             let inverse = Number::from(1.0) / matrix[column][column];
-            let own = matrix[column];
-            let own_right = right[column];
+            let pivot_row = matrix[column];
+            let pivot_right = right[column];
             for row in column + 1..=n {
                 let factor = matrix[row][column] * inverse;
-                for (entry, own) in matrix[row][column..=n].iter_mut().zip(&own[column..=n]) {
-                    *entry -= factor * own;
+                for (entry, above) in matrix[row][column..=n].iter_mut().zip(&pivot_row[column..=n])
+                {
+                    *entry -= factor * above;
                 }
-                right[row] -= factor * own_right;
+                right[row] -= factor * pivot_right;
             }
         }
         for row in (0..=n).rev() {
@@ -207,9 +208,9 @@ fn product(form: &[f64], point: &Point) -> Number {
     sum
 }
 
-fn subtract(point: &mut Point, other: &Point) {
-    for (u, other) in point.iter_mut().zip(other) {
-        *u -= other;
+fn subtract(point: &mut Point, step: &Point) {
+    for (u, step) in point.iter_mut().zip(step) {
+        *u -= step;
     }
 }
 
@@ -217,7 +218,7 @@ fn size(point: &Point) -> f64 {
     point.iter().map(|u| u.norm()).fold(0.0, f64::max)
 }
 
-/// Factors of the plane in which homogeneous coordinates are scaled: any that are not special.
+/// Factors of the plane to which homogeneous coordinates are scaled: arbitrary generic numbers.
 fn patch(k: usize) -> Number {
     const PATCH: [Number; MAX_UNKNOWNS + 1] = [
         Number { re: 0.877582562, im: 0.479425539 },

@@ -1,4 +1,4 @@
-//! Which pairs rest while others move: how much of a computed relative speed is rounding.
+//! The pairs that rest while others move: the rounding of a computed relative speed.
 
 use super::workspace::FrictionWorkspace;
 use crate::dynamics::reactions::force_plan::{ForceEdge, ForcePlan};
@@ -7,17 +7,17 @@ use crate::dynamics::reactions::steps::Transposed;
 use crate::math::lanes::Real;
 use crate::math::tolerance::{CLOSURE_PER_CONDITION, UNIT_ROUNDOFF};
 
-/// A relative speed below this part of the drivers' is rounding: then a pair rests.
+/// A relative speed below this part of the drivers' speed is rounding: then a pair rests.
 pub(crate) const AT_REST: f64 = 1.0e-12;
-/// Rounding of a relative speed in parts of the speeds that add up to it: each is good to some u. At
-/// 8000 positions of pairs whose links move as one body the most that was found is 15 u.
+/// Rounding of a relative speed, relative to the speeds that add up to it: each is good to some u. The
+/// greatest value at 8000 positions of pairs whose links move as one body was 15 u.
 pub(crate) const RATE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
 
 // Loops: closures would not be compiled with the level's instructions.
 impl<R: Real> FrictionWorkspace<R> {
-    /// By how much rounding may change the relative speed of the pair in which a unit of friction acts.
+    /// A bound of the rounding in the relative speed of the pair in which a unit of friction acts.
     ///
-    /// The power of that unit is the relative speed, and by virtual power it is that of the forces which
+    /// The power of that unit is the relative speed. By virtual power it equals that of the forces that
     /// balance it: to first order, an error of a closed path's velocities counts times the force that
     /// closes the path. These forces grow with the condition of every group on which the pair depends.
     #[inline(always)]
@@ -29,8 +29,8 @@ impl<R: Real> FrictionWorkspace<R> {
         power
     }
 
-    /// Finds by how much the velocities along every edge may miss their closed path: rounding of their
-    /// own, and that of the position, which misses the path the more the worse its dyad is conditioned.
+    /// Finds the errors with which the velocities along every edge close their path: their own rounding and
+    /// that of the position, which grows with the condition of its dyad.
     #[inline(always)]
     pub(crate) fn find_edge_errors(&mut self, scene: &Scene<R>, plan: &ForcePlan) {
         let speeds = &self.point_speeds;

@@ -25,18 +25,18 @@ pub(crate) enum Sliding {
 impl Sliding {
     /// The pairs of a machine with friction.
     pub(crate) fn of(machine: &Machine, mechanism: &Mechanism) -> Vec<Self> {
-        let mut found = Vec::new();
+        let mut pairs = Vec::new();
         for friction in &machine.friction {
             match *friction {
                 Friction::Joint { joint, .. } => {
                     let mut links = mechanism.linkage().links_at(joint);
                     let Some(fast) = links.next() else { continue };
-                    found.extend(links.map(|on| Self::Turn { on, fast }));
+                    pairs.extend(links.map(|on| Self::Turn { on, fast }));
                 }
-                Friction::Slide { slide, .. } => found.push(Self::Along(slide)),
+                Friction::Slide { slide, .. } => pairs.push(Self::Along(slide)),
             }
         }
-        found
+        pairs
     }
 
     /// First and second derivative by the only driver.
@@ -49,8 +49,8 @@ impl Sliding {
 }
 
 impl Machine {
-    /// Where pairs with friction reverse, of a design of one driver between two coordinates, ends
-    /// included, ascending; none with several drivers.
+    /// Where the pairs of a design with one driver reverse between two coordinates, ends included, ascending;
+    /// empty with several drivers.
     #[must_use]
     pub fn reversals(
         &self,
@@ -77,8 +77,8 @@ pub(crate) fn reversals(
 ) -> Vec<f64> {
     let (nodes, unit) = (nodes_of(range, evaluator.unit(0)), evaluator.unit(0));
     let size = evaluator.position().constants.scale;
-    // Most positions are asked for by every pair.
-    let mut known: BTreeMap<u64, Option<Vec<Sample>>> = BTreeMap::new();
+    // Every pair requests most of the positions.
+    let mut solved: BTreeMap<u64, Option<Vec<Sample>>> = BTreeMap::new();
     let mut solve = |q: f64| {
         evaluator.solve(&[q]).ok()?;
         if evaluator.status() as u8 > Status::Singular as u8 {
@@ -94,18 +94,18 @@ pub(crate) fn reversals(
         };
         Some(pairs.iter().map(sample).collect())
     };
-    let mut found = Vec::new();
+    let mut places = Vec::new();
     for index in 0..pairs.len() {
         let roots = all_roots(&nodes, |q: f64| {
-            let samples = known.entry(q.to_bits()).or_insert_with(|| solve(q));
+            let samples = solved.entry(q.to_bits()).or_insert_with(|| solve(q));
             samples.as_ref().map(|samples| samples[index])
         });
-        found.extend(roots.isolated.iter().map(|root| root.at));
-        found.extend(roots.jumps);
-        found.extend(roots.zero.into_iter().flatten());
+        places.extend(roots.isolated.iter().map(|root| root.at));
+        places.extend(roots.jumps);
+        places.extend(roots.zero.into_iter().flatten());
     }
-    found.retain(|&q| within(q, range, unit));
-    found.sort_unstable_by(f64::total_cmp);
-    found.dedup();
-    found
+    places.retain(|&q| within(q, range, unit));
+    places.sort_unstable_by(f64::total_cmp);
+    places.dedup();
+    places
 }

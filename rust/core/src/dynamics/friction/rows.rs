@@ -1,4 +1,4 @@
-//! Friction at some positions: how fast pairs slide, and what friction does to all reactions.
+//! Friction at some positions: the speeds of the pairs, and the effect of friction on all reactions.
 
 use std::sync::atomic::AtomicBool;
 
@@ -13,17 +13,17 @@ use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 
-/// Most that coefficients are multiplied by when the safety is asked for.
+/// Greatest factor of the coefficients in the search for the safety.
 const MOST_SAFETY: f64 = 1.0e6;
 
-/// Number of solutions where so many pairs depend on one another that these are not searched for.
+/// Number of solutions where too many pairs depend on one another for a search.
 const UNSOLVED: f64 = -1.0;
-/// Where redundant links leave the force in one of them undetermined.
+/// The same where redundant links leave the force in a pair undetermined.
 const UNDETERMINED: f64 = -2.0;
 
 /// The friction in one lane.
 struct LaneFriction {
-    /// Of every pair.
+    /// Dry friction of every pair.
     dry: Vec<f64>,
     solutions: f64,
     safety: f64,
@@ -41,21 +41,21 @@ impl LaneFriction {
     }
 }
 
-/// What is asked of the friction.
+/// A request for the friction.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Asked<'c> {
-    /// Which of its solutions is meant.
+pub(crate) struct FrictionRequest<'c> {
+    /// Index of the requested solution.
     pub solution: usize,
-    /// Whether the safety against locking is wanted.
+    /// Whether the safety against locking is requested.
     pub safety: bool,
-    /// When true, nothing is wanted any more.
+    /// Set to true when the caller no longer needs the result.
     pub cancel: Option<&'c AtomicBool>,
 }
 
 // Loops: closures would not be compiled with the level's instructions.
 impl<R: Real> FrictionWorkspace<R> {
-    /// Reads how fast every pair slides, and how fast it would if the drivers had the speeds `ways`, which
-    /// give the sense of friction.
+    /// Reads the speed of every pair, and its speed if the drivers had the speeds `ways`, which give the
+    /// sense of friction.
     #[inline(always)]
     pub(crate) fn read(
         &mut self,
@@ -107,13 +107,13 @@ impl<R: Real> FrictionWorkspace<R> {
         }
     }
 
-    /// Adds the friction of all pairs to the loads; the others are there.
+    /// Adds the friction of all pairs to the other loads.
     #[inline(always)]
     pub(crate) fn apply(
         &mut self,
         scene: &mut Scene<R>,
         (plan, pairs): (&ForcePlan, &[FrictionPair]),
-        asked: Asked<'_>,
+        request: FrictionRequest<'_>,
         size: f64,
     ) {
         self.drag(scene, plan, pairs);
@@ -127,28 +127,28 @@ impl<R: Real> FrictionWorkspace<R> {
         for lane in 0..R::LANES {
             is_determined.push(!undetermined.lane(lane));
         }
-        let found = self.solve(scene, pairs, &is_determined, asked);
-        self.solutions = R::from_lanes(|lane| found[lane].solutions);
-        self.safety = R::from_lanes(|lane| found[lane].safety);
-        self.residual = R::from_lanes(|lane| found[lane].residual);
-        for (index, own) in pairs.iter().enumerate() {
-            let dry = R::from_lanes(|lane| found[lane].dry[index]);
-            scene.apply_friction(plan, own, dry);
+        let lanes = self.solve(scene, pairs, &is_determined, request);
+        self.solutions = R::from_lanes(|lane| lanes[lane].solutions);
+        self.safety = R::from_lanes(|lane| lanes[lane].safety);
+        self.residual = R::from_lanes(|lane| lanes[lane].residual);
+        for (index, pair) in pairs.iter().enumerate() {
+            let dry = R::from_lanes(|lane| lanes[lane].dry[index]);
+            scene.apply_friction(plan, pair, dry);
             self.efforts[index] += dry;
         }
     }
 
-    /// Solves the friction of all pairs, in each lane by itself.
+    /// Solves the friction of all pairs, one lane at a time.
     fn solve(
         &self,
         scene: &Scene<R>,
         pairs: &[FrictionPair],
         is_determined: &[bool],
-        asked: Asked<'_>,
+        request: FrictionRequest<'_>,
     ) -> Vec<LaneFriction> {
         let lane_friction = |(lane, &is_determined): (usize, &bool)| {
             let (mut problem, used) = self.problem(scene, pairs, lane);
-            problem.cancel = asked.cancel;
+            problem.cancel = request.cancel;
             if problem.is_cancelled() {
                 return LaneFriction::unknown(pairs.len());
             }
@@ -161,7 +161,7 @@ impl<R: Real> FrictionWorkspace<R> {
                 Err(TooManyPaths) => UNSOLVED,
             };
             let all = solved.unwrap_or_default();
-            let meant = all.get(asked.solution);
+            let meant = all.get(request.solution);
             let mut dry = vec![if meant.is_some() { 0.0 } else { f64::NAN }; pairs.len()];
             for (index, &pair) in used.iter().enumerate() {
                 dry[pair] = meant.map_or(f64::NAN, |friction| friction[index]);
@@ -169,7 +169,7 @@ impl<R: Real> FrictionWorkspace<R> {
             LaneFriction {
                 dry,
                 solutions,
-                safety: if asked.safety && is_known {
+                safety: if request.safety && is_known {
                     problem.safety(MOST_SAFETY)
                 } else {
                     f64::NAN
@@ -184,15 +184,15 @@ impl<R: Real> FrictionWorkspace<R> {
     #[inline(always)]
     pub(crate) fn drag(&mut self, scene: &mut Scene<R>, plan: &ForcePlan, pairs: &[FrictionPair]) {
         self.efforts.resize(pairs.len(), R::ZERO);
-        for (index, own) in pairs.iter().enumerate() {
-            let drag = -(self.speeds[index][0] * R::splat(own.viscous));
-            scene.apply_friction(plan, own, drag);
+        for (index, pair) in pairs.iter().enumerate() {
+            let drag = -(self.speeds[index][0] * R::splat(pair.viscous));
+            scene.apply_friction(plan, pair, drag);
             self.efforts[index] = drag;
         }
     }
 
-    /// Finds what a unit of friction in each pair does to all of them, and how fast the pair may seem to
-    /// slide by rounding; replaces the loads. `each` sees the scene of one after another.
+    /// Finds the reactions of all pairs to a unit of friction in each, and the speed that rounding may
+    /// give the pair; replaces the loads. `each` sees the scene of one pair after another.
     #[inline(always)]
     pub(crate) fn respond(
         &mut self,
@@ -203,22 +203,22 @@ impl<R: Real> FrictionWorkspace<R> {
     ) {
         self.find_edge_errors(scene, plan);
         self.slopes.clear();
-        for (index, own) in pairs.iter().enumerate() {
+        for (index, pair) in pairs.iter().enumerate() {
             scene.link_force.fill(Vector::ZERO);
             scene.link_moment.fill(R::ZERO);
-            scene.apply_friction(plan, own, R::ONE);
+            scene.apply_friction(plan, pair, R::ONE);
             scene.start(plan);
             let slopes = scene.pair_reactions(plan, pairs);
             self.slopes.push(slopes);
             let still = self.still[index] + self.rate_rounding(scene);
-            // Nothing is known of a singular position: the pair is not said to rest.
+            // At a singular position nothing is known: the pair does not count as at rest.
             let is_known = still.lt(R::splat(f64::INFINITY));
             self.still[index] = R::select(is_known, still, self.still[index]);
             each(scene);
         }
     }
 
-    /// The pairs that slide in a lane, and which of all they are. At rest they have their static law.
+    /// The pairs that slide in a lane, and their indices. At rest they have their static law.
     pub(crate) fn problem(
         &self,
         scene: &Scene<R>,
@@ -230,15 +230,15 @@ impl<R: Real> FrictionWorkspace<R> {
         let used: Vec<usize> = (0..pairs.len()).filter(slides_here).collect();
         let rests = scene.drive.iter().all(|[speed, _]| speed.lane(lane) == 0.0);
         let is_static = self.is_static.unwrap_or(rests);
-        let of = |vector: Vector<R>| [vector.x.lane(lane), vector.y.lane(lane)];
+        let in_lane = |vector: Vector<R>| [vector.x.lane(lane), vector.y.lane(lane)];
         let pairs = used.iter().map(|&pair| {
-            let own = &pairs[pair];
+            let friction_pair = &pairs[pair];
             SlidingPair {
-                law: if is_static { own.static_law } else { own.law },
+                law: if is_static { friction_pair.static_law } else { friction_pair.law },
                 sense: 1.0_f64.copysign(way(pair)),
                 rate: way(pair).abs(),
-                base: of(self.base[pair]),
-                slopes: used.iter().map(|&on| of(self.slopes[on][pair])).collect(),
+                base: in_lane(self.base[pair]),
+                slopes: used.iter().map(|&on| in_lane(self.slopes[on][pair])).collect(),
             }
         });
         (FrictionProblem { pairs: pairs.collect(), cancel: None }, used)
@@ -261,7 +261,7 @@ impl<R: Real> Scene<R> {
         ways
     }
 
-    /// Lets friction of a pair act on both of its links.
+    /// Applies the friction of a pair to both of its links.
     #[inline(always)]
     fn apply_friction(&mut self, plan: &ForcePlan, pair: &FrictionPair, friction: R) {
         match pair.kind {
@@ -281,20 +281,20 @@ impl<R: Real> Scene<R> {
     /// Lanes in which a force of a pair is undetermined.
     #[inline(always)]
     fn undetermined(&mut self, plan: &ForcePlan, pairs: &[FrictionPair], size: f64) -> R::Mask {
-        let mut found = R::Mask::NONE;
+        let mut stressed = R::Mask::NONE;
         for &stress in &plan.self_stresses {
             self.stress(plan, stress);
             let reactions = self.pair_reactions(plan, pairs);
-            for (own, reaction) in pairs.iter().zip(&reactions) {
-                let moment = match own.kind {
+            for (pair, reaction) in pairs.iter().zip(&reactions) {
+                let moment = match pair.kind {
                     PairKind::Journal { .. } => reaction.y,
                     PairKind::Guide { .. } => reaction.y * R::splat(1.0 / size),
                 };
                 let force = Vector::new(reaction.x, moment);
-                found = found.or(Self::is_stressed(force.size(), R::ONE));
+                stressed = stressed.or(Self::is_stressed(force.size(), R::ONE));
             }
         }
-        found
+        stressed
     }
 
     /// The reactions on which the friction of every pair depends.
@@ -307,8 +307,8 @@ impl<R: Real> Scene<R> {
         self.carry_loads(plan);
         self.pass_moments(plan);
         let mut reactions = Vec::with_capacity(pairs.len());
-        for own in pairs {
-            reactions.push(match &own.kind {
+        for pair in pairs {
+            reactions.push(match &pair.kind {
                 PairKind::Journal { force, .. } => force.of(self),
                 &PairKind::Guide { slide, .. } => {
                     Vector::new(self.normal(plan, slide), self.slide_moment[slide])

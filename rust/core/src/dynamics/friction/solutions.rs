@@ -7,9 +7,10 @@ use super::quadrics::{MAX_UNKNOWNS, Quadrics};
 
 /// Most paths that are followed for one block of pairs, as a power of 2: half a second.
 pub(super) const MAX_PATHS: usize = 12;
-/// The part of a solution that may be imaginary: a double one is known to the root of rounding only.
+/// The greatest imaginary part of a real solution, relative to its size: a double solution is known only
+/// to the root of rounding.
 const IMAGINARY: f64 = 1.0e-4;
-/// How far a solution may be from the end of its path, and how near two that are the same.
+/// Greatest distance of a solution from the end of its path, and of two results that are the same solution.
 const NEAR: f64 = 1.0e-3;
 const SAME: f64 = 1.0e-9;
 
@@ -18,8 +19,8 @@ const SAME: f64 = 1.0e-9;
 pub(crate) struct TooManyPaths;
 
 impl FrictionProblem<'_> {
-    /// All solutions: the first is that to which the law leads from no friction, the others by what they
-    /// lose. None: locked.
+    /// All solutions: first the one to which the path from no friction leads, then the others by their loss of
+    /// power. Empty: locked.
     pub(crate) fn solve(&self) -> Result<Vec<Vec<f64>>, TooManyPaths> {
         if self.pairs.is_empty() {
             return Ok(vec![Vec::new()]);
@@ -41,7 +42,7 @@ impl FrictionProblem<'_> {
         Ok(all)
     }
 
-    /// The first of all solutions; the others are looked for only where the law leads to none.
+    /// The first of all solutions; the others are searched for only where the path from no friction ends.
     pub(crate) fn first(&self) -> Result<Option<Vec<f64>>, TooManyPaths> {
         if self.pairs.is_empty() {
             return Ok(Some(Vec::new()));
@@ -59,8 +60,7 @@ impl FrictionProblem<'_> {
         Ok(all.into_iter().min_by(|a, b| self.loss(a).total_cmp(&self.loss(b))))
     }
 
-    /// By what all coefficients can be multiplied before the solution that began without friction ends,
-    /// at most `most`.
+    /// The factor of all coefficients, at most `most`, at which the solution that began without friction ends.
     pub(crate) fn safety(&self, most: f64) -> f64 {
         // Where nothing slides, friction takes no part however strong it is.
         if self.pairs.is_empty() { most } else { self.follow(most).0 }
@@ -76,10 +76,10 @@ impl FrictionProblem<'_> {
         let mut all = vec![vec![0.0; self.pairs.len()]];
         for block in self.blocks() {
             let mut longer = Vec::new();
-            for known in &all {
-                for own in self.block(&block, known).of_block()? {
-                    let mut solution = known.clone();
-                    for (&pair, friction) in block.iter().zip(own) {
+            for earlier in &all {
+                for block_solution in self.block(&block, earlier).of_block()? {
+                    let mut solution = earlier.clone();
+                    for (&pair, friction) in block.iter().zip(block_solution) {
                         solution[pair] = friction;
                     }
                     longer.push(solution);
@@ -118,7 +118,7 @@ impl FrictionProblem<'_> {
         if journals.len() + 2 * guides.len() > MAX_PATHS || journals.len() > MAX_UNKNOWNS {
             return Err(TooManyPaths);
         }
-        let mut found: Vec<Vec<f64>> = Vec::new();
+        let mut solutions: Vec<Vec<f64>> = Vec::new();
         for mut choice in 0..choices {
             if self.is_cancelled() {
                 break;
@@ -132,19 +132,19 @@ impl FrictionProblem<'_> {
                 })
                 .collect();
             for start in self.with_faces(&journals, &guides, &chosen) {
-                self.add(&start, &mut found);
+                self.add(&start, &mut solutions);
             }
         }
-        Ok(found)
+        Ok(solutions)
     }
 
-    /// Adds the solution near a start, unless there is none or it is known.
-    fn add(&self, start: &[f64], found: &mut Vec<Vec<f64>>) {
+    /// Adds the solution near a start if it exists and is new.
+    fn add(&self, start: &[f64], solutions: &mut Vec<Vec<f64>>) {
         let Some(solution) = self.newton(start, 1.0) else { return };
         let size = amax(&solution).max(amax(start));
         let apart = start.iter().zip(&solution).all(|(a, b)| (a - b).abs() <= NEAR * size);
-        if apart && !found.iter().any(|other| is_same(other, &solution)) {
-            found.push(solution);
+        if apart && !solutions.iter().any(|earlier| is_same(earlier, &solution)) {
+            solutions.push(solution);
         }
     }
 
@@ -193,7 +193,7 @@ impl FrictionProblem<'_> {
             (0..=j)
                 .map(|column| {
                     let mut factor = if column == 0 { pair.base[axis] / unit } else { 0.0 };
-                    if let Some(&on) = column.checked_sub(1).and_then(|own| journals.get(own)) {
+                    if let Some(&on) = column.checked_sub(1).and_then(|index| journals.get(index)) {
                         factor += pair.slopes[on][axis] * per_size(on);
                     }
                     for (row, &guide) in guides.iter().enumerate() {
@@ -242,9 +242,9 @@ fn amax(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |most, number| most.max(number.abs()))
 }
 
-fn is_same(one: &[f64], other: &[f64]) -> bool {
-    let size = amax(one).max(amax(other));
-    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= SAME * size)
+fn is_same(left: &[f64], right: &[f64]) -> bool {
+    let size = amax(left).max(amax(right));
+    left.iter().zip(right).all(|(a, b)| (a - b).abs() <= SAME * size)
 }
 
 #[cfg(test)]
@@ -347,15 +347,17 @@ mod tests {
         let mut random = Random(11);
         let mut several = 0;
         for case in 0..300 {
-            let of = [[3, 0], [2, 1], [0, 2]][case % 3];
-            let problem = problem(&mut random, of, 3.0 + (case % 5) as f64 * 3.0);
+            let kinds = [[3, 0], [2, 1], [0, 2]][case % 3];
+            let problem = problem(&mut random, kinds, 3.0 + (case % 5) as f64 * 3.0);
             let (first, all) = (problem.first(), problem.solve());
             let (Ok(first), Ok(all)) = (first, all) else { panic!("too many paths") };
             several += usize::from(all.len() > 1);
             match (first, all.first()) {
                 (None, None) => {}
-                (Some(first), Some(one)) => assert!(is_same(&first, one), "{first:?} {one:?}"),
-                (first, one) => panic!("{first:?} {one:?}"),
+                (Some(first), Some(listed)) => {
+                    assert!(is_same(&first, listed), "{first:?} {listed:?}");
+                }
+                (first, listed) => panic!("{first:?} {listed:?}"),
             }
         }
         assert!(several > 5, "{several}");
@@ -365,9 +367,9 @@ mod tests {
     fn none_is_missed_that_many_starts_find() {
         let mut random = Random(7);
         let (mut several, mut none) = (0, 0);
-        for (count, of) in [(60, [3, 0]), (40, [2, 1]), (20, [0, 2]), (10, [4, 1])] {
+        for (count, kinds) in [(60, [3, 0]), (40, [2, 1]), (20, [0, 2]), (10, [4, 1])] {
             for case in 0..count {
-                let problem = problem(&mut random, of, 3.0 + f64::from(case % 5) * 3.0);
+                let problem = problem(&mut random, kinds, 3.0 + f64::from(case % 5) * 3.0);
                 let all = problem.solve().unwrap_or_else(|_| panic!("too many"));
                 for solution in &all {
                     let missed = problem.residual(solution, 1.0).amax();
@@ -379,9 +381,9 @@ mod tests {
                     let wide = 10.0_f64.powf(2.0 + 2.0 * random.next());
                     let start: Vec<f64> =
                         problem.pairs.iter().map(|_| wide * random.next()).collect();
-                    let Some(found) = problem.newton(&start, 1.0) else { continue };
-                    let known = all.iter().any(|solution| is_same(solution, &found));
-                    assert!(known, "{of:?} {case}: {found:?} is not one of {all:?}");
+                    let Some(root) = problem.newton(&start, 1.0) else { continue };
+                    let is_listed = all.iter().any(|solution| is_same(solution, &root));
+                    assert!(is_listed, "{kinds:?} {case}: {root:?} is not one of {all:?}");
                 }
             }
         }

@@ -4,18 +4,18 @@
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
-/// How fast pairs with friction slide, how their reactions depend on it, and the friction found.
+/// The speeds of pairs with friction, the dependence of their reactions on it, and the friction found.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct FrictionWorkspace<R: Real> {
-    /// Whether the static law holds; if not said, where all drivers rest.
+    /// Whether the static law holds; `None`: where all drivers rest.
     pub is_static: Option<bool>,
-    /// Speed of every pair, as it is, and as it is or is about to be.
+    /// Speed of every pair, and the same with the speeds that drivers at rest are about to have.
     pub speeds: Vec<[R; 2]>,
-    /// Below these a pair rests.
+    /// Speeds below which a pair rests.
     pub still: Vec<R>,
-    /// How fast every point moves as it is or is about to be: at most, of all drivers.
+    /// Greatest speed of every point over all drivers, with the speeds that drivers at rest are about to have.
     pub point_speeds: Vec<R>,
-    /// By how much the velocities along every edge may miss their closed path.
+    /// Error with which the velocities along every edge may close their path.
     pub edge_errors: Vec<R>,
     /// Reactions without friction, and per unit of friction in every pair.
     pub base: Vec<Vector<R>>,
@@ -25,12 +25,12 @@ pub(crate) struct FrictionWorkspace<R: Real> {
     /// Number of solutions.
     pub solutions: R,
     pub safety: R,
-    /// By how much the law of friction is missed, in parts of the greatest friction.
+    /// Residual of the law of friction, relative to the greatest friction.
     pub residual: R,
 }
 
 impl<R: Real> FrictionWorkspace<R> {
-    /// The power that friction takes in a pair.
+    /// The power that friction dissipates in a pair.
     #[inline(always)]
     pub(crate) fn loss(&self, pair: usize) -> R {
         -(self.efforts[pair] * self.speeds[pair][0])
@@ -38,11 +38,11 @@ impl<R: Real> FrictionWorkspace<R> {
 }
 
 impl FrictionWorkspace<f64> {
-    /// Lets a pair slide one way, +1 or −1, whatever its speed; or, with 0, rest.
+    /// Makes a pair slide in one sense, +1 or −1, independent of its speed; 0: rest.
     pub(crate) fn hold(&mut self, pair: usize, way: f64) {
         let speed = &mut self.speeds[pair][1];
         *speed = speed.abs().copysign(way);
-        // No speed is below a negative one.
+        // No speed is below a negative bound.
         self.still[pair] = if way == 0.0 { f64::INFINITY } else { -1.0 };
     }
 }

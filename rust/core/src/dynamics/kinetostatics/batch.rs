@@ -28,9 +28,9 @@ use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 
 impl Machine {
-    /// Finds the reactions of designs at positions: one array for each, and the statuses. Of
-    /// [`squares`](ReactionRequest::squares) each array has two numbers a design, NaN if a position has
-    /// no value, and the status of a design is the worst of its positions.
+    /// Finds the reactions of designs at positions: one array for each, and the statuses. With
+    /// [`squares`](ReactionRequest::squares) each array has two numbers per design, NaN if a position has no
+    /// value, and the status of a design is the worst of its positions.
     ///
     /// # Errors
     ///
@@ -38,41 +38,41 @@ impl Machine {
     pub fn reactions(
         &self,
         mechanism: &Mechanism,
-        asked: &ReactionRequest<'_>,
+        request: &ReactionRequest<'_>,
         arrays: Arrays<'_>,
         control: &Control<'_>,
     ) -> Result<(), SolveError> {
         let plan = ForcePlan::new(mechanism, self);
-        let request = Request {
-            dimensions: asked.dimensions,
-            coordinates: asked.coordinates,
-            signs: asked.signs,
+        let solve_request = Request {
+            dimensions: request.dimensions,
+            coordinates: request.coordinates,
+            signs: request.signs,
             order: plan.order,
             outputs: &plan.outputs,
             by: None,
         };
-        let shape = Shape::of(mechanism, &request)?;
+        let shape = Shape::of(mechanism, &solve_request)?;
         let rows = product(shape.designs, shape.positions)?;
-        let results: Vec<Column> = asked
+        let results: Vec<Column> = request
             .reactions
             .iter()
             .map(|reaction| Column {
                 quantity: Quantity::Joint(0),
                 order: 0,
-                width: if asked.squares { 2 } else { reaction.width() },
+                width: if request.squares { 2 } else { reaction.width() },
             })
             .collect();
-        let written = if asked.squares { 1 } else { shape.positions };
+        let written = if request.squares { 1 } else { shape.positions };
         check_arrays(&results, &arrays, product(shape.designs, written)?)?;
-        let fits = [asked.speed, asked.acceleration]
+        let fits = [request.speed, request.acceleration]
             .iter()
             .all(|values| [rows * shape.drivers, shape.drivers].contains(&values.len()))
-            && (rows == 0 || asked.external.len().is_multiple_of(rows));
+            && (rows == 0 || request.external.len().is_multiple_of(rows));
         if !fits {
             return Err(SolveError::Shape("speeds, accelerations or values do not fit".into()));
         }
         let derivatives = DerivativeTables::new(shape.drivers, plan.order);
-        let writer = Writer::of(mechanism, &derivatives, &request);
+        let writer = Writer::of(mechanism, &derivatives, &solve_request);
         Scratch::check(&writer.columns, shape.positions, control)?;
         let linkage = mechanism.linkage();
         let links_at: Vec<Vec<usize>> =
@@ -81,22 +81,22 @@ impl Machine {
             Reaction::Joint { joint, on } => JointForce::new(&plan, &links_at, joint, on),
             _ => JointForce::Free,
         };
-        let balances = !asked.reactions.iter().all(|reaction| reaction.is_given());
+        let balances = !request.reactions.iter().all(|reaction| reaction.is_given());
         let friction: &[Friction] = if balances { &self.friction } else { &[] };
         let batch = ReactionBatch {
             mechanism,
             machine: self,
             balances,
-            joints: asked.reactions.iter().map(joint_force).collect(),
+            joints: request.reactions.iter().map(joint_force).collect(),
             friction: FrictionPair::of(&plan, &links_at, friction),
             sources: Sources::new(&plan, &writer.columns),
             plan: &plan,
-            asked,
-            request: &request,
+            request,
+            solve_request: &solve_request,
             derivatives: &derivatives,
             writer: &writer,
             columns: &writer.columns,
-            callbacks: asked.external.len().checked_div(rows).unwrap_or(0),
+            callbacks: request.external.len().checked_div(rows).unwrap_or(0),
             shape: &shape,
             control,
         };
@@ -110,7 +110,7 @@ struct React<'b, 'r> {
     chunks: Chunks<'r>,
 }
 
-/// What one thread works with.
+/// The working data of one thread.
 struct ThreadState<'b, R: Real, const G: usize> {
     worker: Worker<'b, R, G>,
     designs: Designs,
@@ -127,10 +127,11 @@ impl ForLevel for React<'_, '_> {
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
-        let ReactionBatch { mechanism, request, derivatives, writer, columns, control, .. } =
-            *batch;
+        let ReactionBatch {
+            mechanism, solve_request, derivatives, writer, columns, control, ..
+        } = *batch;
         let new_state = || ThreadState::<'_, L::Register, G> {
-            worker: Worker::new(mechanism, request, derivatives, writer, control),
+            worker: Worker::new(mechanism, solve_request, derivatives, writer, control),
             designs: Designs::default(),
             scratch: Scratch::new(columns, batch.shape.positions),
             scene: Scene::new(batch.plan),
@@ -157,20 +158,20 @@ impl ReactionBatch<'_> {
         let Shape { designs: all, positions, drivers } = *self.shape;
         let ThreadState { worker, designs, scratch, scene, friction, tables, followed, squares } =
             state;
-        designs.read(self.mechanism, self.asked.dimensions, all, chunk.designs.clone());
-        // Squares are of all positions.
-        let range = if self.asked.squares { 0..positions } else { chunk.positions.clone() };
+        designs.read(self.mechanism, self.request.dimensions, all, chunk.designs.clone());
+        // Squares cover all positions.
+        let range = if self.request.squares { 0..positions } else { chunk.positions.clone() };
         let count = range.len();
         for (index, design) in chunk.designs.clone().enumerate() {
             if self.control.is_cancelled() {
                 return;
             }
-            let q = self.asked.coordinates.of(design, positions * drivers);
+            let q = self.request.coordinates.of(design, positions * drivers);
             let q = &q[range.start * drivers..range.end * drivers];
             let row = designs.row(index);
             let first = design * positions + range.start;
             let mut rows = scratch.rows();
-            let shared = match self.asked.coordinates {
+            let shared = match self.request.coordinates {
                 Coordinates::Shared(_) => Some(range.start),
                 Coordinates::PerDesign(_) => None,
             };
@@ -197,12 +198,12 @@ impl ReactionBatch<'_> {
             let external = first * self.callbacks..(first + count) * self.callbacks;
             let solved = Solved {
                 columns: &values,
-                speed: &self.asked.speed[drive(self.asked.speed)],
-                acceleration: &self.asked.acceleration[drive(self.asked.acceleration)],
+                speed: &self.request.speed[drive(self.request.speed)],
+                acceleration: &self.request.acceleration[drive(self.request.acceleration)],
                 positions: count,
             };
             if self.machine.follows() {
-                let drivers = Drivers { q, units: &units, sense: self.asked.sense };
+                let drivers = Drivers { q, units: &units, sense: self.request.sense };
                 followed.read(self.machine, &self.sources, &solved, drivers, size);
             }
             let mut task = Evaluate {
@@ -214,7 +215,7 @@ impl ReactionBatch<'_> {
                     tables,
                     over: &followed.over,
                     ways: &followed.ways,
-                    external: &self.asked.external[external],
+                    external: &self.request.external[external],
                     callbacks: self.callbacks,
                 },
                 status: &rows.status()[..count],
@@ -222,7 +223,7 @@ impl ReactionBatch<'_> {
                 friction,
                 results: &mut results,
                 squares,
-                first: if self.asked.squares { index } else { index * count },
+                first: if self.request.squares { index } else { index * count },
             };
             L::call(&mut task);
         }

@@ -11,7 +11,7 @@ use crate::batch::request::{Column, Request, Shape};
 use crate::batch::schedule::Control;
 use crate::batch::writer::{RowSlices, Writer, begins_line, store_pairs, write};
 use crate::dynamics::friction::pairs::{FrictionPair, PairKind};
-use crate::dynamics::friction::rows::Asked;
+use crate::dynamics::friction::rows::FrictionRequest;
 use crate::dynamics::friction::workspace::FrictionWorkspace;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
@@ -25,18 +25,18 @@ use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
-/// What all chunks of a batch share.
+/// The data that all chunks of a batch share.
 pub(super) struct ReactionBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub machine: &'b Machine,
     pub plan: &'b ForcePlan,
     pub sources: Sources,
     pub joints: Vec<JointForce>,
-    /// Whether what pairs transmit is asked for, and not only what acts on links from outside.
+    /// Whether forces in pairs are requested, and not only what acts on links from outside.
     pub balances: bool,
     pub friction: Vec<FrictionPair>,
-    pub asked: &'b ReactionRequest<'b>,
-    pub request: &'b Request<'b>,
+    pub request: &'b ReactionRequest<'b>,
+    pub solve_request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
     pub writer: &'b Arc<Writer>,
     pub columns: &'b [Column],
@@ -58,17 +58,17 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
     pub friction: &'e mut FrictionWorkspace<R>,
     pub results: &'e mut RowSlices<'r>,
     pub squares: &'e mut Vec<Squares<R>>,
-    /// Row of the first position, or of the design if squares are asked for.
+    /// Row of the first position, or of the design if squares are requested.
     pub first: usize,
 }
 
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let ReactionBatch { plan, machine, sources, asked, friction, control, .. } = self.batch;
+        let ReactionBatch { plan, machine, sources, request, friction, control, .. } = self.batch;
         let count = self.solved.positions;
         self.squares.clear();
-        self.squares.resize(asked.reactions.len(), Squares::NONE);
+        self.squares.resize(request.reactions.len(), Squares::NONE);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.guides, &self.solved, rows);
@@ -86,7 +86,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
                 self.scene.pass_moments(plan);
             }
             let lanes = R::LANES.min(count - first);
-            if asked.squares {
+            if request.squares {
                 self.add_squares(first, lanes);
             } else {
                 self.write(first, lanes);
@@ -101,7 +101,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
                 self.drop_stressed(first, lanes);
             }
         }
-        if asked.squares {
+        if request.squares {
             self.write_squares();
             return;
         }
@@ -118,17 +118,17 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
     fn apply_friction(&mut self, rows: Rows) {
-        let ReactionBatch { plan, sources, asked, friction, control, .. } = self.batch;
+        let ReactionBatch { plan, sources, request, friction, control, .. } = self.batch;
         let size = self.size;
-        let ways = self.scene.ways(asked.sense);
+        let ways = self.scene.ways(request.sense);
         let pairs = (*plan, &friction[..]);
         self.friction.read(self.scene, pairs, sources, (&self.solved, rows), &ways, size);
-        let asked = Asked {
-            solution: asked.solution,
-            safety: asked.reactions.contains(&Reaction::Safety),
+        let friction_request = FrictionRequest {
+            solution: request.solution,
+            safety: request.reactions.contains(&Reaction::Safety),
             cancel: control.cancel,
         };
-        self.friction.apply(self.scene, pairs, asked, size);
+        self.friction.apply(self.scene, pairs, friction_request, size);
     }
 
     /// The sum over the pairs with friction at a joint or in a slide.
@@ -144,10 +144,10 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 None => {}
             }
         }
-        one(sum)
+        scalar(sum)
     }
 
-    /// Force of a guide on what slides there.
+    /// Force of a guide on the sliding link.
     #[inline(always)]
     fn normal(&self, slide: usize) -> R {
         self.scene.normal(self.batch.plan, slide)
@@ -156,26 +156,26 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// The value of a reaction in all lanes.
     #[inline(always)]
     fn value(&self, index: usize) -> Vector<R> {
-        let (reaction, joint) = (self.batch.asked.reactions[index], &self.batch.joints[index]);
+        let (reaction, joint) = (self.batch.request.reactions[index], &self.batch.joints[index]);
         let scene = &*self.scene;
         match reaction {
             Reaction::Joint { .. } => joint.of(scene),
-            Reaction::Normal(slide) => one(self.normal(slide)),
-            Reaction::Moment(slide) => one(scene.slide_moment[slide]),
+            Reaction::Normal(slide) => scalar(self.normal(slide)),
+            Reaction::Moment(slide) => scalar(scene.slide_moment[slide]),
             Reaction::Along(slide) => {
-                one(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
+                scalar(scene.slides[slide] + scene.slide_moment[slide] / self.normal(slide))
             }
             Reaction::JointMoment { .. }
             | Reaction::JointLoss(_)
             | Reaction::Friction(_)
             | Reaction::SlideLoss(_) => self.sum_of_friction(reaction),
-            Reaction::Solutions if self.batch.friction.is_empty() => one(R::ONE),
-            Reaction::Solutions => one(self.friction.solutions),
-            Reaction::Safety => one(self.friction.safety),
-            Reaction::Residual => one(self.friction.residual),
-            Reaction::Driver(driver) => one(scene.driver[driver]),
+            Reaction::Solutions if self.batch.friction.is_empty() => scalar(R::ONE),
+            Reaction::Solutions => scalar(self.friction.solutions),
+            Reaction::Safety => scalar(self.friction.safety),
+            Reaction::Residual => scalar(self.friction.residual),
+            Reaction::Driver(driver) => scalar(scene.driver[driver]),
             Reaction::ShakingForce => scene.shaking_force,
-            Reaction::ShakingMoment => one(scene.shaking_moment),
+            Reaction::ShakingMoment => scalar(scene.shaking_moment),
             Reaction::LoadForce(action) | Reaction::LoadCouple(action) => {
                 scene.load_on(&self.batch.plan.load_actions[action])
             }
@@ -196,7 +196,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         // An infinite load has no reactions. (The place of a guide's force is at infinity where the force
         // is zero.)
         let (infinity, mut infinite) = (R::splat(f64::INFINITY), R::Mask::NONE);
-        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+        for (index, reaction) in self.batch.request.reactions.iter().enumerate() {
             let value = self.value(index);
             if !is_unbounded(*reaction) {
                 infinite = infinite.or(infinity.le(value.x.abs())).or(infinity.le(value.y.abs()));
@@ -247,7 +247,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         }
         self.results.status[self.first] = MaybeUninit::new(worst);
         let mut is_known = worst <= Status::NearSingular as u8;
-        for (index, reaction) in self.batch.asked.reactions.iter().enumerate() {
+        for (index, reaction) in self.batch.request.reactions.iter().enumerate() {
             // The place of a guide's force may be at infinity.
             let is_place = is_unbounded(*reaction);
             is_known &= is_place || !self.squares[index].is_infinite();
@@ -261,11 +261,11 @@ impl<R: Real> Evaluate<'_, '_, R> {
         }
     }
 
-    /// Leaves out what a self-stress changes: it cannot be known.
+    /// Sets reactions to NaN that a self-stress changes: they are undetermined.
     #[inline(always)]
     fn drop_stressed(&mut self, first: usize, lanes: usize) {
         let size = self.size;
-        for (index, &reaction) in self.batch.asked.reactions.iter().enumerate() {
+        for (index, &reaction) in self.batch.request.reactions.iter().enumerate() {
             let unit = match reaction {
                 _ if reaction.is_given() => continue,
                 Reaction::JointMoment { .. }
@@ -295,13 +295,13 @@ impl<R: Real> Evaluate<'_, '_, R> {
 
     #[inline(always)]
     fn drop_lanes(&mut self, index: usize, [first, lanes]: [usize; 2], stressed: R::Mask) {
-        if self.batch.asked.squares {
+        if self.batch.request.squares {
             // The lanes beyond the last position repeat it.
             self.squares[index].drop(stressed);
             return;
         }
         for lane in (0..lanes).filter(|&lane| stressed.lane(lane)) {
-            let width = self.batch.asked.reactions[index].width();
+            let width = self.batch.request.reactions[index].width();
             let row = self.first + first + lane;
             self.results.columns[index][row * width..(row + 1) * width]
                 .fill(MaybeUninit::new(f64::NAN));
@@ -309,7 +309,8 @@ impl<R: Real> Evaluate<'_, '_, R> {
     }
 
     fn write_nan(&mut self, row: usize) {
-        for (reaction, column) in self.batch.asked.reactions.iter().zip(&mut self.results.columns) {
+        for (reaction, column) in self.batch.request.reactions.iter().zip(&mut self.results.columns)
+        {
             let width = reaction.width();
             column[row * width..(row + 1) * width].fill(MaybeUninit::new(f64::NAN));
         }
@@ -317,11 +318,11 @@ impl<R: Real> Evaluate<'_, '_, R> {
 }
 
 #[inline(always)]
-fn one<R: Real>(value: R) -> Vector<R> {
+fn scalar<R: Real>(value: R) -> Vector<R> {
     Vector::new(value, R::ZERO)
 }
 
-/// What a pair adds to a sum over pairs.
+/// The contribution of a pair to a sum over pairs.
 enum Share {
     /// Its friction, with this sign.
     Friction(f64),
@@ -333,18 +334,22 @@ fn share(pair: &PairKind, reaction: Reaction) -> Option<Share> {
     match (reaction, pair) {
         (
             Reaction::JointMoment { joint, on },
-            &PairKind::Journal { joint: at, on: own, fast, .. },
+            &PairKind::Journal { joint: at, on: sliding_link, fast, .. },
         ) if at == joint => {
             let against = (fast == on).then_some(Share::Friction(-1.0));
-            (own == on).then_some(Share::Friction(1.0)).or(against)
+            (sliding_link == on).then_some(Share::Friction(1.0)).or(against)
         }
         (Reaction::JointLoss(joint), PairKind::Journal { joint: at, .. }) if *at == joint => {
             Some(Share::Loss)
         }
-        (Reaction::Friction(slide), PairKind::Guide { slide: own, .. }) if *own == slide => {
+        (Reaction::Friction(slide), PairKind::Guide { slide: sliding_link, .. })
+            if *sliding_link == slide =>
+        {
             Some(Share::Friction(1.0))
         }
-        (Reaction::SlideLoss(slide), PairKind::Guide { slide: own, .. }) if *own == slide => {
+        (Reaction::SlideLoss(slide), PairKind::Guide { slide: sliding_link, .. })
+            if *sliding_link == slide =>
+        {
             Some(Share::Loss)
         }
         _ => None,

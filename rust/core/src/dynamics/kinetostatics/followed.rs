@@ -5,7 +5,7 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::{Measure, sign};
 use crate::dynamics::reactions::columns::{Solved, Sources};
 
-/// Values of the loads that follow other coordinates: of each at every position.
+/// Values of the loads that follow other coordinates, each at every position.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Followed {
     pub over: Vec<Vec<f64>>,
@@ -62,8 +62,8 @@ impl<'d> Drivers<'d> {
     /// The speeds at a position; where all rest, the sense.
     fn speeds(self, all: &'d [f64], row: usize) -> &'d [f64] {
         let n = self.units.len();
-        let own = if all.len() == n { all } else { &all[row * n..(row + 1) * n] };
-        if own.iter().all(|&speed| speed == 0.0) { self.sense } else { own }
+        let drivers = if all.len() == n { all } else { &all[row * n..(row + 1) * n] };
+        if drivers.iter().all(|&speed| speed == 0.0) { self.sense } else { drivers }
     }
 }
 
@@ -83,7 +83,7 @@ fn derivative(
     [row, driver, n]: [usize; 3],
 ) -> f64 {
     match measure {
-        Measure::Driver(own) => f64::from(own == driver),
+        Measure::Driver(followed) => f64::from(followed == driver),
         // The column of the first derivatives follows.
         _ => column(sources, measure).map_or(0.0, |c| solved.columns[c + 1][row * n + driver]),
     }

@@ -1,4 +1,4 @@
-//! What is asked for: reactions of a motion.
+//! A request for the reactions of a motion.
 
 use crate::batch::request::Coordinates;
 
@@ -16,7 +16,7 @@ pub enum Reaction {
     Normal(usize),
     /// Moment on the sliding link about its sliding point, N·m.
     Moment(usize),
-    /// Where on the guide the normal force alone would have that moment: value + moment/normal, m.
+    /// Place on the guide where the normal force alone would have that moment: value + moment/normal, m.
     Along(usize),
     /// Moment of friction on a link at a joint, N·m.
     JointMoment {
@@ -27,17 +27,16 @@ pub enum Reaction {
     },
     /// Force of friction on the sliding link along the guide, N.
     Friction(usize),
-    /// Power that friction takes at a joint, W.
+    /// Power that friction dissipates at a joint, W.
     JointLoss(usize),
-    /// Power that friction takes in a slide, W.
+    /// Power that friction dissipates in a slide, W.
     SlideLoss(usize),
     /// Number of solutions: 0 where friction locks the machine, −1 where too many pairs depend on one
-    /// another, −2 where redundant links leave the force in one of them undetermined.
+    /// another, −2 where redundant links leave the force in a pair undetermined.
     Solutions,
-    /// By how much the law of friction is missed, in parts of the greatest friction.
+    /// Residual of the law of friction, relative to the greatest friction.
     Residual,
-    /// By what all coefficients of friction can be multiplied before the solution ends to which friction
-    /// leads as it grows from nothing.
+    /// Factor of all coefficients of friction at which the solution ends that begins without friction.
     Safety,
     /// Torque (N·m) or force (N) of a driver.
     Driver(usize),
@@ -64,7 +63,7 @@ impl Reaction {
         }
     }
 
-    /// Whether it follows from the motion alone, whatever the pairs transmit.
+    /// Whether it follows from the motion alone, independent of the forces in pairs.
     pub(crate) fn is_given(self) -> bool {
         matches!(
             self,
@@ -77,7 +76,7 @@ impl Reaction {
     }
 }
 
-/// Motions of a batch of designs, of which reactions are asked for.
+/// Motions of a batch of designs whose reactions are requested.
 #[derive(Debug, Clone, Copy)]
 pub struct ReactionRequest<'a> {
     /// Dimensions: the first of every design, then the second of every design, and so on.
@@ -92,15 +91,15 @@ pub struct ReactionRequest<'a> {
     pub acceleration: &'a [f64],
     /// Values of the loads' callbacks: designs × positions × callbacks.
     pub external: &'a [f64],
-    /// In which sense each driver is about to move where all rest, +1 or −1: for friction. May be
+    /// Sense in which each driver is about to move where all rest, +1 or −1, for friction. May be
     /// empty.
     pub sense: &'a [f64],
-    /// Which of the solutions is meant where friction has several; 0: the one to which friction leads
-    /// as it grows from nothing.
+    /// Index of the solution where friction has several; 0: the one that begins without friction as friction
+    /// grows.
     pub solution: usize,
-    /// What is asked for.
+    /// The requested reactions.
     pub reactions: &'a [Reaction],
-    /// Whether of each design only the greatest square and the mean square of every reaction are
-    /// wanted, over its positions.
+    /// Whether to return only the greatest and the mean square of every reaction over the positions of
+    /// each design.
     pub squares: bool,
 }

@@ -1,5 +1,4 @@
-//! Squares of a reaction over the positions of a design, without keeping these: the greatest, and the
-//! mean.
+//! The greatest and the mean square of a reaction over the positions of a design, without storing values.
 
 use crate::math::lanes::{LANES, Mask, Real};
 use crate::math::vector::Vector;
@@ -8,8 +7,8 @@ use crate::math::vector::Vector;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Squares<R: Real> {
     most: R,
-    /// Position k belongs to the sum k modulo [`LANES`], whatever the length of a register, so that the
-    /// mean has the same bits on every processor.
+    /// Position k belongs to the sum k modulo [`LANES`] for every length of a register, so that the mean has
+    /// the same bits on every processor.
     sums: [R; LANES],
     /// Where a position has no value.
     undefined: R::Mask,
@@ -74,12 +73,12 @@ mod tests {
     use super::*;
     use crate::math::pair::Pair;
 
-    /// Both over these values, `R` at a time.
-    fn of<R: Real>(values: &[[f64; 2]]) -> [f64; 2] {
+    /// The greatest and the mean square of some values, `R` at a time.
+    fn squares_of<R: Real>(values: &[[f64; 2]]) -> [f64; 2] {
         let mut squares = Squares::<R>::NONE;
-        for (register, some) in values.chunks(R::LANES).enumerate() {
-            let entry = |axis: usize| R::from_lanes(|lane| some[lane.min(some.len() - 1)][axis]);
-            let used = R::from_lanes(|lane| lane as f64).lt(R::splat(some.len() as f64));
+        for (register, block) in values.chunks(R::LANES).enumerate() {
+            let entry = |axis: usize| R::from_lanes(|lane| block[lane.min(block.len() - 1)][axis]);
+            let used = R::from_lanes(|lane| lane as f64).lt(R::splat(block.len() as f64));
             squares.add(Vector::new(entry(0), entry(1)), register, used);
         }
         squares.greatest_and_mean(values.len())
@@ -89,9 +88,12 @@ mod tests {
     fn registers_of_any_length_give_the_same_bits() {
         let values: Vec<[f64; 2]> =
             (0..29).map(|k| [f64::from(k * k % 17).sin(), 1.0 / f64::from(k + 1)]).collect();
-        let alone = of::<f64>(&values);
-        assert_eq!(of::<Pair<f64>>(&values).map(f64::to_bits), alone.map(f64::to_bits));
-        assert_eq!(of::<Pair<Pair<f64>>>(&values).map(f64::to_bits), alone.map(f64::to_bits));
+        let alone = squares_of::<f64>(&values);
+        assert_eq!(squares_of::<Pair<f64>>(&values).map(f64::to_bits), alone.map(f64::to_bits));
+        assert_eq!(
+            squares_of::<Pair<Pair<f64>>>(&values).map(f64::to_bits),
+            alone.map(f64::to_bits)
+        );
         let squares: Vec<f64> = values.iter().map(|[x, y]| x * x + y * y).collect();
         let most = squares.iter().copied().fold(0.0, f64::max);
         let mean = squares.iter().sum::<f64>() / 29.0;
@@ -100,9 +102,9 @@ mod tests {
 
     #[test]
     fn one_missing_value_leaves_none() {
-        assert!(of::<Pair<f64>>(&[[1.0, 2.0], [f64::NAN, 0.0], [3.0, 0.0]])[0].is_nan());
-        assert!(of::<Pair<f64>>(&[[1.0, 2.0], [3.0, f64::NAN], [3.0, 0.0]])[1].is_nan());
-        // A great force has a value, even if its square is beyond all numbers.
-        assert_eq!(of::<Pair<f64>>(&[[1.0e200, 0.0], [1.0, 1.0]])[0], f64::INFINITY);
+        assert!(squares_of::<Pair<f64>>(&[[1.0, 2.0], [f64::NAN, 0.0], [3.0, 0.0]])[0].is_nan());
+        assert!(squares_of::<Pair<f64>>(&[[1.0, 2.0], [3.0, f64::NAN], [3.0, 0.0]])[1].is_nan());
+        // A great force has a value, even if its square overflows.
+        assert_eq!(squares_of::<Pair<f64>>(&[[1.0e200, 0.0], [1.0, 1.0]])[0], f64::INFINITY);
     }
 }

@@ -68,7 +68,7 @@ impl<R: Real> Scene<R> {
             self.loads[index] = self.strength(plan, load, values, rows);
         }
         for action in &plan.load_actions {
-            // The ground takes all, and asks for no place.
+            // The ground takes every force, wherever it acts.
             if action.link == plan.ground {
                 continue;
             }
@@ -108,7 +108,7 @@ impl<R: Real> Scene<R> {
         }
     }
 
-    /// The force of a load on the first link on which it acts; of a load that turns, its couple as x.
+    /// The force of a load on the first link on which it acts; for a couple, its moment as x.
     #[inline(always)]
     fn strength(&self, plan: &ForcePlan, load: &Load, values: Values<'_>, rows: Rows) -> Vector<R> {
         match load {

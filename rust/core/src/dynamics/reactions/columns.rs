@@ -9,7 +9,7 @@ use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 
-/// Which columns hold the orders of every quantity that a plan reads.
+/// The columns with the orders of every quantity that a plan reads.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sources {
     /// The columns of every point, from order 0 on.
@@ -23,7 +23,7 @@ pub(crate) struct Sources {
 pub(crate) struct Solved<'a> {
     /// Position after position.
     pub columns: &'a [&'a [f64]],
-    /// Speeds and accelerations of the drivers, drivers fastest: of every position, or one for all.
+    /// Speeds and accelerations of the drivers, drivers fastest: for every position, or one for all.
     pub speed: &'a [f64],
     pub acceleration: &'a [f64],
     pub positions: usize,
@@ -48,7 +48,7 @@ pub(crate) fn guide_directions(mechanism: &Mechanism, dimensions: &[f64]) -> Vec
     slides.map(|slide| crate::plan::constants::unit(slide.angle(dimensions))).collect()
 }
 
-/// The positions that the lanes hold: from `first` on, the last again where there are no more.
+/// The positions in the lanes: from `first` on; lanes beyond the last position repeat it.
 #[derive(Clone, Copy)]
 pub(crate) struct Rows {
     pub first: usize,
@@ -60,7 +60,7 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn read<R: Real>(self, values: &[f64], width: usize, offset: usize) -> R {
         let first = self.first * width;
-        // Widths that the compiler knows are read by few instructions.
+        // Widths known to the compiler are read by few instructions.
         match (values.get(first..first + R::LANES * width), width) {
             (Some(all), 1) => R::read(all),
             (Some(all), 2) => R::from_lanes(|lane| all[2 * lane + offset]),
@@ -70,13 +70,13 @@ impl Rows {
 }
 
 impl Rows {
-    /// A speed or acceleration of one of `n` drivers: of each position, or the same for all.
+    /// A speed or acceleration of one of `n` drivers: for each position, or the same for all.
     #[inline(always)]
     fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {
         if values.len() == n { R::splat(values[driver]) } else { self.read(values, n, driver) }
     }
 
-    /// The rate of what has these first derivatives, at speeds of the drivers.
+    /// The rate of a quantity with these first derivatives, at speeds of the drivers.
     #[inline(always)]
     pub(crate) fn rate<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut rate = R::ZERO;
@@ -86,7 +86,7 @@ impl Rows {
         rate
     }
 
-    /// The sum of the sizes of what each driver adds to such a rate.
+    /// The sum of the absolute values that each driver adds to such a rate.
     #[inline(always)]
     pub(crate) fn rate_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut sum = R::ZERO;
@@ -96,7 +96,7 @@ impl Rows {
         sum
     }
 
-    /// The same of the velocity of a point.
+    /// The same for the velocity of a point.
     #[inline(always)]
     pub(crate) fn velocity_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut sum = R::ZERO;
@@ -177,7 +177,7 @@ impl<R: Real> Scene<R> {
 
 /// Value, velocity and acceleration by the chain rule: `ẋ = x_a q̇_a`, `ẍ = x_a q̈_a + x_ab q̇_a q̇_b`.
 /// `columns`: those of all orders.
-// A closure that reads would not be compiled with the level's instructions.
+// A closure here would not be compiled with the level's instructions.
 #[inline(always)]
 fn moving<R: Real, T: Term<R>>(
     highest: usize,

@@ -1,4 +1,4 @@
-//! What the reactions of a machine need of its mechanism, compiled once.
+//! The data of a mechanism that the reactions of a machine need, compiled once.
 
 use super::load_actions::LoadAction;
 use super::steps::{SelfStress, Transposed, self_stresses, transposed_steps};
@@ -13,7 +13,7 @@ use crate::dynamics::pair_friction::Friction;
 use crate::plan::mechanism::Mechanism;
 use crate::structure::closure::{GROUND_POINT, point_of_joint};
 
-/// An edge of the closure, as forces see it.
+/// An edge of the closure, with what forces need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ForceEdge {
     pub from: usize,
@@ -54,7 +54,7 @@ pub(crate) enum Direction {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ForcePlan {
     pub drivers: usize,
-    /// What must be solved of every position, and to which order.
+    /// The quantities to solve at every position, and their orders.
     pub outputs: Outputs,
     pub order: usize,
     /// Points of the closure: the quantity that holds each.
@@ -75,7 +75,7 @@ pub(crate) struct ForcePlan {
     /// Whether accelerations, and velocities, are needed.
     pub has_inertia: bool,
     pub has_speeds: bool,
-    /// Number of loads, and what they do to links.
+    /// Number of loads, and their actions on links.
     pub loads: usize,
     pub load_actions: Vec<LoadAction>,
     pub joints: usize,
@@ -197,7 +197,7 @@ impl ForcePlan {
                     self.need_angle(*on);
                 }
                 Load::Pressure { slide, .. } => self.need_direction(self.slide_links[*slide][1]),
-                // The points where they act are all that they read.
+                // They read only the points where they act.
                 Load::Force { axes: None, .. }
                 | Load::Spring { .. }
                 | Load::Damper { .. }
@@ -265,8 +265,8 @@ impl ForcePlan {
     }
 }
 
-/// In which order the links of every class pass their moments on: those farthest from the first
-/// link of the class (from the ground) begin.
+/// The order in which the links of every class pass on their moments: first those farthest from the first
+/// link of the class (from the ground).
 fn moment_steps(mechanism: &Mechanism) -> Vec<MomentStep> {
     let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
     let mut pairs: Vec<([usize; 2], MomentPair)> = Vec::new();

@@ -1,4 +1,4 @@
-//! On which links each load acts, and where: action and reaction.
+//! The links on which each load acts, and where: action and reaction.
 
 use crate::description::Linkage;
 use crate::dynamics::kinematics::Point;
@@ -6,7 +6,7 @@ use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
 use crate::plan::mechanism::Mechanism;
 
-/// What one load does to one link, besides its size.
+/// The action of one load on one link, without its size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadAction {
     /// Index of the load.
@@ -20,14 +20,15 @@ pub struct LoadAction {
 }
 
 impl Machine {
-    /// What its loads do to links, load by load: the order of [`Reaction::LoadForce`] and the like.
+    /// The actions of its loads on links, load by load: the order of [`Reaction::LoadForce`] and the other
+    /// reactions of loads.
     ///
     /// [`Reaction::LoadForce`]: crate::dynamics::Reaction::LoadForce
     #[must_use]
     pub fn load_actions(&self, mechanism: &Mechanism) -> Vec<LoadAction> {
         let linkage = mechanism.linkage();
-        let actions = self.loads.iter().enumerate().flat_map(|(load, own)| {
-            let both = own.acts_on(linkage).into_iter().zip([false, true]);
+        let actions = self.loads.iter().enumerate().flat_map(|(load, item)| {
+            let both = item.acts_on(linkage).into_iter().zip([false, true]);
             both.filter_map(move |(place, is_reaction)| {
                 let (link, at) = place?;
                 Some(LoadAction { load, link, at, is_reaction })
@@ -38,7 +39,7 @@ impl Machine {
 }
 
 impl Load {
-    /// The link on which it acts, with a force at a point or a couple, and where its reaction acts.
+    /// The link on which it acts, with a force at a point or a couple, and the same for its reaction.
     fn acts_on(&self, linkage: &Linkage) -> [Option<(usize, Option<Point>)>; 2] {
         match *self {
             Self::Force { at, on, .. } => {

@@ -9,11 +9,11 @@ use crate::structure::closure::point_of_joint;
 /// How a joint force follows from the forces in edges.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum JointForce {
-    /// The force at the end of an edge, less what slides that start there bring to the link itself.
+    /// The force at the end of an edge, less the forces on the link itself of slides that start there.
     Edge { edge: usize, guides: Vec<usize> },
     /// The force at the link's reference point balances all others on it.
     Balance { link: usize, joints: Vec<JointForce>, slides: Vec<(usize, f64)> },
-    /// What the other links there do not take.
+    /// The balance of the forces on the other links there.
     Rest(Vec<JointForce>),
     /// No other link is there.
     Free,
@@ -31,9 +31,11 @@ impl JointForce {
             return Self::Free;
         }
         if link == plan.ground {
-            let others = links_at[joint].iter().filter(|&&other| other != link);
+            let other_links = links_at[joint].iter().filter(|&&other_link| other_link != link);
             return Self::Rest(
-                others.map(|&other| Self::new(plan, links_at, joint, other)).collect(),
+                other_links
+                    .map(|&other_link| Self::new(plan, links_at, joint, other_link))
+                    .collect(),
             );
         }
         let point = point_of_joint(joint);
@@ -41,17 +43,17 @@ impl JointForce {
             let edge = &plan.edges[edge];
             edge.slide.is_some() && edge.link == link && edge.from == point
         };
-        let own = plan
+        let edge = plan
             .edges
             .iter()
             .position(|edge| edge.slide.is_none() && edge.link == link && edge.to == point);
-        if let Some(edge) = own {
+        if let Some(edge) = edge {
             let guides = (0..plan.edges.len()).filter(is_guide_from).collect();
             return Self::Edge { edge, guides };
         }
         let other_joints = (0..links_at.len())
-            .filter(|&other| other != joint && links_at[other].contains(&link))
-            .map(|other| Self::new(plan, links_at, other, link))
+            .filter(|&other_joint| other_joint != joint && links_at[other_joint].contains(&link))
+            .map(|other_joint| Self::new(plan, links_at, other_joint, link))
             .collect();
         let slides = plan
             .edges
@@ -74,12 +76,12 @@ impl JointForce {
         match self {
             Self::Edge { .. } | Self::Free => self.of_edge(scene),
             Self::Balance { .. } => self.balance(scene),
-            Self::Rest(others) => {
+            Self::Rest(joint_forces) => {
                 let mut rest = Vector::ZERO;
-                for other in others {
-                    let force = match other {
-                        Self::Balance { .. } => other.balance(scene),
-                        _ => other.of_edge(scene),
+                for joint_force in joint_forces {
+                    let force = match joint_force {
+                        Self::Balance { .. } => joint_force.balance(scene),
+                        _ => joint_force.of_edge(scene),
                     };
                     rest = rest - force;
                 }

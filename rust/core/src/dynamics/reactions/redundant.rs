@@ -1,4 +1,4 @@
-//! Redundant links: how they are held, and what cannot be known of their reactions.
+//! Redundant links: how they are held, and which of their reactions are undetermined.
 //!
 //! A redundant link is held as its position is found: at one joint, and against turning. Every
 //! closure that is checked beyond that leaves a state of stress that needs no load, one vector of
@@ -12,8 +12,8 @@ use super::steps::SelfStress;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
-/// A part of a self-stress that is smaller than this is rounding: unit stresses in linkages whose
-/// condition is below a million.
+/// A part of a self-stress below this is rounding: unit stresses in linkages whose condition is below a
+/// million.
 const VANISHES: f64 = 1e-9;
 
 impl<R: Real> Scene<R> {
@@ -42,9 +42,9 @@ impl<R: Real> Scene<R> {
     pub(crate) fn turn_by_slide(&mut self, plan: &ForcePlan, link: usize, slide: usize) {
         let moment = std::mem::replace(&mut self.moment[link], R::ZERO);
         let [sliding, carrying] = plan.slide_links[slide];
-        let (other, on_sliding) =
+        let (receiver, on_sliding) =
             if link == sliding { (carrying, -moment) } else { (sliding, moment) };
-        self.moment[other] += moment;
+        self.moment[receiver] += moment;
         self.slide_moment[slide] += on_sliding;
     }
 
@@ -73,13 +73,13 @@ impl<R: Real> Scene<R> {
                 return;
             }
         };
-        // The edge's link takes the force at its end, and what is there the opposite.
+        // The edge's link takes the force at its end, and the part there takes the opposite.
         self.point_load[plan.edges[edge].to] += -force;
         self.point_load[plan.edges[edge].from] += force;
         self.load_edge(plan, edge, force);
     }
 
-    /// Lanes in which a part of a unit self-stress is no rounding; `size` is its unit.
+    /// Lanes in which a part of a unit self-stress is more than rounding; `size` is its unit.
     #[inline(always)]
     pub(crate) fn is_stressed(value: R, size: R) -> R::Mask {
         (R::splat(VANISHES) * size).lt(value.abs())

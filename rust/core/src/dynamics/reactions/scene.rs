@@ -12,7 +12,7 @@ pub(crate) struct Moving<T> {
     pub acceleration: T,
 }
 
-/// Work space: kinematics, loads, and what the pairs transmit.
+/// Work space: kinematics, loads, and the forces in pairs.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene<R: Real> {
     /// Speeds and accelerations of the drivers.
@@ -29,14 +29,14 @@ pub(crate) struct Scene<R: Real> {
     /// Loads and inertia forces on every link, and their moments about its reference point.
     pub link_force: Vec<Vector<R>>,
     pub link_moment: Vec<R>,
-    /// Force of every load on the first link on which it acts; of a load that turns, its couple as x.
+    /// Force of every load on the first link on which it acts; for a couple, its moment as x.
     pub loads: Vec<Vector<R>>,
     /// Inertia forces of all bodies, and their moment about the origin.
     pub shaking_force: Vector<R>,
     pub shaking_moment: R,
     /// Load on every point that its links have not taken yet.
     pub point_load: Vec<Vector<R>>,
-    /// Moment on every link about its reference point, of loads and of what it carries.
+    /// Moment on every link about its reference point, from loads and from what the link carries.
     pub moment: Vec<R>,
     /// Force along the guide of every slide.
     pub sliding: Vec<R>,
@@ -46,8 +46,7 @@ pub(crate) struct Scene<R: Real> {
     pub slide_moment: Vec<R>,
     /// Torque or force of every driver.
     pub driver: Vec<R>,
-    /// How many units of length a metre is: groups are solved in that unit, so that pivots do not depend on
-    /// metres.
+    /// Units of length per metre: groups are solved in that unit, so that pivots do not depend on metres.
     pub(crate) per_metre: R,
     pub(crate) matrix: Vec<[R; 1]>,
     pub(crate) right: Vec<R>,
@@ -84,7 +83,7 @@ impl<R: Real> Scene<R> {
         }
     }
 
-    /// Force of a guide on what slides there.
+    /// Force of a guide on the sliding link.
     #[inline(always)]
     pub(crate) fn normal(&self, plan: &ForcePlan, slide: usize) -> R {
         let Some(edge) = plan.guide_edges[slide] else { return R::ZERO };

@@ -19,12 +19,12 @@ pub(crate) enum Transposed {
     TurnBySlide { link: usize, slide: usize },
 }
 
-/// What an unknown of a group moves.
+/// The part that an unknown of a group moves.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum LoadedUnknown {
     /// Links that turn together.
     Links(Vec<usize>),
-    /// What slides along a guide.
+    /// The part that slides along a guide.
     Slide(usize),
 }
 
@@ -44,7 +44,7 @@ pub(crate) enum SelfStress {
 /// The steps of a plan in reverse, each transposed.
 pub(crate) fn transposed_steps(plan: &Plan) -> Vec<Transposed> {
     let transposed = |step: &Step| match step {
-        // What ends there is a coupler point: loads act on links, so it has none.
+        // The end is a coupler point: loads act on links, so it carries no load.
         &Step::Place { edge, .. } if !plan.edges[edge].paired => Vec::new(),
         &Step::Place { edge, backward } => vec![Transposed::Carry { edge, backward }],
         Step::Dyad(_) | Step::Group(_) => Closures::of_step(step)
@@ -70,8 +70,8 @@ fn loaded_unknown(plan: &Plan, unknown: Unknown) -> LoadedUnknown {
     }
 }
 
-/// The transposed steps of a redundant link or slide: it turns with what holds its angle, and hangs
-/// on what places it.
+/// The transposed steps of a redundant link or slide: its moment goes to the part that holds its angle, and
+/// its force to the point that places it.
 fn of_redundant(redundant: &RedundantLink) -> Vec<Transposed> {
     let carried = redundant.places.iter().rev();
     let mut steps: Vec<_> =
@@ -95,7 +95,7 @@ pub(crate) fn self_stresses(mechanism: &Mechanism) -> Vec<SelfStress> {
 }
 
 fn of_part(plan: &Plan, redundant: &RedundantLink) -> Vec<SelfStress> {
-    let mut found = Vec::new();
+    let mut stresses = Vec::new();
     let (mut turned_by, mut held_by) = (None, None);
     match redundant.angle_from {
         Some(AngleFrom::Joints { second, points, .. }) => turned_by = second.map(|e| (e, points)),
@@ -105,17 +105,17 @@ fn of_part(plan: &Plan, redundant: &RedundantLink) -> Vec<SelfStress> {
     for &edge in &redundant.checks {
         match (plan.edges[edge].along, turned_by) {
             (EdgeSlide::Nothing, Some((turning, points))) if turning == edge => {
-                found.push(SelfStress::Along { edge, points });
+                stresses.push(SelfStress::Along { edge, points });
             }
             (EdgeSlide::Nothing, _) => {
-                found.extend([0, 1].map(|axis| SelfStress::Component { edge, axis }));
+                stresses.extend([0, 1].map(|axis| SelfStress::Component { edge, axis }));
             }
-            _ => found.push(SelfStress::Across { edge }),
+            _ => stresses.push(SelfStress::Across { edge }),
         }
     }
     let checked = redundant.parallel.iter().map(|&(slide, _)| slide);
-    found.extend(
+    stresses.extend(
         checked.filter(|&slide| held_by != Some(slide)).map(|slide| SelfStress::Moment { slide }),
     );
-    found
+    stresses
 }

@@ -147,7 +147,7 @@ impl<R: Real> Scene<R> {
         sum
     }
 
-    /// Lets the force that closes a path act on its edges and on what carries it.
+    /// Applies the force that closes a path to its edges and to the carriers of the path.
     #[inline(always)]
     fn load_path(&mut self, plan: &ForcePlan, path: &ClosedPath, force: Vector<R>) {
         self.point_load[path.plus] += force;

@@ -1,7 +1,7 @@
 //! Steps toward a boundary of the domain: a dead point, or a position where friction locks the machine.
 //!
-//! Bisection finds a boundary, too, but the steps that it takes on the way, and their number, are luck. Here
-//! their widths follow from the state.
+//! Bisection would find a boundary too, but the widths and the number of its steps are arbitrary. Here the
+//! widths follow from the state.
 
 use super::callbacks::Callbacks;
 use super::error::RunError;
@@ -14,17 +14,18 @@ use crate::ode::system::{Attempt, Fault, System};
 /// A step toward a dead point leaves this part of the remaining time.
 const STEP_LEAVES: f64 = 0.25;
 /// The least inverse condition at which steps aim, a little inside the positions that are rejected; and
-/// which part of it is near enough. (With several drivers it says when the motion ends.)
+/// the part of it that is near enough. (With several drivers it ends the motion.)
 const NEAREST: f64 = 1.1 / MAX_CONDITION;
 const NEAR_ENOUGH: f64 = 0.9999;
 /// Step back to find how a condition changes, as a part of its inverse square: that is about the
 /// remaining coordinate in its unit.
 const NEAR_PART: f64 = 1.0e-3;
-/// Steps over a way of less than this many tolerances are narrow.
+/// Steps over a distance of less than this many tolerances are narrow.
 const CREEPS: f64 = 16.0;
-/// A step toward a position that friction locks leaves this part of the way, which is known to half of it.
+/// A step toward a position that friction locks leaves this part of the distance; the distance is known
+/// to half of that part.
 const LOCK_LEAVES: f64 = 0.02;
-/// Most halvings of that way: nearer the step itself is halved.
+/// Most halvings of that distance: nearer to the lock the step itself is halved.
 const LOCK_HALVINGS: u32 = 20;
 
 impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
@@ -76,8 +77,8 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         Some(0.0)
     }
 
-    /// Whether friction locks the machine within the tolerance of its coordinate: asked where it moves by
-    /// little more than that in a step. The acceleration grows beyond all bounds there, and the last steps
+    /// Whether friction locks the machine within the tolerance of its coordinate, checked where a step
+    /// moves it by little more than that. The acceleration grows without bound there, and the last steps
     /// would be rounding.
     fn is_about_to_lock(&mut self, x: f64, y: &[f64], h: f64) -> Result<bool, RunError<O::Error>> {
         let is_in_time = self.along == Variable::Time;
@@ -102,8 +103,8 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         }
     }
 
-    /// Bisects the way to a lock along the motion with the rates of this state; `most`: the way to where a
-    /// step was refused. The motion itself has no singularity there.
+    /// Bisects the distance to a lock along the motion with the rates of this state; `most`: the distance
+    /// to the rejected step. The motion itself is not singular there.
     fn aim_at_lock(
         &mut self,
         x: f64,
@@ -111,8 +112,8 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         most: f64,
     ) -> Result<Option<f64>, RunError<O::Error>> {
         let mut rates = [[0.0; 3]; 2];
-        let [own, ahead] = &mut rates;
-        match self.rates(x, y, own) {
+        let [rates_here, ahead] = &mut rates;
+        match self.rates(x, y, rates_here) {
             Ok(()) => {}
             Err(Fault::OutOfDomain) => return Ok(None),
             Err(Fault::Error(error)) => return Err(error),
@@ -120,18 +121,18 @@ impl<S: ReducedModel, O: Callbacks> RunSystem<'_, S, O> {
         let is_in_time = self.along == Variable::Time;
         let [mut low, mut high] = [0.0, most];
         for _ in 0..LOCK_HALVINGS {
-            // The other way around both are negative.
+            // Backward both are negative.
             if high.abs() - low.abs() <= 0.5 * LOCK_LEAVES * high.abs() {
                 break;
             }
-            // Where friction has no solution, to know it may take 40 ms.
+            // It may take 40 ms to find that friction has no solution.
             if self.cancelled() {
                 return Ok(None);
             }
             let middle = 0.5 * (low + high);
-            let mut there: [f64; 3] = std::array::from_fn(|i| y[i] + middle * own[i]);
+            let mut there: [f64; 3] = std::array::from_fn(|i| y[i] + middle * rates_here[i]);
             if is_in_time {
-                there[0] += 0.5 * middle * middle * own[1];
+                there[0] += 0.5 * middle * middle * rates_here[1];
             }
             let bound = match self.rates(x + middle, &there, ahead) {
                 Ok(()) => &mut low,

@@ -7,7 +7,7 @@ pub trait Callbacks {
     /// Error of a function.
     type Error: std::fmt::Display;
 
-    /// How many numbers `numbers` gives to loads and motors.
+    /// Count of the numbers that `numbers` gives to loads and motors.
     fn count(&self) -> usize;
 
     /// The numbers for loads and motors, evaluated together with the equation of motion.
@@ -31,7 +31,7 @@ pub trait Callbacks {
     fn event(&mut self, which: usize, t: f64, q: &[f64], speed: &[f64])
     -> Result<f64, Self::Error>;
 
-    /// Whether to end the run; asked every few steps.
+    /// Whether to end the run; checked every few steps.
     fn cancelled(&mut self) -> bool {
         false
     }

@@ -118,10 +118,10 @@ mod tests {
         let tail = Tail::of(&motion(0.0), 1.0, 1.0).expect("a way");
         assert!((tail.end().t - 1e-4).abs() < 1e-11, "{}", tail.end().t);
         assert_eq!((tail.end().q[0], tail.end().speed[0]), (1.0, 0.0));
-        let (own, exact) = (tail.at(Variable::Time, 3e-5).expect("on the way"), motion(3e-5));
-        assert!((own.q[0] - exact.q[0]).abs() < 1e-14);
-        assert!((own.speed[0] - exact.speed[0]).abs() < 1e-10);
-        assert!((own.acceleration[0] - exact.acceleration[0]).abs() < 1e-5);
+        let (sample, exact) = (tail.at(Variable::Time, 3e-5).expect("on the way"), motion(3e-5));
+        assert!((sample.q[0] - exact.q[0]).abs() < 1e-14);
+        assert!((sample.speed[0] - exact.speed[0]).abs() < 1e-10);
+        assert!((sample.acceleration[0] - exact.acceleration[0]).abs() < 1e-5);
         assert!(tail.at(Variable::Time, 1.1e-4).is_none());
         assert!(Tail::of(&motion(0.0), 0.9, 1.0).is_none());
     }

@@ -173,12 +173,12 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         self.hold_between(from, to).map_err(|which| self.outside_curve(which))
     }
 
-    /// Holds what is true of loads that follow other coordinates between two stations.
+    /// Fixes the pieces and directions of loads that follow other coordinates between two stations.
     fn hold_between(&mut self, from: f64, to: f64) -> Result<(), (usize, f64)> {
         if !self.model.has_stations() {
             return Ok(());
         }
-        // Beyond a dead point there is no position, or one of another motion.
+        // Beyond a dead point no position exists, or one of another motion.
         let mut beyond = self.reached_from(from, to);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (from + beyond);
@@ -191,7 +191,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     }
 
     /// How far toward a coordinate, at most a turn, the mechanism moves without a gap: to the first position
-    /// that it cannot reach, in steps as those of the search for stations.
+    /// that it cannot reach, in steps like those of the search for stations.
     fn reached_from(&mut self, from: f64, to: f64) -> f64 {
         let unit = self.model.unit(0);
         let way = (to - from).clamp(-TAU * unit, TAU * unit);
@@ -220,8 +220,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         }
     }
 
-    /// Enters the interval between stations around a coordinate, or ahead of it where it is at one. An
-    /// error is the index of the table that ends there, and the value that it lacks.
+    /// Enters the interval between stations around a coordinate, or ahead of it where it is at a station. An
+    /// error is the index of the table that ends there, and the missing value.
     fn face(&mut self, q: f64, up: bool) -> Result<(), (usize, f64)> {
         if !self.model.has_stations() {
             return Ok(());
@@ -258,8 +258,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             .map_err(|outside| self.outside_at(from, outside))
     }
 
-    /// Where a motion along the coordinate meets the end of a table over another coordinate, behind its
-    /// first interval between stations; and the index of that table, behind those over the driver.
+    /// Where a motion along the coordinate meets the end of a table over another coordinate, after its first
+    /// interval between stations; and the index of that table, after those over the driver.
     pub(crate) fn first_uncovered(
         &mut self,
         [from, to]: [f64; 2],
@@ -279,8 +279,8 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         })
     }
 
-    /// Faces the sense of a motion that may begin at a coordinate: there may be a station at it. What
-    /// ends there ends the motion later.
+    /// Turns to the sense of a motion that may begin at a coordinate, which may be a station. A table
+    /// that ends there ends the motion later.
     pub(crate) fn turn_to(&mut self, q: f64, sense: f64) {
         self.sense = sense;
         let [low, high] = [self.cursor.low, self.cursor.high];
@@ -313,7 +313,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             || self.cursor.look_up(self.tables, q).is_ok()
     }
 
-    /// What failed at the last position that was rejected.
+    /// The failure at the last position that was rejected.
     pub(crate) fn failure(&self) -> Option<Failure> {
         let (rejection, q) = self.rejected.as_ref()?;
         self.model.failure(*rejection, q)
@@ -418,9 +418,9 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
         let drive = Drive { effort: self.drive[0], inertia: rotors + self.flywheel };
         let (tables, external) = (&self.readings[..], &self.external[..]);
         let numbers = Numbers { tables, external, ..Numbers::default() };
-        let found = self.model.acceleration_with_friction(state, drive, numbers);
-        self.is_locked = found.is_none();
-        let Some(acceleration) = found else {
+        let friction_acceleration = self.model.acceleration_with_friction(state, drive, numbers);
+        self.is_locked = friction_acceleration.is_none();
+        let Some(acceleration) = friction_acceleration else {
             self.rejected = None;
             return Err(Fault::OutOfDomain);
         };
@@ -465,9 +465,9 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             return Ok(());
         }
         let matrix = DMatrix::from_row_slice(n, n, &self.reduced.inertia);
-        let (driver, least) = matrix.diagonal().argmin();
+        let (driver, smallest) = matrix.diagonal().argmin();
         let Some(factors) = Cholesky::new(matrix) else {
-            return Err(Fault::Error(self.no_inertia(q, least.min(0.0), driver)));
+            return Err(Fault::Error(self.no_inertia(q, smallest.min(0.0), driver)));
         };
         let solved = factors.solve(&DVector::from_fn(n, |driver, _| net(driver)));
         out.copy_from_slice(solved.as_slice());

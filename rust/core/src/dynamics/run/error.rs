@@ -48,7 +48,7 @@ pub enum RunError<E> {
         along.symbol(), number(*at)
     )]
     NotFinite {
-        /// What `at` is.
+        /// The variable of `at`.
         along: Variable,
         /// Time, s, or coordinate.
         at: f64,
@@ -59,7 +59,7 @@ pub enum RunError<E> {
     /// A list of the wrong length.
     #[error("wrong number of {what}: {given} given, {needed} needed")]
     WrongCount {
-        /// What the list contains.
+        /// The contents of the list.
         what: &'static str,
         /// Length needed.
         needed: usize,
@@ -79,7 +79,7 @@ pub enum RunError<E> {
         /// End of the interval.
         to: f64,
     },
-    /// What the run records does not fit in memory.
+    /// The record of the run does not fit in memory.
     #[error("out of memory: the run has taken {steps} steps, and no more fit")]
     OutOfMemory {
         /// The steps that it has taken.

@@ -113,8 +113,8 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     let breaks = match options.along {
         Variable::Time => options.breaks.to_vec(),
         Variable::Coordinate => {
-            let given = [options.breaks, &stations].concat();
-            breaks_of(system.equation.tables, &given, [from, to], sizes[0])?
+            let knots = [options.breaks, &stations].concat();
+            breaks_of(system.equation.tables, &knots, [from, to], sizes[0])?
         }
     };
     let [relative, absolute] = tolerances(&mut system, options, sizes)?;
@@ -131,7 +131,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         max_change.extend(sizes.iter().map(|size| largest * size));
     }
     if system.friction_event().is_some() && system.equation.callbacks.count() > 0 {
-        // While it rests nothing but these steps looks for loads that move it.
+        // While the machine rests, only these steps find loads that move it.
         max_step = max_step.min((to - from).abs() / STEPS_AT_REST);
     }
     let ode_options = Options {
@@ -150,7 +150,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     let solution = integrator
         .run(&mut system, from, &start, to, &ode_options)
         .map_err(|error| RunError::of_integrator(error, options.along, from))?;
-    // Samples are made of the record, and Python's arrays of these.
+    // Samples are made from the record, and Python's arrays from the samples.
     let steps = solution.dense.ends().len();
     if !has_room(COPIES * (3 * options.q.len() + 4) * (steps + 2)) {
         return Err(RunError::OutOfMemory { steps });
@@ -174,12 +174,12 @@ fn clip_to_tables(tables: &[Table], from: f64, end: f64) -> (f64, Option<usize>)
     clipped
 }
 
-/// How often a sample is in memory at once: here, and twice in Python's arrays.
+/// Copies of a sample in memory at once: one here, and two in Python's arrays.
 const COPIES: usize = 3;
 /// Least number of steps of a run with friction and functions among the loads.
 const STEPS_AT_REST: f64 = 1000.0;
 /// Spacings of the coordinate within which a motion that slows down is at rest: its last steps are parts of
-/// what is left, some hundredths with the tightest tolerance.
+/// the rest of the way, some hundredths with the tightest tolerance.
 const REST_WITHIN: f64 = 1.0e3;
 /// Largest step (rad, or of the size) with events on angles of the mechanism.
 const ANGLE_EVENT_STEP: f64 = 0.1;
@@ -205,17 +205,17 @@ pub(crate) fn stations_between<S: ReducedModel, E>(
     if is_far && model.has_stations() {
         return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
-    let mut found = model.stations([from.min(to), from.max(to)]);
+    let mut inner_stations = model.stations([from.min(to), from.max(to)]);
     let is_at = |q: f64, end: f64| (q - end).abs() <= same_within(end, unit);
-    found.retain(|&q| !is_at(q, from) && !is_at(q, to));
-    Ok(found)
+    inner_stations.retain(|&q| !is_at(q, from) && !is_at(q, to));
+    Ok(inner_stations)
 }
 
 /// Knots of tables between two coordinates, together with given breaks; knots of several tables
 /// that coincide count once. `unit` is that of the coordinate.
 pub(crate) fn breaks_of<E>(
     tables: &[Table],
-    given: &[f64],
+    extra: &[f64],
     [from, to]: [f64; 2],
     unit: f64,
 ) -> Result<Vec<f64>, RunError<E>> {
@@ -226,15 +226,15 @@ pub(crate) fn breaks_of<E>(
         return Err(RunError::TooManyKnots { most: MAX_KNOTS, from, to });
     }
     let range = [from.min(to), from.max(to)];
-    let mut breaks = given.to_vec();
+    let mut breaks = extra.to_vec();
     breaks.extend(tables.iter().flat_map(|table| table.knots_within(range)));
     breaks.sort_unstable_by(f64::total_cmp);
     breaks.dedup_by(|a, b| (*a - *b).abs() <= same_within(*b, unit));
     Ok(breaks)
 }
 
-/// What the tolerance of each coordinate is relative to: 1 for an angle, the greatest length for a slide.
-/// A unit of length that is a power of 2 would not do: the tolerance would depend on the unit in which
+/// The unit of the tolerance of each coordinate: 1 for an angle, the greatest length for a slide.
+/// It must not be the unit of length that is a power of 2: the tolerance would depend on the unit in which
 /// lengths are given.
 fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
     let greatest = mechanism.slots.size(dimensions);
@@ -267,8 +267,8 @@ fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>)
     }
 }
 
-/// Whether a run along the coordinate comes to rest within the rounding of it: no step is left, refused or
-/// not.
+/// Whether a run along the coordinate comes to rest within the rounding of the coordinate: no step remains,
+/// rejected or accepted.
 fn is_about_to_rest<S: ReducedModel, O: Callbacks>(
     system: &mut RunSystem<'_, S, O>,
     q: f64,
@@ -292,7 +292,7 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
     let friction_event = system.friction_event();
     let mut changes = system.changes.iter();
     let record = |(event, y): (&crate::ode::solution::Event, &[f64])| {
-        // After the events that were asked for: stick, and slip.
+        // After the requested events: stick, and slip.
         let index = if Some(event.index) == friction_event {
             match changes.next()? {
                 Change::Stick => options.events.len(),

@@ -50,8 +50,8 @@ pub(crate) trait ReducedModel {
         false
     }
 
-    /// The acceleration of the only driver under friction, at the last position; `None` where friction
-    /// leaves none.
+    /// The acceleration of the only driver under friction, at the last position; `None` where the law of
+    /// friction has no solution.
     fn acceleration_with_friction(
         &mut self,
         _: SlidingState,
@@ -61,13 +61,13 @@ pub(crate) trait ReducedModel {
         None
     }
 
-    /// Whether loads of a machine with one driver follow others, or pairs with friction reverse: then the
-    /// motion is smooth between stations.
+    /// Whether loads of a machine with one driver follow other coordinates, or pairs with friction
+    /// reverse: then the motion is smooth between stations.
     fn has_stations(&self) -> bool {
         false
     }
 
-    /// Reversals of pairs with friction are no stations: they would be too many, or too inexact.
+    /// Stops treating reversals of pairs with friction as stations: they would be too many, or too inexact.
     fn ignore_reversals(&mut self) {}
 
     /// Whether loads depend on the sense of the motion.
@@ -75,17 +75,17 @@ pub(crate) trait ReducedModel {
         false
     }
 
-    /// The coordinates between which loads that follow others, and friction, are smooth, in a range.
+    /// The coordinates in a range between which friction and loads that follow other coordinates are smooth.
     fn stations(&mut self, _: [f64; 2]) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Holds what is true of these at a coordinate until the next station. Returns whether it is
-    /// reachable.
+    /// Fixes pieces, directions and senses at a coordinate until the next station. Returns whether the
+    /// coordinate is reachable.
     ///
     /// # Errors
     ///
-    /// Index of the curve whose table does not cover the position, and the value that it lacks.
+    /// Index of the curve whose table does not cover the position, and the missing value.
     fn hold(&mut self, _: f64) -> Result<bool, (usize, f64)> {
         Ok(true)
     }
@@ -122,13 +122,13 @@ pub(crate) trait ReducedModel {
     /// The coordinate of the dead point ahead of a single driver, if it is near.
     fn dead_point_ahead(&mut self, q: f64, direction: f64) -> Option<f64>;
 
-    /// The near miss of a change point beside a single driver's coordinate, if there is one.
+    /// The near miss of a change point beside a single driver's coordinate, if any.
     fn near_miss(&mut self, q: f64) -> Option<NearMiss>;
 
     /// Whether a dead point is within this part of a radian (or of the size).
     fn is_near_dead_point(&mut self, q: &[f64], within: f64) -> bool;
 
-    /// How the next position is rejected, if a dead point is about as near as the condition says.
+    /// How the next position is rejected, if a dead point is about as near as the condition shows.
     fn dead_point_beside(&mut self, q: &[f64]) -> Option<Rejection>;
 
     /// Relative rounding error of the inertia at the last position.
@@ -161,8 +161,7 @@ const DEAD_POINT_WITHIN: f64 = 1.0e3;
 const MAX_HALVINGS: u32 = 80;
 
 impl<'m> MechanismModel<'m> {
-    /// How far a dead point may be from here, in the coordinate's unit; at most `most` times that
-    /// unit.
+    /// Greatest distance of a dead point from here, in the coordinate's unit; at most `most` times that unit.
     fn reach(&self, driver: usize, most: f64) -> f64 {
         let (_, condition) = self.evaluator.worst_condition();
         (DEAD_POINT_WITHIN / (condition * condition)).min(most) * self.evaluator.unit(driver)
@@ -286,12 +285,12 @@ impl ReducedModel for MechanismModel<'_> {
             return Vec::new();
         }
         let Self { machine, derivatives, evaluator, reversing, .. } = self;
-        let mut found = machine.stations_of(evaluator, derivatives, range);
+        let mut stations = machine.stations_of(evaluator, derivatives, range);
         if !reversing.is_empty() {
-            found.extend(reversals(reversing, evaluator, derivatives, range));
-            found.sort_unstable_by(f64::total_cmp);
+            stations.extend(reversals(reversing, evaluator, derivatives, range));
+            stations.sort_unstable_by(f64::total_cmp);
         }
-        found
+        stations
     }
 
     fn hold(&mut self, q: f64) -> Result<bool, (usize, f64)> {
@@ -403,7 +402,7 @@ pub struct TabulatedMachine {
 }
 
 impl TabulatedMachine {
-    /// The tables of rows of inertia and moment, with jumps of the moment as those of a `Cycle`.
+    /// The tables of rows of inertia and moment, with jumps of the moment like those of a `Cycle`.
     ///
     /// # Errors
     ///
@@ -419,8 +418,8 @@ impl TabulatedMachine {
         let rows = periodic.then(|| with_seam(phi, moment, inertia));
         let [phi, moment, inertia] =
             rows.as_ref().map_or([phi, moment, inertia], |rows| rows.each_ref().map(Vec::as_slice));
-        let (own, smooth) = without_jumps(phi, inertia)?;
-        let inertia = Table::new_unless(&own, &smooth, ends, periodic, cancel)?;
+        let (merged, smooth) = without_jumps(phi, inertia)?;
+        let inertia = Table::new_unless(&merged, &smooth, ends, periodic, cancel)?;
         Ok([inertia, Table::with_jumps_unless(phi, moment, ends, periodic, cancel)?])
     }
 

@@ -9,7 +9,7 @@ use crate::dynamics::motor::Motor;
 use crate::ode::options::Method;
 use crate::ode::system::Crossing;
 
-/// What an event looks for.
+/// The condition of an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EventKind {
     /// A driver's coordinate reaches a value.
@@ -30,14 +30,14 @@ pub enum EventKind {
     Extreme,
     /// An angle reaches a value.
     Angle(Angle, f64),
-    /// The callback with this index is zero.
+    /// The callback with this index reaches zero.
     Callback(usize),
 }
 
 /// An event to look for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EventSpec {
-    /// What to look for.
+    /// The condition of the event.
     pub kind: EventKind,
     /// Direction of the crossing.
     pub crossing: Crossing,

@@ -1,4 +1,4 @@
-//! The stations around the coordinate of a motion in time: found as far as it has come.
+//! The stations around the coordinate of a motion in time, found as the motion goes on.
 
 use super::table_cursor::same_within;
 
@@ -8,7 +8,7 @@ const CHUNK: f64 = std::f64::consts::TAU;
 /// Stations found so far.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StationCursor {
-    found: Vec<f64>,
+    stations: Vec<f64>,
     /// The range that has been searched, once a motion has begun.
     range: Option<[f64; 2]>,
 }
@@ -32,22 +32,22 @@ impl StationCursor {
         let (near, chunk) = (same_within(q, unit), CHUNK * unit);
         let [mut from, mut to] = self.range.unwrap_or([q, q]);
         while to <= q + near {
-            self.found.extend(search([to, to + chunk]));
+            self.stations.extend(search([to, to + chunk]));
             to += chunk;
         }
         while from >= q - near {
-            self.found.splice(0..0, search([from - chunk, from]));
+            self.stations.splice(0..0, search([from - chunk, from]));
             from -= chunk;
         }
         self.range = Some([from, to]);
         let ahead = if up { q + near } else { q - near };
         let after = if up {
-            self.found.partition_point(|&station| station <= ahead)
+            self.stations.partition_point(|&station| station <= ahead)
         } else {
-            self.found.partition_point(|&station| station < ahead)
+            self.stations.partition_point(|&station| station < ahead)
         };
-        let low = after.checked_sub(1).map_or(from, |index| self.found[index]);
-        let high = self.found.get(after).copied().unwrap_or(to);
+        let low = after.checked_sub(1).map_or(from, |index| self.stations[index]);
+        let high = self.stations.get(after).copied().unwrap_or(to);
         [low.min(q), high.max(q)]
     }
 }

@@ -11,7 +11,7 @@ use crate::ode::system::Fault;
 /// How a machine with friction moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Phase {
-    /// It has no friction, nor loads that depend on the sense of the motion.
+    /// It has neither friction nor loads that depend on the sense of the motion.
     Smooth,
     /// It slides in this sense, +1 or −1.
     Slip(f64),
@@ -26,7 +26,7 @@ pub(crate) enum Change {
     Stick,
     /// It begins to slide.
     Slip,
-    /// It comes back at once.
+    /// It reverses without a rest.
     Turn,
 }
 
@@ -42,7 +42,7 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         self.set_configuration(&[q])?;
         self.apply_loads(t, &[q], &[0.0])?;
         let mut both = [f64::NEG_INFINITY, f64::INFINITY];
-        for (own, sense) in both.iter_mut().zip([1.0, -1.0]) {
+        for (acceleration_from_rest, sense) in both.iter_mut().zip([1.0, -1.0]) {
             if sense < 0.0 && self.model.has_stations() {
                 self.turn_to(q, sense);
                 self.set_configuration(&[q])?;
@@ -50,7 +50,7 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
             }
             let state = SlidingState { speed: 0.0, sense, is_static: true };
             match self.accelerate_with_friction(q, state) {
-                Ok(acceleration) => *own = acceleration,
+                Ok(acceleration) => *acceleration_from_rest = acceleration,
                 Err(Fault::OutOfDomain) if self.is_locked => {}
                 Err(fault) => return Err(fault),
             }
@@ -60,7 +60,8 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         Ok(both)
     }
 
-    /// By how much the loads are too weak (below 0) or too strong for friction to hold it at rest.
+    /// The margin by which the loads exceed the friction that holds the machine at rest; below 0 it stays at
+    /// rest.
     pub(crate) fn slip_margin(&mut self, t: f64, q: f64) -> Result<f64, RunError<O::Error>> {
         match self.accelerations_from_rest(t, q) {
             Ok([forward, backward]) => Ok(forward.max(-backward)),
@@ -72,7 +73,7 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
     /// The phase that begins at rest.
     pub(crate) fn phase_from_rest(&mut self, t: f64, q: f64) -> Result<Phase, RunError<O::Error>> {
         Ok(match self.accelerations_from_rest(t, q) {
-            // Where both ways are open friction is too small to matter which: the loads decide.
+            // Where it could start in both senses friction is negligible: the loads decide.
             Ok([forward, backward]) if forward > 0.0 && forward >= -backward => Phase::Slip(1.0),
             Ok([_, backward]) if backward < 0.0 => Phase::Slip(-1.0),
             Ok(_) => Phase::Stick,
@@ -108,8 +109,7 @@ impl<S: ReducedModel, O: Callbacks> Equation<'_, S, O> {
         }
     }
 
-    /// The phase that follows one, at rest after a slip, or as friction no longer holds; and what has
-    /// happened.
+    /// The phase that follows another, at rest after a slip, or as friction no longer holds; and the change.
     pub(crate) fn next_phase(
         &mut self,
         before: Phase,

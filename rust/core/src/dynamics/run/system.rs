@@ -13,7 +13,7 @@ use crate::dynamics::friction::motion::SlidingState;
 use crate::ode::system::{Action, Attempt, Crossing, Fault, System};
 use crate::state::status::Rejection;
 
-/// What ended a run early.
+/// The cause of an early end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Ended {
     /// The end of a table over the coordinate.
@@ -65,7 +65,7 @@ const ROUNDINGS: f64 = 64.0;
 /// A hit with less than this part of the speed of the hardest one leaves the machine at the obstacle: the
 /// next way there and back would be shorter than steps are.
 const STAYS: f64 = 1.0e-3;
-/// The same of a rebound by less than this many tolerances of the coordinate.
+/// The same for a rebound by less than this many tolerances of the coordinate.
 const LEAST_REBOUND: f64 = 1.0e4;
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
 /// far better.
@@ -79,7 +79,7 @@ const MAX_REACH: f64 = 0.05;
 /// Step (rad, or of the size) to both sides for the change of a condition.
 const CONDITION_STEP: f64 = 1.0e-6;
 impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
-    /// `size`: what the tolerance of the first driver's coordinate is relative to.
+    /// `size`: the unit of the tolerance of the first driver's coordinate.
     pub(crate) fn new(equation: Equation<'a, S, O>, options: &RunOptions<'a>, size: f64) -> Self {
         let drivers = options.q.len();
         let least_reach = if drivers == 1 { MIN_REACH } else { 0.0 };
@@ -273,11 +273,11 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         if let Err(Fault::Error(error)) = self.rates(t, y, &mut rates) {
             return Err(error);
         }
-        // How far it goes before it turns back to the obstacle, if it does.
+        // The way before it turns back to the obstacle, if it does.
         let way = y[1] * y[1] / (2.0 * rates[1].abs());
         let turns_back = rates[1] * y[1] < 0.0;
-        let least = LEAST_REBOUND * self.tolerance;
-        Ok(if turns_back && way < least { Action::Stop } else { Action::Restart })
+        let smallest_way = LEAST_REBOUND * self.tolerance;
+        Ok(if turns_back && way < smallest_way { Action::Stop } else { Action::Restart })
     }
 
     /// Index of the `EventSpec` of an event.

@@ -4,10 +4,10 @@
 use crate::dynamics::tables::table::{Cell, Table};
 
 /// Knots closer than this, relative to their size (or to the coordinate's unit), count as one:
-/// coordinates that count turns are no more accurate.
+/// coordinates that count turns are not more accurate.
 pub(crate) const SAME_KNOT_RTOL: f64 = 1.0e-12;
 
-/// How near another coordinate is the same as this one; `unit` is that of the coordinate.
+/// Distance within which another coordinate is the same as this one; `unit` is that of the coordinate.
 pub(crate) fn same_within(x: f64, unit: f64) -> f64 {
     SAME_KNOT_RTOL * x.abs().max(unit)
 }

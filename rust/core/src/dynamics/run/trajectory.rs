@@ -27,12 +27,12 @@ pub enum StopReason {
     NearChangePoint {
         /// Inner joint or slide of the dyad.
         dyad: String,
-        /// By how much its lengths miss the change point, m.
+        /// The amount by which its lengths miss the change point, m.
         miss: f64,
         /// Coordinate where the dyad is nearest to collinear.
         q: f64,
     },
-    /// Where a slide whose value is a length has nearly none: its name.
+    /// Where a slide whose value is a length is nearly 0: its name.
     ZeroLength(String),
     /// At the end of a table over the coordinate: its index.
     TableEnds(usize),

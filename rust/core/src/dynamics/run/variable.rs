@@ -1,4 +1,4 @@
-//! What a run is integrated over.
+//! The variable over which a run is integrated.
 
 /// Independent variable of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

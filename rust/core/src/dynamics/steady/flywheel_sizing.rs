@@ -1,4 +1,4 @@
-//! Steady states of machines and of tables, and the flywheel for a wanted fluctuation.
+//! Steady states of machines and of tables, and the flywheel for a target fluctuation.
 
 use super::error::SteadyError;
 use super::options::SteadyOptions;
@@ -14,17 +14,17 @@ use crate::math::derivatives::DerivativeTables;
 use crate::math::root::illinois;
 use crate::plan::mechanism::Mechanism;
 
-/// Relative accuracy of the flywheel: the motions themselves are no more accurate.
+/// Relative accuracy of the flywheel: the motions themselves are not more accurate.
 const FLYWHEEL_RTOL: f64 = 1.0e-12;
 /// The greatest possible fluctuation, reached when the least speed is zero.
 const MAX_FLUCTUATION: f64 = 2.0;
 
 /// Margin for the extremes of the inertia between the samples.
 const SAMPLING_MARGIN: f64 = 1.01;
-/// A multiplier this near 1 means that nothing depends on the speed.
+/// A multiplier nearer to 1 than this means that nothing depends on the speed.
 const UNDAMPED: f64 = 1.0e-6;
 
-/// A wanted coefficient of speed fluctuation.
+/// A target coefficient of speed fluctuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FluctuationTarget {
     /// The coefficient.
@@ -167,7 +167,7 @@ fn size_flywheel<E>(
             SteadyError::Stops { .. }
             | SteadyError::CannotCarry { .. }
             | SteadyError::MeanNotReached { .. }
-            // The flywheel may be all the inertia there is.
+            // The flywheel may be the only inertia.
             | SteadyError::Run(RunError::NoInertia { .. }),
         ) => None,
         Err(error) => return Err(error),
@@ -188,9 +188,9 @@ fn size_flywheel<E>(
         let options = SteadyOptions { flywheel: options.flywheel + flywheel, ..*options };
         match solve(options, last.as_ref()) {
             Ok(steady) => {
-                let found = steady.fluctuation(mean);
+                let reached = steady.fluctuation(mean);
                 last = Some(steady);
-                fluctuation - found
+                fluctuation - reached
             }
             Err(
                 SteadyError::Stops { .. }
@@ -203,8 +203,8 @@ fn size_flywheel<E>(
             }
         }
     };
-    let found = illinois::find_root_to(residual, guess, FLYWHEEL_RTOL);
-    match (found, failed, last) {
+    let root = illinois::find_root_to(residual, guess, FLYWHEEL_RTOL);
+    match (root, failed, last) {
         (_, Some(error), _) => Err(error),
         (Some(flywheel), None, last) => {
             let options = SteadyOptions { flywheel: options.flywheel + flywheel, ..*options };
@@ -253,11 +253,11 @@ impl Steady {
         }
         let samples = self.run.samples.speed.iter().zip(&self.run.energies);
         let inertias = samples.map(|(speed, [kinetic, _])| 2.0 * kinetic / (speed * speed));
-        let [least, most] = inertias.fold([f64::INFINITY, 0.0_f64], |[least, most], inertia| {
-            [least.min(inertia), most.max(inertia)]
+        let [low, high] = inertias.fold([f64::INFINITY, 0.0_f64], |[low, high], inertia| {
+            [low.min(inertia), high.max(inertia)]
         });
         let [slow, fast] = self.extremes().map(|extreme| extreme.value * extreme.value);
-        0.5 * (fast - SAMPLING_MARGIN * slow * most / least).max(0.0).sqrt()
+        0.5 * (fast - SAMPLING_MARGIN * slow * high / low).max(0.0).sqrt()
     }
 
     /// Time of a period, s.
@@ -284,7 +284,7 @@ impl Steady {
     }
 }
 
-/// The last number less the first.
+/// The last number minus the first.
 fn width(list: &[f64]) -> f64 {
     match list {
         [first, .., last] => last - first,

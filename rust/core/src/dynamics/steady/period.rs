@@ -38,7 +38,7 @@ pub(crate) struct Period {
     pub time: f64,
     /// Work of the motors and the constant moment.
     pub drive: f64,
-    /// Work of loads and motors, with each power counted positive.
+    /// Work of loads and motors, with absolute values of all powers.
     pub turnover: f64,
     /// Whether loads or motors depend on the speed.
     pub depends_on_speed: bool,

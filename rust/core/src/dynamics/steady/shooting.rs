@@ -10,8 +10,8 @@ use crate::dynamics::run::model::ReducedModel;
 const MAX_STEPS: u32 = 60;
 /// A Newton step smaller than this is the last: the remaining error is its square.
 const CONVERGED_RTOL: f64 = 1.0e-9;
-/// How far speed² may fall in one step: the first motion below the idle speed is wanted, which is
-/// the stable one.
+/// Greatest fall of speed² in one step: the search is for the first motion below the idle speed, the stable
+/// one.
 const MAX_FALL: f64 = 0.7;
 /// With more relative noise in speed² than this, the motor does not determine the speed: the end of
 /// a period then depends on its start alone.
@@ -23,7 +23,7 @@ const BALANCE_RTOL: f64 = 1.0e-2;
 type Solution<E> = Result<(PeriodStart, Period), SteadyError<E>>;
 
 impl<S: ReducedModel, O: Callbacks> Shooting<'_, '_, S, O> {
-    /// Finds the periodic motion, from a guess of speed² and moment if there is one.
+    /// Finds the periodic motion, from a guess of speed² and moment, if any.
     pub(crate) fn solve(&mut self, guess: Option<PeriodStart>) -> Solution<O::Error> {
         let motors = self.equation.motors;
         let idle = motors.iter().find_map(crate::dynamics::motor::Motor::idle_speed);

@@ -127,16 +127,16 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
     /// Sets the coordinate where periods start.
     fn set_start(&mut self, q: f64) -> Result<(), SteadyError<O::Error>> {
         let SteadyOptions { span, breaks, .. } = self.options;
-        let mut given: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
+        let mut breaks: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
         let range = [q, q + span];
         let stations =
             stations_between(&mut self.equation.model, range).map_err(SteadyError::Run)?;
         self.equation.begin_along(range, &stations).map_err(SteadyError::Run)?;
-        given.extend(stations);
+        breaks.extend(stations);
         self.from = q;
         let unit = self.equation.model.unit(0);
         self.breaks =
-            breaks_of(self.equation.tables, &given, range, unit).map_err(SteadyError::Run)?;
+            breaks_of(self.equation.tables, &breaks, range, unit).map_err(SteadyError::Run)?;
         Ok(())
     }
 
@@ -161,9 +161,9 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         self.set_start(q + span)?;
         let next = self.run_period(PeriodStart { t: start.t + period.time, ..start })?;
         let rtol = PERIODIC_RTOL.max(NOISE * relative);
-        let same = matches!(next, PeriodOutcome::Whole(own)
-            if (own.speed2 - period.speed2).abs() <= rtol * period.speed2
-            && (own.time - period.time).abs() <= rtol * period.time.abs());
+        let same = matches!(next, PeriodOutcome::Whole(repeated)
+            if (repeated.speed2 - period.speed2).abs() <= rtol * period.speed2
+            && (repeated.time - period.time).abs() <= rtol * period.time.abs());
         if !same {
             return Err(SteadyError::NotPeriodic);
         }

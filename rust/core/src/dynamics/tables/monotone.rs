@@ -22,8 +22,8 @@ pub(crate) fn slopes(legs: &[Leg], beyond: [Option<Leg>; 2], cancel: &AtomicBool
         let left = knot.checked_sub(1).map_or(before, |i| Some(legs[i]));
         match (left, legs.get(knot).copied().or(behind)) {
             (Some(left), Some(right)) => inner(left, right),
-            (None, Some(own)) => end(own, legs.get(1).copied().or(behind)),
-            (Some(own), None) => end(own, last.checked_sub(1).map_or(before, |i| Some(legs[i]))),
+            (None, Some(leg)) => end(leg, legs.get(1).copied().or(behind)),
+            (Some(leg), None) => end(leg, last.checked_sub(1).map_or(before, |i| Some(legs[i]))),
             (None, None) => 0.0,
         }
     })
@@ -36,9 +36,9 @@ fn inner([h, r]: Leg, [g, s]: Leg) -> f64 {
     }
     // (w + v)/(w/r + v/s), by the ratio of the rises: neither of them need have a finite inverse.
     let (w, v) = (2.0 * g + h, g + 2.0 * h);
-    let ([least, own], [most, other]) =
+    let ([small, small_weight], [large, large_weight]) =
         if r.abs() < s.abs() { ([r, w], [s, v]) } else { ([s, v], [r, w]) };
-    (w + v) / (own + other * (least / most)) * least
+    (w + v) / (small_weight + large_weight * (small / large)) * small
 }
 
 /// The slope at an end, from the leg there and the next one: that of their parabola, limited.
@@ -68,10 +68,10 @@ mod tests {
     fn slopes_of_known_data() {
         // SciPy 1.11: PchipInterpolator([0, 1, 3, 4], [0, 1, 1.5, 5]).derivative().
         let legs = [[1.0, 1.0], [2.0, 0.25], [1.0, 3.5]];
-        let found = slopes(&legs, [None; 2]);
-        let wanted = [1.25, 9.0 / (5.0 + 4.0 / 0.25), 9.0 / (4.0 / 0.25 + 5.0 / 3.5), 4.583_333];
-        for (own, other) in found.iter().zip(wanted) {
-            assert!((own - other).abs() < 1e-6, "{own} {other}");
+        let actual = slopes(&legs, [None; 2]);
+        let expected = [1.25, 9.0 / (5.0 + 4.0 / 0.25), 9.0 / (4.0 / 0.25 + 5.0 / 3.5), 4.583_333];
+        for (slope, reference) in actual.iter().zip(expected) {
+            assert!((slope - reference).abs() < 1e-6, "{slope} {reference}");
         }
         assert_eq!(slopes(&[[2.0, 3.0]], [None; 2]), [3.0, 3.0]);
         // An extreme, and level rows.

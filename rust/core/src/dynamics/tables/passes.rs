@@ -2,15 +2,15 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Rows between two looks at whether the work is cancelled: some hundred microseconds.
+/// Rows between two checks for cancellation: some hundred microseconds.
 const ROWS_PER_CHECK: usize = 4096;
 
-/// Whether the work is cancelled, at one row in several.
+/// Whether the work is cancelled, checked every [`ROWS_PER_CHECK`] rows.
 pub(crate) fn is_cancelled(row: usize, cancel: &AtomicBool) -> bool {
     row.is_multiple_of(ROWS_PER_CHECK) && cancel.load(Ordering::Relaxed)
 }
 
-/// So many items; fewer once `cancel` is true.
+/// `count` items; fewer once `cancel` is true.
 pub(crate) fn collected<T>(
     count: usize,
     cancel: &AtomicBool,

@@ -19,7 +19,7 @@ pub enum EndCondition {
     Clamped,
     /// Equal derivatives at both ends.
     Periodic,
-    /// Monotone cubics instead of a spline: no value is beyond those of the rows beside it.
+    /// Monotone cubics instead of a spline: every value lies between those of the rows beside it.
     Pchip,
     /// Linear interpolation instead of a spline.
     Linear,
@@ -52,7 +52,7 @@ pub fn spline_unless(
     spline_beside(knots, values, ends, [None; 2], cancel)
 }
 
-/// The curves through the sections of a table, each by itself. Monotone cubics of a `closed` table
+/// The curves through the sections of a table, fitted separately. Monotone cubics of a `closed` table
 /// go on from its last section into its first. Once `cancel` is true the curves are not fitted.
 ///
 /// # Errors
@@ -71,8 +71,8 @@ pub(crate) fn fit_sections(
     for (k, section) in sections.iter().enumerate() {
         let before = (closed && k == 0).then(|| leg(knots.len() - 2));
         let behind = (closed && k + 1 == sections.len()).then(|| leg(0));
-        let (own, at) = (&knots[section.clone()], &values[section.clone()]);
-        let mut pieces = spline_beside(own, at, ends, [before, behind], cancel)?;
+        let (section_knots, at) = (&knots[section.clone()], &values[section.clone()]);
+        let mut pieces = spline_beside(section_knots, at, ends, [before, behind], cancel)?;
         if sections.len() == 1 {
             return Ok(pieces);
         }
@@ -102,7 +102,7 @@ fn spline_beside(
     Ok(pieces.unwrap_or_else(|| vec![[0.0; 4]; n - 1]))
 }
 
-/// The pieces over so many legs; `None` once `cancel` is true.
+/// The pieces over `count` legs; `None` once `cancel` is true.
 fn fitted(
     count: usize,
     leg: impl Fn(usize) -> Leg,
@@ -188,16 +188,16 @@ fn periodic(legs: &[Leg], cancel: &AtomicBool) -> Option<Vec<f64>> {
         let determinant = b * e - p * q;
         vec![(x * e - p * y) / determinant, (b * y - q * x) / determinant]
     } else {
-        let (corner, other) = (rows[0].0[0], rows[n - 1].0[2]);
+        let (corner, opposite_corner) = (rows[0].0[0], rows[n - 1].0[2]);
         let pivot = -rows[0].0[1];
         rows[0].0[1] -= pivot;
-        rows[n - 1].0[1] -= corner * other / pivot;
+        rows[n - 1].0[1] -= corner * opposite_corner / pivot;
         let mut extra = rows.clone();
         for row in &mut extra {
             row.1 = 0.0;
         }
         extra[0].1 = pivot;
-        extra[n - 1].1 = other;
+        extra[n - 1].1 = opposite_corner;
         let (y, z) = (tridiagonal(&mut rows, cancel)?, tridiagonal(&mut extra, cancel)?);
         let part = |x: &[f64]| x[0] + corner / pivot * x[n - 1];
         let factor = part(&y) / (1.0 + part(&z));
@@ -221,11 +221,13 @@ fn tridiagonal(rows: &mut [Row], cancel: &AtomicBool) -> Option<Vec<f64>> {
         rows[i].1 -= factor * right;
     }
     let mut next = 0.0;
-    for (i, (([_, own, behind], right), out)) in rows.iter().zip(&mut solution).enumerate().rev() {
+    for (i, (([_, diagonal, behind], right), out)) in
+        rows.iter().zip(&mut solution).enumerate().rev()
+    {
         if is_cancelled(i, cancel) {
             return None;
         }
-        next = (right - behind * next) / own;
+        next = (right - behind * next) / diagonal;
         *out = next;
     }
     Some(solution)

@@ -16,10 +16,10 @@ pub struct Table {
     jumps: Vec<f64>,
 }
 
-/// How far beyond a table its ends still count, relative to its size.
+/// A coordinate beyond an end of a table by less than this, relative to its size, is at the end.
 const RANGE_RTOL: f64 = 1.0e-12;
 
-/// A piece of a table, shifted by periods periods.
+/// A piece of a table, shifted by `periods` periods.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Cell {
     piece: usize,
@@ -28,7 +28,7 @@ pub(crate) struct Cell {
     start: f64,
 }
 
-/// For callers that cancel nothing.
+/// For callers that never cancel.
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Table {
@@ -65,9 +65,9 @@ impl Table {
         Ok(Self { knots: knots.to_vec(), pieces, periodic, jumps: Vec::new() })
     }
 
-    /// The same with a jump at each knot that is there twice, from the first value to the second: a
-    /// separate curve is fitted between jumps. In a table of one period the first knot or the last may
-    /// be there twice.
+    /// [`Table::new`] with a jump at each knot that appears twice, from the first value to the second: a
+    /// separate curve is fitted between jumps. In a table of one period the first or the last knot may
+    /// appear twice.
     ///
     /// # Errors
     ///
@@ -109,18 +109,18 @@ impl Table {
             return Err(TableError::PeriodicJump { at: jumps[0] });
         }
         starts.push(knots.len());
-        let (mut own, mut sections, mut from) = (vec![knots[0]], Vec::new(), 0);
+        let (mut merged, mut sections, mut from) = (vec![knots[0]], Vec::new(), 0);
         for start in starts {
             // One row alone at an end of the period: only its value counts, which the other end has.
             if start - from > 1 {
                 sections.push(from..start);
-                own.extend_from_slice(&knots[from + 1..start]);
+                merged.extend_from_slice(&knots[from + 1..start]);
             }
             from = start;
         }
         let closed = periodic && at_end.is_none();
         let pieces = fit_sections(knots, values, ends, &sections, closed, cancel)?;
-        Ok(Self { knots: own, pieces, periodic, jumps })
+        Ok(Self { knots: merged, pieces, periodic, jumps })
     }
 
     /// The value at `x`; NaN beyond a table that is not periodic.
@@ -145,7 +145,7 @@ impl Table {
         &self.knots
     }
 
-    /// The knots at which it jumps; of one period.
+    /// The knots at which it jumps, within one period.
     #[must_use]
     pub fn jumps(&self) -> &[f64] {
         &self.jumps
@@ -163,7 +163,7 @@ impl Table {
         [self.knots[0], self.knots[self.knots.len() - 1]]
     }
 
-    /// The greatest value of its rows, but for the last.
+    /// The greatest value of its rows except the last.
     pub(crate) fn size(&self) -> f64 {
         self.pieces.iter().map(|piece| piece[0].abs()).fold(0.0, f64::max)
     }
@@ -218,7 +218,7 @@ impl Table {
         [a + x * (b + x * (c + x * d)), b + x * (2.0 * c + x * (3.0 * d))]
     }
 
-    /// About how many knots an interval of this length has.
+    /// Approximate number of knots in an interval of this length.
     pub(crate) fn knots_in(&self, length: f64) -> f64 {
         let knots = self.knots.len() as f64;
         if self.periodic { knots * (1.0 + length / self.width()) } else { knots }
@@ -226,7 +226,7 @@ impl Table {
 
     /// The knots inside an interval, ascending.
     pub(crate) fn knots_within(&self, [low, high]: [f64; 2]) -> Vec<f64> {
-        let mut found = Vec::new();
+        let mut knots = Vec::new();
         let [first, last] = self.range();
         let mut cell = self.cell(if self.periodic { low } else { low.clamp(first, last) });
         while let Some(current) = cell {
@@ -234,14 +234,14 @@ impl Table {
             if start > high {
                 break;
             }
-            found.push(start);
+            knots.push(start);
             cell = self.next(current, true);
             if cell.is_none() {
-                found.push(end);
+                knots.push(end);
             }
         }
-        found.retain(|knot| *knot > low && *knot < high);
-        found
+        knots.retain(|knot| *knot > low && *knot < high);
+        knots
     }
 }
 

@@ -1,8 +1,8 @@
 //! The vector registers of x86-64 as [`Real`]: four or eight numbers.
 //!
-//! One file for each family; the macros here write what they have in common. Every operation is one or a few instructions, without a branch and without memory, so that code
-//! generic over [`Real`] stays in registers. The portable [`super::pair::Pair`] gives the same
-//! bits.
+//! One file for each family; the macros here write their common parts. Every operation is one or a few
+//! instructions, without a branch and without memory, so that code generic over [`Real`] stays in registers.
+//! The portable [`super::pair::Pair`] gives the same bits.
 
 #![allow(unsafe_code, reason = "instructions beyond the baseline; see the contract of each type")]
 
@@ -78,7 +78,7 @@ macro_rules! operators {
     };
 }
 
-/// The operations of [`Real`] that all register types have in one form.
+/// The operations of [`Real`] that have the same form in all register types.
 macro_rules! common {
     (
         $lanes:literal, $register:ty,
@@ -93,10 +93,10 @@ macro_rules! common {
             Self(unsafe { $splat(value) })
         }
         #[inline(always)]
-        fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
+        fn from_lanes(mut number: impl FnMut(usize) -> f64) -> Self {
             let mut numbers = [0.0; $lanes];
             for lane in 0..$lanes {
-                numbers[lane] = of(lane);
+                numbers[lane] = number(lane);
             }
             // SAFETY: a register is as many numbers side by side.
             Self(unsafe { std::mem::transmute::<[f64; $lanes], $register>(numbers) })

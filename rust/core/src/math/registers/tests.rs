@@ -41,8 +41,8 @@ fn compare<R: Real>() {
             let (first, last) = written.split_at_mut(R::LANES);
             let [before, after] = x.zip(y);
             let [even, odd] = before.unzip(after);
-            let given: Vec<f64> = (0..R::LANES).map(|lane| number(i, lane)).collect();
-            let read = R::read(&given);
+            let numbers: Vec<f64> = (0..R::LANES).map(|lane| number(i, lane)).collect();
+            let read = R::read(&numbers);
             for lane in 0..R::LANES {
                 assert_eq!(even.lane(lane).to_bits(), number(i, lane).to_bits());
                 assert_eq!(odd.lane(lane).to_bits(), number(j, lane).to_bits());

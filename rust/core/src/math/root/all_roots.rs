@@ -1,10 +1,10 @@
 //! All roots of a function in an interval, from its values and slopes.
 //!
-//! Between two samples the function is compared with its cubic of Hermite. In Bernstein's form a
-//! cubic lies between its coefficients and has no more roots than these change sign, so a cell is
-//! halved until its coefficients, by more than the error of the cubic, have one sign or are
-//! monotone (J. M. Lane & R. F. Riesenfeld, Bounds on a polynomial, BIT 21 (1981) 112). The error is
-//! that of the cell of twice the width, at its middle: 16 times too great for a smooth function.
+//! Between two samples the function is compared with its Hermite cubic. In Bernstein's form a cubic lies
+//! between its coefficients and has at most as many roots as these have sign changes. So a cell is halved
+//! until its coefficients, by more than the error of the cubic, have one sign or are monotone (J. M. Lane &
+//! R. F. Riesenfeld, Bounds on a polynomial, BIT 21 (1981) 112). The error is that of the cell of twice the
+//! width, at its middle: 16 times too great for a smooth function.
 
 use std::convert::Infallible;
 use std::ops::RangeInclusive;
@@ -28,7 +28,7 @@ const JUMP: f64 = 8.0;
 /// A gap narrower than this part of its cell is a point: its ends are located to less.
 const POINT: f64 = 1.0e-8;
 
-/// Beside a jump values are of the size of those at the nodes around it, up to this factor.
+/// Beside a jump values are of the size of those at the nodes around it, within this factor.
 const RISE: f64 = 100.0;
 
 /// A function at a point, with a bound of the rounding error of its value.
@@ -47,7 +47,7 @@ pub(crate) struct Root {
     pub signs: [f64; 2],
 }
 
-/// What was found.
+/// The result of a search.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Roots {
     /// Isolated roots, ascending.
@@ -71,11 +71,11 @@ pub(crate) fn all_roots(nodes: &[f64], f: impl FnMut(f64) -> Option<Sample>) -> 
         nodes: Vec::new(),
         left: nodes.len() * EVALUATIONS_PER_NODE,
         unresolved: Vec::new(),
-        found: Roots::default(),
+        roots: Roots::default(),
     };
     let samples = search.sample(nodes);
     search.nodes = samples.iter().filter_map(|pair| pair.1).collect();
-    search.found.has_values = !search.nodes.is_empty();
+    search.roots.has_values = !search.nodes.is_empty();
     let mut before: Option<Sample> = None;
     let mut missing: Option<[f64; 2]> = None;
     for &(x, sample) in &samples {
@@ -99,9 +99,9 @@ pub(crate) fn all_roots(nodes: &[f64], f: impl FnMut(f64) -> Option<Sample>) -> 
     for cluster in unresolved.chunk_by(|a, b| a.ends[1].x == b.ends[0].x) {
         search.resolve(cluster, 0.5 * widest);
     }
-    let mut found = search.found;
-    found.isolated.sort_by(|a, b| a.at.total_cmp(&b.at));
-    found
+    let mut roots = search.roots;
+    roots.isolated.sort_by(|a, b| a.at.total_cmp(&b.at));
+    roots
 }
 
 /// A cell in which the cubic does not show whether there is a root.
@@ -118,7 +118,7 @@ struct Search<F> {
     /// Evaluations that are left.
     left: usize,
     unresolved: Vec<Unresolved>,
-    found: Roots,
+    roots: Roots,
 }
 
 impl Sample {
@@ -134,8 +134,8 @@ fn coefficients([a, b]: [Sample; 2]) -> [f64; 4] {
     [a.value, a.value + third * a.slope, b.value - third * b.slope, b.value]
 }
 
-/// By how much a sample in the middle differs from the cubic, in value and in slope: either alone
-/// can agree by chance.
+/// Difference of a sample in the middle from the cubic, in value and in slope: either alone can agree by
+/// chance.
 fn error([a, b]: [Sample; 2], middle: Sample) -> f64 {
     let width = b.x - a.x;
     let value = 0.5 * (a.value + b.value) + 0.125 * width * (a.slope - b.slope);
@@ -146,7 +146,7 @@ fn error([a, b]: [Sample; 2], middle: Sample) -> f64 {
 impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
     fn at(&mut self, x: f64) -> Option<Sample> {
         let Some(left) = self.left.checked_sub(1) else {
-            self.found.incomplete = true;
+            self.roots.incomplete = true;
             return None;
         };
         self.left = left;
@@ -177,7 +177,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         let [a, b] = ends;
         let x = 0.5 * (a.x + b.x);
         let is_within = x > a.x && x < b.x;
-        if depth >= MAX_DEPTH || !is_within || self.found.incomplete {
+        if depth >= MAX_DEPTH || !is_within || self.roots.incomplete {
             self.unresolved.push(Unresolved { ends, is_zero: false });
             return;
         }
@@ -248,7 +248,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         let beside = [after.checked_sub(1), Some(after)].into_iter().flatten();
         let nodes = beside.filter_map(|index| self.nodes.get(index));
         if size <= RISE * nodes.map(|node| node.value.abs()).fold(0.0, f64::max) {
-            self.found.jumps.push(x);
+            self.roots.jumps.push(x);
         }
     }
 
@@ -257,7 +257,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         let (a, b) = (cluster[0].ends[0], cluster[cluster.len() - 1].ends[1]);
         let zeros = cluster.iter().filter(|cell| cell.is_zero);
         if zeros.map(|cell| cell.ends[1].x - cell.ends[0].x).sum::<f64>() >= width {
-            self.found.zero.push([a.x, b.x]);
+            self.roots.zero.push([a.x, b.x]);
             return;
         }
         let (before, after) = (a.sign(), b.sign());
@@ -270,7 +270,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         }
         let nearest = self.nearest_to_zero(cluster, before);
         if nearest.sign() == 0.0 {
-            self.found.isolated.push(Root { at: nearest.x, signs: [before, after] });
+            self.roots.isolated.push(Root { at: nearest.x, signs: [before, after] });
         } else if nearest.sign() != before {
             self.bracket([a, nearest]);
             self.bracket([nearest, b]);
@@ -289,15 +289,16 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
             }
         }
         let inner = cluster.iter().map(|cell| cell.ends[1]);
-        inner.fold(a, |least, s| if sign * s.value < sign * least.value { s } else { least })
+        inner.fold(a, |nearest, s| if sign * s.value < sign * nearest.value { s } else { nearest })
     }
 
     /// A root between values of different signs.
     fn bracket(&mut self, [a, b]: [Sample; 2]) {
         let (sign, width) = (a.value.signum(), width(a, b));
         let value = |x: f64| self.at(x).map(|sample| sign * sample.value).ok_or(());
-        let found = itp((a.x, sign * a.value), (b.x, sign * b.value), width, |v| v <= 0.0, value);
-        let Some(root) = found.ok().and_then(|x| self.at(x)) else {
+        let crossing =
+            itp((a.x, sign * a.value), (b.x, sign * b.value), width, |v| v <= 0.0, value);
+        let Some(root) = crossing.ok().and_then(|x| self.at(x)) else {
             self.jump(0.5 * (a.x + b.x), a.value.abs().min(b.value.abs()));
             return;
         };
@@ -309,7 +310,7 @@ impl<F: FnMut(f64) -> Option<Sample>> Search<F> {
         if root.value.abs() > JUMP * (root.noise + change) {
             self.jump(root.x, root.value.abs());
         } else {
-            self.found.isolated.push(Root { at: root.x, signs: [sign, -sign] });
+            self.roots.isolated.push(Root { at: root.x, signs: [sign, -sign] });
         }
     }
 }
@@ -333,20 +334,20 @@ mod tests {
         all_roots(&nodes, |x| f(x).map(|[value, slope]| Sample { x, value, slope, noise: NOISE }))
     }
 
-    fn places(found: &Roots) -> Vec<f64> {
-        found.isolated.iter().map(|root| root.at).collect()
+    fn places(roots: &Roots) -> Vec<f64> {
+        roots.isolated.iter().map(|root| root.at).collect()
     }
 
     #[test]
     fn simple_roots_on_nodes_and_between() {
         for shift in [0.0, 0.1, 1e-9, -1e-17] {
             let f = |x: f64| Some([(3.0 * (x - shift)).sin(), 3.0 * (3.0 * (x - shift)).cos()]);
-            let found = find([-1.5, 1.5], f);
-            let at = places(&found);
-            let wanted = [shift - PI / 3.0, shift, shift + PI / 3.0];
+            let roots = find([-1.5, 1.5], f);
+            let at = places(&roots);
+            let expected = [shift - PI / 3.0, shift, shift + PI / 3.0];
             assert_eq!(at.len(), 3);
-            assert!(at.iter().zip(wanted).all(|(x, w)| (x - w).abs() < 1e-15), "{at:?}");
-            let signs: Vec<_> = found.isolated.iter().map(|root| root.signs).collect();
+            assert!(at.iter().zip(expected).all(|(x, w)| (x - w).abs() < 1e-15), "{at:?}");
+            let signs: Vec<_> = roots.isolated.iter().map(|root| root.signs).collect();
             assert_eq!(signs, [[1.0, -1.0], [-1.0, 1.0], [1.0, -1.0]]);
         }
     }
@@ -355,27 +356,27 @@ mod tests {
     fn close_roots_are_told_apart_from_touching_and_from_none() {
         for apart in [1e-1, 1e-3, 1e-6] {
             let (a, b) = (0.3, 0.3 + apart);
-            let found = find([-1.0, 1.0], |x| Some([(x - a) * (x - b), 2.0 * x - a - b]));
-            let at = places(&found);
-            assert_eq!(at.len(), 2, "{apart} {found:?}");
+            let roots = find([-1.0, 1.0], |x| Some([(x - a) * (x - b), 2.0 * x - a - b]));
+            let at = places(&roots);
+            assert_eq!(at.len(), 2, "{apart} {roots:?}");
             assert!((at[0] - a).abs() < 1e-15 / apart && (at[1] - b).abs() < 1e-15 / apart);
             let miss = 0.25 * apart * apart;
             let f = |x: f64| Some([(x - a) * (x - a) + miss, 2.0 * (x - a)]);
             // A miss of 2.5e-13 is above the rounding.
             assert_eq!(places(&find([-1.0, 1.0], f)), Vec::<f64>::new());
         }
-        let found = find([-1.0, 1.0], |x| Some([(x - 0.3) * (x - 0.3), 2.0 * (x - 0.3)]));
-        assert_eq!(found.isolated.len(), 1);
-        assert!((found.isolated[0].at - 0.3).abs() < 1e-15);
-        assert_eq!(found.isolated[0].signs, [1.0, 1.0]);
+        let roots = find([-1.0, 1.0], |x| Some([(x - 0.3) * (x - 0.3), 2.0 * (x - 0.3)]));
+        assert_eq!(roots.isolated.len(), 1);
+        assert!((roots.isolated[0].at - 0.3).abs() < 1e-15);
+        assert_eq!(roots.isolated[0].signs, [1.0, 1.0]);
     }
 
     #[test]
     fn triple_roots_and_three_close_ones() {
-        let found = find([-1.0, 1.1], |x| Some([(x - 0.3).powi(3), 3.0 * (x - 0.3).powi(2)]));
-        assert_eq!(found.isolated.len(), 1);
+        let roots = find([-1.0, 1.1], |x| Some([(x - 0.3).powi(3), 3.0 * (x - 0.3).powi(2)]));
+        assert_eq!(roots.isolated.len(), 1);
         assert!(
-            (found.isolated[0].at - 0.3).abs() < 1e-4 && found.isolated[0].signs == [-1.0, 1.0]
+            (roots.isolated[0].at - 0.3).abs() < 1e-4 && roots.isolated[0].signs == [-1.0, 1.0]
         );
         let f = |x: f64| Some([x * (x * x - 1e-6), 3.0 * x * x - 1e-6]);
         let at = places(&find([-1.0, 1.1], f));
@@ -406,19 +407,19 @@ mod tests {
     #[test]
     fn jumps_and_intervals_of_zero_are_reported() {
         let jump = |x: f64| Some([if x < 0.3 { 1.0 } else { -1.0 }, 0.0]);
-        let found = find([-1.0, 1.0], jump);
-        assert!(found.isolated.is_empty() && (found.jumps[0] - 0.3).abs() < 1e-14);
-        // At its very point it has no value; on a node and between nodes.
+        let roots = find([-1.0, 1.0], jump);
+        assert!(roots.isolated.is_empty() && (roots.jumps[0] - 0.3).abs() < 1e-14);
+        // The jump itself has no value; on a node and between nodes.
         for at in [0.0, 0.3] {
             let jump = |x: f64| (x != at).then(|| [(x - at).signum(), 0.0]);
-            let found = find([-1.0, 1.0], jump);
-            assert!(found.isolated.is_empty() && (found.jumps[0] - at).abs() < 1e-8, "{found:?}");
+            let roots = find([-1.0, 1.0], jump);
+            assert!(roots.isolated.is_empty() && (roots.jumps[0] - at).abs() < 1e-8, "{roots:?}");
         }
         let zero =
             |x: f64| Some(if x < 0.3 { [1e-16 * (99.0 * x).sin(), 0.0] } else { [x - 0.3, 1.0] });
-        let found = find([-1.0, 1.0], zero);
-        assert_eq!(found.isolated, []);
-        assert!(found.zero.len() == 1 && (found.zero[0][1] - 0.3).abs() < 1e-6, "{found:?}");
+        let roots = find([-1.0, 1.0], zero);
+        assert_eq!(roots.isolated, []);
+        assert!(roots.zero.len() == 1 && (roots.zero[0][1] - 0.3).abs() < 1e-6, "{roots:?}");
         assert_eq!(find([0.0, TAU], |_| Some([0.0, 0.0])).zero, [[0.0, TAU]]);
     }
 

@@ -4,8 +4,8 @@
 /// least spacing is 2^-1074.
 pub(crate) const TO_ROUNDING: u32 = 2100;
 
-/// Narrows a bracket between a point that has a property, `near`, and one that has not, `far`
-/// (Press et al., Numerical Recipes, 3rd ed. 2007, 9.1). Either may be the greater.
+/// Narrows a bracket between a point with a property, `near`, and one without it, `far` (Press et al.,
+/// Numerical Recipes, 3rd ed. 2007, 9.1). Either may be the greater.
 ///
 /// Returns the bracket after `max_halvings`, or earlier when its ends are neighbouring numbers. The
 /// property holds at the near end and not at the far one; neither end is evaluated.

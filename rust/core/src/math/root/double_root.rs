@@ -1,6 +1,6 @@
 //! Double roots by successive parabolic interpolation.
 
-/// Finds a point near `m` where a function is not positive, if there is one between `a` and `c`.
+/// Finds a point near `m` where a function is not positive, if any, between `a` and `c`.
 /// The function is positive at all three and least at `m`, so it may have two roots around its
 /// minimum, which is searched by parabolas through three points (P. Jarratt, An iterative method
 /// for locating turning points, Computer J. 10 (1967); R. P. Brent, Algorithms for Minimization
@@ -69,14 +69,14 @@ mod tests {
         for depth in [1e-3, 1e-8, 1e-14] {
             let f = |x: f64| 1.0 - (x - 0.27).cos() - depth;
             let at = |x: f64| (x, f(x));
-            let Ok(found) =
+            let Ok(point) =
                 find_double_root(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
-            assert!(f(found.unwrap()) <= 0.0);
+            assert!(f(point.unwrap()) <= 0.0);
             let f = |x: f64| 1.0 - (x - 0.27).cos() + depth;
             let at = |x: f64| (x, f(x));
-            let Ok(found) =
+            let Ok(point) =
                 find_double_root(at(0.0), at(0.25), at(0.5), |x| Ok::<_, Infallible>(f(x)));
-            assert_eq!(found, None);
+            assert_eq!(point, None);
         }
     }
 }

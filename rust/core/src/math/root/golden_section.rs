@@ -68,9 +68,12 @@ mod tests {
     #[test]
     fn brackets_a_maximum() {
         let f = |x: f64| Ok::<_, Infallible>(-(x - 0.3) * (x - 0.3));
-        let Ok(found) = golden_section([-1.0, 2.0], |bracket| bracket.width() <= 1e-5, f);
-        assert!(found.width() <= 1e-5 && found.ends[0] < 0.3 && found.ends[1] > 0.3, "{found:?}");
-        assert!((found.best().0 - 0.3).abs() < 1e-5);
+        let Ok(bracket) = golden_section([-1.0, 2.0], |bracket| bracket.width() <= 1e-5, f);
+        assert!(
+            bracket.width() <= 1e-5 && bracket.ends[0] < 0.3 && bracket.ends[1] > 0.3,
+            "{bracket:?}"
+        );
+        assert!((bracket.best().0 - 0.3).abs() < 1e-5);
         let Ok(narrowest) = golden_section([-1.0, 2.0], |_| false, f);
         assert!(narrowest.width() < 3e-8 && (narrowest.best().0 - 0.3).abs() < 3e-8);
     }
@@ -78,8 +81,8 @@ mod tests {
     #[test]
     fn stops_early_and_at_errors() {
         let positive = |bracket: &Bracket| bracket.inner.iter().any(|point| point.1 > 0.0);
-        let Ok(found) = golden_section([0.0, 1.0], positive, |x| Ok::<_, Infallible>(0.01 - x));
-        assert!(found.best().1 > 0.0 && found.best().0 < 0.01);
+        let Ok(bracket) = golden_section([0.0, 1.0], positive, |x| Ok::<_, Infallible>(0.01 - x));
+        assert!(bracket.best().1 > 0.0 && bracket.best().0 < 0.01);
         assert!(golden_section([0.0, 1.0], |_| false, |_| Err(())).is_err());
     }
 }

@@ -23,8 +23,8 @@ mod tests {
 
     #[test]
     fn finds_a_minimum() {
-        let found = ternary_search([-1.0, 2.0], 60, |x| (x - 0.3).abs());
-        assert!((found - 0.3).abs() < 1e-10, "{found}");
+        let minimum = ternary_search([-1.0, 2.0], 60, |x| (x - 0.3).abs());
+        assert!((minimum - 0.3).abs() < 1e-10, "{minimum}");
         // Without a step, the middle.
         assert_eq!(ternary_search([0.0, 1.0], 0, |x| x), 0.5);
     }

@@ -1,7 +1,7 @@
 //! Dense output: the state inside a step.
 //!
 //! y(θ) = y₀ + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))), θ = (t − t₀)/h, with F₀ = y₁ − y₀,
-//! F₁ = h f₀ − F₀, F₂ = F₀ − h f₁ − F₁ (the cubic of Hermite) and the others sums of the stages
+//! F₁ = h f₀ − F₀, F₂ = F₀ − h f₁ − F₁ (the Hermite cubic) and the others sums of the stages
 //! (Hairer, Nørsett & Wanner I, II.6; the form is that of DOPRI5 and DOP853).
 
 use std::collections::TryReserveError;
@@ -9,7 +9,7 @@ use std::collections::TryReserveError;
 use super::stages::{Block, Stages};
 use super::tableau::HERMITE_ROWS;
 
-/// Least rows of a step: y₀ and the cubic of Hermite.
+/// Least rows of a step: y₀ and the Hermite cubic.
 pub(crate) const LEAST_ROWS: usize = 1 + HERMITE_ROWS;
 
 /// A step cut to less than this part of it is a cubic to rounding: its fourth derivative contributes
@@ -75,7 +75,7 @@ impl Interpolant {
     }
 
     /// Ends the polynomial at θ with a more accurate state, and with the rates there: after the part
-    /// `to` of the step's width h. Returns the width that the polynomial then has.
+    /// `to` of the step's width h. Returns the new width of the polynomial.
     ///
     /// The differences, of the size of its own error, are added as the cubic in θ/θ₁ that begins at zero
     /// with slope zero: the start and its rates stay. Divided by θ₁³ it would lose its digits where θ₁ is

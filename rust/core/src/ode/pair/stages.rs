@@ -33,8 +33,8 @@ pub(in crate::ode) enum Refusal<E> {
 pub(in crate::ode) struct Scale {
     relative: Vec<Block>,
     absolute: Vec<Block>,
-    /// The size of a usual state in tolerances, if they are parts of it; 0 if not. A state that begins at
-    /// zero does not show it.
+    /// The size of a typical state in tolerances if they are relative; 0 if not. A state that begins at zero
+    /// does not show it.
     pub usual_size: f64,
 }
 
@@ -77,8 +77,8 @@ const ABRUPT_RATIO: f64 = 6.0;
 /// rtol (0.05 that of one only within 2.0), for 0.4 % more steps; with 0.3 the last steps before a dead
 /// point begin to depend on rounding.
 const ABRUPT_FRACTION: f64 = 0.25;
-/// Steps of a smooth interval before the estimates are compared: earlier ones say too little about
-/// the solution, and a piece of a table has only a few steps.
+/// Steps of a smooth interval before the estimates are compared: earlier estimates show too little of the
+/// solution, and a piece of a table has only a few steps.
 const WARM_UP_STEPS: u32 = 2;
 
 /// The stages of a step.
@@ -120,7 +120,7 @@ impl Stages {
         }
     }
 
-    /// A smooth interval begins: earlier estimates say nothing about it.
+    /// A smooth interval begins: earlier estimates do not apply to it.
     pub(in crate::ode) fn begin_interval(&mut self) {
         (self.greatest, self.accepted) = (0.0, 0);
     }

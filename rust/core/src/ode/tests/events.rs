@@ -50,11 +50,11 @@ fn times(run: &Solution, index: usize) -> Vec<f64> {
     run.events.iter().filter(|event| event.index == index).map(|event| event.t).collect()
 }
 
-fn assert_times(found: &[f64], exact: &[f64], bound: f64) {
-    assert_eq!(found.len(), exact.len(), "{found:?} {exact:?}");
-    let worst = largest_difference(found, exact);
-    println!("{} events, worst {worst:.1e}", found.len());
-    assert!(worst < bound, "{worst:e}: {found:?} {exact:?}");
+fn assert_times(actual: &[f64], exact: &[f64], bound: f64) {
+    assert_eq!(actual.len(), exact.len(), "{actual:?} {exact:?}");
+    let worst = largest_difference(actual, exact);
+    println!("{} events, worst {worst:.1e}", actual.len());
+    assert!(worst < bound, "{worst:e}: {actual:?} {exact:?}");
 }
 
 /// sin t = 0.5 upwards and downwards, both, and where cos t = 0; forward and backward.
@@ -382,8 +382,8 @@ fn output_stops_and_starts_at_restarts() {
     }
 }
 
-/// A step that an event cuts ends with the rates there, and begins with its own, however little of it
-/// is left.
+/// A step that an event cuts ends with the rates there, and begins with its own rates, however short the rest
+/// is.
 #[test]
 fn steps_cut_by_events_end_with_the_rates_there() {
     for method in BOTH {
@@ -409,20 +409,20 @@ fn steps_cut_by_events_end_with_the_rates_there() {
         };
         let first = run(&[]).dense.ends()[1];
         for beside in [0.3, 0.03, 2e-3, 1e-4, 1e-6, 1e-9] {
-            let found = run(&[first + beside, 4.0]);
-            assert_eq!(found.events.len(), 2, "{method:?} {beside}");
-            let (mut y, mut rates, mut own) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-            found.dense.each_end(|t, y, rates| {
-                oscillate(t, y, &mut own);
+            let solution = run(&[first + beside, 4.0]);
+            assert_eq!(solution.events.len(), 2, "{method:?} {beside}");
+            let (mut y, mut rates, mut exact_rates) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+            solution.dense.each_end(|t, y, rates| {
+                oscillate(t, y, &mut exact_rates);
                 assert!(
-                    largest_difference(rates, &own) < 1e-13,
+                    largest_difference(rates, &exact_rates) < 1e-13,
                     "{method:?} {beside} {t}: {rates:?}"
                 );
             });
-            assert!(found.dense.slope(0.0, &mut rates) && rates == [1.0, 0.0]);
+            assert!(solution.dense.slope(0.0, &mut rates) && rates == [1.0, 0.0]);
             for i in 0..=600 {
                 let t = 0.01 * f64::from(i);
-                assert!(found.dense.at(t, &mut y) && found.dense.slope(t, &mut rates));
+                assert!(solution.dense.at(t, &mut y) && solution.dense.slope(t, &mut rates));
                 let exact = [t.sin(), t.cos()];
                 assert!(largest_difference(&y, &exact) < 1e-3, "{method:?} {beside} {t}: {y:?}");
                 let exact = [t.cos(), -t.sin()];

@@ -52,7 +52,7 @@ fn a_run_ends_at_the_domain_boundary() {
             "{}",
             end.end
         );
-        // No valid state at all: the run ends where it begins.
+        // Without a valid state the run ends where it begins.
         let none = |_: f64, _: &[f64], _: &mut [f64]| -> Fallible { Err(Fault::OutOfDomain) };
         let end = run(method, &mut Rates(none), (5.0, 0.0), &[3.0], &options).unwrap();
         assert_eq!((end.end, end.y), (End::DomainBoundary { t: 5.0 }, vec![3.0]));
@@ -105,7 +105,7 @@ fn a_run_ends_where_its_system_says_that_the_boundary_is_reached() {
 }
 
 /// A slow component stays on its last number before the boundary; t and the other components would
-/// go on for ever in steps in which it does not change.
+/// go on for ever in steps that do not change it.
 #[test]
 fn a_stationary_component_has_reached_the_boundary() {
     let wall = 2.461_918_768_390_287_2;

@@ -67,9 +67,9 @@ fn measured_order(coarse: f64, fine: f64, ratio: f64) -> f64 {
 fn new_states_converge_with_their_order() {
     for (method, counts, order) in [(BOTH[0], [120, 240], 5.0), (BOTH[1], [10, 20], 8.0)] {
         let [coarse, fine] = counts.map(|count| global_error(method, count));
-        let found = measured_order(coarse, fine, 2.0);
-        println!("{method:?}: {coarse:.2e} {fine:.2e}, order {found:.2}");
-        assert!((found - order).abs() < 0.4, "{method:?}: {found}");
+        let measured = measured_order(coarse, fine, 2.0);
+        println!("{method:?}: {coarse:.2e} {fine:.2e}, order {measured:.2}");
+        assert!((measured - order).abs() < 0.4, "{method:?}: {measured}");
     }
 }
 
@@ -83,9 +83,9 @@ fn estimates_and_continuous_output_converge_with_their_order() {
     {
         let [coarse, fine] = widths.map(|h| local_errors(method, h));
         for ((c, f), power) in coarse.iter().zip(fine).zip(powers) {
-            let found = measured_order(*c, f, 2.0);
-            println!("{method:?}: {c:.2e} {f:.2e}, power {found:.2} of {power}");
-            assert!((found - power).abs() < 0.6, "{method:?}: {found} is not {power}");
+            let measured = measured_order(*c, f, 2.0);
+            println!("{method:?}: {c:.2e} {f:.2e}, power {measured:.2} of {power}");
+            assert!((measured - power).abs() < 0.6, "{method:?}: {measured} is not {power}");
         }
     }
 }

@@ -20,23 +20,23 @@ impl Tree {
 
 /// All rooted trees with up to `max_order` nodes.
 pub(crate) fn trees(max_order: u8) -> Vec<Tree> {
-    let mut found = vec![Tree { branches: vec![] }];
+    let mut list = vec![Tree { branches: vec![] }];
     for order in 2..=max_order {
-        let smaller = found.clone();
-        forests(&smaller, smaller.len(), order - 1, &mut vec![], &mut found);
+        let smaller = list.clone();
+        forests(&smaller, smaller.len(), order - 1, &mut vec![], &mut list);
     }
-    found
+    list
 }
 
-/// Adds to `found` a root with each multiset of the first `until` trees that has `nodes` nodes.
-fn forests(trees: &[Tree], until: usize, nodes: u8, chosen: &mut Vec<Tree>, found: &mut Vec<Tree>) {
+/// Adds to `list` a root with each multiset of the first `until` trees that has `nodes` nodes.
+fn forests(trees: &[Tree], until: usize, nodes: u8, chosen: &mut Vec<Tree>, list: &mut Vec<Tree>) {
     if nodes == 0 {
-        found.push(Tree { branches: chosen.clone() });
+        list.push(Tree { branches: chosen.clone() });
     }
     for (i, tree) in trees[..until].iter().enumerate() {
         if tree.order() <= nodes {
             chosen.push(tree.clone());
-            forests(trees, i + 1, nodes - tree.order(), chosen, found);
+            forests(trees, i + 1, nodes - tree.order(), chosen, list);
             chosen.pop();
         }
     }

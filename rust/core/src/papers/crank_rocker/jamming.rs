@@ -1,8 +1,8 @@
 //! The linkage in its two modes: a crank-rocker, and a slider-crank while joint C is jammed.
 //!
-//! The paper (section 3) does not say what locks. This module assumes that joint C jams where the
-//! transmission angle falls to its least value. Coupler and rocker then move as one rigid rod BD,
-//! and the support D slides along the line of centres until it has returned to its position.
+//! The paper (section 3) does not name the joint that locks. This module assumes that joint C jams where
+//! the transmission angle falls to its least value. Coupler and rocker then move as one rigid rod BD, and
+//! the support D slides along the line of centres until it has returned to its position.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ use crate::math::trig::sin_cos;
 pub(super) const SAMPLE_STEP: f64 = PI / 360.0;
 /// Step of the difference quotient for the speed of the ground, as a fraction of a sample step.
 const GROUND_STEP: f64 = 1.0e-3;
-/// Dead point: the rod is within this fraction of its length of not reaching the line of centres.
+/// Dead point: a rod shorter by this fraction of its length would not reach the line of centres.
 const DEAD_POINT_RTOL: f64 = 1.0e-12;
 
 /// `None` as a crank-rocker, or the side while D slides.
@@ -85,7 +85,7 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
         angle.min(PI - angle)
     }
 
-    /// How far BD is beyond the nearer jam distance, and the side.
+    /// Distance of BD beyond the nearer jam distance, and the side.
     pub(super) fn jam_excess(&mut self, t: f64) -> Result<(f64, Side), JammingError<E>> {
         let s = self.pin_distance(t)?;
         let (outer, inner) =
@@ -128,8 +128,8 @@ impl<E, F: FnMut(f64) -> Result<f64, E>> JammingLinkage<F> {
         let reach = (rod * rod - across * across).sqrt();
         let sliding = l1 * sine * speed * (1.0 - l1 * cosine / reach);
         let rates = |ground_speed: f64| {
-            let found = position(phi, [l1, l2, l3, l4], Assembly::Printed, [speed, ground_speed]);
-            found.map_or([f64::NAN; 2], |(_, rates)| [rates.of.phi3, rates.of.phi3_first])
+            let result = position(phi, [l1, l2, l3, l4], Assembly::Printed, [speed, ground_speed]);
+            result.map_or([f64::NAN; 2], |(_, rates)| [rates.of.phi3, rates.of.phi3_first])
         };
         let ([rocker, _], [_, rod]) = (rates(moving), rates(sliding));
         Ok([[moving, sliding], [rocker, rod]])

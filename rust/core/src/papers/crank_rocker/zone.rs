@@ -96,22 +96,22 @@ pub fn transmission_extremes([l1, l2, l3, l4]: Lengths) -> Option<[f64; 2]> {
 }
 
 /// Intervals of the crank angle in which the transmission angle is below `gamma_min`: around 0 (γ₂₃
-/// near π; its start is negative) and around π (γ₂₃ near 0). Empty if there are none.
+/// near π; its start is negative) and around π (γ₂₃ near 0). Empty without such intervals.
 ///
 /// From S² = l₁² + l₄² + 2 l₁ l₄ cos φ₁ at γ₂₃ = π − `gamma_min` and at γ₂₃ = `gamma_min`.
 #[must_use]
 pub fn blocked([l1, l2, l3, l4]: Lengths, gamma_min: f64) -> Vec<[f64; 2]> {
     let squares = l2 * l2 + l3 * l3;
     let product = 2.0 * l2 * l3 * sin_cos(gamma_min).1;
-    let mut found = Vec::new();
+    let mut intervals = Vec::new();
     for (middle, s2, sign) in [(0.0, squares + product, 1.0), (PI, squares - product, -1.0)] {
         let cosine = sign * (s2 - l1 * l1 - l4 * l4) / (2.0 * l1 * l4);
         if cosine < 1.0 {
             let half = libm::acos(cosine.max(-1.0));
-            found.push([middle - half, middle + half]);
+            intervals.push([middle - half, middle + half]);
         }
     }
-    found
+    intervals
 }
 
 /// Least transmission angle that friction in the rocker's joints allows, equation 8: sin γ is the
@@ -127,8 +127,8 @@ pub fn least_gamma([f_c, r_c, f_d, r_d]: [f64; 4], rocker: f64) -> Option<f64> {
 /// radii ρ of the friction circles at B, C and D.
 ///
 /// The coupler's moments about B turn the force off the line BC by arcsin((s ρC − t ρB)/l₂), and those of
-/// the rocker about D ask for l₃ sin γ′ ≥ ρD + s ρC, with s and t the senses in which rocker and coupler
-/// turn in C and coupler and crank in B, to that of the rocker's swing. At its extreme t is −1 on the outer
+/// the rocker about D require l₃ sin γ′ ≥ ρD + s ρC. Here s and t are the senses in which rocker and coupler
+/// turn in C, and coupler and crank in B, relative to the rocker's swing. At its extreme t is −1 on the outer
 /// side, +1 on the inner one, and s changes: the crank passes if γ there exceeds the limit of both. `None` if
 /// friction blocks every angle.
 #[must_use]

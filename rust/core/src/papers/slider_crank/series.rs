@@ -13,7 +13,7 @@ const MAX_TERMS: usize = 100_000_000;
 /// Fraction of a sum that does not change its 53 bits: 1/64 of half a unit in the last place.
 const NEGLIGIBLE: f64 = f64::EPSILON / 256.0;
 
-/// Why a series gives no number.
+/// The reason why a series has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Error, IntoStaticStr, VariantNames)]
 #[strum(serialize_all = "snake_case")]
 pub enum SeriesError {
@@ -177,19 +177,19 @@ mod tests {
     fn coefficients_are_correct_to_the_last_bit() {
         for (k, expected) in EXPECTED {
             let series = Series::new(k, 12, None).expect("k is far from 1");
-            let [a0, a1, others @ ..] = series.coefficients() else { panic!("eight coefficients") };
+            let [a0, a1, rest @ ..] = series.coefficients() else { panic!("eight coefficients") };
             assert_eq!(*a1, -1.0);
-            assert_eq!((*a0, others), (expected[0], &expected[1..]), "k = {k}");
+            assert_eq!((*a0, rest), (expected[0], &expected[1..]), "k = {k}");
         }
     }
 
     /// No terms and one term, equation (14) of the paper.
     #[test]
     fn few_terms_give_the_papers_coefficients() {
-        let of =
+        let coefficients =
             |terms| Series::new(3.0, 4, Some(terms)).expect("few terms").coefficients().to_vec();
-        assert_eq!(of(0), [1.0, -1.0, 0.0, 0.0]);
-        assert_eq!(of(1), [13.0 / 12.0, -1.0, -1.0 / 12.0, 0.0]);
+        assert_eq!(coefficients(0), [1.0, -1.0, 0.0, 0.0]);
+        assert_eq!(coefficients(1), [13.0 / 12.0, -1.0, -1.0 / 12.0, 0.0]);
     }
 
     #[test]

@@ -1,22 +1,22 @@
 //! Values beside a place where the motion is singular.
 //!
 //! At a dead point a coordinate that does not take part in the fold stays smooth, but may be made of others
-//! that do: a slide on a link that folds, of joints that do not. Its derivatives are small differences of
-//! great ones, and none of their digits may be left. The same holds where a length is 0 or a joint at
-//! infinity. There a polynomial through values from farther away stands for it. How far away, the values
-//! themselves show: near the place digits are lost, far from it a polynomial is off.
+//! that do: a slide on a link that folds, between joints that do not. Its derivatives are small differences
+//! of large ones and may lose all digits. The same holds where a length is 0 or a joint is at infinity.
+//! There a polynomial through values farther away replaces it. The values themselves show how far away:
+//! near the place digits are lost, far from it the polynomial is inaccurate.
 
 use super::hermite::Series;
-use super::known::ByAngle;
+use super::node_values::ByAngle;
 use super::window::{Weight, Window};
 
-/// By how much more than at the few places between nodes rounding may reach elsewhere.
+/// Rounding elsewhere may exceed that at the few places between nodes by this factor.
 const MARGIN: f64 = 2.0;
-/// How many pairs of the nearest sets show that, too. In one alone errors may be all the same: so near to the
-/// place the motion hardly changes.
+/// Number of pairs of the nearest sets that also show rounding. In a single set all errors may be the same:
+/// so near to the place the motion hardly changes.
 const NEAREST: usize = 2;
 
-/// What makes the motion singular at a place.
+/// The cause of a singular motion at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Singularity {
     /// A dead point, or a joint at infinity: derivatives of some coordinates are infinite.
@@ -31,7 +31,7 @@ pub(super) struct Side {
     pub place: f64,
     /// 1 toward greater angles, −1 toward smaller ones.
     pub way: f64,
-    /// How far nodes may be from it.
+    /// Greatest distance of nodes from it.
     pub most: f64,
     pub singularity: Singularity,
 }
@@ -41,8 +41,8 @@ pub(super) struct Side {
 pub(super) struct Sample {
     pub distance: f64,
     pub angle: f64,
-    pub own: ByAngle,
-    /// The size of what it is made of, which rounding is a part of.
+    pub jet: ByAngle,
+    /// The size of its terms; rounding is relative to it.
     pub size: f64,
 }
 
@@ -57,9 +57,9 @@ pub(super) struct Samples {
 pub(super) struct Fit {
     pub series: Series,
     reach: f64,
-    /// How far its limit may be off.
+    /// Error of its limit.
     pub error: f64,
-    /// The size of what it is made of at its nodes, and the part of that by which rounding is off.
+    /// The size of its terms at its nodes, and rounding as a part of that.
     pub size: f64,
     pub noise: f64,
 }
@@ -71,7 +71,7 @@ impl Fit {
     }
 }
 
-/// A polynomial that stands for a derivative on one side of a place, where that has lost more digits.
+/// A polynomial that replaces a derivative on one side of a place, where the derivative has lost more digits.
 pub(super) struct Beside {
     pub side: Side,
     pub fit: Fit,
@@ -86,13 +86,13 @@ impl Beside {
 }
 
 impl Samples {
-    /// The polynomial of values, weighted by a pole, that is least off.
+    /// The polynomial of values, weighted by a pole, with the smallest error.
     pub(super) fn fit(&self, pole: usize) -> Option<Fit> {
         let end = usize::from(self.side.way < 0.0);
         let poles = [0, 1].map(|i| if i == end { pole } else { 0 });
         let weighted = |sample: &Sample| {
             let weight = Weight::new(sample.angle, poles);
-            let [value, slope] = weight.of([sample.own[0], sample.own[1]]);
+            let [value, slope] = weight.of([sample.jet[0], sample.jet[1]]);
             (sample.distance, value, self.side.way * slope)
         };
         let factor = |sample: &Sample| Weight::new(sample.angle, poles).factor;
@@ -117,9 +117,9 @@ impl Samples {
             nodes.iter().fold(0.0_f64, |most, node| most.max(factor(node) * node.size))
         };
         let fits = |series: Vec<Series>| {
-            let limits: Vec<f64> = series.iter().map(|own| own.at(0.0)[0]).collect();
+            let limits: Vec<f64> = series.iter().map(|polynomial| polynomial.at(0.0)[0]).collect();
             let fit = move |(set, (series, nodes)): (usize, (Series, &[Sample; 3]))| {
-                // How far the last one is off is not known.
+                // The error of the last one is not known.
                 let apart =
                     limits.get(set + 1).map_or(f64::INFINITY, |next| (next - limits[set]).abs());
                 let (reach, size) = (nodes[0].distance, size(nodes));
@@ -127,7 +127,7 @@ impl Samples {
             };
             series.into_iter().zip(&self.sets).enumerate().map(fit)
         };
-        // What does not take part in a fold is a function of the square, the distance itself.
+        // A coordinate that does not take part in a fold is a function of the square, the distance itself.
         let even = if pole == 0 { through(true) } else { Vec::new() };
         fits(general).chain(fits(even)).min_by(|a, b| a.error.total_cmp(&b.error))
     }

@@ -2,21 +2,21 @@
 
 use super::beside::{Beside, Sample, Samples, Side, Singularity};
 use super::curve::Curve;
-use super::known::{ByAngle, Known};
+use super::node_values::{ByAngle, NodeValues};
 use super::window::Window;
 
-/// Nodes (as angles from the place) of a polynomial, and multiples of them: from where hardly a digit is
-/// left of third derivatives to where a quarter of the window is between them.
+/// Nodes (as angles from the place) of a polynomial, and multiples of them: from where third derivatives
+/// have hardly a digit left to where a quarter of the window is between them.
 const NODES: [f64; 3] = [0.004, 0.008, 0.012];
 const FACTORS: [f64; 13] =
     [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
-/// Places between the nearest nodes (in multiples of these) that show how far rounding reaches.
+/// Places between the nearest nodes (in multiples of these) that show the size of rounding.
 const BETWEEN: [f64; 6] = [0.005, 0.006, 0.007, 0.009, 0.010, 0.011];
 impl Curve<'_> {
     /// The derivative with its first two derivatives by the window's angle: as computed, or from the
     /// polynomial where that has more digits.
     pub(super) fn by_angle(&mut self, window: &Window, angle: f64) -> Option<ByAngle> {
-        let own = self.computed_by_angle(window, angle)?;
+        let computed = self.computed_by_angle(window, angle)?;
         let better = self.beside.iter().find_map(|beside| {
             let distance = beside.distance(window, angle)?;
             let Beside { side, fit } = beside;
@@ -26,25 +26,25 @@ impl Curve<'_> {
                 [value, side.way * slope, bend]
             })
         });
-        Some(better.unwrap_or(own))
+        Some(better.unwrap_or(computed))
     }
 
-    /// The limit on one side of a place where a coordinate is smooth. Beside it values from now on come
-    /// from the polynomial where that has more digits.
+    /// The limit on one side of a place where a coordinate is smooth. Later values beside it come from the
+    /// polynomial where that has more digits.
     pub(super) fn limit(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         samples: &Samples,
     ) -> Option<f64> {
         let beside = Beside { side: samples.side, fit: samples.fit(0)? };
         let limit = beside.fit.limit();
         let reaches = |angle: &f64| beside.distance(window, *angle).is_some();
-        let stale: Vec<f64> = known.angles().filter(reaches).collect();
+        let stale: Vec<f64> = node_values.angles().filter(reaches).collect();
         self.beside.push(beside);
         for angle in stale {
             let value = self.by_angle(window, angle);
-            known.replace(angle, value);
+            node_values.replace(angle, value);
         }
         Some(limit)
     }
@@ -56,7 +56,7 @@ impl Curve<'_> {
             if factor * NODES[2] > side.most {
                 break;
             }
-            // So near that there are no values, or too far.
+            // So near that no value exists, or too far.
             let Some(nodes) = self.set(window, side, NODES.map(|node| factor * node)) else {
                 continue;
             };
@@ -77,11 +77,11 @@ impl Curve<'_> {
 
     fn sample(&mut self, window: &Window, side: Side, distance: f64) -> Option<Sample> {
         let angle = window.in_period(side.place + side.way * distance);
-        let own = self.computed_by_angle(window, angle)?;
-        Some(Sample { distance, angle, own, size: self.size_of_terms(side.singularity) })
+        let jet = self.computed_by_angle(window, angle)?;
+        Some(Sample { distance, angle, jet, size: self.size_of_terms(side.singularity) })
     }
 
-    /// The size of what the derivative is made of at the last position.
+    /// The size of the derivative's terms at the last position.
     fn size_of_terms(&self, singularity: Singularity) -> f64 {
         let size = match singularity {
             Singularity::Pole => self.evaluator.position().greatest(self.order),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::beside::Beside;
-use super::known::{ByAngle, Known, NOISE, Rounding};
+use super::node_values::{ByAngle, NOISE, NodeValues, Rounding};
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Weight, Window};
 use crate::math::root::all_roots::{Roots, Sample, all_roots};
@@ -12,7 +12,7 @@ use crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED;
 use crate::query::evaluator::Evaluator;
 use crate::structure::closure::point_of_joint;
 
-/// Where the value between two ends is taken, from 0 to 1: the first may be without.
+/// Where the value between two ends is taken, from 0 to 1: it may not exist at the first.
 const WITHIN: [f64; 3] = [0.5, 0.3, 0.8];
 
 /// A coordinate along the branch, and the order of its derivative.
@@ -20,9 +20,9 @@ pub(super) struct Curve<'m> {
     pub evaluator: Evaluator<'m>,
     pub tracked: Tracked,
     pub order: usize,
-    /// What stands for its values beside places where digits are lost.
+    /// Polynomials that replace its values beside places where digits are lost.
     pub beside: Vec<Beside>,
-    /// Once it is true, there are no more values.
+    /// Once this is true, the curve gives no more values.
     pub cancel: Option<&'m AtomicBool>,
 }
 
@@ -40,9 +40,9 @@ impl Curve<'_> {
             match self.tracked {
                 Tracked::Joint(joint, component) => {
                     let point = state.pose.points[point_of_joint(joint) * state.len + k][0];
-                    let own = if component == 0 { point.x } else { point.y };
+                    let coordinate = if component == 0 { point.x } else { point.y };
                     let origin = if k == 0 { position.constants.origin[component] } else { 0.0 };
-                    own * units.length[k] + origin
+                    coordinate * units.length[k] + origin
                 }
                 Tracked::Slide(slide) => {
                     state.pose.slides[slide * state.len + k][0] * units.length[k]
@@ -54,8 +54,8 @@ impl Curve<'_> {
         jet.iter().all(|x| x.is_finite()).then_some(jet)
     }
 
-    /// How far rounding reaches at the last position, usually and at most: a coordinate that stands, or
-    /// does not take part in what folds, may be made of others that do.
+    /// Bounds of rounding at the last position, usually and at most: a coordinate that stands, or does not
+    /// take part in the fold, may be made of others that do.
     pub(super) fn rounding(&self) -> [f64; 2] {
         let position = self.evaluator.position();
         // Beside a change point the error of a k-th derivative is one of κ^(k + 1).
@@ -77,36 +77,36 @@ impl Curve<'_> {
         Some([value, rate * first, bend * first * first + rate * second])
     }
 
-    /// Roots of what `of` makes of the values, its slope with it; `entry` is the one whose poles it has.
+    /// Roots of `equation`, which returns a value with its slope; `entry` is the entry whose poles it has.
     fn roots(
         &mut self,
         window: &Window,
-        known: &Known,
+        node_values: &NodeValues,
         (entry, poles): (usize, [usize; 2]),
-        of: impl Fn(ByAngle) -> [f64; 2],
+        equation: impl Fn(ByAngle) -> [f64; 2],
     ) -> Roots {
         let unit = self.unit(window, entry);
-        let rounding = Rounding::new(known, (entry, poles), unit);
+        let rounding = Rounding::new(node_values, (entry, poles), unit);
         let mut sample = |angle: f64| {
-            let own = known.value_or(angle, || self.by_angle(window, angle))?;
+            let jet = node_values.value_or(angle, || self.by_angle(window, angle))?;
             let weight = Weight::new(angle, poles);
-            let [value, slope] = weight.of(of(own));
+            let [value, slope] = weight.of(equation(jet));
             Some(Sample { x: angle, value, slope, noise: rounding.at(angle, weight.factor) })
         };
-        let mut found = Roots::default();
+        let mut roots = Roots::default();
         // From one place where the value is not smooth to the next.
         let is_smooth = |from: &f64, to: &f64| {
             !window.zero_lengths.iter().any(|zero| (*from..*to).contains(&zero.angle))
         };
-        for nodes in known.nodes.chunk_by(is_smooth) {
-            let own = all_roots(nodes, &mut sample);
-            found.isolated.extend(own.isolated);
-            found.jumps.extend(own.jumps);
+        for nodes in node_values.nodes.chunk_by(is_smooth) {
+            let local = all_roots(nodes, &mut sample);
+            roots.isolated.extend(local.isolated);
+            roots.jumps.extend(local.jumps);
         }
-        found
+        roots
     }
 
-    /// The natural size of the derivative, or of its own by the angle.
+    /// The natural size of the derivative, or of its derivative by the angle.
     fn unit(&self, window: &Window, entry: usize) -> f64 {
         self.own_unit(self.order + entry) * if entry == 0 { 1.0 } else { window.half }
     }
@@ -120,29 +120,29 @@ impl Curve<'_> {
 
     /// Values that may be extremes.
     pub(super) fn candidates(&mut self, window: &Window) -> Vec<ValueAt> {
-        let mut known = self.known_at(window, &window.nodes());
-        if self.order > 0 && known.is_zero(self.own_unit(self.order)) {
+        let mut node_values = self.node_values_at(window, &window.nodes());
+        if self.order > 0 && node_values.is_zero(self.own_unit(self.order)) {
             return vec![ValueAt { value: 0.0, q: window.middle }];
         }
-        let beside = self.settle(window, &mut known);
+        let beside = self.settle(window, &mut node_values);
         let mut values = Vec::new();
-        for (&angle, own) in known.nodes.iter().zip(&known.values) {
-            values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(angle) }));
+        for (&angle, jet) in node_values.nodes.iter().zip(&node_values.values) {
+            values.extend(jet.map(|jet| ValueAt { value: jet[0], q: window.at(angle) }));
         }
-        for q in self.poles_between(window, &known).map(|angle| window.at(angle)) {
+        for q in self.poles_between(window, &node_values).map(|angle| window.at(angle)) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q });
             values.push(ValueAt { value: f64::INFINITY, q });
         }
         // The derivative by the angle has a pole of one order more.
         let poles = window.poles(self.order).map(|pole| if pole == 0 { 0 } else { pole + 1 });
-        let roots = self.roots(window, &known, (1, poles), |own| [own[1], own[2]]);
-        // Where the slope has lost digits it steps over zero.
+        let roots = self.roots(window, &node_values, (1, poles), |jet| [jet[1], jet[2]]);
+        // Where the slope has lost digits it jumps over zero.
         for angle in roots.isolated.iter().map(|root| root.at).chain(roots.jumps) {
-            let own = self.by_angle(window, angle);
-            values.extend(own.map(|own| ValueAt { value: own[0], q: window.at(angle) }));
+            let jet = self.by_angle(window, angle);
+            values.extend(jet.map(|jet| ValueAt { value: jet[0], q: window.at(angle) }));
         }
         values.extend(beside);
-        if self.goes_round(window, &known) {
+        if self.goes_round(window, &node_values) {
             values.push(ValueAt { value: f64::NEG_INFINITY, q: f64::NAN });
             values.push(ValueAt { value: f64::INFINITY, q: f64::NAN });
         }
@@ -151,50 +151,55 @@ impl Curve<'_> {
 
     /// Whether it is the angle of a link that is another after a period. At the very ends the angle may
     /// step (of a cylinder without length), and has no value: it is compared where it has one.
-    fn goes_round(&mut self, window: &Window, known: &Known) -> bool {
+    fn goes_round(&mut self, window: &Window, node_values: &NodeValues) -> bool {
         if !(window.is_period && matches!(self.tracked, Tracked::Link(_)) && self.order == 0) {
             return false;
         }
-        let gains = known.nodes.iter().zip(&known.values).find_map(|(&angle, own)| {
-            let [first, ..] = (*own)?;
+        let gains = node_values.nodes.iter().zip(&node_values.values).find_map(|(&angle, jet)| {
+            let [first, ..] = (*jet)?;
             Some(self.value(window.at(PI + angle))? - first)
         });
         gains.is_some_and(|gain| gain.abs() > PI)
     }
 
     /// Stretches over which a linear function of the value is not negative.
-    pub(super) fn stretches(&mut self, window: &Window, of: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-        let mut known = self.known_at(window, &window.nodes());
-        if self.order > 0 && known.is_zero(self.own_unit(self.order)) {
-            return if of(0.0) >= 0.0 { vec![window.ends()] } else { Vec::new() };
+    pub(super) fn stretches(
+        &mut self,
+        window: &Window,
+        condition: impl Fn(f64) -> f64,
+    ) -> Vec<[f64; 2]> {
+        let mut node_values = self.node_values_at(window, &window.nodes());
+        if self.order > 0 && node_values.is_zero(self.own_unit(self.order)) {
+            return if condition(0.0) >= 0.0 { vec![window.ends()] } else { Vec::new() };
         }
-        self.settle(window, &mut known);
-        let slope = of(1.0) - of(0.0);
+        self.settle(window, &mut node_values);
+        let slope = condition(1.0) - condition(0.0);
         let poles = window.poles(self.order);
-        let roots = self.roots(window, &known, (0, poles), |own| [of(own[0]), slope * own[1]]);
+        let roots =
+            self.roots(window, &node_values, (0, poles), |jet| [condition(jet[0]), slope * jet[1]]);
         // Where the value steps, or goes through infinity, it may pass the level without a root.
         let steps = window.zero_lengths.iter().map(|zero| zero.angle).chain(roots.jumps);
-        // Not so near to an end of the window that there are no values between.
+        // Not so near to an end of the window that no value lies between.
         let steps = steps.filter(|at| (window.aside..=PI - window.aside).contains(at));
         let inner = roots.isolated.iter().map(|root| root.at).chain(steps);
         let mut ends: Vec<f64> = inner.collect();
-        ends.extend(self.poles_between(window, &known));
+        ends.extend(self.poles_between(window, &node_values));
         ends.extend([0.0, PI]);
         ends.sort_by(f64::total_cmp);
-        let mut found: Vec<[f64; 2]> = Vec::new();
+        let mut stretches: Vec<[f64; 2]> = Vec::new();
         for pair in ends.windows(2) {
             let [from, to] = [pair[0], pair[1]];
             let inside = |on: &f64| self.by_angle(window, from + on * (to - from));
-            if !WITHIN.iter().find_map(inside).is_some_and(|own| of(own[0]) >= 0.0) {
+            if !WITHIN.iter().find_map(inside).is_some_and(|jet| condition(jet[0]) >= 0.0) {
                 continue;
             }
             let [from, to] = [from, to].map(|angle| window.at(angle));
-            match found.last_mut() {
+            match stretches.last_mut() {
                 // A value that only touches the level ends nothing.
                 Some(last) if last[1] == from => last[1] = to,
-                _ => found.push([from, to]),
+                _ => stretches.push([from, to]),
             }
         }
-        found
+        stretches
     }
 }

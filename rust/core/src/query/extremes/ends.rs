@@ -4,43 +4,43 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::known::{ByAngle, Known};
+use super::node_values::{ByAngle, NodeValues};
 use super::tracked::{Tracked, ValueAt};
 use super::window::Window;
 use crate::math::root::bisection::bisect;
 
-/// Halvings toward a pole, and how many times greater than at the nodes the value is there.
+/// Halvings toward a pole, and the ratio of the value there to those at the nodes.
 const HALVINGS: u32 = 40;
 const POLE: f64 = 1.0e6;
-/// How far (in halves of the window) a slide is followed to see where a value goes, and by what factor
-/// one grows that has no limit.
+/// Distance (in halves of the window) over which a slide is followed to see where a value goes, and the factor
+/// by which a value without a limit grows.
 const FAR: [f64; 2] = [1.0e2, 1.0e4];
 const GROWS: f64 = 10.0;
-/// How near (in halves of the window) to an end without a fold a value is compared with one farther away:
-/// as near as there is one.
+/// Distances (in halves of the window) from an end without a fold at which a value is compared with one
+/// farther away: as near as a value exists.
 const BESIDE_END: [f64; 4] = [1.0e-6, 1.0e-5, 1.0e-4, 1.0e-3];
 const FARTHER: f64 = 100.0;
 /// The coefficient of a pole at a dead point, relative to the greatest of any coordinate: below, it is zero
-/// but for the rounding of the dead point's own place, where directions are off by the root of u.
+/// except for the rounding of the dead point's own place, where directions are off by the root of u.
 const LEAST_POLE: f64 = 1.0e-7;
-/// How many times the error of that coefficient it exceeds: errors are estimates.
+/// The coefficient must exceed its error by this factor: errors are estimates.
 const CLEAR: f64 = 4.0;
 
 impl Curve<'_> {
-    /// Values at the ends, and beside places where a cylinder has no length; from now on they continue
-    /// beside those as far as their digits are lost.
-    pub(super) fn settle(&mut self, window: &Window, known: &mut Known) -> Vec<ValueAt> {
+    /// Values at the ends, and beside places where a cylinder has no length. Later values beside these come
+    /// from the polynomials as far as digits are lost.
+    pub(super) fn settle(&mut self, window: &Window, node_values: &mut NodeValues) -> Vec<ValueAt> {
         self.beside.clear();
-        let mut values = self.at_zero_lengths(window, known);
+        let mut values = self.at_zero_lengths(window, node_values);
         for side in [0, 1] {
             values.extend(if window.folds[side] {
-                self.at_dead_point(window, known, side)
+                self.at_dead_point(window, node_values, side)
             } else if window.infinite[side] {
                 self.at_infinity(window, side)
             } else if let Some(slide) = window.cuts[side] {
-                self.at_cut_end(window, known, (side, slide))
+                self.at_cut_end(window, node_values, (side, slide))
             } else if window.is_open(side) {
-                self.at_open_end(window, known, side)
+                self.at_open_end(window, node_values, side)
             } else {
                 None
             });
@@ -48,16 +48,16 @@ impl Curve<'_> {
         values
     }
 
-    /// Where the value goes through infinity between nodes.
+    /// The angles where the value goes through infinity between nodes.
     pub(super) fn poles_between(
         &mut self,
         window: &Window,
-        known: &Known,
+        node_values: &NodeValues,
     ) -> impl Iterator<Item = f64> + use<> {
-        let nodes = known.nodes.iter().zip(&known.values);
-        // At a pole itself there is no value.
+        let nodes = node_values.nodes.iter().zip(&node_values.values);
+        // A pole itself has no value.
         let values: Vec<(f64, ByAngle)> =
-            nodes.filter_map(|(&angle, own)| own.map(|own| (angle, own))).collect();
+            nodes.filter_map(|(&angle, jet)| jet.map(|jet| (angle, jet))).collect();
         let pairs = values.windows(2);
         let poles: Vec<f64> =
             pairs.filter_map(|pair| self.pole(window, pair[0], pair[1])).collect();
@@ -88,12 +88,17 @@ impl Curve<'_> {
         (above.abs().min(below.abs()) > POLE * size).then_some(before)
     }
 
-    /// The value where an interval ends without a fold: infinite if a joint is at infinity there, for
-    /// then it grows without end.
-    fn at_open_end(&mut self, window: &Window, known: &mut Known, side: usize) -> Option<ValueAt> {
+    /// The value where an interval ends without a fold: infinite if a joint is at infinity there, because
+    /// then it grows without limit.
+    fn at_open_end(
+        &mut self,
+        window: &Window,
+        node_values: &mut NodeValues,
+        side: usize,
+    ) -> Option<ValueAt> {
         let q = window.ends()[side];
         let inward = if side == 0 { window.half } else { -window.half };
-        // At the very end there is no value.
+        // The end itself has no value.
         let (part, near) =
             BESIDE_END.iter().find_map(|part| Some((part, self.value(q + inward * part)?)))?;
         let [rounding, _] = self.rounding();
@@ -101,22 +106,22 @@ impl Curve<'_> {
         if near.abs() > (GROWS * far.abs()).max(rounding) {
             return Some(ValueAt { value: f64::INFINITY.copysign(near), q });
         }
-        let value = self.limit_at_end(window, known, (side, Singularity::Pole));
+        let value = self.limit_at_end(window, node_values, (side, Singularity::Pole));
         Some(ValueAt { value: value.unwrap_or(near), q })
     }
 
-    /// The value where a length is 0: of a driven one the position itself does not exist.
+    /// The value where a length is 0; for a driven length the position itself does not exist.
     fn at_cut_end(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         (side, slide): (usize, usize),
     ) -> Option<ValueAt> {
         let q = window.ends()[side];
         if self.order == 0 && self.tracked == Tracked::Slide(slide) {
             return Some(ValueAt { value: 0.0, q });
         }
-        let value = self.limit_at_end(window, known, (side, Singularity::ZeroLength))?;
+        let value = self.limit_at_end(window, node_values, (side, Singularity::ZeroLength))?;
         Some(ValueAt { value, q })
     }
 
@@ -124,14 +129,14 @@ impl Curve<'_> {
     fn limit_at_end(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         (side, singularity): (usize, Singularity),
     ) -> Option<f64> {
         let samples = self.samples(window, inward(window, side, singularity));
-        self.limit(window, known, &samples)
+        self.limit(window, node_values, &samples)
     }
 
-    /// Where the value goes as a slide goes on without end.
+    /// The limit of the value as a slide goes on without end.
     fn at_infinity(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
         let way = if side == 0 { -1.0 } else { 1.0 };
         let [near, far] = FAR.map(|part| self.value(window.middle + way * part * window.half));
@@ -146,7 +151,7 @@ impl Curve<'_> {
     fn at_dead_point(
         &mut self,
         window: &Window,
-        known: &mut Known,
+        node_values: &mut NodeValues,
         side: usize,
     ) -> Option<ValueAt> {
         let q = window.ends()[side];
@@ -155,12 +160,12 @@ impl Curve<'_> {
         for pole in (1..=window.poles(self.order)[side]).rev().step_by(2) {
             let fit = samples.fit(pole)?;
             let coefficient = fit.limit();
-            let least = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
-            if coefficient.abs() > least {
+            let bound = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
+            if coefficient.abs() > bound {
                 return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
             }
         }
-        let value = self.limit(window, known, &samples)?;
+        let value = self.limit(window, node_values, &samples)?;
         Some(ValueAt { value, q })
     }
 }

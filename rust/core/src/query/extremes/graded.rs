@@ -10,12 +10,12 @@
 //! distance that condition is of one size.
 
 use super::curve::Curve;
-use super::known::{ByAngle, Known, cubic};
+use super::node_values::{ByAngle, NodeValues, cubic};
 use super::window::Window;
 
 /// The greatest ratio of a condition's values in a cell.
 const GREATEST_RATIO: f64 = 2.0;
-/// How far the value in the middle of a cell may be from the cubic through its ends, as a part of the
+/// Greatest distance of the value in the middle of a cell from the cubic through its ends, as a part of the
 /// greatest of the three. Conditions of groups are those of several motions, and may hide a sharp one.
 const GREATEST_BEND: f64 = 0.1;
 /// Halvings of a cell for that, beside a sharp motion: in smaller cells conditions show it.
@@ -23,32 +23,32 @@ const BEND_HALVINGS: u32 = 3;
 /// Halvings of a cell: 1e-9 of a turn. Nearer to a place where a joint is at infinity, or a length is 0,
 /// conditions grow without end.
 const MAX_HALVINGS: u32 = 24;
-/// How near (as an angle) to a length of 0 the condition is weighted by the distance.
+/// Distance (as an angle) from a length of 0 within which the condition is weighted by the distance.
 const NEAR_ZERO: f64 = 0.1;
 
-/// A sample of the curve, with the conditions of what it is made of.
+/// A sample of the curve, with the conditions of its dyads and groups.
 struct Node {
     angle: f64,
     value: Option<ByAngle>,
-    /// How far rounding of everything else reaches, usually and at most.
+    /// Bounds of the rounding of everything else, usually and at most.
     rounding: [f64; 2],
     conditions: Vec<f64>,
 }
 
 impl Curve<'_> {
     /// Values at nodes, and at those between them that show how sharp the motion is.
-    pub(super) fn known_at(&mut self, window: &Window, nodes: &[f64]) -> Known {
-        let mut known = Known::default();
+    pub(super) fn node_values_at(&mut self, window: &Window, nodes: &[f64]) -> NodeValues {
+        let mut node_values = NodeValues::default();
         let mut before: Option<Node> = None;
         for &angle in nodes {
             let here = self.node(window, angle);
             if let Some(before) = &before {
-                self.grade(window, [before, &here], MAX_HALVINGS, &mut known);
+                self.grade(window, [before, &here], MAX_HALVINGS, &mut node_values);
             }
-            known.push_node(angle, here.value, here.rounding);
+            node_values.push_node(angle, here.value, here.rounding);
             before = Some(here);
         }
-        known
+        node_values
     }
 
     fn node(&mut self, window: &Window, angle: f64) -> Node {
@@ -64,18 +64,24 @@ impl Curve<'_> {
         Node { angle, value, rounding, conditions }
     }
 
-    /// Adds what is known between two nodes.
-    fn grade(&mut self, window: &Window, [a, b]: [&Node; 2], halvings: u32, known: &mut Known) {
+    /// Adds the values between two nodes.
+    fn grade(
+        &mut self,
+        window: &Window,
+        [a, b]: [&Node; 2],
+        halvings: u32,
+        node_values: &mut NodeValues,
+    ) {
         let middle = self.node(window, 0.5 * (a.angle + b.angle));
         let is_within = middle.angle > a.angle && middle.angle < b.angle;
         let first_ones = halvings > MAX_HALVINGS - BEND_HALVINGS;
         let is_sharp = vary([a, &middle, b]) || first_ones && bends([a, &middle, b]);
         if halvings > 0 && is_within && is_sharp {
-            self.grade(window, [a, &middle], halvings - 1, known);
-            known.push_node(middle.angle, middle.value, middle.rounding);
-            self.grade(window, [&middle, b], halvings - 1, known);
+            self.grade(window, [a, &middle], halvings - 1, node_values);
+            node_values.push_node(middle.angle, middle.value, middle.rounding);
+            self.grade(window, [&middle, b], halvings - 1, node_values);
         } else {
-            known.push_between(middle.angle, middle.value);
+            node_values.push_between(middle.angle, middle.value);
         }
     }
 }
@@ -84,8 +90,8 @@ impl Curve<'_> {
 fn vary(samples: [&Node; 3]) -> bool {
     let [a, middle, b] = samples.map(|node| &node.conditions);
     a.iter().zip(middle).zip(b).any(|((&a, &middle), &b)| {
-        let (least, greatest) = (a.min(middle).min(b), a.max(middle).max(b));
-        greatest > GREATEST_RATIO * least
+        let (smallest, greatest) = (a.min(middle).min(b), a.max(middle).max(b));
+        greatest > GREATEST_RATIO * smallest
     })
 }
 

@@ -10,18 +10,18 @@ struct Hermite {
 impl Hermite {
     /// Through nodes, each with its value and slope.
     fn new([a, b, c]: [(f64, f64, f64); 3]) -> Self {
-        let given = [a, a, b, b, c, c];
-        let mut column = given.map(|node| node.1);
+        let doubled = [a, a, b, b, c, c];
+        let mut column = doubled.map(|node| node.1);
         let mut coefficients = column;
-        for order in 1..given.len() {
-            for i in 0..given.len() - order {
-                let ((from, _, slope), (to, ..)) = (given[i], given[i + order]);
+        for order in 1..doubled.len() {
+            for i in 0..doubled.len() - order {
+                let ((from, _, slope), (to, ..)) = (doubled[i], doubled[i + order]);
                 let difference = column[i + 1] - column[i];
                 column[i] = if to == from { slope } else { difference / (to - from) };
             }
             coefficients[order] = column[0];
         }
-        Self { nodes: given.map(|node| node.0), coefficients }
+        Self { nodes: doubled.map(|node| node.0), coefficients }
     }
 
     /// Its value with its first two derivatives.
@@ -64,13 +64,14 @@ mod tests {
 
     #[test]
     fn a_polynomial_of_the_fifth_degree_is_its_own() {
-        let of = |x: f64| {
+        let polynomial = |x: f64| {
             let value = 3.0 - x + 0.5 * x * x - x.powi(5);
             [value, -1.0 + x - 5.0 * x.powi(4), 1.0 - 20.0 * x.powi(3)]
         };
-        let hermite = Hermite::new([0.1, 0.25, 0.4].map(|x| (x, of(x)[0], of(x)[1])));
+        let hermite =
+            Hermite::new([0.1, 0.25, 0.4].map(|x| (x, polynomial(x)[0], polynomial(x)[1])));
         for x in [0.0, 0.1, 0.17, 0.4] {
-            let apart = [0, 1, 2].map(|k| hermite.at(x)[k] - of(x)[k]);
+            let apart = [0, 1, 2].map(|k| hermite.at(x)[k] - polynomial(x)[k]);
             // Each derivative divides rounding by a distance of nodes.
             let digits = apart.iter().zip([1e-13, 1e-12, 1e-11]);
             assert!(digits.into_iter().all(|(gap, most)| gap.abs() < most), "{x}: {apart:?}");
@@ -79,13 +80,14 @@ mod tests {
 
     #[test]
     fn an_even_polynomial_of_the_tenth_degree_is_its_own() {
-        let of = |x: f64| {
+        let polynomial = |x: f64| {
             let value = 2.0 + 3.0 * x * x - x.powi(10);
             [value, 6.0 * x - 10.0 * x.powi(9), 6.0 - 90.0 * x.powi(8)]
         };
-        let series = Series::new([0.3, 0.6, 0.9].map(|x| (x, of(x)[0], of(x)[1])), true);
+        let series =
+            Series::new([0.3, 0.6, 0.9].map(|x| (x, polynomial(x)[0], polynomial(x)[1])), true);
         for x in [0.0, 0.3, 0.5, 0.9] {
-            let apart = [0, 1, 2].map(|k| series.at(x)[k] - of(x)[k]);
+            let apart = [0, 1, 2].map(|k| series.at(x)[k] - polynomial(x)[k]);
             assert!(apart.iter().all(|gap| gap.abs() < 1e-11), "{x}: {apart:?}");
         }
     }

@@ -7,7 +7,7 @@ mod curve;
 mod ends;
 mod graded;
 mod hermite;
-mod known;
+mod node_values;
 pub(crate) mod tracked;
 mod window;
 mod zero_lengths;
@@ -26,7 +26,7 @@ use crate::plan::mechanism::Mechanism;
 
 impl Mechanism {
     /// The least and the greatest value of a derivative of order 0 to 3 of a coordinate, over all
-    /// intervals or the one that holds `within`; none if the assembly does not exist there. At a dead
+    /// intervals or the one that contains `within`; `None` if the assembly does not exist there. At a dead
     /// point derivatives are infinite, and so is the angle of a link that goes round.
     ///
     /// # Errors
@@ -41,28 +41,28 @@ impl Mechanism {
         within: Option<f64>,
         cancel: Option<&AtomicBool>,
     ) -> Result<Option<[ValueAt; 2]>, SolveError> {
-        let mut found: Option<[ValueAt; 2]> = None;
+        let mut extremes: Option<[ValueAt; 2]> = None;
         let is_length = matches!(tracked, Tracked::Slide(slide) if self.linkage().slides[slide].length)
             && order == 0;
         self.over_intervals((dimensions, signs), (tracked, order), cancel, |curve, window| {
             if within.is_some_and(|q| !window.holds(q)) {
                 return;
             }
-            for mut one in curve.candidates(window) {
+            for mut candidate in curve.candidates(window) {
                 if is_length {
                     // Extrapolated to a dead point it may be negative by rounding.
-                    one.value = one.value.max(0.0);
+                    candidate.value = candidate.value.max(0.0);
                 }
-                found = Some(match found {
-                    None => [one; 2],
+                extremes = Some(match extremes {
+                    None => [candidate; 2],
                     Some([least, greatest]) => [
-                        if one.value < least.value { one } else { least },
-                        if one.value > greatest.value { one } else { greatest },
+                        if candidate.value < least.value { candidate } else { least },
+                        if candidate.value > greatest.value { candidate } else { greatest },
                     ],
                 });
             }
         })?;
-        Ok(found)
+        Ok(extremes)
     }
 
     /// Stretches of q over which a derivative of order 0 to 3 of a coordinate is at least `level`, or
@@ -79,16 +79,16 @@ impl Mechanism {
         (level, at_least): (f64, bool),
         cancel: Option<&AtomicBool>,
     ) -> Result<Vec<[f64; 2]>, SolveError> {
-        let mut found = Vec::new();
+        let mut all_stretches = Vec::new();
         let sign = if at_least { 1.0 } else { -1.0 };
         self.over_intervals((dimensions, signs), (tracked, order), cancel, |curve, window| {
-            let mut own = curve.stretches(window, |value| sign * (value - level));
+            let mut pieces = curve.stretches(window, |value| sign * (value - level));
             if window.is_period {
-                join(&mut own, window.ends());
+                join(&mut pieces, window.ends());
             }
-            found.extend(own);
+            all_stretches.extend(pieces);
         })?;
-        Ok(found)
+        Ok(all_stretches)
     }
 
     /// Hands every interval of an assembly to `visit`.

@@ -1,4 +1,4 @@
-//! What extremes are of, and what they are.
+//! The coordinates that can have extremes, and the extremes.
 
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;

@@ -13,7 +13,7 @@ use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::Evaluator;
 use crate::query::limits::finder::Interval;
 
-/// Nodes for each turn (or size), and at least.
+/// Nodes for each turn (or size), and the least number.
 const NODES: f64 = 96.0;
 /// Nearest node to a dead point, as an angle.
 const NEAR_END: f64 = 1.0e-3;
@@ -25,17 +25,17 @@ const NEAR_OPEN_END: f64 = 1.0e-4;
 pub(super) struct Window {
     pub middle: f64,
     pub half: f64,
-    /// Which ends are dead points.
+    /// Whether each end is a dead point.
     pub folds: [bool; 2],
     /// The slides whose values are lengths, and 0 at the ends.
     pub cuts: [Option<usize>; 2],
-    /// Which ends are infinite: of a slide that nothing stops.
+    /// Whether each end is infinite, for a slide that nothing stops.
     pub infinite: [bool; 2],
     /// Whether it is one period of a motion that closes.
     pub is_period: bool,
-    /// Where passive cylinders have no length and what is looked at is not smooth.
+    /// Where passive cylinders have no length and the tracked coordinate is not smooth.
     pub zero_lengths: Vec<ZeroLength>,
-    /// Distance (as an angle) from these places nearer to which no values are taken.
+    /// No values are taken nearer than this (as an angle) to these places.
     pub aside: f64,
     /// Turns of the driver, or its way in sizes.
     length: f64,
@@ -98,15 +98,15 @@ impl Window {
         if self.is_period { distance.min((PI - distance).abs()) } else { distance }
     }
 
-    /// How far (as an angle) it is from a place to the next where the motion is not smooth.
+    /// Distance (as an angle) from a place to the next where the motion is not smooth.
     pub(super) fn to_next(&self, place: f64) -> f64 {
         let ends = if self.is_period { [place; 2] } else { [0.0, PI] };
         let places = self.zero_lengths.iter().map(|zero| zero.angle).chain(ends);
-        let others = places.filter(|&other| other != place);
-        others.map(|other| self.distance(place, other)).fold(PI, f64::min)
+        let rest = places.filter(|&next| next != place);
+        rest.map(|next| self.distance(place, next)).fold(PI, f64::min)
     }
 
-    /// Angles from end to end, but none where a cylinder is too short.
+    /// Angles from end to end, without those where a cylinder is too short.
     pub(super) fn nodes(&self) -> Vec<f64> {
         let count = (NODES * self.length).max(NODES).ceil();
         let [before, behind] = self.margins();
@@ -124,7 +124,7 @@ impl Window {
         nodes
     }
 
-    /// How far (as an angle) the first and last node are from the ends.
+    /// Distance (as an angle) of the first and last node from the ends.
     fn margins(&self) -> [f64; 2] {
         [0, 1].map(|side| match (self.has_folds(), self.is_open(side)) {
             (true, false) => NEAR_END,
@@ -134,7 +134,7 @@ impl Window {
         })
     }
 
-    /// The angle of a period where the motion is as at this one.
+    /// The angle within the period where the motion is the same.
     pub(super) fn in_period(&self, angle: f64) -> f64 {
         if self.is_period { angle - PI * (angle / PI).floor() } else { angle }
     }

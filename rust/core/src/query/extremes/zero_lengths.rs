@@ -1,28 +1,32 @@
 //! Where the joints of a passive cylinder coincide: its length has a kink there, and its angle steps by
-//! half a turn. No derivative shows it, so these places are looked for by themselves.
+//! half a turn. No derivative shows this, so a search of its own finds these places.
 
 use std::f64::consts::PI;
 
 use super::beside::{Side, Singularity};
 use super::curve::Curve;
-use super::known::Known;
+use super::node_values::NodeValues;
 use super::tracked::{Tracked, ValueAt};
 use super::window::{Window, ZeroLength};
 use crate::math::root::bisection::{TO_ROUNDING, bisect};
 use crate::plan::dyad::Unknown;
 use crate::plan::plan::Step;
 
-/// Distance (as an angle) from a length of 0 nearer to which no values are taken, of each order: the
-/// direction there has errors of u κ, and its k-th derivatives of u κ^(k + 1).
+/// No values of each order are taken nearer than this (as an angle) to a length of 0: the direction there
+/// has errors of u κ, and its k-th derivatives of u κ^(k + 1).
 const ASIDE: [f64; 4] = [1.0e-6, 1.0e-4, 1.0e-3, 3.0e-3];
 /// Greatest length there, relative to the size: the root of the rounding of its square.
 const ZERO: f64 = 1.0e-7;
-/// Places (as angles) nearer to each other than this are one, found from both ends of a period.
+/// Places (as angles) nearer to each other than this are the same, found from both ends of a period.
 const SAME: f64 = 1.0e-9;
 
 impl Curve<'_> {
     /// Values beside the places where the tracked coordinate is not smooth.
-    pub(super) fn at_zero_lengths(&mut self, window: &Window, known: &mut Known) -> Vec<ValueAt> {
+    pub(super) fn at_zero_lengths(
+        &mut self,
+        window: &Window,
+        node_values: &mut NodeValues,
+    ) -> Vec<ValueAt> {
         let mut values = Vec::new();
         for zero in &window.zero_lengths {
             let q = window.at(zero.angle);
@@ -35,19 +39,19 @@ impl Curve<'_> {
                 let singularity = Singularity::ZeroLength;
                 let samples =
                     self.samples(window, Side { place: zero.angle, way, most, singularity });
-                let limit = self.limit(window, known, &samples);
+                let limit = self.limit(window, node_values, &samples);
                 values.extend(limit.map(|value| ValueAt { value, q }));
             }
         }
         values
     }
 
-    /// Looks for the places where passive cylinders have no length. What depends on their direction has no
-    /// derivatives there; other coordinates are smooth, and pass without notice.
+    /// Finds the places where passive cylinders have no length. A coordinate that depends on their direction
+    /// has no derivatives there; others are smooth, and for them the places are dropped.
     pub(super) fn find_zero_lengths(&mut self, window: &mut Window) {
-        let mut found = self.zero_lengths(window);
-        found.retain(|zero| self.computed_by_angle(window, zero.angle).is_none());
-        window.zero_lengths = found;
+        let mut zeros = self.zero_lengths(window);
+        zeros.retain(|zero| self.computed_by_angle(window, zero.angle).is_none());
+        window.zero_lengths = zeros;
         window.aside = ASIDE[self.order];
     }
 
@@ -62,17 +66,17 @@ impl Curve<'_> {
             // The end of a period is within it, too.
             nodes.extend(nodes.get(1).map(|first| PI + first));
         }
-        let mut found = Vec::new();
+        let mut zeros = Vec::new();
         for (step, slide) in lengths {
             let places = self.zeros_of(window, &nodes, slide);
-            found.extend(places.into_iter().map(|angle| ZeroLength { angle, step, slide }));
+            zeros.extend(places.into_iter().map(|angle| ZeroLength { angle, step, slide }));
         }
-        found
+        zeros
     }
 
-    /// The angles where one of them has none.
+    /// The angles where one of them has no length.
     fn zeros_of(&mut self, window: &Window, nodes: &[f64], slide: usize) -> Vec<f64> {
-        let mut found: Vec<f64> = Vec::new();
+        let mut angles: Vec<f64> = Vec::new();
         let mut before: Option<(f64, f64)> = None;
         for &angle in nodes {
             let here = self.length(window, angle, slide).map(|(_, rate)| (angle, rate));
@@ -86,18 +90,18 @@ impl Curve<'_> {
                     && let Some((length, rate)) = self.length(window, at, slide)
                     && length < ZERO
                 {
-                    // Beside the place no rate is known; up to it the length falls evenly.
+                    // Beside the place the rate is not known; up to it the length falls evenly.
                     let ahead = -length / rate * self.evaluator.unit(0);
                     let place = window.in_period(at + ahead / window.rates(at)[0]);
-                    if found.iter().all(|&known| window.distance(known, place) > SAME) {
-                        found.push(place);
+                    if angles.iter().all(|&angle| window.distance(angle, place) > SAME) {
+                        angles.push(place);
                     }
                 }
             }
             // At length 0 itself it is neither.
             before = here.filter(|&(_, rate)| rate != 0.0).or(before.filter(|_| here.is_some()));
         }
-        found
+        angles
     }
 
     /// The steps of passive cylinders, and their slides.
@@ -108,7 +112,7 @@ impl Curve<'_> {
         };
         let steps = self.evaluator.position().plan.steps.iter().enumerate();
         steps
-            .filter_map(|(step, of)| match of {
+            .filter_map(|(step, kind)| match kind {
                 Step::Dyad(dyad) if dyad.is_length => {
                     dyad.unknowns.into_iter().find_map(slide).map(|slide| (step, slide))
                 }

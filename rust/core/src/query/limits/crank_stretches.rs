@@ -1,7 +1,7 @@
 //! Stretches over which a dyad on a crank and the ground closes, in closed form.
 //!
-//! Between the crank's pin and the rocker's pivot there is a distance that varies as the cosine of the
-//! crank's angle from the ground line: least where they are in line on one side, greatest on the other.
+//! The distance between the crank's pin and the rocker's pivot varies as the cosine of the
+//! crank's angle from the ground line: shortest where they are in line on one side, longest on the other.
 //! The dyad closes where it is between |a − b| and a + b. The distance of the pin from a standing guide
 //! varies as a sine, and must not exceed the rod. (J. J. Uicker, G. R. Pennock, J. E. Shigley, *Theory
 //! of Machines and Mechanisms*, 5th ed. 2017, ch. 1, Grashof's law.)
@@ -14,7 +14,7 @@ use crate::math::trig::asin;
 use crate::plan::constants::DesignConstants;
 use crate::plan::plan::Plan;
 
-/// Where the sine of half the angle is 1 or 0 but for rounding, the dyad is flat at a change point.
+/// Where the sine of half the angle is 1 or 0 to rounding, the dyad is flat at a change point.
 const TOUCH: f64 = 64.0 * f64::EPSILON;
 
 /// Where a dyad closes.

@@ -19,7 +19,7 @@ use crate::query::folding::{fold_of, folding_step, solve};
 const OFF: f64 = 0.123_456_7;
 /// Beside this coordinate (in sizes) of a driven length the branch of a group ends at length 0.
 const AT_ZERO: f64 = 1.0e-6;
-/// How often, and by what factor, the range of a slide is widened where nothing ends it.
+/// Number of widenings of the range of a slide that nothing ends, and their factor.
 const WIDENINGS: usize = 3;
 const WIDENING: f64 = 8.0;
 
@@ -28,9 +28,10 @@ const WIDENING: f64 = 8.0;
 pub struct Limits {
     /// Intervals of the coordinate, rad or m: without groups above class II all within a turn of the
     /// driver (or the period of its motion), each with its middle within half a turn of the drawing's
-    /// coordinate, so that one that holds it holds it itself; else only the one that holds it.
+    /// coordinate, so that the one of the drawing contains that coordinate without a shift; else only
+    /// that one.
     pub intervals: Vec<Interval>,
-    /// Turns after which the motion closes; none if it does not, or the driver is a slide.
+    /// Turns after which the motion closes; `None` if it does not, or the driver is a slide.
     pub period: Option<u32>,
 }
 
@@ -40,7 +41,7 @@ pub struct Interval {
     /// Where it begins and ends; infinite if it does not.
     pub ends: [f64; 2],
     /// What folds there, as an index of [`Mechanism::fold_names`], or beyond these a slide whose value
-    /// is a length and 0 there; none where nothing does.
+    /// is a length and 0 there; `None` where nothing folds.
     pub folds: [Option<usize>; 2],
 }
 
@@ -102,7 +103,7 @@ impl<'m> LimitsFinder<'m> {
         Ok(Self { design, cranks: cranks.flatten() })
     }
 
-    /// The limits of one design; none at all if its dimensions are invalid.
+    /// The limits of one design, without intervals if its dimensions are invalid.
     ///
     /// # Errors
     ///
@@ -138,8 +139,8 @@ impl<'m> LimitsFinder<'m> {
         let mut stretches = vec![Stretch::WHOLE];
         for (crank, dyad) in self.cranks.as_ref()?.iter().zip(plan.dyads()) {
             let Some(sign) = dyad.sign else { continue };
-            let own = crank_stretches(crank, plan, constants, sign)?;
-            stretches = intersections(&stretches, &own);
+            let closing = crank_stretches(crank, plan, constants, sign)?;
+            stretches = intersections(&stretches, &closing);
         }
         shift_near(&mut stretches, self.design.q0[0], TAU);
         Some(stretches)
@@ -190,7 +191,7 @@ impl<'m> LimitsFinder<'m> {
         if !is_turn && !design.has_groups() {
             // Guides that are nearly parallel carry a slide farther than all lengths together.
             for _ in 0..WIDENINGS {
-                if !stretches.iter().any(|own| touches(own, &within).contains(&true)) {
+                if !stretches.iter().any(|stretch| touches(stretch, &within).contains(&true)) {
                     break;
                 }
                 let beyond = WIDENING * (within.ends[1] - within.ends[0]);
@@ -202,7 +203,7 @@ impl<'m> LimitsFinder<'m> {
             join(&mut stretches, within);
         }
         if !is_turn {
-            // What goes on so far has no limit.
+            // A stretch that reaches so far has no limit.
             for stretch in &mut stretches {
                 let goes_on = touches(stretch, &within);
                 for (side, far) in [f64::NEG_INFINITY, f64::INFINITY].into_iter().enumerate() {
@@ -222,7 +223,7 @@ impl<'m> LimitsFinder<'m> {
     }
 
     /// Leaves out stretches over which redundant links do not fit throughout. Links that miss by about the
-    /// tolerance fit here and there, which is no motion.
+    /// tolerance fit at single positions, which is not a motion.
     fn keep_where_redundant_links_fit(&mut self, stretches: &mut Vec<Stretch>) {
         let q0 = self.design.q0[0];
         let mut state = self.design.state(self.design.tracing_derivatives());
@@ -260,8 +261,8 @@ impl<'m> LimitsFinder<'m> {
 }
 
 /// Whether a stretch goes on beyond each end of another.
-fn touches(own: &Stretch, within: &Stretch) -> [bool; 2] {
-    [0, 1].map(|side| own.ends[side] == within.ends[side] && within.folds[side].is_none())
+fn touches(stretch: &Stretch, within: &Stretch) -> [bool; 2] {
+    [0, 1].map(|side| stretch.ends[side] == within.ends[side] && within.folds[side].is_none())
 }
 
 /// Joins the parts at both ends of a period; all of it is without limits.

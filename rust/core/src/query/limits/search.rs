@@ -13,25 +13,25 @@ use crate::plan::plan::Step;
 use crate::query::folding::solve;
 use crate::state::state::{Context, State};
 
-/// Nodes for each cell of the branch, and at least.
+/// Nodes for each cell of the branch, and the least number.
 const NODES_PER_CELL: f64 = 2.0;
 const LEAST_NODES: f64 = 48.0;
-/// Rounding of a sample, relative to 1, for each unit of the condition of what it is made of.
+/// Rounding of a sample, relative to 1, for each unit of the condition of its terms.
 const NOISE: f64 = 1.0e-14;
-/// Nearest node to the end of a stretch, in u of the greater end: the end is known no better.
+/// Nearest node to the end of a stretch, in u of the greater end: the end is not known better.
 const NEAR_END_ULPS: f64 = 8.0;
-/// The same as an angle, at most: of a stretch of a few u.
+/// An upper bound of the same as an angle, for a stretch of a few u.
 const FARTHEST_NODE: f64 = 0.01;
-/// How far (rad, or units of the scale) a change point and the ends of a part beside it may be apart.
+/// Greatest distance (rad, or units of the scale) between a change point and the ends of a part beside it.
 const BESIDE: f64 = 1.0e-9;
 /// Where a part is examined, from 0 to 1: change points are often in its middle.
 pub(super) const WITHIN: [f64; 3] = [0.3, 0.5, 0.8];
-/// Step of a difference where the derivative is not known, at most, and as a part of the way to the end
+/// Step of a difference where the derivative is not known: at most, and as a part of the way to the end
 /// of the stretch.
 const DIFFERENCE: f64 = 1.0e-6;
 const DIFFERENCE_TO_END: f64 = 0.5;
 
-/// What must not be negative, its derivative and its rounding.
+/// A value that must not be negative, its derivative and its rounding.
 struct Sampled {
     value: f64,
     rate: f64,
@@ -50,18 +50,22 @@ impl<'d> Search<'d, '_> {
     /// The parts of a stretch over which all dyads close.
     pub(super) fn stretches(&mut self, within: Stretch) -> Vec<Stretch> {
         let plan = self.design.mechanism.plan();
-        let mut found = vec![within];
-        for (step, of) in plan.steps.iter().enumerate() {
-            if let &Step::Length { slide } = of {
-                found = found.iter().flat_map(|one| self.lengths(*one, slide, step)).collect();
+        let mut closing = vec![within];
+        for (step, kind) in plan.steps.iter().enumerate() {
+            if let &Step::Length { slide } = kind {
+                closing = closing
+                    .iter()
+                    .flat_map(|stretch| self.lengths(*stretch, slide, step))
+                    .collect();
             }
-            let Step::Dyad(dyad) = of else { continue };
+            let Step::Dyad(dyad) = kind else { continue };
             // Two guides never fold, but where they are parallel their point is at infinity.
             if dyad.sign.is_some() || dyad.form == Form::TwoLines {
-                found = found.iter().flat_map(|one| self.parts(*one, dyad, step)).collect();
+                closing =
+                    closing.iter().flat_map(|stretch| self.parts(*stretch, dyad, step)).collect();
             }
         }
-        found
+        closing
     }
 
     /// The parts over which a dyad closes.
@@ -121,10 +125,10 @@ impl<'d> Search<'d, '_> {
         let at = |angle: f64| middle - half * sin_cos(angle).1;
         let nodes = self.nodes(within);
         let roots = all_roots(&nodes, |angle| {
-            let own = sample(self, at(angle))?;
-            let slope = own.rate * half * sin_cos(angle).0;
-            let known = own.value.is_finite() && slope.is_finite();
-            known.then_some(Sample { x: angle, value: own.value, slope, noise: own.noise })
+            let sampled = sample(self, at(angle))?;
+            let slope = sampled.rate * half * sin_cos(angle).0;
+            let finite = sampled.value.is_finite() && slope.is_finite();
+            finite.then_some(Sample { x: angle, value: sampled.value, slope, noise: sampled.noise })
         });
         let crossings = roots.isolated.iter().filter(|root| root.signs[0] != root.signs[1]);
         // A change of sign is an end, also where the value beside it is more than its rounding.
@@ -172,21 +176,21 @@ impl<'d> Search<'d, '_> {
         Some(Sampled { value: jet[0][0], rate: jet[1][0], noise: NOISE * condition2.sqrt() })
     }
 
-    /// The square of a dyad's discriminant, and its derivative; of two guides the sine of the angle
+    /// The square of a dyad's discriminant, and its derivative; for two guides the sine of the angle
     /// between them.
     fn sample(&mut self, q: f64, within: Stretch, dyad: &Dyad, step: usize) -> Option<Sampled> {
-        let own = self.value(q, dyad, step)?;
-        if !own.rate.is_nan() {
-            return Some(own);
+        let sampled = self.value(q, dyad, step)?;
+        if !sampled.rate.is_nan() {
+            return Some(sampled);
         }
         let to_end = (q - within.ends[0]).min(within.ends[1] - q);
         let aside = DIFFERENCE.min(DIFFERENCE_TO_END * to_end);
         let ahead = self.value(q + aside, dyad, step)?;
         let behind = self.value(q - aside, dyad, step)?;
-        Some(Sampled { rate: (ahead.value - behind.value) / (2.0 * aside), ..own })
+        Some(Sampled { rate: (ahead.value - behind.value) / (2.0 * aside), ..sampled })
     }
 
-    /// Solves a position of the branch, unless the search is to end.
+    /// Solves a position of the branch, unless the search has been cancelled.
     fn solve(&mut self, q: f64) -> Option<Context<'d>> {
         (!self.design.is_cancelled()).then(|| solve(self.design, &mut self.state, q))
     }
@@ -217,11 +221,11 @@ impl<'d> Search<'d, '_> {
     }
 }
 
-/// Whether a value without changes of sign over a part is positive there: where it is greatest, for at a
-/// change point it touches zero. `None` if it has no value.
+/// Whether a value that does not change its sign over a part is positive there, judged where it is greatest:
+/// at a change point it touches zero. `None` if it has no value.
 fn is_positive(part: &Stretch, mut value: impl FnMut(f64) -> Option<Sampled>) -> Option<bool> {
     let [from, to] = part.ends;
     let values = WITHIN.iter().filter_map(|&on| value(from + on * (to - from)));
     let greatest = values.max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()));
-    greatest.map(|own| own.value > 0.0)
+    greatest.map(|sample| sample.value > 0.0)
 }

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 pub(crate) struct Stretch {
     pub ends: [f64; 2],
     /// What folds at each end: a sign's dyad, or after all signs a group, or after these a slide whose
-    /// value is a length and 0 there; none if nothing does.
+    /// value is a length and 0 there; `None` if nothing does.
     pub folds: [Option<usize>; 2],
 }
 
@@ -21,14 +21,14 @@ impl Stretch {
     }
 
     /// The part of it above a coordinate, with what ends there.
-    pub(crate) fn above(mut self, least: f64, end: Option<usize>) -> Option<Self> {
-        if self.ends[0] < least {
-            (self.ends[0], self.folds[0]) = (least, end);
+    pub(crate) fn above(mut self, low: f64, end: Option<usize>) -> Option<Self> {
+        if self.ends[0] < low {
+            (self.ends[0], self.folds[0]) = (low, end);
         }
         (self.ends[0] < self.ends[1]).then_some(self)
     }
 
-    /// What it has in common with another.
+    /// The intersection with another, moved by `shift`.
     fn intersection(&self, other: &Self, shift: f64) -> Option<Self> {
         let moved = other.ends.map(|end| end + shift);
         let later = moved[0] > self.ends[0];
@@ -45,11 +45,11 @@ impl Stretch {
     }
 }
 
-/// What two lists of stretches of an angle have in common.
-pub(crate) fn intersections(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> {
+/// The intersection of two lists of stretches of an angle.
+pub(crate) fn intersections(first: &[Stretch], second: &[Stretch]) -> Vec<Stretch> {
     let mut common = Vec::new();
-    for a in one {
-        for b in other {
+    for a in first {
+        for b in second {
             let shifts: &[f64] =
                 if a.is_whole() || b.is_whole() { &[0.0] } else { &[-TAU, 0.0, TAU] };
             common.extend(shifts.iter().filter_map(|&shift| a.intersection(b, shift)));
@@ -59,7 +59,7 @@ pub(crate) fn intersections(one: &[Stretch], other: &[Stretch]) -> Vec<Stretch> 
 }
 
 /// Shifts stretches of an angle by whole periods so that their middles are within half a period of
-/// `near`, and sorts them: the stretch that holds `near` itself holds it, not a copy of it.
+/// `near`, and sorts them: the stretch that contains `near` contains it without a shift.
 pub(crate) fn shift_near(stretches: &mut [Stretch], near: f64, period: f64) {
     for stretch in stretches.iter_mut().filter(|stretch| !stretch.is_whole()) {
         let middle = 0.5 * (stretch.ends[0] + stretch.ends[1]);

@@ -85,13 +85,13 @@ pub(in crate::remedies) fn leave_undriven(
     };
     let (out, left): (Vec<_>, Vec<_>) = (chosen(true), chosen(false));
     let names: Vec<String> = out.iter().map(driver_name).collect();
-    let others: Vec<String> = left.iter().map(driver_name).collect();
-    if names.is_empty() || others.is_empty() {
+    let remaining: Vec<String> = left.iter().map(driver_name).collect();
+    if names.is_empty() || remaining.is_empty() {
         return None;
     }
-    let detail = match &others[..] {
-        [one] => format!("{one} drives alone"),
-        many => format!("{} drive", listed(many)),
+    let detail = match &remaining[..] {
+        [name] => format!("{name} drives alone"),
+        several => format!("{} drive", listed(several)),
     };
     Some(Remedy {
         kind: RemedyKind::LeaveUndriven,

@@ -1,4 +1,4 @@
-//! Holding joints on the ground, and making two links one.
+//! Holds joints on the ground, and unites two links.
 
 use crate::remedies::remedy::{Remedy, RemedyKind};
 use crate::remedies::sketch::{GROUND, Sketch};
@@ -17,12 +17,12 @@ pub(in crate::remedies) fn hold(sketch: &Sketch<'_>, joints: &[String]) -> Optio
         return None;
     }
     let mut description = sketch.description.clone();
-    for (_, own) in description.links.iter_mut().filter(|(name, _)| name == GROUND) {
-        own.extend(joints.iter().cloned());
+    for (_, ground_joints) in description.links.iter_mut().filter(|(name, _)| name == GROUND) {
+        ground_joints.extend(joints.iter().cloned());
     }
     let mut links: Vec<String> = Vec::new();
     for &link in joints.iter().flat_map(|joint| sketch.links_at(joint)) {
-        if !links.iter().any(|own| own == link) {
+        if !links.iter().any(|listed| listed == link) {
             links.push(link.into());
         }
     }
@@ -37,33 +37,33 @@ pub(in crate::remedies) fn hold(sketch: &Sketch<'_>, joints: &[String]) -> Optio
     })
 }
 
-/// Makes two links that meet at a joint one.
+/// Unites two links that meet at a joint.
 pub(in crate::remedies) fn unite(
     sketch: &Sketch<'_>,
     link: &str,
-    other: &str,
+    absorbed: &str,
     joint: &str,
 ) -> Option<Remedy> {
-    if [link, other].iter().any(|&name| name == GROUND || sketch.is_driven(name)) {
+    if [link, absorbed].iter().any(|&name| name == GROUND || sketch.is_driven(name)) {
         return None;
     }
     let mut description = sketch.description.clone();
-    description.links.retain(|(name, _)| name != other);
+    description.links.retain(|(name, _)| name != absorbed);
     for (_, joints) in description.links.iter_mut().filter(|(name, _)| name == link) {
-        let more = sketch.joints_of(other).iter().filter(|own| *own != joint);
+        let more = sketch.joints_of(absorbed).iter().filter(|name| *name != joint);
         joints.extend(more.cloned());
     }
     for slide in &mut description.slides {
         for end in [&mut slide.link, &mut slide.on] {
-            if end == other {
+            if end == absorbed {
                 *end = link.into();
             }
         }
     }
     Some(Remedy {
         kind: RemedyKind::Unite,
-        names: vec![link.into(), other.into()],
-        text: format!("Make {link} and {other} one link"),
+        names: vec![link.into(), absorbed.into()],
+        text: format!("Make {link} and {absorbed} one link"),
         detail: format!("they no longer turn at {joint}"),
         description,
     })

@@ -1,27 +1,27 @@
-//! Inserting links.
+//! Inserts links.
 
 use crate::math::vector::Vector;
 use crate::remedies::remedy::{Remedy, RemedyKind};
 use crate::remedies::sketch::{GROUND, Sketch};
 
-/// How far beside the line of a parted link its new joint is drawn, in parts of the link's length:
-/// links in line would be at a dead point.
+/// Distance of the new joint of a parted link from its line, relative to the link's length: links in line
+/// would be at a dead point.
 const BESIDE: f64 = 0.25;
 /// Length of a new rocker in parts of the link that it holds; they are drawn at a right angle.
 const ROCKER: f64 = 0.8;
 
 /// Parts a link from one of its joints and puts a link between them, drawn to either side.
 pub(in crate::remedies) fn part(sketch: &Sketch<'_>, link: &str, joint: &str) -> Vec<Remedy> {
-    let Some(other) = sketch.nearest(link, joint) else { return Vec::new() };
-    let (from, along) = (sketch.place(joint), sketch.between(joint, other));
+    let Some(neighbour) = sketch.nearest(link, joint) else { return Vec::new() };
+    let (from, along) = (sketch.place(joint), sketch.between(joint, neighbour));
     let sides = [BESIDE, -BESIDE].map(|side| {
         let mut description = sketch.description.clone();
         let knee = sketch.unused_joint(joint);
         let at = from + along.scale(0.5) + along.left().scale(side);
         description.joints.push((knee.clone(), [at.x, at.y]));
         for (name, joints) in &mut description.links {
-            for own in joints.iter_mut().filter(|own| name == link && *own == joint) {
-                own.clone_from(&knee);
+            for end in joints.iter_mut().filter(|end| name == link && *end == joint) {
+                end.clone_from(&knee);
             }
         }
         for slide in &mut description.slides {
@@ -42,18 +42,18 @@ pub(in crate::remedies) fn part(sketch: &Sketch<'_>, link: &str, joint: &str) ->
 }
 
 /// A new link between two joints.
-pub(in crate::remedies) fn join(sketch: &Sketch<'_>, joint: &str, other: &str) -> Remedy {
+pub(in crate::remedies) fn join(sketch: &Sketch<'_>, joint: &str, far_joint: &str) -> Remedy {
     let mut description = sketch.description.clone();
-    description.links.push((sketch.unused("link"), vec![joint.into(), other.into()]));
-    let detail = if sketch.links_at(other).contains(&GROUND) {
-        format!("it turns about {other} on the ground")
+    description.links.push((sketch.unused("link"), vec![joint.into(), far_joint.into()]));
+    let detail = if sketch.links_at(far_joint).contains(&GROUND) {
+        format!("it turns about {far_joint} on the ground")
     } else {
-        format!("{joint} and {other} keep their distance")
+        format!("{joint} and {far_joint} keep their distance")
     };
     Remedy {
         kind: RemedyKind::Join,
-        names: vec![joint.into(), other.into()],
-        text: format!("Add a link between {joint} and {other}"),
+        names: vec![joint.into(), far_joint.into()],
+        text: format!("Add a link between {joint} and {far_joint}"),
         detail,
         description,
     }
@@ -66,8 +66,8 @@ pub(in crate::remedies) fn join_ground(
     link: &str,
     joint: &str,
 ) -> Vec<Remedy> {
-    let Some(other) = sketch.nearest(link, joint) else { return Vec::new() };
-    let across = sketch.between(joint, other).left().scale(ROCKER);
+    let Some(neighbour) = sketch.nearest(link, joint) else { return Vec::new() };
+    let across = sketch.between(joint, neighbour).left().scale(ROCKER);
     let toward = sketch.nearest(GROUND, joint).map_or(Vector::ONE, |g| sketch.between(joint, g));
     let first = if across.dot(toward) < 0.0 { across.scale(-1.0) } else { across };
     let sides = [first, first.scale(-1.0)].map(|arm| {

@@ -1,4 +1,4 @@
-//! Edits of a description. None is tried here: what they give may still be no mechanism.
+//! Edits of a description. They are not tried here: the result may still not be a mechanism.
 
 pub(super) mod drive;
 pub(super) mod hold;

@@ -1,10 +1,10 @@
-//! A place for joints that are on no link, and for guides that pass nowhere.
+//! Places joints that are not on a link, and guides that do not pass through a point.
 
 use crate::remedies::remedy::{Remedy, RemedyKind};
 use crate::remedies::sketch::Sketch;
 use crate::remedies::words::listed;
 
-/// Leaves out joints that are on no link.
+/// Leaves out joints that are not on a link.
 pub(in crate::remedies) fn leave_out_joints(sketch: &Sketch<'_>, joints: &[String]) -> Remedy {
     let mut description = sketch.description.clone();
     description.joints.retain(|(name, _)| !joints.contains(name));
@@ -36,8 +36,8 @@ pub(in crate::remedies) fn fix_joint(sketch: &Sketch<'_>, joint: &str, link: &st
 /// Lets a guide pass through a joint of the link that carries it.
 pub(in crate::remedies) fn guide_through(sketch: &Sketch<'_>, slide: &str, joint: &str) -> Remedy {
     let mut description = sketch.description.clone();
-    for own in description.slides.iter_mut().filter(|own| own.name == slide) {
-        own.origin = Some(joint.into());
+    for guide in description.slides.iter_mut().filter(|guide| guide.name == slide) {
+        guide.origin = Some(joint.into());
     }
     Remedy {
         kind: RemedyKind::Place,

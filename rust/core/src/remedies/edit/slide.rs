@@ -1,12 +1,12 @@
-//! Letting joints and links slide.
+//! Lets joints and links slide.
 
 use crate::description::{Description, SlideDescription};
 use crate::math::vector::Vector;
 use crate::remedies::remedy::{Remedy, RemedyKind};
 use crate::remedies::sketch::{GROUND, Sketch};
 
-/// Least cosine between a guide and the link that moves the block on it, as it is drawn: below,
-/// the link presses nearly square to the guide.
+/// Least cosine in the drawing between a guide and the link that moves the block on it: below, the link
+/// presses nearly square to the guide.
 const LEAST_COSINE: f64 = 0.5;
 
 /// The two directions of a guide through a joint, the better first: the line to the nearest joint
@@ -16,8 +16,8 @@ fn directions(sketch: &Sketch<'_>, link: &str, joint: &str, host: &str) -> [f64;
         let line = sketch.between(from, to);
         line.scale(1.0 / line.norm())
     };
-    let line = sketch.nearest(host, joint).map_or(Vector::ONE, |other| unit(joint, other));
-    let arm = sketch.nearest(link, joint).map(|other| unit(joint, other));
+    let line = sketch.nearest(host, joint).map_or(Vector::ONE, |neighbour| unit(joint, neighbour));
+    let arm = sketch.nearest(link, joint).map(|neighbour| unit(joint, neighbour));
     let square = line.left();
     let turned = arm.is_some_and(|arm| line.dot(arm).abs() < LEAST_COSINE);
     let ordered = if turned { [square, line] } else { [line, square] };
@@ -28,9 +28,9 @@ fn directions(sketch: &Sketch<'_>, link: &str, joint: &str, host: &str) -> [f64;
     })
 }
 
-/// Lets the joint of a link slide on the link that it is pinned to so far: a new block is pinned
-/// there and slides along a guide. Other links at the joint stay where they are: the sliding one
-/// then has a joint of its own. The two are the guide's directions, the better first.
+/// Lets the joint of a link slide on the link to which it is pinned: a new block is pinned there and slides
+/// along a guide. Other links at the joint stay where they are: the sliding one then gets its own joint. The
+/// two remedies are the guide's directions, the better first.
 pub(in crate::remedies) fn let_slide(
     sketch: &Sketch<'_>,
     link: &str,
@@ -42,26 +42,29 @@ pub(in crate::remedies) fn let_slide(
     let end = if host == GROUND { "foot" } else { "end" };
     directions(sketch, link, joint, host).map(|angle| {
         let mut description = sketch.description.clone();
-        let own = if is_shared { sketch.unused_joint(joint) } else { joint.into() };
+        let new_joint = if is_shared { sketch.unused_joint(joint) } else { joint.into() };
         if is_shared {
             let at = sketch.place(joint);
-            description.joints.push((own.clone(), [at.x, at.y]));
+            description.joints.push((new_joint.clone(), [at.x, at.y]));
         }
         let parted = if is_shared { link } else { host };
         for (_, joints) in description.links.iter_mut().filter(|(name, _)| name == parted) {
             if is_shared {
-                joints.iter_mut().filter(|one| *one == joint).for_each(|one| own.clone_into(one));
+                joints
+                    .iter_mut()
+                    .filter(|end| *end == joint)
+                    .for_each(|end| new_joint.clone_into(end));
             } else {
-                joints.retain(|one| one != joint);
+                joints.retain(|end| end != joint);
             }
         }
         // A value that was measured from the joint: from there or, where it is gone, the drawing.
         for slide in &mut description.slides {
             if slide.on == parted && slide.origin.as_deref() == Some(joint) {
-                slide.origin = is_shared.then(|| own.clone());
+                slide.origin = is_shared.then(|| new_joint.clone());
             }
         }
-        add_block(sketch, &mut description, &own, host, angle);
+        add_block(sketch, &mut description, &new_joint, host, angle);
         let text = if is_shared {
             format!("Let {link} slide {where_} at {joint}")
         } else {
@@ -112,9 +115,9 @@ fn add_block(
     });
 }
 
-/// Lets a link that has one joint alone slide on the ground.
+/// Lets a link with a single joint slide on the ground.
 pub(in crate::remedies) fn guide_link(sketch: &Sketch<'_>, link: &str, joint: &str) -> Vec<Remedy> {
-    let mover = sketch.links_at(joint).iter().copied().find(|&other| other != link);
+    let mover = sketch.links_at(joint).iter().copied().find(|&candidate| candidate != link);
     let angles = directions(sketch, mover.unwrap_or(link), joint, GROUND);
     let remedies = angles.map(|angle| {
         let mut description = sketch.description.clone();

@@ -1,11 +1,11 @@
-//! Taking out links and slides, and what nothing else needs then.
+//! Takes out links and slides, with the joints that are then unused.
 
 use crate::description::Description;
 use crate::remedies::remedy::{Remedy, RemedyKind};
 use crate::remedies::sketch::{GROUND, Sketch};
 use crate::remedies::words::{listed, remaining};
 
-/// Takes out links and slides; none that are driven.
+/// Takes out links and slides that are not driven.
 pub(in crate::remedies) fn take_out(sketch: &Sketch<'_>, names: &[String]) -> Option<Remedy> {
     let old = sketch.description;
     let out = |name: &String| names.contains(name);
@@ -38,7 +38,7 @@ pub(in crate::remedies) fn take_out(sketch: &Sketch<'_>, names: &[String]) -> Op
     })
 }
 
-/// Leaves out joints of the links taken out that no moving link has, unless a guide begins there.
+/// Leaves out joints of the removed links that no moving link has, unless a guide begins there.
 fn forget_joints(sketch: &Sketch<'_>, description: &mut Description, links: &[String]) {
     let origins: Vec<String> =
         description.slides.iter().filter_map(|slide| slide.origin.clone()).collect();

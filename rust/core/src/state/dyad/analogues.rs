@@ -55,8 +55,8 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn angle_analogue(&self, g: usize, cx: &Context<'_>, o: usize, k: usize) -> R {
         let orientation = &cx.plan.orientations[o];
-        let own = self.pose.theta[orientation.class * self.len + k][g];
-        if orientation.driven { own + Self::driver_analogue(cx, o, k) } else { own }
+        let rate = self.pose.theta[orientation.class * self.len + k][g];
+        if orientation.driven { rate + Self::driver_analogue(cx, o, k) } else { rate }
     }
 
     /// Analogue `k` of an orientation, without the term in analogue `k` of its class.
@@ -196,11 +196,9 @@ impl<R: Real, const G: usize> State<R, G> {
                     self.pose.orient[o * len + k][g] = self.orientation_without_top(g, cx, o, k);
                 }
             }
-            let known = self.closure(g, cx, dyad, k);
-            let values = [
-                columns[1].cross(known) * inv_determinant,
-                known.cross(columns[0]) * inv_determinant,
-            ];
+            let sum = self.closure(g, cx, dyad, k);
+            let values =
+                [columns[1].cross(sum) * inv_determinant, sum.cross(columns[0]) * inv_determinant];
             for i in 0..2 {
                 let value = values[i];
                 match dyad.unknowns[i] {

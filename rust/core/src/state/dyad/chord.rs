@@ -7,7 +7,7 @@ use crate::math::vector::Vector;
 use crate::plan::tape::{CrankPin, DyadOp};
 use crate::state::state::Context;
 
-/// Which points a chord connects.
+/// The kinds of points that a chord connects.
 pub(super) type Ends = u8;
 pub(super) const POINTS: Ends = 0;
 pub(super) const FROM_PIN: Ends = 1;
@@ -34,7 +34,7 @@ impl<W: Real> CrankArm<W> {
     pub(super) const NONE: Self = Self(Vector::ZERO);
 }
 
-/// Which points the chord of a dyad connects.
+/// The kinds of points that the chord of a dyad connects.
 #[inline(always)]
 pub(super) fn ends_of(op: &DyadOp) -> Ends {
     match (&op.pin, op.on_ground) {
@@ -73,7 +73,7 @@ impl<'a, R: Real, const G: usize> DyadChord<'a, R, G> {
         }
     }
 
-    /// What [`DyadChord::at`] needs for positions from register `g` on.
+    /// The data that [`DyadChord::at`] needs for positions from register `g` on.
     #[inline(always)]
     pub(super) fn arm<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> CrankArm<W> {
         if ENDS != FROM_PIN && ENDS != TO_PIN {

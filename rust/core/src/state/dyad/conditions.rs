@@ -68,7 +68,7 @@ impl<R: Real, const G: usize> State<R, G> {
         self.conditions.greatest[g] = condition.max(self.conditions.greatest[g]);
         self.conditions.needs_scalar[g] = self.conditions.needs_scalar[g].or(closing.flat);
         if R::LANES == 1 && closing.flat.any() {
-            // Where a length is 0 all but its own analogues are known: any other dyad counts more.
+            // Where a length is 0, only its own analogues are unknown: any other dyad counts more.
             if self.fault.is_none() || self.is_at_zero_length(cx.plan) && !dyad.is_length {
                 self.fault = Some(Fault::Singular { step: index });
             }
@@ -76,8 +76,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Whether a position is singular only because a slide whose value is a length has none: its
-    /// direction and analogues are not determined, all others are.
+    /// Whether a position is singular only because a slide whose value is a length is 0: its direction and
+    /// analogues are not determined, all others are.
     pub(crate) fn is_at_zero_length(&self, plan: &Plan) -> bool {
         let Some(Fault::Singular { step }) = self.fault else { return false };
         matches!(&plan.steps[step], Step::Dyad(dyad) if dyad.is_length)

@@ -111,9 +111,8 @@ impl State {
     /// Greatest distance of the points' analogues of an order (one driver; 0: the points) from
     /// those of another state, relative to the scale or to themselves.
     pub(crate) fn distance(&self, other: &Self, order: usize) -> f64 {
-        let relative = |(one, other): (&[Vector; 1], &[Vector; 1])| {
-            (one[0] - other[0]).norm() / (1.0 + other[0].norm())
-        };
+        let relative =
+            |(a, b): (&[Vector; 1], &[Vector; 1])| (a[0] - b[0]).norm() / (1.0 + b[0].norm());
         let pairs = self.pose.points.iter().zip(&other.pose.points).skip(order).step_by(self.len);
         let pairs = pairs.take(if order < self.len { usize::MAX } else { 0 });
         // Unlike `max`, this takes a NaN; only a later finite value replaces it.
@@ -127,22 +126,22 @@ impl State {
             out: &mut [[f64; 1]],
             states: &[State],
             weights: &[f64],
-            of: impl Fn(&State) -> &[[f64; 1]],
+            values_of: impl Fn(&State) -> &[[f64; 1]],
         ) {
             for (i, x) in out.iter_mut().enumerate() {
-                x[0] = states.iter().zip(weights).map(|(s, w)| w * of(s)[i][0]).sum();
+                x[0] = states.iter().zip(weights).map(|(s, w)| w * values_of(s)[i][0]).sum();
             }
         }
         fn sums(
             out: &mut [[Vector; 1]],
             states: &[State],
             weights: &[f64],
-            of: impl Fn(&State) -> &[[Vector; 1]],
+            values_of: impl Fn(&State) -> &[[Vector; 1]],
         ) {
             for (i, x) in out.iter_mut().enumerate() {
                 x[0] = Vector::ZERO;
                 for (s, &w) in states.iter().zip(weights) {
-                    x[0] += of(s)[i][0].scale(w);
+                    x[0] += values_of(s)[i][0].scale(w);
                 }
             }
         }

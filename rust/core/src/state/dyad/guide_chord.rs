@@ -33,20 +33,20 @@ impl<'a, R: Real, const G: usize> GuideChord<'a, R, G> {
         units: &'a [[Vector<R>; G]],
         len: usize,
     ) -> Self {
-        let own = &cx.constants.dyads[op.dyad];
+        let dyad = &cx.constants.dyads[op.dyad];
         let chord = DyadChord::new(cx, op, points, units, len);
-        let into = own.guides[1].conj();
+        let into = dyad.guides[1].conj();
         let from_pin = op.pin.is_some_and(|pin| pin.is_start);
         let [arm, frame] = if from_pin {
             [-chord.arm, chord.ground - chord.pivot]
         } else {
             [chord.arm, chord.pivot - chord.ground]
         };
-        let frame = into * (frame - own.offset);
-        Self { chord, offset: own.offset, into, arm: into * arm, frame }
+        let frame = into * (frame - dyad.offset);
+        Self { chord, offset: dyad.offset, into, arm: into * arm, frame }
     }
 
-    /// What [`GuideChord::at`] needs for positions from register `g` on.
+    /// The data that [`GuideChord::at`] needs for positions from register `g` on.
     #[inline(always)]
     pub(super) fn turning<W: Stride<R>, const ENDS: Ends>(&self, g: usize) -> TurningPart<W> {
         let at_pin = ENDS == FROM_PIN || ENDS == TO_PIN;

@@ -46,7 +46,7 @@ impl<R: Real> TwoCircles<R> {
     ) -> Self {
         let d2 = k.norm2();
         let (outer, inner) = (sides.sum2 - d2, d2 - sides.difference2);
-        let [most, least] = [-sides.tolerances[0], -sides.tolerances[1]];
+        let [outer_limit, inner_limit] = [-sides.tolerances[0], -sides.tolerances[1]];
         // Heron: (2 d h)² = ((a+b)² − d²)(d² − (a−b)²), h the height on k.
         let area2 = if CHECKED { positive(outer) * positive(inner) } else { outer * inner };
         let sine2 = area2 * sides.per_sine2;
@@ -54,7 +54,7 @@ impl<R: Real> TwoCircles<R> {
         if CHECKED {
             // Outer joints coincide, or a leg has no length: any attitude closes.
             let loose = R::ZERO.lt(d2.min(a.norm2).min(b.norm2)).not();
-            open = most.le(outer).and(least.le(inner)).not().or(loose);
+            open = outer_limit.le(outer).and(inner_limit.le(inner)).not().or(loose);
         }
         let area = area2.sqrt();
         let inverse = R::splat(0.5) / (d2 * area);
@@ -74,9 +74,9 @@ impl<R: Real> TwoCircles<R> {
             let difference = (a.norm - b.norm).abs();
             closing.margin = (sum - d).min(d - difference);
             let missing = R::select(
-                outer.lt(most),
+                outer.lt(outer_limit),
                 d - sum,
-                R::select(inner.lt(least), difference - d, R::ZERO),
+                R::select(inner.lt(inner_limit), difference - d, R::ZERO),
             );
             let far = d.finite().not();
             closing.gap = R::select(far, R::splat(f64::INFINITY), missing);

@@ -13,7 +13,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn moving_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes seldom take the checked path: one copy for all orders is enough.
+            // Lanes rarely take the checked path: one copy for all orders is enough.
             self.moving_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });
@@ -49,10 +49,10 @@ impl<R: Real, const G: usize> State<R, G> {
         let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
         let turn = &mut self.pose.class[class];
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
-        let own = &cx.constants.dyads[op.dyad];
+        let dyad = &cx.constants.dyads[op.dyad];
         let a = cx.constants.legs[op.dyad][0].on_lanes();
-        let (along, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
-        let (reach, inverse_arm2) = (R::splat(own.reach), R::splat(own.inverse_arm2));
+        let (along, offset) = (Vector::splat(dyad.guides[1]), Vector::splat(dyad.offset));
+        let (reach, inverse_arm2) = (R::splat(dyad.reach), R::splat(dyad.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
         for g in 0..self.groups.min(G) {
             let guide = carrier[0][g] * along;
@@ -62,9 +62,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.work.closings[g] = solved.closing;
             } else {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
-                let own = solved.closing.sine2 * inverse_arm2;
-                bounds[g] =
-                    if op.may_have_upstream() { self.conditions.bound[g] * own } else { own };
+                let dyad_bound = solved.closing.sine2 * inverse_arm2;
+                bounds[g] = if op.may_have_upstream() {
+                    self.conditions.bound[g] * dyad_bound
+                } else {
+                    dyad_bound
+                };
             }
             let (a0, inverse) = (solved.turned, solved.inverse_determinant);
             leg[0][g] = a0;

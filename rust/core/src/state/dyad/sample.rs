@@ -1,4 +1,4 @@
-//! Sample of a dyad at a knot of a branch: how far it is from flat, and how fast that changes.
+//! Sample of a dyad at a knot of a branch: its distance from flat, and the rate of that.
 
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -88,11 +88,11 @@ impl<R: Real, const G: usize> State<R, G> {
     /// The cosine of the angle between leg and guide, from its sine.
     #[inline(always)]
     fn sample_standing_guide(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> DyadSample<R> {
-        let own = &cx.constants.dyads[op.dyad];
+        let dyad = &cx.constants.dyads[op.dyad];
         let per = R::splat(cx.constants.legs[op.dyad][0].inv_norm());
-        let guide = Vector::splat(own.guides[1]);
+        let guide = Vector::splat(dyad.guides[1]);
         let [k, dk] = self.chord(g, op);
-        let sin = guide.cross(k - Vector::splat(own.offset)) * per;
+        let sin = guide.cross(k - Vector::splat(dyad.offset)) * per;
         let rate = R::splat(-2.0) * (sin * (guide.cross(dk) * per));
         DyadSample { square: (R::ONE - sin) * (R::ONE + sin), rate, side: R::ONE, flat: sin }
     }
@@ -100,8 +100,8 @@ impl<R: Real, const G: usize> State<R, G> {
     /// Value and first analogue of the guide's direction, and of the chord to where it starts.
     #[inline(always)]
     fn moving_guide_chord(&self, g: usize, cx: &Context<'_>, op: &DyadOp) -> [[Vector<R>; 2]; 2] {
-        let own = &cx.constants.dyads[op.dyad];
-        let (along, offset) = (Vector::splat(own.guides[1]), Vector::splat(own.offset));
+        let dyad = &cx.constants.dyads[op.dyad];
+        let (along, offset) = (Vector::splat(dyad.guides[1]), Vector::splat(dyad.offset));
         let carrier = op.carrier.unwrap_or(0) * self.len;
         let turned = [self.pose.orient[carrier][g], self.pose.orient[carrier + 1][g]];
         let [k, dk] = self.chord(g, op);

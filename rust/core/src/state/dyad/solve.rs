@@ -18,14 +18,14 @@ struct CollectedTerms<R> {
     /// The same for the second unknown.
     second: Vector<R>,
     /// Known right-hand side.
-    known: Vector<R>,
+    right_side: Vector<R>,
 }
 
 impl<R: Real, const G: usize> State<R, G> {
     /// Solves a dyad for the values of its unknowns, and sets them.
     #[inline(always)]
     pub(crate) fn solve_dyad(&mut self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> Closing<R> {
-        let CollectedTerms { first, second, known: k } = self.collect_terms(g, cx, dyad);
+        let CollectedTerms { first, second, right_side: k } = self.collect_terms(g, cx, dyad);
         let sign = if let Some(s) = dyad.sign { self.pose.signs[s][g] } else { R::ONE };
         let [u, v] = dyad.unknowns;
         match dyad.form {
@@ -73,7 +73,8 @@ impl<R: Real, const G: usize> State<R, G> {
     fn collect_terms(&self, g: usize, cx: &Context<'_>, dyad: &Dyad) -> CollectedTerms<R> {
         let len = self.len;
         let mut terms = [Vector::ZERO; 2];
-        let mut known = self.pose.points[dyad.end * len][g] - self.pose.points[dyad.start * len][g];
+        let mut right_side =
+            self.pose.points[dyad.end * len][g] - self.pose.points[dyad.start * len][g];
         for term in &dyad.others {
             let e = term.edge;
             let edge = &cx.plan.edges[e];
@@ -100,10 +101,10 @@ impl<R: Real, const G: usize> State<R, G> {
             let v = signed(term, turned(turn, edge_vector));
             match term.turns {
                 Some(i) => terms[i] += v,
-                None => known = known - v,
+                None => right_side = right_side - v,
             }
         }
-        CollectedTerms { first: terms[0], second: terms[1], known }
+        CollectedTerms { first: terms[0], second: terms[1], right_side }
     }
 
     #[inline(always)]

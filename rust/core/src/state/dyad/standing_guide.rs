@@ -73,12 +73,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let turn = &mut self.pose.class[class];
         let (turns, keeps) = (CHECKED || op.turns[0], CHECKED || op.keeps[0]);
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
-        let own = &cx.constants.dyads[op.dyad];
+        let dyad = &cx.constants.dyads[op.dyad];
         let a = &cx.constants.legs[op.dyad][0];
-        let guide = own.guides[1];
+        let guide = dyad.guides[1];
         let to_turn = guide * a.inverse;
         let a = a.on_lanes::<W>();
-        let (reach, inverse_arm2) = (W::splat(own.reach), W::splat(own.inverse_arm2));
+        let (reach, inverse_arm2) = (W::splat(dyad.reach), W::splat(dyad.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
             let turning = chord.turning::<W, ENDS>(g);
@@ -111,16 +111,16 @@ impl<R: Real, const G: usize> State<R, G> {
                     2 => Some(second_rest(solved.leg, u1)),
                     _ => Some(third_rest(solved.leg, u1, u2)),
                 };
-                let own = on_guide.rates(chord.at::<W, ENDS>(k, g, turning), rest);
+                let entries = on_guide.rates(chord.at::<W, ENDS>(k, g, turning), rest);
                 if k < 3 {
-                    rates[k - 1] = own[0];
+                    rates[k - 1] = entries[0];
                 }
-                own[1].store(&mut s[k], g);
+                entries[1].store(&mut s[k], g);
                 if turns {
-                    own[0].store(&mut u[k], g);
+                    entries[0].store(&mut u[k], g);
                 }
                 if keeps {
-                    let next = entry(solved.leg, own[0], rest);
+                    let next = entry(solved.leg, entries[0], rest);
                     W::store_vectors(next.turn(guide), &mut leg[k], g);
                 }
             }
@@ -142,12 +142,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
         let turn = &mut self.pose.class[class];
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
-        let own = &cx.constants.dyads[op.dyad];
+        let dyad = &cx.constants.dyads[op.dyad];
         let a = &cx.constants.legs[op.dyad][0];
-        let guide = own.guides[1];
+        let guide = dyad.guides[1];
         let (into, to_turn) = (guide.conj(), guide * a.inverse);
         let a = a.on_lanes();
-        let (offset, reach) = (Vector::splat(own.offset), R::splat(own.reach));
+        let (offset, reach) = (Vector::splat(dyad.offset), R::splat(dyad.reach));
         for g in 0..self.groups.min(G) {
             let k = ((end[0][g] - start[0][g]) - offset).turn(into);
             let solved = CircleAndLine::solve::<true>(&a, k, signs[g], reach);

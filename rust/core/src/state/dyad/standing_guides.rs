@@ -15,12 +15,12 @@ impl<R: Real, const G: usize> State<R, G> {
         let jet = |i: usize| i * len..i * len + len;
         let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
         let Ok([s, t]) = self.pose.slides.get_disjoint_mut(op.unknowns.map(jet)) else { return };
-        let own = &cx.constants.dyads[op.dyad];
-        let [a, b] = own.guides;
+        let dyad = &cx.constants.dyads[op.dyad];
+        let [a, b] = dyad.guides;
         let determinant = a.cross(b);
         let inverse = R::splat(1.0 / determinant);
         let (a, b) = (Vector::splat(a), Vector::splat(b));
-        let offset = Vector::splat(own.offset);
+        let offset = Vector::splat(dyad.offset);
         let sine2 = R::splat(determinant * determinant);
         let bounds = &mut self.conditions.bounds[op.dyad];
         for k in 0..len {

@@ -12,7 +12,7 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn turning_guide(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if R::LANES > 1 || cx.derivatives.drivers > 1 {
-            // Lanes seldom take the checked path: one copy for all orders is enough.
+            // Lanes rarely take the checked path: one copy for all orders is enough.
             self.turning_of_length::<true>(cx, op, self.len, &|k: usize| {
                 (&cx.derivatives.rotation[k][..], &cx.derivatives.mixed[k][..])
             });
@@ -56,9 +56,9 @@ impl<R: Real, const G: usize> State<R, G> {
         let (u, s) = (&mut self.pose.theta[jet(class)], &mut self.pose.slides[jet(slide)]);
         let rotation = &mut self.pose.class[class];
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
-        let own = &cx.constants.dyads[op.dyad];
+        let dyad = &cx.constants.dyads[op.dyad];
         let a = Vector::splat(cx.constants.legs[op.dyad][0].vector);
-        let (guide, inverse_arm2) = (Vector::splat(own.guides[1]), R::splat(own.inverse_arm2));
+        let (guide, inverse_arm2) = (Vector::splat(dyad.guides[1]), R::splat(dyad.inverse_arm2));
         let bounds = &mut self.conditions.bounds[op.dyad];
         for g in 0..self.groups.min(G) {
             let chord = end[0][g] - start[0][g];
@@ -75,9 +75,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.conditions.open[g] = self.conditions.open[g].or(solved.closing.open);
                 // The arm is relative to the distance.
                 let distance2 = R::ONE.min(chord.norm2() * inverse_arm2);
-                let own = solved.closing.sine2 * distance2;
-                bounds[g] =
-                    if op.may_have_upstream() { self.conditions.bound[g] * own } else { own };
+                let dyad_bound = solved.closing.sine2 * distance2;
+                bounds[g] = if op.may_have_upstream() {
+                    self.conditions.bound[g] * dyad_bound
+                } else {
+                    dyad_bound
+                };
             }
             let (unit, inverse) = (solved.turned, solved.inverse_determinant);
             turn[0][g] = unit;

@@ -74,11 +74,11 @@ impl<R: Real, const G: usize> State<R, G> {
         let turns = [CHECKED || op.turns[0], CHECKED || op.turns[1]];
         let keeps = [CHECKED || op.keeps[0], CHECKED || op.keeps[1]];
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
-        let (legs, own) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
+        let (legs, dyad) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
         let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
-        let mut sides = own.sides.on_lanes::<W>();
+        let mut sides = dyad.sides.on_lanes::<W>();
         if !CHECKED {
-            sides.per_sine2 = W::splat(own.bounding_per_sine2);
+            sides.per_sine2 = W::splat(dyad.bounding_per_sine2);
         }
         let bounds = &mut self.conditions.bounds[op.dyad];
         for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
@@ -118,19 +118,19 @@ impl<R: Real, const G: usize> State<R, G> {
                     2 => Some([second_rest(a0, u1), second_rest(b0, v1)]),
                     _ => Some([third_rest(a0, u1, u2), third_rest(b0, v1, v2)]),
                 };
-                let own = legs.rates(chord, rests);
+                let entries = legs.rates(chord, rests);
                 if k < 3 {
-                    rates[k - 1] = own;
+                    rates[k - 1] = entries;
                 }
                 if turns[0] {
-                    own[0].store(&mut u[k], g);
+                    entries[0].store(&mut u[k], g);
                 }
                 if turns[1] {
-                    own[1].store(&mut v[k], g);
+                    entries[1].store(&mut v[k], g);
                 }
                 if keeps[0] || keeps[1] {
                     let a_rest = if let Some([a, _]) = rests { Some(a) } else { None };
-                    let a_next = entry(a0, own[0], a_rest);
+                    let a_next = entry(a0, entries[0], a_rest);
                     W::store_vectors(a_next, &mut a_jet[k], g);
                     W::store_vectors(chord - a_next, &mut b_jet[k], g);
                 }

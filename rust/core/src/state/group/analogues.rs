@@ -148,14 +148,15 @@ impl<R: Real, const G: usize> State<R, G> {
     ) {
         let len = self.len;
         let e = group.edges[l.edge].edge;
-        let own = cx.plan.edges[e].orientation;
+        let chord_orientation = cx.plan.edges[e].orientation;
         let inv_length = self.work.inv_length[i][g];
         let inv_length2 = inv_length * inv_length;
         if k == 0 {
             let local = self.local(g, cx, e, 0);
             let unit = (self.work.chords[i * len][g] * local.conj()).scale(inv_length2);
-            let driven = cx.plan.orientations[own].driven;
-            let rotation = if driven { unit * self.pose.phase[own][g].conj() } else { unit };
+            let driven = cx.plan.orientations[chord_orientation].driven;
+            let rotation =
+                if driven { unit * self.pose.phase[chord_orientation][g].conj() } else { unit };
             self.pose.class[class][g] = rotation;
             for &o in &l.orientations {
                 let driven = cx.plan.orientations[o].driven;
@@ -168,24 +169,25 @@ impl<R: Real, const G: usize> State<R, G> {
             // Solve Leibniz's sum for the top entry of U.
             let mut rest = self.work.chords[i * len + k][g];
             for term in cx.derivatives.product[k].iter().filter(|term| term.left != k) {
-                let known =
-                    self.pose.orient[own * len + term.left][g] * self.local(g, cx, e, term.right);
-                rest = rest - known.scale(R::splat(term.factor));
+                let lower = self.pose.orient[chord_orientation * len + term.left][g]
+                    * self.local(g, cx, e, term.right);
+                rest = rest - lower.scale(R::splat(term.factor));
             }
             let unit = (rest * self.local(g, cx, e, 0).conj()).scale(inv_length2);
-            let partial = self.orientation_without_top(g, cx, own, k);
-            ((unit - partial) * self.pose.orient[own * len][g].conj()).y
+            let partial = self.orientation_without_top(g, cx, chord_orientation, k);
+            ((unit - partial) * self.pose.orient[chord_orientation * len][g].conj()).y
         } else {
             // The chord is rigid: its jet follows from its lower entries.
             let mut partial = Vector::ZERO;
             for term in &cx.derivatives.rotation[k] {
-                let rate = R::splat(term.factor) * self.angle_analogue(g, cx, own, term.right);
+                let rate = R::splat(term.factor)
+                    * self.angle_analogue(g, cx, chord_orientation, term.right);
                 partial += self.work.chords[i * len + term.left][g].scale(rate);
             }
             let top = self.work.chords[i * len + k][g] - partial.left();
             let rate = self.work.chords[i * len][g].cross(top) * inv_length2;
-            let driven = cx.plan.orientations[own].driven;
-            if driven { rate - Self::driver_analogue(cx, own, k) } else { rate }
+            let driven = cx.plan.orientations[chord_orientation].driven;
+            if driven { rate - Self::driver_analogue(cx, chord_orientation, k) } else { rate }
         };
         self.pose.theta[class * len + k][g] = rate;
         for &o in &l.orientations {

@@ -47,9 +47,10 @@ impl<R: Real, const G: usize> State<R, G> {
             max_arm2[i] = R::splat(cx.constants.max_arm2[classes[i]]);
         }
         let curvature = R::splat(cx.constants.curvature[group.index]);
-        let mut wanted = [false; N];
+        let mut bars_needed = [false; N];
         for i in 0..N {
-            wanted[i] = self.work.angle_wanted[bar_classes[i]] || !loops[i].orientations.is_empty();
+            bars_needed[i] =
+                self.work.angle_wanted[bar_classes[i]] || !loops[i].orientations.is_empty();
         }
         // Once: clearing them takes as long as a step.
         let (mut matrix, mut jets) = ([[R::ZERO]; MATRIX], Jets::NONE);
@@ -77,7 +78,7 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.pose.class[class][g] = unit;
             }
             for i in 0..N {
-                if wanted[i] {
+                if bars_needed[i] {
                     let bar = links.bars[i].on_lanes();
                     self.pose.class[bar_classes[i]][g] = bar.turn_to(equations.chords[i]);
                 }
@@ -91,13 +92,13 @@ impl<R: Real, const G: usize> State<R, G> {
                 let [determinant] = equations.invert();
                 self.work.determinants[group.index][g] = determinant;
                 jets.start(&equations);
-                let of = Analogues { binary, loops, classes, bar_classes, wanted };
-                self.binary_analogues::<1, N>(g, &of, &equations, &mut jets);
+                let group_data = Analogues { binary, loops, classes, bar_classes, bars_needed };
+                self.binary_analogues::<1, N>(g, &group_data, &equations, &mut jets);
                 if len > 2 {
-                    self.binary_analogues::<2, N>(g, &of, &equations, &mut jets);
+                    self.binary_analogues::<2, N>(g, &group_data, &equations, &mut jets);
                 }
                 if len > 3 {
-                    self.binary_analogues::<3, N>(g, &of, &equations, &mut jets);
+                    self.binary_analogues::<3, N>(g, &group_data, &equations, &mut jets);
                 }
             }
             if R::LANES == 1 && !newton.done[0].all() {
@@ -118,29 +119,29 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Analogues of order `K` of the unknowns, of the wanted bars and of the arms.
+    /// Analogues of order `K` of the unknowns, of the needed bars and of the arms.
     #[inline(always)]
     fn binary_analogues<const K: usize, const N: usize>(
         &mut self,
         g: usize,
-        of: &Analogues<'_, N>,
+        group_data: &Analogues<'_, N>,
         equations: &BinaryEquations<'_, R, N>,
         jets: &mut Jets<R, N>,
     ) {
         let len = self.len;
         let mut known = [Vector::ZERO; N];
-        for (known, l) in known.iter_mut().zip(of.loops) {
+        for (known, l) in known.iter_mut().zip(group_data.loops) {
             let points = &self.pose.points;
             *known = points[l.end * len + K][g] - points[l.start * len + K][g];
         }
-        jets.find::<K>(equations, &known, of.wanted);
+        jets.find::<K>(equations, &known, group_data.bars_needed);
         for i in 0..N {
-            self.pose.theta[of.classes[i] * len + K][g] = jets.rates[i][K];
-            if of.wanted[i] {
-                self.pose.theta[of.bar_classes[i] * len + K][g] = jets.bar_rates[i][K];
+            self.pose.theta[group_data.classes[i] * len + K][g] = jets.rates[i][K];
+            if group_data.bars_needed[i] {
+                self.pose.theta[group_data.bar_classes[i] * len + K][g] = jets.bar_rates[i][K];
             }
         }
-        for arm in &of.binary.arms {
+        for arm in &group_data.binary.arms {
             let rate = |k: usize| &self.pose.theta[arm.class * len + k];
             let jet = &self.pose.legs[arm.leg * len..][..len];
             let mut sum = jet[0][g].scale(rate(K)[g]);
@@ -152,14 +153,14 @@ impl<R: Real, const G: usize> State<R, G> {
     }
 }
 
-/// What the analogues of a group of `N` loops are of.
+/// The parts of a group of `N` loops whose analogues are computed.
 struct Analogues<'b, const N: usize> {
     binary: &'b BinaryLoops,
     loops: &'b [Loop; N],
     classes: &'b [usize; N],
     bar_classes: &'b [usize; N],
     /// The bars whose rotations are needed.
-    wanted: [bool; N],
+    bars_needed: [bool; N],
 }
 
 /// One register of positions of a group of `N` loops and as many unknown rotations.
@@ -298,14 +299,14 @@ impl<R: Real, const N: usize> Jets<R, N> {
         }
     }
 
-    /// Analogues of order `K` of the unknowns and of the wanted bars. Every order has the same matrix;
+    /// Analogues of order `K` of the unknowns and of the needed bars. Every order has the same matrix;
     /// the right-hand side follows from lower orders.
     #[inline(always)]
     fn find<const K: usize>(
         &mut self,
         equations: &BinaryEquations<'_, R, N>,
         known: &[Vector<R>; N],
-        wanted: [bool; N],
+        bars_needed: [bool; N],
     ) {
         let mut right = [R::ZERO; N];
         for l in 0..N {
@@ -344,7 +345,7 @@ impl<R: Real, const N: usize> Jets<R, N> {
                 }
             }
             self.chords[l][K] = chord;
-            if !wanted[l] {
+            if !bars_needed[l] {
                 continue;
             }
             // The chord is rigid: its jet follows from its lower entries.

@@ -268,10 +268,10 @@ impl<R: Real, const G: usize> State<R, G> {
                         }
                     }
                     if k == 0 {
-                        let own =
+                        let offset =
                             R::splat(cx.constants.guide[e].cross(cx.constants.edge_vector[e]));
                         for sum in &mut sum {
-                            *sum = *sum - own;
+                            *sum = *sum - offset;
                         }
                     }
                 }

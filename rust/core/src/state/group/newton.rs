@@ -139,7 +139,7 @@ impl<R: Real, const G: usize> NewtonState<R, G> {
             if is_first {
                 self.first_step[g] = R::select(done, self.first_step[g], first_size[g]);
             }
-            // What remains is about the product of the two steps times the curvature.
+            // The remaining error is about the product of the two steps times the curvature.
             let bent = first_size[g] * self.curvature;
             let settled = skip[g].not().and((bent * second_size).lt(R::splat(NEWTON_TOLERANCE)));
             let is_short = (bent * first_size[g])

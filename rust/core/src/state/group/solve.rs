@@ -58,23 +58,23 @@ impl<R: Real, const G: usize> State<R, G> {
         self.work.matrix = matrix;
     }
 
-    /// Keeps in register `g` what the iteration of a group leaves in its register `own`.
+    /// Keeps in register `g` the results of the iteration of a group in its register `register`.
     #[inline(always)]
     pub(super) fn record_iteration<const H: usize>(
         &mut self,
         g: usize,
         newton: &NewtonState<R, H>,
-        own: usize,
+        register: usize,
         group: &Group,
     ) {
-        self.work.det_sign[group.index][g] = newton.determinants[own];
+        self.work.det_sign[group.index][g] = newton.determinants[register];
         let needs_scalar = &mut self.conditions.needs_scalar[g];
-        *needs_scalar = needs_scalar.or(newton.done[own].not());
-        self.work.first_step[g] = self.work.first_step[g].max(newton.first_step[own]);
-        self.work.later_steps[g] = self.work.later_steps[g].max(newton.later_steps[own]);
+        *needs_scalar = needs_scalar.or(newton.done[register].not());
+        self.work.first_step[g] = self.work.first_step[g].max(newton.first_step[register]);
+        self.work.later_steps[g] = self.work.later_steps[g].max(newton.later_steps[register]);
     }
 
-    /// Sets what is constant during the iteration.
+    /// Sets the constants of the iteration.
     #[inline(always)]
     fn prepare_group(&mut self, cx: &Context<'_>, group: &Group) {
         for (i, l) in group.loops.iter().enumerate() {

@@ -1,14 +1,14 @@
-//! What is known at the nodes of a window: values that are not computed twice, and how far rounding
-//! reaches between them.
+//! Values at the nodes of a window, so that none is computed twice, and a bound of the rounding between
+//! them.
 
 use super::window::Weight;
 
 /// Rounding of a value, relative to the greatest around it.
 pub(super) const NOISE: f64 = 1.0e-11;
-/// A coordinate stands whose derivative is below this part of its unit.
+/// A coordinate whose derivative is below this part of its unit stands still.
 const STANDS: f64 = 1.0e-13;
 
-/// How far a smooth value is at most from the cubic through its neighbours, relative to itself.
+/// Greatest distance of a smooth value from the cubic through its neighbours, relative to itself.
 const SMOOTH: f64 = 0.1;
 
 /// A coordinate's derivative with its first two derivatives by the window's angle.
@@ -24,16 +24,16 @@ pub(super) fn cubic(
 
 /// Values at the nodes.
 #[derive(Default)]
-pub(super) struct Known {
+pub(super) struct NodeValues {
     pub nodes: Vec<f64>,
     pub values: Vec<Option<ByAngle>>,
-    /// How far rounding of everything else reaches at each, usually and at most.
+    /// Bounds of the rounding of everything else at each, usually and at most.
     rounding: Vec<[f64; 2]>,
     /// Values between nodes, where a search looks first.
     between: Vec<(f64, Option<ByAngle>)>,
 }
 
-impl Known {
+impl NodeValues {
     /// Adds a node behind the others.
     pub(super) fn push_node(&mut self, angle: f64, value: Option<ByAngle>, rounding: [f64; 2]) {
         self.nodes.push(angle);
@@ -42,29 +42,29 @@ impl Known {
     }
 
     /// Whether all values are rounding, and most of them no more than usual. `unit`: the natural size.
-    /// Values that are smooth are none, however great everything else is.
+    /// Smooth values are not rounding, however large everything else is.
     pub(super) fn is_zero(&self, unit: f64) -> bool {
-        let (mut known, mut usual) = (0, 0);
-        for (own, [usually, at_most]) in self.values.iter().zip(&self.rounding) {
-            let Some([value, ..]) = own else { continue };
+        let (mut count, mut usual) = (0, 0);
+        for (jet, [usually, at_most]) in self.values.iter().zip(&self.rounding) {
+            let Some([value, ..]) = jet else { continue };
             if value.abs() > *at_most {
                 return false;
             }
-            known += 1;
+            count += 1;
             usual += usize::from(value.abs() <= *usually);
         }
-        2 * usual > known && !self.is_smooth(STANDS * unit)
+        2 * usual > count && !self.is_smooth(STANDS * unit)
     }
 
     /// Whether most values between nodes are near the cubic through these, and above a size.
-    fn is_smooth(&self, least: f64) -> bool {
+    fn is_smooth(&self, bound: f64) -> bool {
         let smooth = self.between.iter().filter(|(angle, middle)| {
             let behind = self.nodes.partition_point(|node| node < angle);
             let ends = [behind.checked_sub(1), Some(behind)];
             let [Some(a), Some(b)] = ends.map(|node| self.sample(node?)) else { return false };
             let Some([value, ..]) = *middle else { return false };
             let apart = (value - cubic(a, b)).abs();
-            value.abs() > least && apart <= SMOOTH * value.abs()
+            value.abs() > bound && apart <= SMOOTH * value.abs()
         });
         2 * smooth.count() > self.between.len()
     }
@@ -86,7 +86,7 @@ impl Known {
         nodes.chain(between)
     }
 
-    /// Another value for an angle that has one.
+    /// Replaces the value at an angle that has one.
     pub(super) fn replace(&mut self, angle: f64, value: Option<ByAngle>) {
         if let Ok(node) = self.nodes.binary_search_by(|node| node.total_cmp(&angle)) {
             self.values[node] = value;
@@ -96,7 +96,7 @@ impl Known {
         }
     }
 
-    /// The value at an angle: the one that is known, or else what `find` gives.
+    /// The value at an angle: the known one, or the result of `find`.
     pub(super) fn value_or(
         &self,
         angle: f64,
@@ -129,8 +129,8 @@ impl Known {
 /// A bound of the rounding of weighted values, all along a window.
 ///
 /// Beside a pole values are far greater than elsewhere, so the bound is that of the values around. Where
-/// the weight is small they are either large, and of one size with their weights, or not, and of one
-/// size without.
+/// the weight is small they are either large, and weighted they are of one size, or not large, and plain
+/// they are of one size.
 pub(super) struct Rounding {
     nodes: Vec<f64>,
     /// Greatest size around each cell, plain and weighted.
@@ -141,16 +141,20 @@ pub(super) struct Rounding {
 
 impl Rounding {
     /// The bound for entry `entry` of the values with the weight of `poles`; `unit`: the natural size.
-    pub(super) fn new(known: &Known, (entry, poles): (usize, [usize; 2]), unit: f64) -> Self {
-        let sizes: Vec<[f64; 2]> = known.sizes(entry, poles).map(|(_, size)| size).collect();
+    pub(super) fn new(
+        node_values: &NodeValues,
+        (entry, poles): (usize, [usize; 2]),
+        unit: f64,
+    ) -> Self {
+        let sizes: Vec<[f64; 2]> = node_values.sizes(entry, poles).map(|(_, size)| size).collect();
         let around = (0..sizes.len())
             .map(|cell| {
                 let near = &sizes[cell.saturating_sub(1)..(cell + 3).min(sizes.len())];
-                [0, 1].map(|i| near.iter().fold(0.0, |size, own| own[i].max(size)))
+                [0, 1].map(|i| near.iter().fold(0.0, |size, pair| pair[i].max(size)))
             })
             .collect();
-        let typical = median(known, &sizes).max(STANDS / NOISE * unit);
-        Self { nodes: known.nodes.clone(), around, typical }
+        let typical = median(node_values, &sizes).max(STANDS / NOISE * unit);
+        Self { nodes: node_values.nodes.clone(), around, typical }
     }
 
     /// At an angle, where the weight is `factor`.
@@ -162,17 +166,17 @@ impl Rounding {
 }
 
 /// The size that is not exceeded over half of the window: nodes are closer together where it is great.
-fn median(known: &Known, sizes: &[[f64; 2]]) -> f64 {
-    let at = |node: usize| known.nodes[node.min(known.nodes.len() - 1)];
+fn median(node_values: &NodeValues, sizes: &[[f64; 2]]) -> f64 {
+    let at = |node: usize| node_values.nodes[node.min(node_values.nodes.len() - 1)];
     let width = |node: usize| at(node + 1) - at(node.saturating_sub(1));
     let mut sized: Vec<[f64; 2]> =
         sizes.iter().enumerate().map(|(node, size)| [size[0], width(node)]).collect();
     sized.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let half = 0.5 * sized.iter().map(|own| own[1]).sum::<f64>();
+    let half = 0.5 * sized.iter().map(|sized_node| sized_node[1]).sum::<f64>();
     let mut so_far = 0.0;
-    let beyond = sized.iter().find(|own| {
-        so_far += own[1];
+    let beyond = sized.iter().find(|sized_node| {
+        so_far += sized_node[1];
         so_far > half
     });
-    beyond.map_or(0.0, |own| own[0])
+    beyond.map_or(0.0, |sized_node| sized_node[0])
 }
