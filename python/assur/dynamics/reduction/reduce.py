@@ -69,7 +69,7 @@ def reduce(
         _require_within_table(machine, own.q, own.status)
     if speed is not None and on_error == "raise":
         n = machine.driver_count
-        has_value = np.isfinite(own.moment).reshape(-1, n).any(axis=1)
+        has_value = np.isfinite(own.moment).reshape(-1, n).all(axis=1)
         missing = np.flatnonzero(~has_value & has_analogues(own.status))
         if missing.size:
             row = int(missing[0])
