@@ -58,8 +58,6 @@ EARLY_ENDS = (
 )
 # Places of a period at which tables are looked at, to name the load of one that does not cover it.
 PLACES = 721
-# How the core begins the error of a motor's table.
-OF_MOTOR = "a motor's table"
 # Events of friction.
 STICK, SLIP = "stick", "slip"
 # Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
@@ -189,8 +187,8 @@ def _naming_tables(machine: MachineModel, places: Float, speeds: list[float]) ->
     except InputError as error:
         if error.kind != "table_ends" or machine.mechanism is None:
             raise
-        driver = _driver_beyond(machine, speeds)
-        if driver is not None and str(error).startswith(OF_MOTOR):
+        driver = _driver_beyond(machine, float(places[0]), speeds, error.value)
+        if driver is not None:
             raise _of_driver(driver, error) from None
         if machine.driver_count > 1:
             raise
@@ -200,13 +198,22 @@ def _naming_tables(machine: MachineModel, places: Float, speeds: list[float]) ->
         raise named from None
 
 
-def _driver_beyond(machine: MachineModel, speeds: list[float]) -> str | None:
-    """Return the driver whose motor's table over its speed does not cover the speed of it."""
+def _driver_beyond(
+    machine: MachineModel, q: float, speeds: list[float], value: float | None
+) -> str | None:
+    """Return the driver whose motor's table over its speed does not cover this value.
+
+    The core looks up the tables over q first: where one ends, no motor is to blame.
+    """
+    if not all(periodic or rows[0] <= q <= rows[-1] for rows, periodic in machine.core.tables):
+        return None
     assert machine.mechanism is not None
     drivers = machine.mechanism.description.drivers
     motors = components.motors(machine.motor, len(drivers))
     for driver, motor, speed in zip(drivers, motors, speeds, strict=True):
-        if isinstance(motor, Table) and not motor.q[0] <= speed * motor.ratio <= motor.q[-1]:
+        if not isinstance(motor, Table) or speed * motor.ratio != value:
+            continue
+        if not motor.q[0] <= value <= motor.q[-1]:
             return driver if isinstance(driver, str) else driver.link
     return None
 
