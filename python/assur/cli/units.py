@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from assur._arrays import short
+from assur.description.dotted_names import is_angle
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -168,7 +169,7 @@ def _steps(text: str, parts: list[Number], unit: str | None) -> Float:
 
 def kind_of(dimension: str) -> str:
     """Return whether a dimension is a length or an angle."""
-    return ANGLE if dimension.endswith(".angle") else LENGTH
+    return ANGLE if is_angle(dimension) else LENGTH
 
 
 def argument(parse: Callable[[str], T]) -> Callable[[str], T]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur._trig import sin_cos
+from assur.description.dotted_names import is_angle, split_name
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -68,10 +69,10 @@ def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
     fixed: dict[str, list[float]] = {"x": [], "y": []}
     values = mechanism.core.drawing if drawn else mechanism.values.tolist()
     for name, value in zip(mechanism.core.dimension_names, values, strict=True):
-        thing, _, what = name.rpartition(".")
-        if thing.startswith("ground."):
-            fixed[what].append(value)
-        elif what != "angle" and not (what == "offset" and thing in free):
+        item, component = split_name(name)
+        if item.startswith("ground."):
+            fixed[component].append(value)
+        elif not is_angle(name) and not (component == "offset" and item in free):
             found.append(abs(value))
     return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.description.dotted_names import unit_of
+
 if TYPE_CHECKING:
     from assur.sweeps._measured import Measured
     from assur.sweeps.designs import Designs
@@ -26,7 +28,7 @@ def dataset(found: Measured) -> Any:
     for name, own in axes.items():
         values = designs.values(name).reshape(shape)
         at = tuple(slice(None) if axis in own else 0 for axis in range(len(shape)))
-        unit = {"units": "rad" if name.endswith(".angle") else "m"}
+        unit = {"units": unit_of(name)}
         coordinates[name] = ([names[axis] for axis in own], values[at], unit)
     kept = np.isin(np.arange(found.status.size), found.kept).reshape(shape)
     variables: dict[str, Any] = {"status": (names, found.status), "kept": (names, kept)}

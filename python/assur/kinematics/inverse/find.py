@@ -16,6 +16,7 @@ from assur._arrays import counted, short
 from assur._callers import level_of_caller
 from assur._validate import checked_name, real_array
 from assur.description import encode
+from assur.description.dotted_names import split_name
 from assur.description.words import Slide
 from assur.errors import AssurWarning, InputError, StructureError
 from assur.kinematics.assemblies import assemblies
@@ -96,7 +97,7 @@ def _driven_by(
         description = own._replace(drivers=encode.drivers(name), assembly=())
         return _redriven(mechanism, description, name), float(wanted[0])
     if mechanism.driver_count == 1:
-        joint, _, axes = name.rpartition(".")
+        joint, axes = split_name(name)
         checked_coordinate(mechanism, name)
     else:
         joint, axes = name, "xy"
@@ -116,7 +117,7 @@ def _redriven(mechanism: MechanismModel, description: Description, name: str) ->
             if error.kind != "cannot_drive":
                 raise
             raise _does_not_change(mechanism, name) from error
-        joint = name if name in mechanism.joint_names else name.rpartition(".")[0]
+        joint, _ = split_name(name)
         why = "the joint moves along a curve only, or not without other drivers"
         if joint in mechanism.links.get("ground", ()):
             why = f"joint {joint!r} is on the ground and does not move"

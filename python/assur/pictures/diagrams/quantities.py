@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import in_range, short
+from assur.description.dotted_names import split_name
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -83,8 +84,8 @@ def _quantity(motion: Motion, name: Any) -> Quantity:
         for kind, names in zip(KINDS, motion.mechanism.indices, strict=True):
             if name in names:
                 return Quantity(kind, name)
-        joint, dot, axis = name.rpartition(".")
-        if dot and axis in AXES and joint in motion.mechanism.joint_names:
+        joint, axis = split_name(name)
+        if axis in AXES and joint in motion.mechanism.joint_names:
             return Quantity("joint", joint, AXES.index(axis))
     # It says what there is.
     motion[name if isinstance(name, str) else short(name)]

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
+from assur.description.dotted_names import is_angle
 from assur.pictures.chart import TEXT, chart_axes, title
 from assur.pictures.maps.quantity_axis import name_axis
 from assur.pictures.maps.raster import finer
@@ -108,7 +109,7 @@ def design_map_picture(found: DesignMap, ax: Any, dark: bool) -> Any:
     for axis, name, values in zip(
         (ax.xaxis, ax.yaxis), found.names, (found.x, found.y), strict=True
     ):
-        name_axis(axis, name, values, name.endswith(".angle"), style)
+        name_axis(axis, name, values, is_angle(name), style)
     title(ax, found.of.replace("_", " "), style)
     lines = [boundary.points for boundary in found.boundaries]
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import short
+from assur.description.dotted_names import split_name
 from assur.errors import InputError
 from assur.pictures.chart import CURVE, chart_axes, title
 from assur.pictures.maps.callouts import write_along, write_beside
@@ -95,7 +96,7 @@ def _output(mechanism: Mechanism) -> str:
 
 def _coordinate(mechanism: Mechanism, motion: CircuitMotion, name: Any) -> Float:
     if isinstance(name, str):
-        joint, _, axis = name.rpartition(".")
+        joint, axis = split_name(name)
         if joint in motion.joints and axis in ("x", "y"):
             at: Float = motion.joints[joint][:, "xy".index(axis)]
             return at

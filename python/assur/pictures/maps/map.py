@@ -9,6 +9,7 @@ from matplotlib import patheffects
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from assur.description.dotted_names import is_angle
 from assur.pictures.chart import TEXT, chart_axes, title
 from assur.pictures.maps.callouts import clear_of, write_beside
 from assur.pictures.maps.metric_curve import metric_curve
@@ -64,8 +65,8 @@ def _map(
     (x_name, x), (y_name, y) = axes
     ax.grid(visible=False)
     ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    name_axis(ax.xaxis, x_name, x, x_name.endswith(".angle"), style)
-    name_axis(ax.yaxis, y_name, y, y_name.endswith(".angle"), style)
+    name_axis(ax.xaxis, x_name, x, is_angle(x_name), style)
+    name_axis(ax.yaxis, y_name, y, is_angle(y_name), style)
     title(ax, name, style)
     if np.isfinite(values).any():
         _contours(ax, x, y, values, unit, style)

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.description.dotted_names import is_angle
 from assur.errors import AssurError
 from assur.kinematics.table import driven_angles
 from assur.pictures.scene.course import TURN
 from assur.studio import document
-from assur.studio.kinds.structure import unit_of
 from assur.studio.kinds.turn import SHOWN, turn_answer
 from assur.studio.request import Fields
 from assur.studio.session import Answer
@@ -89,7 +89,7 @@ def _changed(mechanism: Mechanism, drawn: Mechanism) -> dict[str, float]:
     own, changed = mechanism.dimensions, {}
     for name, value in drawn.dimensions.items():
         difference, scale = value - own[name], size
-        if unit_of(name) == "rad":
+        if is_angle(name):
             difference, scale = difference - TURN * round(difference / TURN), 1.0
         if abs(difference) > SAME * scale:
             changed[name] = float(value)

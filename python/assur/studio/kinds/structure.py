@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from assur.description.dotted_names import unit_of
 from assur.description.structure import roman
 from assur.pictures.page.payload import ARROW
 
@@ -44,11 +45,6 @@ def dimensions_of(mechanism: Mechanism) -> list[dict[str, Any]]:
         {"name": name, "value": float(value), "unit": unit_of(name)}
         for name, value in mechanism.dimensions.items()
     ]
-
-
-def unit_of(name: str) -> str:
-    """Return the unit of a dimension."""
-    return "rad" if name.endswith("angle") else "m"
 
 
 def described(mechanism: Mechanism) -> dict[str, Any]:
