@@ -59,6 +59,9 @@ class AssurError(Exception):
     not_closed C 0.5
     """
 
+    # The load, body or motor that has no value, as messages name it: see `subject_of`.
+    _subject: str | None = None
+
     def __init__(
         self,
         message: str = "",
@@ -250,3 +253,14 @@ class AssurWarning(UserWarning):
 def offer_remedies(error: StructureError, find: Callable[[], tuple[Remedy, ...]]) -> None:
     """Let an error find remedies, when they are first asked for."""
     error._find_remedies = find
+
+
+def with_subject(error: AssurError, subject: str) -> AssurError:
+    """Return an error that knows which load, body or motor it is about."""
+    error._subject = subject
+    return error
+
+
+def subject_of(error: AssurError) -> str | None:
+    """Return the load, body or motor that an error is about, as messages name it."""
+    return error._subject

@@ -72,14 +72,14 @@ class Driven(ByValue, OfMachine):
         """Its values for the designs of a machine."""
         return together([self], machine, q, threads)[0]
 
-    def why(self, machine: Machine, q: Float) -> str:
+    def why(self, machine: Machine, q: Float) -> AssurError | str:
         """Why a design has no value: the error of its first position without one."""
         try:
             found = reactions(
                 machine, motion_of(q, self.speed, self.acceleration, 0.0), None, "raise"
             )
         except AssurError as error:
-            return str(error)
+            return error
         if np.any(found.locked):
             at = np.ravel(q)[int(np.argmax(found.locked))]
             return f"friction locks the machine at q = {at:.9g}"
@@ -201,12 +201,12 @@ class FlywheelInertia(ByValue, OfMachine):
     mean_speed: float | None
     mean: Mean
 
-    def why(self, machine: Machine, _q: Float) -> str:
+    def why(self, machine: Machine, _q: Float) -> AssurError | str:
         """Why a design has no such flywheel."""
         try:
             machine.flywheel(self.fluctuation, self.mean_speed, self.mean)
         except AssurError as error:
-            return str(error)
+            return error
         return "there is no such flywheel"
 
     def values(self, machine: Machine, _q: Float, _threads: int | None) -> Float:

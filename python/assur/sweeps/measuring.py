@@ -12,10 +12,11 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.description.words import Status, has_analogues
-from assur.errors import InputError
+from assur.errors import AssurError, InputError, subject_of
 from assur.kinematics import transmission
 from assur.kinematics.model import with_values
 from assur.kinematics.solve import solve
+from assur.sweeps._measured import Undefined
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
@@ -142,7 +143,7 @@ class Measuring:
             without |= kept & np.isnan(value) & is_defined
         return values, np.where(without, np.uint8(Status.NO_VALUE), status), kept & ~without
 
-    def without_value(self, design: Mechanism) -> str:
+    def undefined(self, design: Mechanism) -> Undefined:
         """Return which metric of a design has no value, and why."""
         some = with_values(design, design.values[:, None])
         asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
@@ -153,9 +154,11 @@ class Measuring:
                     continue
                 if isinstance(part, OfMachine):
                     assert self.machine is not None
-                    return f"{name}: {part.why(self.machine.of(design), self.q)}"
-                return f"{name}: {part!r} is not defined for this motion"
-        return "a metric has no value"
+                    why = part.why(self.machine.of(design), self.q)
+                    subject = subject_of(why) if isinstance(why, AssurError) else None
+                    return Undefined(name, str(why), subject)
+                return Undefined(name, f"{part!r} is not defined for this motion")
+        return Undefined("a metric", "it has no value")
 
     def _called(self, some: Mechanism, indices: npt.NDArray[np.intp]) -> dict[Single, Float]:
         """Call the functions with the motions, or machines, of some designs."""

@@ -61,10 +61,9 @@ def _conditions(conditions: Sequence[Condition]) -> str:
 def _words(found: Measured, code: Status) -> str:
     text = WORDS[code]
     if code == Status.NO_VALUE and (found.status == code).any():
-        # "loads[0], the Force at 'B': its table …": what has none.
         first = int(np.flatnonzero(found.status.reshape(-1) == code)[0])
-        parts = (explained(found, np.asarray(first)) or "").split(": ")
-        return f"{parts[1] if len(parts) > 2 else parts[0]} has no value".replace("'", "")
+        undefined = found._measuring.undefined(found.designs(first))
+        return f"{undefined.subject or undefined.metric} has no value".replace("'", "")
     return f"{_driver(found)} stops" if code == Status.LOST else text
 
 
@@ -81,7 +80,8 @@ def explained(found: Measured, index: npt.NDArray[np.intp]) -> str | None:
     status = int(found.status.reshape(-1)[flat])
     design = found.designs(flat)
     if status == Status.NO_VALUE:
-        return measuring.without_value(design)
+        undefined = measuring.undefined(design)
+        return f"{undefined.metric}: {undefined.reason}"
     motion = design.solve(measuring.q, order=0, outputs=[], on_error="nan")
     failed = np.flatnonzero(~is_reached(motion.status))
     if not failed.size:

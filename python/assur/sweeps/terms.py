@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from assur.dynamics.machine import Machine
+    from assur.errors import AssurError
     from assur.kinematics.motion import Motion
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -279,7 +280,7 @@ class OfMachine(Metric):
         """Its values for the designs (n,) of a machine, which all move over q."""
         raise NotImplementedError
 
-    def why(self, machine: Machine, q: Float) -> str:
+    def why(self, machine: Machine, q: Float) -> AssurError | str:
         """Why it has no value for one design."""
         raise NotImplementedError
 

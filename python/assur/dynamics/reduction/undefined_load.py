@@ -12,7 +12,7 @@ from assur.dynamics.loads.motors import ConstantTorque
 from assur.dynamics.loads.pressure import Gas
 from assur.dynamics.loads.table import Table
 from assur.dynamics.reduction.reduced import answer
-from assur.errors import InputError, MotionError
+from assur.errors import InputError, MotionError, with_subject
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -55,14 +55,15 @@ def without_value(machine: MachineModel, moment: Moment, what: str) -> AssurErro
         bodies = machine.bodies if isinstance(load, Gravity) else {}
         alone = type(machine)(mechanism, bodies, [load])
         if not _is_finite(alone, moment):
-            return _of_load(mechanism, name, load, moment)
+            return with_subject(_of_load(mechanism, name, load, moment), name)
     for link, body in machine.bodies.items():
         if not _is_finite(type(machine)(mechanism, {link: body}), moment):
-            return _too_great(f"bodies[{link!r}]: its inertia", moment)
+            body_name = f"bodies[{link!r}]"
+            return with_subject(_too_great(f"{body_name}: its inertia", moment), body_name)
     for name, value in _motor_values(machine):
         error = _of_value(mechanism, name, value, moment)
         if error is not None:
-            return error
+            return with_subject(error, name)
     message = (
         f"{what} not finite at q = {moment.shown}: every load by itself has a value, a speed, an "
         "acceleration or a mass is too great there (on_error='nan' keeps the other positions)"
