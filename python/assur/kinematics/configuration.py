@@ -33,16 +33,16 @@ def place_of(numbers: AssemblyNumbers, size: float) -> Float:
 
 def places_along(motion: MotionModel, size: float) -> Float:
     """Return the places of a motion of one design, shape (…, n)."""
-    own = motion.mechanism
+    mechanism = motion.mechanism
     shape = motion.shape
 
     def stacked(values: list[Float], axis: int, tail: tuple[int, ...] = ()) -> Float:
         return np.stack(values, axis=axis) if values else np.empty((*shape, 0, *tail))
 
     return place_vector(
-        stacked([motion.joint(name).value for name in own.joint_names], -2, (2,)),
-        stacked([motion.link(name).value for name in own.links], -1),
-        stacked([motion.slide(name).value for name in own.slides], -1),
+        stacked([motion.joint(name).value for name in mechanism.joint_names], -2, (2,)),
+        stacked([motion.link(name).value for name in mechanism.links], -1),
+        stacked([motion.slide(name).value for name in mechanism.slides], -1),
         size,
     )
 
@@ -63,9 +63,11 @@ def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
 
     Or those of the drawing.
     """
-    own = mechanism.description
-    free = {name for name, slide in own.slides if slide.on == "ground" and slide.origin is None}
-    found: list[float] = []
+    description = mechanism.description
+    free = {
+        name for name, slide in description.slides if slide.on == "ground" and slide.origin is None
+    }
+    sizes: list[float] = []
     fixed: dict[str, list[float]] = {"x": [], "y": []}
     values = mechanism.core.drawing if drawn else mechanism.values.tolist()
     for name, value in zip(mechanism.core.dimension_names, values, strict=True):
@@ -73,8 +75,8 @@ def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
         if item.startswith("ground."):
             fixed[component].append(value)
         elif not is_angle(name) and not (component == "offset" and item in free):
-            found.append(abs(value))
-    return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
+            sizes.append(abs(value))
+    return [*sizes, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
 
 
 def size_of(mechanism: MechanismModel, drawn: bool = False) -> float:

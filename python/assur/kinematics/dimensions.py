@@ -83,10 +83,10 @@ class Dimensions(Mapping[str, Any]):
         from assur._table import Column, design_columns, frame
 
         values = {name: np.asarray(value) for name, value in self._values.items()}
-        shape = np.broadcast_shapes(*(one.shape for one in values.values()))
+        shape = np.broadcast_shapes(*(array.shape for array in values.values()))
         columns = design_columns(shape, len(shape))
-        for name, one in values.items():
-            columns.append(Column(name, one.reshape(-1), unit_of(name), "dimensions"))
+        for name, array in values.items():
+            columns.append(Column(name, array.reshape(-1), unit_of(name), "dimensions"))
         return frame(columns)
 
 

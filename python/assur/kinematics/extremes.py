@@ -138,11 +138,11 @@ def _near(stretches: list[list[float]], place: float, period: float | None) -> l
     """Return stretches in the turn about a place: one that has it, modulo a turn, contains it."""
     if period is None:
         return stretches
-    found = []
+    shifted = []
     for low, high in stretches:
         turns = round((place - 0.5 * (low + high)) / period)
-        found.append([low + turns * period, high + turns * period] if turns else [low, high])
-    return sorted(found)
+        shifted.append([low + turns * period, high + turns * period] if turns else [low, high])
+    return sorted(shifted)
 
 
 def checked_coordinate(mechanism: MechanismModel, name: Any) -> str:
@@ -175,17 +175,17 @@ def extremes(
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
     values = mechanism.values.tolist()
-    found = mechanism.core.extremes(values, signs, name, order)
-    if found is None:
+    ends = mechanism.core.extremes(values, signs, name, order)
+    if ends is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
-    least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
-    own = limits(mechanism, assembly)
+    least, greatest = ValueAt(*ends[0]), ValueAt(*ends[1])
+    own_limits = limits(mechanism, assembly)
     ratio = None
     unit = 1.0 if name in mechanism.links else size_of(mechanism)
     moves = greatest.value - least.value > STANDS * unit
-    if order == 0 and moves and own.period == 1 and math.isfinite(greatest.q - least.q):
+    if order == 0 and moves and own_limits.period == 1 and math.isfinite(greatest.q - least.q):
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, own.period))
+    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, own_limits.period))

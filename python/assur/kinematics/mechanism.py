@@ -102,12 +102,12 @@ class Mechanism(MechanismModel):
         points = tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints"))
         members = [(name, encode.members(name, on)) for name, on in encode.items(links, "links")]
         guides = []
-        for name, own in encode.items({} if slides is None else slides, "slides"):
-            if isinstance(own, Cylinder):
-                slide, parts = encode.cylinder(name, own, points)
+        for name, guide in encode.items({} if slides is None else slides, "slides"):
+            if isinstance(guide, Cylinder):
+                slide, parts = encode.cylinder(name, guide, points)
                 members += parts
             else:
-                slide = encode.slide(name, own, points)
+                slide = encode.slide(name, guide, points)
             guides.append((name, slide))
         description = encode.Description(
             joints=points,
@@ -1027,6 +1027,6 @@ def _rebuild(
     mechanism._set(_moved=moved)
     if place is None:
         return mechanism
-    own = place.mechanism
-    core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
+    drawn = place.mechanism
+    core = drawn.core.drawn_in(drawn.values.tolist(), list(place.q), place.numbers)
     return at_place(mechanism, place, core)

@@ -224,7 +224,7 @@ class MechanismModel:
             self.known_signs,
         )
         layout = Layout(joints, {}, {}, self.shape, self.driver_count, 0)
-        return {n: one for n, (one,) in layout.held("joint", Buffers(numbers, status)).items()}
+        return {n: place for n, (place,) in layout.held("joint", Buffers(numbers, status)).items()}
 
     @property
     def _is_as_drawn(self) -> bool:
@@ -290,9 +290,9 @@ class MechanismModel:
         :meta private:
         """
         if self._names is None:
-            own = self.description
-            named = own.joints, own.links, own.slides
-            names = tuple({one[0]: i for i, one in enumerate(of)} for of in named)
+            description = self.description
+            named = description.joints, description.links, description.slides
+            names = tuple({item[0]: i for i, item in enumerate(of)} for of in named)
             object.__setattr__(self, "_names", names)
         assert self._names is not None
         return self._names
@@ -305,15 +305,15 @@ class MechanismModel:
             links, slides = self.core.redundant
             groups = tuple(
                 Group(
-                    cls=one["cls"],
-                    order=one["order"],
-                    kind=one["kind"],
-                    artobolevsky_kind=one["artobolevsky_kind"],
-                    links=tuple(one["links"]),
-                    joints=tuple(one["joints"]),
-                    slides=tuple(one["slides"]),
+                    cls=group["cls"],
+                    order=group["order"],
+                    kind=group["kind"],
+                    artobolevsky_kind=group["artobolevsky_kind"],
+                    links=tuple(group["links"]),
+                    joints=tuple(group["joints"]),
+                    slides=tuple(group["slides"]),
                 )
-                for one in self.core.groups
+                for group in self.core.groups
             )
             named = dict(self.description.links)
             at_joints = [joint for on in named.values() for joint in on]
@@ -361,16 +361,16 @@ class MechanismModel:
 
 def with_values(mechanism: AnyMechanism, values: Float) -> AnyMechanism:
     """Return a mechanism with other values of its dimensions; the rest is shared."""
-    other = mechanism._blank()
-    other._share(mechanism, values)
-    return other
+    changed = mechanism._blank()
+    changed._share(mechanism, values)
+    return changed
 
 
 def at_place(mechanism: AnyMechanism, place: Place, core: Core) -> AnyMechanism:
     """Return a mechanism drawn at a place of one of its designs."""
-    other = with_values(mechanism, mechanism.values)
-    other._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
-    return other
+    placed = with_values(mechanism, mechanism.values)
+    placed._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
+    return placed
 
 
 def copy_from(mechanism: MechanismModel, made: MechanismModel) -> None:
@@ -382,6 +382,6 @@ def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
     """Return a place; coordinates that differ from the drawing's by rounding alone are those."""
     size = float(np.abs(solved).max())
     return tuple(
-        own if abs(x - own) <= TYPED * size else x
-        for x, own in zip(solved.tolist(), drawn, strict=True)
+        typed if abs(x - typed) <= TYPED * size else x
+        for x, typed in zip(solved.tolist(), drawn, strict=True)
     )

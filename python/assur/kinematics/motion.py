@@ -353,8 +353,8 @@ class Motion(MotionModel):
         q = self.coordinate(entry)
         mechanism = self.request.mechanism
         values = np.moveaxis(mechanism.values, 0, -1)[entry[: len(mechanism.shape)]]
-        one = [q] if isinstance(q, float) else list(q)
-        return mechanism.core.explain(values.tolist(), one, self.request.signs)
+        coordinates = [q] if isinstance(q, float) else list(q)
+        return mechanism.core.explain(values.tolist(), coordinates, self.request.signs)
 
     def to_dataframe(
         self,

@@ -99,16 +99,16 @@ class MotionModel:
 
     def __copy__(self) -> Self:
         # Copies its arrays, which solve(out=) may overwrite; q never is.
-        own = object.__new__(type(self))
+        copied = object.__new__(type(self))
         state = self.__getstate__()
-        own.__setstate__(
+        copied.__setstate__(
             {
                 **state,
                 "stored": self._results.without_buffers(copy=True),
                 "_status": self.status.copy(),
             }
         )
-        return own
+        return copied
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -211,7 +211,7 @@ class MotionModel:
         if not isinstance(name, list | tuple) or not name:
             message = f"{kind}: {short(name)} is not a name or a list of names"
             raise InputError(message)
-        several = [self._find(kind, held, one) for one in name]
+        several = [self._find(kind, held, item) for item in name]
         arrays = tuple(np.stack(order) for order in zip(*several, strict=True))
         return Analogues(", ".join(name), arrays, self.driver_count, is_point)
 

@@ -76,7 +76,7 @@ def driven_angles(mechanism: MechanismModel) -> list[bool]:
     """Whether each driver is an angle, not a slide."""
     slides = mechanism.slides
     drivers = mechanism.description.drivers
-    return [not isinstance(one, str) or one not in slides for one in drivers]
+    return [not isinstance(driver, str) or driver not in slides for driver in drivers]
 
 
 def _quantities(motion: MotionModel, taken: set[str]) -> Iterator[_Quantity]:

@@ -307,7 +307,7 @@ def follow(
         raise InputError(message)
     each = [_course(law, times) for law in listed]
     q, speed, acceleration, jerk = (
-        each[0][k] if drivers == 1 else np.stack([one[k] for one in each], axis=-1)
+        each[0][k] if drivers == 1 else np.stack([course[k] for course in each], axis=-1)
         for k in range(4)
     )
     motion = solve(mechanism, q, order=3, on_error=on_error, is_typed=True)

@@ -239,10 +239,10 @@ def _along(
         rows.append((q, np.full(len(q), number), values))
 
     def joined(kind: int) -> dict[str, Float]:
-        own = names[kind]
+        columns = names[kind]
         return {
             name: np.concatenate([values[kind][i] for _, _, values in rows])
-            for i, name in enumerate(own)
+            for i, name in enumerate(columns)
         }
 
     return CircuitMotion(

@@ -48,7 +48,7 @@ class Fan:
 
     def look_where_known(self, positions: int) -> None:
         """Look at as many coordinates again where branches are, if few of the fan are there."""
-        if not all(math.isfinite(one.high - one.low) for one in self.known.branches):
+        if not all(math.isfinite(branch.high - branch.low) for branch in self.known.branches):
             return
         stretches = self._stretches()
         total = sum(high - low for low, high in stretches)
@@ -65,7 +65,7 @@ class Fan:
     def _stretches(self) -> list[tuple[float, float]]:
         """Return what the branches cover together, of an angle within a turn."""
         known = self.known
-        ends = [(one.low, one.high) for one in known.branches]
+        ends = [(branch.low, branch.high) for branch in known.branches]
         if known.is_angle:
             ends = [(low % math.tau, low % math.tau + high - low) for low, high in ends]
         merged: list[tuple[float, float]] = []

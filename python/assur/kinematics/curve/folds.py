@@ -69,8 +69,8 @@ class Folds:
         """Add the ends of branches that are new."""
         known = self.known
         for number in range(self._measured, len(known.branches)):
-            own = enumerate((known.branches[number].low, known.branches[number].high))
-            self._ends += [_end(known, number, side, q) for side, q in own if math.isfinite(q)]
+            sides = enumerate((known.branches[number].low, known.branches[number].high))
+            self._ends += [_end(known, number, side, q) for side, q in sides if math.isfinite(q)]
         self._measured = len(known.branches)
 
     def _pairs(self) -> list[tuple[End, End]]:
@@ -107,11 +107,11 @@ def _end(known: Branches, number: int, side: int, q: float) -> End:
     return End(number, side, q, WEIGHTS @ places)
 
 
-def _apart(known: Branches, one: End, other: End) -> float:
+def _apart(known: Branches, end: End, other: End) -> float:
     """Return how far apart the places of two ends are, in sizes; infinite if they cannot meet."""
-    if one.side != other.side or one.branch == other.branch:
+    if end.side != other.side or end.branch == other.branch:
         return math.inf
-    gap = one.q - other.q
+    gap = end.q - other.q
     gap = math.remainder(gap, math.tau) if known.is_angle else gap
-    apart = float(np.abs(one.place - other.place).max())
+    apart = float(np.abs(end.place - other.place).max())
     return apart if abs(gap) <= SAME * known.unit and apart <= SAME_FOLD else math.inf

@@ -40,14 +40,14 @@ def configuration_curve(mechanism: MechanismModel, positions: int) -> Configurat
     fan.look_at(around_drawing(mechanism, positions, known.is_angle))
     if not look_within_intervals(known):
         fan.look_where_known(positions)
-    found = folds.find()
+    pairs = folds.find()
     for _ in range(MOST_HALVINGS):
         gaps = fan.gaps()
         if not gaps:
             break
         fan.look_at(gaps)
-        found = folds.find()
-    return _curve_of(known, found, fan.q)
+        pairs = folds.find()
+    return _curve_of(known, pairs, fan.q)
 
 
 def curve_through(
