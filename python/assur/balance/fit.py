@@ -146,18 +146,20 @@ def fit(
     [14.53, 1.94]
     """
     mechanism = checked_mechanism(machine, "balance.fit")
-    given: Any = places
-    if not isinstance(given, Mapping) or not given:
-        message = f"places is {short(given)}: a mapping of links to places is needed"
+    mapping: Any = places
+    if not isinstance(mapping, Mapping) or not mapping:
+        message = f"places is {short(mapping)}: a mapping of links to places is needed"
         raise InputError(message)
-    unplaced = [link for link in most if link not in given] if isinstance(most, Mapping) else []
+    unplaced = [link for link in most if link not in mapping] if isinstance(most, Mapping) else []
     if unplaced:
         message = (
-            f"most has {short(unplaced[0])}, which has no place: {', '.join(map(repr, given))}"
+            f"most has {short(unplaced[0])}, which has no place: {', '.join(map(repr, mapping))}"
         )
         raise InputError(message)
     weight = not_negative(moment_weight, "moment_weight")
-    unknowns = [one for link in given for one in _unknowns(mechanism, link, given[link], most)]
+    unknowns = [
+        unknown for link in mapping for unknown in _unknowns(mechanism, link, mapping[link], most)
+    ]
     motion = q, speed, acceleration
     right = _shaking(machine, motion, weight)
     if not right.size:
@@ -165,23 +167,25 @@ def fit(
         raise InputError(message)
     matrix = np.empty((right.size, len(unknowns)))
     resting: set[str] = set()
-    for k, one in enumerate(unknowns):
-        if one.axis is not None and one.link not in resting:
-            _require_rest(mechanism, one.link, motion, weight)
-            resting.add(one.link)
-        alone = Machine(mechanism, {one.link: Body(1.0, 0.0, one.place)})
+    for k, unknown in enumerate(unknowns):
+        if unknown.axis is not None and unknown.link not in resting:
+            _require_rest(mechanism, unknown.link, motion, weight)
+            resting.add(unknown.link)
+        alone = Machine(mechanism, {unknown.link: Body(1.0, 0.0, unknown.place)})
         matrix[:, k] = _shaking(alone, motion, weight)
-    lower, upper = (np.array([getattr(one, at) for one in unknowns]) for at in ("lower", "upper"))
-    found = bounded_least_squares(matrix, -right, lower, upper)
-    return tuple(_weights(unknowns, found.tolist()))
+    lower, upper = (
+        np.array([getattr(unknown, at) for unknown in unknowns]) for at in ("lower", "upper")
+    )
+    masses = bounded_least_squares(matrix, -right, lower, upper)
+    return tuple(_weights(unknowns, masses.tolist()))
 
 
 def _shaking(machine: Machine, motion: tuple[Any, ...], weight: float) -> Float:
     """Return the components of the shaking force, and the moment as it counts, in one row."""
-    found = machine.reactions(*motion)
-    parts = [found.shaking_force.reshape(-1)]
+    reactions = machine.reactions(*motion)
+    parts = [reactions.shaking_force.reshape(-1)]
     if weight > 0.0:
-        parts.append(weight * np.reshape(found.shaking_moment, -1))
+        parts.append(weight * np.reshape(reactions.shaking_moment, -1))
     row: Float = np.concatenate(parts)
     if not np.isfinite(row).all():
         message = "the shaking force is not finite: a speed or a mass is too great"
@@ -218,7 +222,7 @@ def _points(place: Any) -> list[Any]:
             f"{short(place)} is not a place: give a joint, (x, y), a list of them, or MomentBounds"
         )
         raise InputError(message)
-    several = any(isinstance(one, str | list | tuple) or np.shape(one) for one in place)
+    several = any(isinstance(entry, str | list | tuple) or np.shape(entry) for entry in place)
     return list(place) if several else [place]
 
 
@@ -248,14 +252,14 @@ def _require_rest(mechanism: Mechanism, link: str, motion: tuple[Any, ...], weig
         raise InputError(message, link=link)
 
 
-def _weights(unknowns: list[_Unknown], found: list[float]) -> Iterator[Counterweight]:
-    for k, (one, value) in enumerate(zip(unknowns, found, strict=True)):
-        if one.axis == 1:
-            yield counterweight(one.link, None, complex(found[k - 1], value))
-        elif one.axis is None:
-            x, y = one.place
-            placed = counterweight(one.link, None, complex(value * x, value * y))
-            yield Counterweight(one.link, placed.moment, placed.angle, None, value)
+def _weights(unknowns: list[_Unknown], numbers: list[float]) -> Iterator[Counterweight]:
+    for k, (unknown, value) in enumerate(zip(unknowns, numbers, strict=True)):
+        if unknown.axis == 1:
+            yield counterweight(unknown.link, None, complex(numbers[k - 1], value))
+        elif unknown.axis is None:
+            x, y = unknown.place
+            placed = counterweight(unknown.link, None, complex(value * x, value * y))
+            yield Counterweight(unknown.link, placed.moment, placed.angle, None, value)
 
 
 def _bounds(value: Any, what: str) -> tuple[float, float]:

@@ -171,11 +171,11 @@ def slider_crank(
         raise InputError(message, value=c)
     crank, rod, piston, o, a, b = find_slider_crank(masses.mechanism)
     sliding = masses.mass(piston)
-    own, throw = masses.moment(crank, o), masses.arm(crank, o, a)
+    crank_moment, throw = masses.moment(crank, o), masses.arm(crank, o, a)
     if rod_radius is None:
         at_b = masses.moment(rod, a) / masses.arm(rod, a, b)
         at_a = masses.mass(rod) - at_b
-        return (counterweight(crank, o, -own - (at_a + c * (at_b + sliding)) * throw),)
+        return (counterweight(crank, o, -crank_moment - (at_a + c * (at_b + sliding)) * throw),)
     if c != 1.0:
         message = f"fraction is {c:g}: with rod_radius the whole force is balanced, leave it out"
         raise InputError(message, value=c)
@@ -184,4 +184,4 @@ def slider_crank(
     radius = real_number(positive_number(rod_radius, "rod_radius"), "rod_radius")
     second = counterweight(rod, a, beyond).with_radius(radius)
     carried = masses.mass(rod) + sliding + (second.mass or 0.0)
-    return counterweight(crank, o, -own - carried * throw), second
+    return counterweight(crank, o, -crank_moment - carried * throw), second

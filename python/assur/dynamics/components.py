@@ -36,10 +36,10 @@ def motors(motor: Any, drivers: int) -> list[Motor | None]:
         return [None] * drivers
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
     if not isinstance(many, list | tuple) or len(many) != drivers:
-        wanted = f"{drivers} drivers need a sequence of as many (None: none)"
-        message = f"motor is {short(motor)}: {wanted}"
+        needed = f"{drivers} drivers need a sequence of as many (None: none)"
+        message = f"motor is {short(motor)}: {needed}"
         raise InputError(message)
-    return [None if one is None else checked_motor(one) for one in many]
+    return [None if item is None else checked_motor(item) for item in many]
 
 
 def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:

@@ -68,7 +68,7 @@ class MachineModel:
         components.check_types(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = MappingProxyType(
-            dict(components.body(mechanism, link, one) for link, one in bodies.items())
+            dict(components.body(mechanism, link, body) for link, body in bodies.items())
         )
         self.loads = tuple(components.as_list(loads, "loads"))
         self.driver_count = int(np.size(mechanism.q0))

@@ -134,9 +134,11 @@ def test_one_driver_without_a_moment_is_enough() -> None:
     five = assur.examples.five_bar()
     left = str(five.description.drivers[0])
     overloaded = Machine(five, {}, [Torque(left, 1e308), Torque(left, 1e308)])
-    drawn, turned = five.q0, np.add(five.q0, 0.1)
+    drawn: Any = five.q0
+    turned = np.add(drawn, 0.1)
     assert np.array_equal(overloaded.reduced_moment(drawn, on_error="nan"), [np.inf, 0.0])
-    for q in (drawn, [turned, drawn]):
+    places: list[Any] = [drawn, [turned, drawn]]
+    for q in places:
         for ask in (overloaded.reduced_moment, overloaded.effort):
             with pytest.raises(assur.MotionError, match="a mass is too great there") as raised:
                 ask(q)
@@ -154,9 +156,9 @@ def test_one_driver_without_a_number_is_enough(driver: int) -> None:
             ask(wrong, 1.0)
         with pytest.raises(assur.InputError, match="speed"):
             ask(five.q0, wrong)
-    for ask in (loaded.reduced_inertia, loaded.potential):
+    for of_place in (loaded.reduced_inertia, loaded.potential):
         with pytest.raises(assur.InputError, match="a finite coordinate is needed"):
-            ask(wrong)
+            of_place(wrong)
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])

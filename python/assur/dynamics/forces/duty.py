@@ -112,13 +112,13 @@ def duty(
     x, v, a, shape = kinetostatics.broadcast_motion(machine, motion)
     t = times(motion.t, shape)
     require_finite(x, "q")
-    x, v, a = (np.broadcast_to(one, shape) for one in (x, v, a))
+    x, v, a = (np.broadcast_to(part, shape) for part in (x, v, a))
     senses = None if motion.senses is None else motion.senses.reshaped(shape)
     # Without a speed only the times of a run say how long it takes.
     is_timed = senses is not None and bool(senses.sense.any())
     _check_path(x, v if senses is None else senses.creeping(v, with_begins=True))
     effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t, senses), on_error))
-    rows = [one.reshape(-1, shape[-1]) for one in (x, v, effort)]
+    rows = [part.reshape(-1, shape[-1]) for part in (x, v, effort)]
     if is_timed:
         rows.append(t.reshape(-1, shape[-1]))
     numbers = np.empty((len(rows[0]), NUMBERS))
@@ -134,11 +134,11 @@ def duty(
         last = [ends, rows[1][:, :1], np.reshape(effort_after, (-1, 1))]
         longer = [np.concatenate(pair, axis=1) for pair in zip(rows, last, strict=True)]
         lacks_end &= _ends_agree(longer[2])
-        numbers[lacks_end] = _numbers([one[lacks_end] for one in longer], closed=True)
+        numbers[lacks_end] = _numbers([row[lacks_end] for row in longer], closed=True)
     is_closed &= _ends_agree(rows[2])
     for chosen, closed in ((is_closed, True), (~(is_closed | lacks_end), False)):
         if chosen.any():
-            numbers[chosen] = _numbers([one[chosen] for one in rows], closed=closed)
+            numbers[chosen] = _numbers([row[chosen] for row in rows], closed=closed)
     with np.errstate(over="ignore", invalid="ignore"):
         power = effort * v
     _require_finite(numbers, effort, on_error)
@@ -268,11 +268,11 @@ def _numbers(samples: list[Float], closed: bool) -> Float:
         rms = parts[:, 0] * np.sqrt(np.maximum(squares / time, 0.0))
         energy, size = curve.integral(), curve.integral_of_size()
         # Where the effort has one sign, the difference is rounding, perhaps negative.
-        given = np.maximum(0.5 * (size + energy), 0.0)
+        work_in = np.maximum(0.5 * (size + energy), 0.0)
         taken = np.maximum(0.5 * (size - energy), 0.0)
         extremes = [*curve.extreme(1.0), *curve.extreme(-1.0)]
         extremes += [*power.extreme(1.0), *power.extreme(-1.0)]
-    numbers = np.stack([*extremes, rms, energy, given, taken, time], axis=1)
+    numbers = np.stack([*extremes, rms, energy, work_in, taken, time], axis=1)
     numbers[np.isnan(effort).any(axis=1)] = np.nan
     return numbers
 

@@ -127,7 +127,7 @@ class Reactions(Tabular):
         self,
         mechanism: Mechanism,
         motion: tuple[Float, Float, Float],
-        found: dict[Key, Float],
+        by_key: dict[Key, Float],
         status: npt.NDArray[np.uint8],
         again: Callable[[list[Key], int], Reactions] | None = None,
         source: tuple[MachineModel, Callable[[list[Key], int], Reactions]] | None = None,
@@ -135,7 +135,7 @@ class Reactions(Tabular):
     ) -> None:
         self.mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
-        self.by_key = found
+        self.by_key = by_key
         self._again = again
         # The machine, and other reactions of the same motion: with them what acts can be drawn.
         self._source = source
@@ -163,8 +163,8 @@ class Reactions(Tabular):
             columns.append(Column(name, np.broadcast_to(values, shape).reshape(-1), unit, quantity))
 
         for k, is_angle in enumerate(angles):
-            tail, own = (f"{k}", self.driver[..., k]) if len(angles) > 1 else ("", self.driver)
-            add(f"driver{tail}", own, "N m" if is_angle else "N", "driver")
+            tail, drive = (f"{k}", self.driver[..., k]) if len(angles) > 1 else ("", self.driver)
+            add(f"driver{tail}", drive, "N m" if is_angle else "N", "driver")
         for joint, links in links_at(mechanism).items():
             for link in links[1:]:
                 force = self.joint(joint, on=link)
@@ -350,7 +350,7 @@ class Reactions(Tabular):
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
         if key in self.by_key:
             return self.by_key[key]
-        indices = [core.require("link", other) for other in links[:-1]]
+        indices = [core.require("link", link) for link in links[:-1]]
         total = self.by_key[Key("joint", joint, indices[0])]
         for index in indices[1:]:
             total = total + self.by_key[Key("joint", joint, index)]
@@ -518,8 +518,8 @@ class Reactions(Tabular):
         """
         from assur.pictures.forces.polygon import force_polygon
 
-        own = links.links if isinstance(links, Group) else links
-        return force_polygon(force_system(self, own, at), ax, dark)
+        names = links.links if isinstance(links, Group) else links
+        return force_polygon(force_system(self, names, at), ax, dark)
 
 
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:

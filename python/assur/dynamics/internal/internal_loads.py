@@ -125,8 +125,8 @@ class InternalLoads:
         -23.77 N·m at 0.144 m
         """
         one_of(quantity, QUANTITIES, "quantity")
-        found = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
-        return LoadExtremes(*found)
+        extremes = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
+        return LoadExtremes(*extremes)
 
     def peak(self, quantity: str, of: str = "size") -> Peak:
         """Return the extreme of a quantity over the link and all positions.
@@ -183,10 +183,10 @@ def internal_loads(
     one_of(on_error, ("raise", "nan"), "on_error")
     whole_number(n, "n", 2, MAX_POINTS)
     rod = straight_rod(machine, machine.mechanism, link, along, density)
-    *given, shape = broadcast_motion(machine, motion)
+    *parts, shape = broadcast_motion(machine, motion)
     drivers = machine.driver_count
     full = shape if drivers == 1 else (*shape, drivers)
-    q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in given)
+    q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in parts)
     senses = motion.senses
     if senses is not None:
         senses = senses.reshaped(shape).flat()

@@ -78,8 +78,8 @@ def find_peak(
     before = np.where(np.isfinite(beside[peaks]), peaks - 1, peaks)
     after = np.where(np.isfinite(beside[peaks + 2]), peaks + 1, peaks)
     rates = float(motion.speed[0, 0]), float(motion.acceleration[0, 0]), float(motion.t[0])
-    found = _refined(rod, rates, (quantity, of), q[before, 0], q[after, 0])
-    return max([(float(measure[at]), best), *found], key=lambda one: one[0])[1]
+    refined = _refined(rod, rates, (quantity, of), q[before, 0], q[after, 0])
+    return max([(float(measure[at]), best), *refined], key=lambda candidate: candidate[0])[1]
 
 
 def _refined(
@@ -91,15 +91,15 @@ def _refined(
     def height(q: Float) -> Float:
         nonlocal last
         flat = q.reshape(-1, 1)
-        v, a, t = (np.full(flat.shape, one) for one in rates)
+        v, a, t = (np.full(flat.shape, rate) for rate in rates)
         with np.errstate(over="ignore", invalid="ignore"):
             beam = rod.solve(DrivenMotion(flat, v, a, t[:, 0]), "nan")
-            last = tuple(one.reshape(q.shape) for one in _measured(beam, *asked))
+            last = tuple(part.reshape(q.shape) for part in _measured(beam, *asked))
         return last[0]
 
     q, best = narrowed(height, low, high, TRIED + 2, CLOSEST)
-    chosen = (one[np.arange(low.size), best].tolist() for one in (*last, q))
-    return [(m, Peak(*found)) for m, *found in zip(*chosen, strict=True)]
+    chosen = (column[np.arange(low.size), best].tolist() for column in (*last, q))
+    return [(m, Peak(*peak)) for m, *peak in zip(*chosen, strict=True)]
 
 
 def _measured(beam: Beam, quantity: str, of: str) -> tuple[Float, Float, Float]:

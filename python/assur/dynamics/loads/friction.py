@@ -126,8 +126,8 @@ def checked_friction(mechanism: Mechanism, friction: Any) -> dict[str, PairFrict
             "to assur.SlideFriction is needed"
         )
         raise InputError(message)
-    named = ((checked_name(name, "friction"), one) for name, one in friction.items())
-    return {name: _of_pair(mechanism, name, one) for name, one in named}
+    named = ((checked_name(name, "friction"), pair) for name, pair in friction.items())
+    return {name: _of_pair(mechanism, name, pair) for name, pair in named}
 
 
 def _of_pair(mechanism: Mechanism, name: str, friction: Any) -> PairFriction:

@@ -43,9 +43,9 @@ def check_over(mechanism: Mechanism, loads: Sequence[Any]) -> None:
 def _tables(load: Any) -> Iterator[Table]:
     values = (getattr(load, part, None) for part in ("force", "torque", "pressure"))
     for value in values:
-        for one in value if isinstance(value, tuple) else (value,):
-            if isinstance(one, Table) and one.over is not None:
-                yield one
+        for number in value if isinstance(value, tuple) else (value,):
+            if isinstance(number, Table) and number.over is not None:
+                yield number
 
 
 def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:

@@ -27,9 +27,9 @@ def check_functions(loads: Iterable[Any], motors: Iterable[Any], q0: list[float]
 def _functions(loads: Iterable[Any], motors: Iterable[Any]) -> Iterator[tuple[str, Any]]:
     for load in loads:
         if isinstance(load, Force):
-            own = zip(("fx", "fy"), load.force, strict=True)
+            components = zip(("fx", "fy"), load.force, strict=True)
             named: list[tuple[str, Any]] = [
-                (f"Force at {load.at!r}: {n}", value) for n, value in own
+                (f"Force at {load.at!r}: {n}", value) for n, value in components
             ]
         elif isinstance(load, Torque):
             named = [(f"Torque on {load.link!r}: torque", load.torque)]
@@ -45,11 +45,11 @@ def _functions(loads: Iterable[Any], motors: Iterable[Any]) -> Iterator[tuple[st
 
 def _try(name: str, function: Any, q0: list[float]) -> None:
     for speed in SPEEDS:
-        given = (0.0, q0[0], speed) if len(q0) == 1 else (0.0, tuple(q0), (speed,) * len(q0))
-        _require_arguments(name, function, given)
-        place = f"t = 0, q = {given[1]}, speed = {given[2]}"
+        arguments = (0.0, q0[0], speed) if len(q0) == 1 else (0.0, tuple(q0), (speed,) * len(q0))
+        _require_arguments(name, function, arguments)
+        place = f"t = 0, q = {arguments[1]}, speed = {arguments[2]}"
         try:
-            value = function(*given)
+            value = function(*arguments)
         except ArithmeticError as error:
             problem = f"raises {error!r}"
             continue
@@ -77,14 +77,14 @@ def _is_nan(value: Any) -> bool:
     return isinstance(value, float) and math.isnan(value)
 
 
-def _require_arguments(name: str, function: Any, given: tuple[Any, ...]) -> None:
+def _require_arguments(name: str, function: Any, arguments: tuple[Any, ...]) -> None:
     """Raise InputError unless a function takes (t, q, speed), as far as that is known."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):
         return
     try:
-        signature.bind(*given)
+        signature.bind(*arguments)
     except TypeError as error:
         message = (
             f"{name} is a function with the arguments {signature}: it is called with (t, q, "

@@ -180,7 +180,8 @@ class Force:
             self,
             at=at,
             force=tuple(
-                checked_value(one, f"Force at {where}: {name}") for name, one in components
+                checked_value(component, f"Force at {where}: {name}")
+                for name, component in components
             ),
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
             on=None if self.on is None else _link(self.on, "Force on"),

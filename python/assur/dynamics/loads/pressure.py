@@ -116,8 +116,8 @@ class Pressure:
     over: str | None = None
 
     def __post_init__(self) -> None:
-        given: Any = self.pressure
-        is_gas = isinstance(given, Gas)
+        pressure: Any = self.pressure
+        is_gas = isinstance(pressure, Gas)
         area = not_negative(self.area, "Pressure: area")
         if area == 0.0:
             message = "Pressure: area is 0: that of the piston is needed, m²"
@@ -128,6 +128,6 @@ class Pressure:
             self,
             slide=checked_name(self.slide, "Pressure slide"),
             area=area,
-            pressure=given if is_gas else checked_value(given, "Pressure pressure"),
+            pressure=pressure if is_gas else checked_value(pressure, "Pressure pressure"),
             ambient=not_negative(self.ambient, "Pressure: ambient"),
         )

@@ -115,8 +115,8 @@ class Table(ByValue):
     ) -> None:
         one_of(spline, SPLINES, "Table spline")
         x, y = real_array(q, "Table q"), real_array(value, "Table value")
-        own = None if over is None else checked_name(over, "Table over")
-        repeats = own is None if periodic is None else flag(periodic, "Table periodic")
+        coordinate = None if over is None else checked_name(over, "Table over")
+        repeats = coordinate is None if periodic is None else flag(periodic, "Table periodic")
         _check_rows(x, y, 3 if spline == "periodic" else 2)
         _check_jumps(x, spline, repeats)
         for column in (x, y):
@@ -129,7 +129,7 @@ class Table(ByValue):
             periodic=repeats,
             ratio=checked_ratio(ratio, "Table: ratio"),
             rotor_inertia=not_negative(rotor_inertia, "Table: rotor_inertia"),
-            over=own,
+            over=coordinate,
         )
         _warn_of_overshoot(self)
 
@@ -169,7 +169,7 @@ class Table(ByValue):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor, so that a copy is checked and read-only too.
-        return type(self), tuple(getattr(self, one.name) for one in fields(self))
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))
 
 
 def _check_rows(q: Float, value: Float, least: int) -> None:

@@ -48,18 +48,18 @@ def _reversals_between(machine: MachineModel, low: float, high: float) -> list[f
 
 def jumps_between(machine: MachineModel, low: float, high: float) -> Float:
     """Return where the loads of one design may jump between two coordinates."""
-    found = stations_between(machine, low, high)
-    for (rows, periodic), own in zip(machine.core.tables, machine.core.jumps, strict=True):
-        if not own:
+    jumps = stations_between(machine, low, high)
+    for (rows, periodic), own_jumps in zip(machine.core.tables, machine.core.jumps, strict=True):
+        if not own_jumps:
             continue
         period = rows[-1] - rows[0]
-        first, last = (low - own[-1]) / period, (high - own[0]) / period
-        if periodic and not (last - first) * len(own) < MAX_JUMPS:
+        first, last = (low - own_jumps[-1]) / period, (high - own_jumps[0]) / period
+        if periodic and not (last - first) * len(own_jumps) < MAX_JUMPS:
             message = f"a table's period of {period:g} has too many jumps from {low:g} to {high:g}"
             raise InputError(message, value=period)
         shifts = range(math.floor(first), math.ceil(last) + 1) if periodic else (0,)
-        found += [q + shift * period for shift in shifts for q in own]
-    every = np.unique(found)
+        jumps += [q + shift * period for shift in shifts for q in own_jumps]
+    every = np.unique(jumps)
     return every[(every >= low) & (every <= high)]
 
 
@@ -104,9 +104,9 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
             times = run.t[rows] + (way / np.where(rows, np.abs(speed), 1.0))[rows]
             state = run.at(np.clip(times, run.t[0], run.t[-1]))
         moved[rows] = state.q
-        states = [one.copy() for one in states]
-        for one, own in zip(states, (state.speed, state.acceleration), strict=True):
-            one[rows] = own
+        states = [column.copy() for column in states]
+        for column, values in zip(states, (state.speed, state.acceleration), strict=True):
+            column[rows] = values
     return motion._replace(q=moved, speed=states[0], acceleration=states[1])
 
 

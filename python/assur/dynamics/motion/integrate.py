@@ -80,8 +80,8 @@ def run(
         raise InputError(message)
     watched = as_list(options["events"], "events")
     n = machine.driver_count
-    checked = [known_events.checked(one, machine.mechanism, n) for one in watched]
-    if along_q and any(isinstance(one, known_events.Obstacle) for one in watched):
+    checked = [known_events.checked(event, machine.mechanism, n) for event in watched]
+    if along_q and any(isinstance(event, known_events.Obstacle) for event in watched):
         message = "q_end: over q a motion does not turn back at an Obstacle; give t_end"
         raise InputError(message)
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
@@ -128,9 +128,14 @@ def run(
 
 
 def steady_state(
-    machine: MachineModel, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
+    machine: MachineModel,
+    speed: Any,
+    turns: Any,
+    q0: Any,
+    fluctuation: float | None,
+    **options: Any,
 ) -> SteadyState:
-    """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
+    """See `Machine.steady_state`; with a `fluctuation`, size a flywheel for it."""
     one_design(machine, "steady_state")
     without_friction(machine, "steady_state")
     require_rotary_driver(machine, "a periodic motion")
@@ -165,7 +170,7 @@ def steady_state(
             (step_count(options["max_steps"]), checked_seconds(options["max_seconds"])),
             checked_breaks(options["breaks"]),
             flywheel,
-            wanted,
+            fluctuation,
         )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])
     if machine.motor is not None and abs(made.found_moment) > BALANCE_WARN_RTOL * abs(

@@ -65,7 +65,7 @@ class State(NamedTuple):
 
 
 def _short_number(x: Any) -> str:
-    return f"{x:.6g}" if np.ndim(x) == 0 else "(" + ", ".join(f"{one:.6g}" for one in x) + ")"
+    return f"{x:.6g}" if np.ndim(x) == 0 else "(" + ", ".join(f"{number:.6g}" for number in x) + ")"
 
 
 class NearChangePoint(str):
@@ -269,17 +269,17 @@ class Run(Tabular):
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
             array.flags.writeable = False
-        self.q, self.speed, self.acceleration = (self._shaped(one) for one in arrays[:3])
+        self.q, self.speed, self.acceleration = (self._shaped(column) for column in arrays[:3])
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
         self.events = [
             EventRecord(
-                events[one["event"]],
-                one["t"],
-                self._per_driver(one["q"]),
-                self._per_driver(one["speed"]),
+                events[record["event"]],
+                record["t"],
+                self._per_driver(record["q"]),
+                self._per_driver(record["speed"]),
             )
-            for one in core.events
+            for record in core.events
         ]
         self.at_rest_from = self._at_rest_from()
         self.end, self.message = self._end_and_message(events)
@@ -343,16 +343,16 @@ class Run(Tabular):
         >>> run.at([0.5, 1.0]).speed.round(6)  # rad/s: 4 rad/s² for t
         array([2., 4.])
         """
-        own, other, name = (q, t, "q") if self.along_q else (t, q, "t")
-        if own is None or other is not None:
+        coordinate, unused, name = (q, t, "q") if self.along_q else (t, q, "t")
+        if coordinate is None or unused is not None:
             message = f"this run goes along {name}: call at({name}=...)"
             raise InputError(message)
-        x = self._clip_to_run(real_array(own, name), name)
+        x = self._clip_to_run(real_array(coordinate, name), name)
         arrays = self._core.at(x.ravel())
         tail = () if self._drivers == 1 else (self._drivers,)
         return State(
             arrays[0].reshape(x.shape)[()],
-            *(one.reshape((*x.shape, *tail))[()] for one in arrays[1:4]),
+            *(array.reshape((*x.shape, *tail))[()] for array in arrays[1:4]),
         )
 
     def _clip_to_run(self, x: Float, name: str) -> Float:
@@ -402,7 +402,8 @@ class Run(Tabular):
         for k, is_angle in enumerate(angles):
             tail, unit = f"{k}" if len(angles) > 1 else "", "rad" if is_angle else "m"
             speed, acceleration = (
-                one[:, k] if len(angles) > 1 else one for one in (self.speed, self.acceleration)
+                values_of[:, k] if len(angles) > 1 else values_of
+                for values_of in (self.speed, self.acceleration)
             )
             columns.append(Column(f"speed{tail}", speed, f"{unit}/s", "motion"))
             columns.append(Column(f"acceleration{tail}", acceleration, f"{unit}/s2", "motion"))

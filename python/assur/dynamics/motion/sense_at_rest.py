@@ -64,8 +64,8 @@ def senses_of_run(q: Float, speed: Float, acceleration: Float) -> Senses:
         before = steps[row - 1] if row else np.sign(acceleration[row])
         after = steps[row] if row < count - 1 else 0.0
         begins[row] = before == 0.0 and after != 0.0
-        found = before or after
-        sense[row] = found or np.nan
+        direction = before or after
+        sense[row] = direction or np.nan
     return Senses(sense, begins)
 
 

@@ -79,22 +79,22 @@ def named_loads(machine: MachineModel) -> Iterator[tuple[str, Load]]:
 
 def table_names(machine: MachineModel) -> tuple[str, ...]:
     """Return names of the tables in the order of the core: those over q, then those over others."""
-    over_q, others = list[str](), list[str]()
+    over_q, over_others = list[str](), list[str]()
     every = [(name, value) for name, load in named_loads(machine) for value in _values(load)]
     for name, value in [*every, *_motor_values(machine)]:
         if isinstance(value, Gas):
-            others.append(name)
+            over_others.append(name)
         elif isinstance(value, Table):
-            one = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
-            (over_q if value.over is None else others).append(one)
-    return (*(over_q or ["a table over q"] * len(machine.core.tables)), *others)
+            text = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
+            (over_q if value.over is None else over_others).append(text)
+    return (*(over_q or ["a table over q"] * len(machine.core.tables)), *over_others)
 
 
 def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
     """Return the error of the first of the coordinates (P,) that a load's table does not cover."""
     mechanism = machine.mechanism
     assert mechanism is not None
-    found: list[tuple[int, str, Table, float]] = []
+    uncovered: list[tuple[int, str, Table, float]] = []
     every = [(name, value) for name, load in named_loads(machine) for value in _values(load)]
     for name, value in [*every, *_motor_values(machine)]:
         if not isinstance(value, Table):
@@ -106,10 +106,10 @@ def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
             at = of(value.over).value
         outside = np.flatnonzero(~np.isfinite(value.at(at)) & np.isfinite(at))
         if outside.size:
-            found.append((int(outside[0]), name, value, float(at[outside[0]])))
-    if not found:
+            uncovered.append((int(outside[0]), name, value, float(at[outside[0]])))
+    if not uncovered:
         return None
-    row, name, table, value_there = min(found, key=lambda one: one[0])
+    row, name, table, value_there = min(uncovered, key=lambda entry: entry[0])
     moment = Moment(places[row : row + 1], np.zeros(1), 0.0)
     return table_ends(name, table, value_there, moment, START_WITHIN)
 
@@ -139,9 +139,9 @@ def _motor_values(machine: MachineModel) -> Iterator[tuple[str, Any]]:
 def _is_finite(machine: MachineModel, moment: Moment) -> bool:
     """Whether inertia and moment have values."""
     q, speed = (x if x.size > 1 else x[0] for x in (moment.q, moment.speed))
-    found = answer(machine, q, speed, moment.t, moment.sense)
-    numbers = found.inertia, found.rates, found.moment
-    return all(bool(np.isfinite(one).all()) for one in numbers)
+    reduced = answer(machine, q, speed, moment.t, moment.sense)
+    numbers = reduced.inertia, reduced.rates, reduced.moment
+    return all(bool(np.isfinite(array).all()) for array in numbers)
 
 
 def _of_load(mechanism: Mechanism, name: str, load: Load, moment: Moment) -> AssurError:
@@ -186,11 +186,11 @@ def _of_value(mechanism: Mechanism, name: str, value: Any, moment: Moment) -> As
         return None if np.isfinite(value.at(at)) else table_ends(name, value, at, moment)
     if not callable(value):
         return None
-    found = function_values([value], moment.q[None], moment.speed[None], np.array([moment.t]))
-    if np.isfinite(found).all():
+    gave = function_values([value], moment.q[None], moment.speed[None], np.array([moment.t]))
+    if np.isfinite(gave).all():
         return None
-    message = f"{name}: at q = {moment.shown} its function gave {found[0]}, it must be finite"
-    return InputError(message, kind="not_finite", q=moment.at, value=float(found[0]))
+    message = f"{name}: at q = {moment.shown} its function gave {gave[0]}, it must be finite"
+    return InputError(message, kind="not_finite", q=moment.at, value=float(gave[0]))
 
 
 def table_ends(
