@@ -29,8 +29,10 @@ class ByValue:
     __slots__ = ()
 
     def _key(self) -> tuple[Any, ...]:
-        own: Any = self
-        return tuple(key_of(getattr(self, one.name)) for one in fields(own) if one.compare)
+        instance: Any = self
+        return tuple(
+            key_of(getattr(self, field.name)) for field in fields(instance) if field.compare
+        )
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):

@@ -112,8 +112,8 @@ class AssurError(Exception):
         ...     print(error.names)
         ('crank', 'rod')
         """
-        own = (self.joint, self.link, self.slide, self.driver, self.dimension)
-        return tuple(dict.fromkeys(self._names or (name for name in own if name is not None)))
+        fields = (self.joint, self.link, self.slide, self.driver, self.dimension)
+        return tuple(dict.fromkeys(self._names or (name for name in fields if name is not None)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (type(self), self.args, self.__dict__)

@@ -63,8 +63,10 @@ class Measuring:
         if not isinstance(metrics, Mapping):
             message = f"metrics is {short(metrics)}: a mapping of names to metrics is needed"
             raise InputError(message)
-        named = [(checked_name(name, "metrics"), one) for name, one in metrics.items()]
-        self.metrics = {name: _metric(name, one) for name, one in named}
+        named = [
+            (checked_name(name, "metrics"), definition) for name, definition in metrics.items()
+        ]
+        self.metrics = {name: _metric(name, definition) for name, definition in named}
         self.conditions = conditions = _conditions(where)
         self.threads = threads
         self.q = _coordinates(mechanism, q)
@@ -82,11 +84,11 @@ class Measuring:
         ]
         early = [c for c in conditions if c not in self.late]
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
-        for one in self.leaves:
-            located = _with_lines(one, mechanism)
+        for measured in self.leaves:
+            located = _with_lines(measured, mechanism)
             refusal = mechanism.core.refusal_of_metric(self.q.reshape(-1), located)
             if refusal is not None:
-                message = f"{one!r}: {refusal}"
+                message = f"{measured!r}: {refusal}"
                 raise InputError(message)
         self.asked = [_with_lines(metric, mechanism) for metric in asked]
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
@@ -104,8 +106,8 @@ class Measuring:
         size = designs.size * max((part.stop - part.start for part in parts), default=0)
         memory = np.empty(size) if engine is None else None
         tasks = ((part, designs.some(part, memory)) for part in parts)
-        for part, (found, status[part], kept[part]) in results(engine, self.measure, tasks):
-            for name, value in found.items():
+        for part, (block, status[part], kept[part]) in results(engine, self.measure, tasks):
+            for name, value in block.items():
                 values[name][part] = value
             report(part.stop)
         del room
@@ -117,7 +119,7 @@ class Measuring:
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
-        found, status, kept = some.core.measure(
+        numbers, status, kept = some.core.measure(
             some.values.reshape(-1),
             self.q.reshape(-1),
             some.signs,
@@ -125,7 +127,7 @@ class Measuring:
             self.early,
             self.threads,
         )
-        of: dict[Single, Float] = dict(zip(self.leaves, found, strict=False))
+        of: dict[Single, Float] = dict(zip(self.leaves, numbers, strict=False))
         if self.functions:
             indices = np.flatnonzero(kept)
             of.update(self._called(some, indices))
@@ -146,11 +148,14 @@ class Measuring:
     def undefined(self, design: Mechanism) -> Undefined:
         """Return which metric of a design has no value, and why."""
         some = with_values(design, design.values[:, None])
-        asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
+        asked = {
+            **self.metrics,
+            **{repr(condition): condition.metric for condition in self.conditions},
+        }
         for name, metric in asked.items():
             for part in (*metric.leaves(), metric):
-                own = Measuring(some, self.machine, self.q, {name: part}, None, self.threads)
-                if not np.isnan(own.measure(some)[0][name][0]):
+                alone = Measuring(some, self.machine, self.q, {name: part}, None, self.threads)
+                if not np.isnan(alone.measure(some)[0][name][0]):
                     continue
                 if isinstance(part, OfMachine):
                     assert self.machine is not None
@@ -162,11 +167,11 @@ class Measuring:
 
     def _called(self, some: Mechanism, indices: npt.NDArray[np.intp]) -> dict[Single, Float]:
         """Call the functions with the motions, or machines, of some designs."""
-        found: dict[Single, Float] = {
+        values: dict[Single, Float] = {
             function: np.full(some.shape[0], np.nan) for function in self.functions
         }
         # Reactions keep nothing of the positions.
-        keeps = not all(isinstance(one, Driven) for one in self.functions)
+        keeps = not all(isinstance(function, Driven) for function in self.functions)
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
@@ -175,12 +180,12 @@ class Measuring:
                 if numbers.shape != few.shape:
                     message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
                     raise InputError(message)
-                found[function][few] = numbers
-        return found
+                values[function][few] = numbers
+        return values
 
     def _numbers(self, batch: Mechanism) -> Iterator[tuple[Function | OfMachine, Float]]:
         """Yield all functions with their values for a batch."""
-        of_machine = [one for one in self.functions if isinstance(one, OfMachine)]
+        of_machine = [metric for metric in self.functions if isinstance(metric, OfMachine)]
         if of_machine:
             assert self.machine is not None
             values = together(of_machine, self.machine.of(batch), self.q, self.threads)
@@ -190,8 +195,8 @@ class Measuring:
                 yield function, self._of_motion(function, batch)
 
     def _of_motion(self, function: Function, batch: Mechanism) -> Float:
-        wanted = function.order, function.outputs, None
-        motion = solve(batch, self.q, *wanted, "nan", self.threads, None)
+        options = function.order, function.outputs, None
+        motion = solve(batch, self.q, *options, "nan", self.threads, None)
         return real_array(function.function(motion), f"the values of {function!r}")
 
 

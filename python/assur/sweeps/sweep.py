@@ -192,8 +192,8 @@ def sweep(
         return measuring.run(designs, report, engine)
 
 
-def _refuse_for_metrics(**given: object) -> None:
-    for name, value in given.items():
+def _refuse_for_metrics(**options: object) -> None:
+    for name, value in options.items():
         if value is not None:
             message = f"{name}= is for motions, not for metrics="
             if name == "order":

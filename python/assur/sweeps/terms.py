@@ -254,8 +254,8 @@ class Function(ByValue, Metric):
 
     def _key(self) -> tuple[Any, ...]:
         # A callable object may have no hash.
-        own: Any = self.function
-        same = own if isinstance(own, Hashable) else id(own)
+        function: Any = self.function
+        same = function if isinstance(function, Hashable) else id(function)
         return same, self.outputs, self.order
 
     def leaves(self) -> Iterator[Single]:
