@@ -37,17 +37,17 @@ def add_source(parser: argparse.ArgumentParser, others: bool = True) -> None:
     if not others:
         parser.set_defaults(format=None, scale=None, drivers=None)
         return
-    other = parser.add_argument_group("files of other programs")
-    other.add_argument(
+    group = parser.add_argument_group("files of other programs")
+    group.add_argument(
         "--format", metavar="NAME", help="pmks, pmks_plus, pylinkage, pyslvs or linkage2"
     )
-    other.add_argument(
+    group.add_argument(
         "--scale",
         metavar="LENGTH",
         type=argument(numbers),
         help="the file's unit of length, such as 1mm; by default 1m, and 1/96 inch in Linkage",
     )
-    other.add_argument(
+    group.add_argument(
         "--drivers",
         metavar="I-J",
         type=argument(_pairs),

@@ -125,8 +125,8 @@ class Contents:
         >>> float(contents.result("solve").slide("bore").value)              # m
         4.0
         """
-        given: object = name
-        if not isinstance(given, str) or given not in self.wanted:
+        asked: object = name
+        if not isinstance(asked, str) or asked not in self.wanted:
             known = ", ".join(self.wanted) or "none"
             message = f"the file does not ask for {short(name)}; it asks for: {known}"
             raise InputError(message)
@@ -185,13 +185,13 @@ def contents_of(source: Tree) -> Contents:
         raise entries["format"].error(message)
     mechanism = read_mechanism(root)
     machine = read_machine(root, mechanism)
-    found: Mapping[str, Result] = read_wanted(root, mechanism, machine is not None)
+    results: Mapping[str, Result] = read_wanted(root, mechanism, machine is not None)
     return Contents(
         mechanism,
         machine,
-        MappingProxyType({name: one.arguments for name, one in found.items()}),
+        MappingProxyType({name: result.arguments for name, result in results.items()}),
         read_input_speed(root, mechanism),
-        MappingProxyType({name: one.node for name, one in found.items()}),
+        MappingProxyType({name: result.node for name, result in results.items()}),
     )
 
 
@@ -201,16 +201,16 @@ def known_speed(input_speed: Any) -> InputSpeed:
     return None if several and None in input_speed else input_speed
 
 
-def _checked_speed(given: Any, mechanism: Mechanism) -> InputSpeed:
+def _checked_speed(speed: Any, mechanism: Mechanism) -> InputSpeed:
     count = mechanism.driver_count
     if count == 1:
-        return real_number(given, "input_speed")
-    if not isinstance(given, list | tuple) or len(given) != count:
+        return real_number(speed, "input_speed")
+    if not isinstance(speed, list | tuple) or len(speed) != count:
         message = (
-            f"input_speed is {short(given)}: a number for each of the {count} drivers is needed"
+            f"input_speed is {short(speed)}: a number for each of the {count} drivers is needed"
         )
         raise InputError(message)
-    return tuple(real_number(one, "input_speed") for one in given)
+    return tuple(real_number(number, "input_speed") for number in speed)
 
 
 def load(path: str | PathLike[str]) -> Any:

@@ -64,12 +64,12 @@ def tokens(text: str, skip_numbers: bool = False) -> Iterator[Token]:
 
 def _end_of_string(text: str, quote: str, at: int) -> int:
     """Return where a string ends whose content begins at a place; -1 if it does not."""
-    while found := ENDS[quote].search(text, at):
-        if found.group()[0] == quote[0]:
-            return found.end()
-        if found.group() == "\n":
+    while match := ENDS[quote].search(text, at):
+        if match.group()[0] == quote[0]:
+            return match.end()
+        if match.group() == "\n":
             return -1
-        at = found.end()
+        at = match.end()
     return -1
 
 

@@ -158,9 +158,9 @@ def all_finite(values: list[float]) -> bool:
 
 def near(word: str, known: Iterable[str]) -> str:
     """Return a question that suggests what was meant, or nothing."""
-    plain = {one.lower(): one for one in known}
-    found = difflib.get_close_matches(word.lower(), plain, n=1)
-    return f"; did you mean {plain[found[0]]}?" if found else ""
+    plain = {candidate.lower(): candidate for candidate in known}
+    matches = difflib.get_close_matches(word.lower(), plain, n=1)
+    return f"; did you mean {plain[matches[0]]}?" if matches else ""
 
 
 def described(value: Any) -> str:

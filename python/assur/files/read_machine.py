@@ -63,7 +63,8 @@ def _motors(node: Node) -> Any:
     if not isinstance(node.value, list):
         return _typed(node, MOTORS)
     return [
-        None if one.value == {"type": NO_MOTOR} else _typed(one, MOTORS) for one in node.entries()
+        None if entry.value == {"type": NO_MOTOR} else _typed(entry, MOTORS)
+        for entry in node.entries()
     ]
 
 

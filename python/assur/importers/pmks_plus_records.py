@@ -84,11 +84,11 @@ def parts(source: Source, sketch: Sketch) -> list[str]:
     if not is_checked(held):
         problem = "the last letter does not agree with the length: the address was cut or changed"
         raise source.error("", problem)
-    found = held[:-1].split(".")
-    if len(found) < 6:
-        raise source.error("", f"{len(found)} parts: settings, joints and links are needed")
-    source.require_few(len(found) // 3, "records")
-    return found
+    records = held[:-1].split(".")
+    if len(records) < 6:
+        raise source.error("", f"{len(records)} parts: settings, joints and links are needed")
+    source.require_few(len(records) // 3, "records")
+    return records
 
 
 def settings(
@@ -109,17 +109,17 @@ def settings(
 
 def sections(source: Source, parts: list[str]) -> list[list[str]]:
     """Return the records of joints, links and forces, each ended by an empty part."""
-    found: list[list[str]] = []
+    records: list[list[str]] = []
     for what in ("joints", "links", "forces"):
         if "" not in parts:
             if what != "forces":
                 raise source.error("", f"the records of {what} have no end")
-            found.append(parts[:-1])
-            return found
+            records.append(parts[:-1])
+            return records
         end = parts.index("")
-        found.append(parts[:end])
+        records.append(parts[:end])
         parts = parts[end + 1 :]
-    return found
+    return records
 
 
 def joint_of(source: Source, place: str, text: str) -> Joint:
@@ -139,7 +139,7 @@ def joint_of(source: Source, place: str, text: str) -> Joint:
     if slot and (len(slot) != 3 or slot[1] == slot[2] or flags & 4 or not flags & 1):
         problem = "the slot needs a link and two of its joints, and no place on the frame"
         raise source.error(place, f"{problem}: {listed(slot)}", joint=words[0][1:])
-    own = decimal(source, words[8], place, "the speed") if words[8:9] not in ([], [""]) else 0.0
+    speed = decimal(source, words[8], place, "the speed") if words[8:9] not in ([], [""]) else 0.0
     return Joint(
         place=place,
         id=words[0][1:],
@@ -150,7 +150,7 @@ def joint_of(source: Source, place: str, text: str) -> Joint:
         fixed=bool(flags & 4),
         welded=bool(flags & 8),
         slot=slot,
-        speed=own or None,
+        speed=speed or None,
     )
 
 

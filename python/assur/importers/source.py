@@ -50,8 +50,8 @@ class Source:
 
     def wrong(self, place: str, what: str, value: Any, needed: str, **fields: Any) -> InputError:
         """Return the error for a value that is missing (None) or of the wrong kind."""
-        found = "missing" if value is None else short(value)
-        return self.error(place, f"{what} is {found}: {needed} is needed", **fields)
+        shown = "missing" if value is None else short(value)
+        return self.error(place, f"{what} is {shown}: {needed} is needed", **fields)
 
     def require_few(self, count: int, what: str = "joints") -> None:
         """Refuse what no linkage has so many of; the steps that follow may take their square."""

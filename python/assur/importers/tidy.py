@@ -48,20 +48,20 @@ def _resolve(source: Source, sketch: Sketch, driven: Input) -> None:
         return
     links = sketch.links_at(joint)
     if driven.base is None:
-        others = [link for link in links if link != driven.link]
-        driven.base = GROUND if GROUND in others else next(iter(others), None)
+        candidates = [link for link in links if link != driven.link]
+        driven.base = GROUND if GROUND in candidates else next(iter(candidates), None)
     if driven.link is None:
-        others = [link for link in links if link != driven.base]
-        if len(others) > 1:
+        candidates = [link for link in links if link != driven.base]
+        if len(candidates) > 1:
             # Links of one joint only mark it.
-            others = [link for link in others if len(sketch.links[link]) > 1] or others
-        if len(others) > 1:
+            candidates = [link for link in candidates if len(sketch.links[link]) > 1] or candidates
+        if len(candidates) > 1:
             problem = (
-                f"input joint {joint!r} has several links, {listed(others)}: "
+                f"input joint {joint!r} has several links, {listed(candidates)}: "
                 "the file does not say which of them it turns"
             )
             raise source.error(driven.place, problem, joint=joint)
-        driven.link = next(iter(others), None)
+        driven.link = next(iter(candidates), None)
     if driven.link is None or driven.base is None or driven.link == driven.base:
         problem = f"input joint {joint!r} joins no two links: it turns nothing"
         raise source.error(driven.place, problem, joint=joint)
@@ -104,22 +104,22 @@ def _fix(source: Source, sketch: Sketch) -> None:
 
 def _leave_out_unconnected(sketch: Sketch) -> None:
     """Leave out links that nothing connects with the frame: they decorate."""
-    found, joints = {GROUND}, set(sketch.links[GROUND])
+    connected, joints = {GROUND}, set(sketch.links[GROUND])
     size = 0
-    while size != len(found) + len(joints):
-        size = len(found) + len(joints)
+    while size != len(connected) + len(joints):
+        size = len(connected) + len(joints)
         for link, members in sketch.links.items():
-            if link in found or joints.intersection(members):
-                found.add(link)
+            if link in connected or joints.intersection(members):
+                connected.add(link)
                 joints.update(members)
         for slot in sketch.slots.values():
-            if slot.carrier in found or slot.joint in joints:
-                found.add(slot.carrier)
+            if slot.carrier in connected or slot.joint in joints:
+                connected.add(slot.carrier)
                 joints.add(slot.joint)
         for ends in sketch.cylinders.values():
             if joints.intersection(ends):
                 joints.update(ends)
-    loose = [link for link in sketch.links if link not in found]
+    loose = [link for link in sketch.links if link not in connected]
     _remove(sketch, loose, "not connected with the frame")
 
 

@@ -42,15 +42,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
     from assur.studio.serve import require_packages, serve
 
     require_packages()
-    opened = _given(given.file)
+    opened = _given(arguments.file)
     if opened is not None and opened.path is not None:
         _require_readable(opened)
-    serve(opened, given.host, given.port, not given.no_browser, _say)
+    serve(opened, arguments.host, arguments.port, not arguments.no_browser, _say)
 
 
 def _say(address: str) -> None:
