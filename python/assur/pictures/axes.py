@@ -95,8 +95,8 @@ class Canvas:
 
     def points(self, at: Any) -> Float:
         """Return points of the drawing in points of print."""
-        own: Float = np.asarray(at, dtype=np.float64) * self.scale
-        return own
+        printed: Float = np.asarray(at, dtype=np.float64) * self.scale
+        return printed
 
 
 def canvas(
@@ -137,7 +137,10 @@ def canvas(
     # Limits stay as they are, whatever the layout does later; twins cannot keep them.
     box = ax.get_position(original=True)
     siblings = {*ax.get_shared_x_axes().get_siblings(ax), *ax.get_shared_y_axes().get_siblings(ax)}
-    twins = any(one is not ax and one.get_position(True).bounds == box.bounds for one in siblings)
+    twins = any(
+        sibling is not ax and sibling.get_position(True).bounds == box.bounds
+        for sibling in siblings
+    )
     ax.set_aspect("equal", adjustable="datalim" if twins else "box")
     ax.set_axis_off()
     size = np.maximum(72.0 * root_figure(ax).get_size_inches() * (box.width, box.height), 1.0)

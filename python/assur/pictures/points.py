@@ -37,8 +37,8 @@ def in_points(ax: Any, data: Float) -> Float:
 
 def in_data(ax: Any, points: Float) -> Float:
     """Return places in points as places of the data."""
-    own: Float = ax.transData.inverted().transform(points / per_px(ax))
-    return own
+    places: Float = ax.transData.inverted().transform(points / per_px(ax))
+    return places
 
 
 def bounds(ax: Any) -> tuple[Float, Float]:

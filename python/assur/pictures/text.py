@@ -104,7 +104,7 @@ def write_names(
     radii: Float,
     lines: list[Float],
     gids: Sequence[str],
-    others: Float | None = None,
+    boxes: Float | None = None,
     light: list[Float] | None = None,
     font: FontProperties | None = None,
     colours: Sequence[str] | None = None,
@@ -117,7 +117,7 @@ def write_names(
     The font and ink of names by default; texts whose `sizes`, points, are given may have formulas.
     """
     names = Names(on, texts, radii, gids, font, colours, sizes)
-    names.place(points, lines, others, light)
+    names.place(points, lines, boxes, light)
     return names.artists
 
 
@@ -180,7 +180,7 @@ class Names:
         self,
         points: Float,
         lines: list[Float],
-        others: Float | None = None,
+        boxes: Float | None = None,
         light: list[Float] | None = None,
     ) -> None:
         """Move the names to points, m, clear of lines."""
@@ -192,7 +192,7 @@ class Names:
             self._radii,
             along([on.points(line) for line in lines], STEP, bounds),
             bounds,
-            others,
+            boxes,
             along([on.points(line) for line in light or []], STEP, bounds),
             self._kept,
         )

@@ -87,14 +87,16 @@ def centrodes(
         message = f"link and other are both {link!r}: give two links"
         raise InputError(message, link=link)
     index = (0,) * len(motion.shape) if isinstance(at, tuple) and not at else at
-    one = motion[checked_index(index, motion.shape, "at")] if motion.shape else motion
+    position = motion[checked_index(index, motion.shape, "at")] if motion.shape else motion
     rows, _ = refined(motion, "centrodes", 1, ROWS)
-    pole = one.instant_centre(link, other)
+    pole = position.instant_centre(link, other)
     if not np.isfinite(pole).all():
-        reason = one.explain() if np.isnan(pole).all() else f"{link} does not turn relative to it"
+        reason = (
+            position.explain() if np.isnan(pole).all() else f"{link} does not turn relative to it"
+        )
         message = f"no instant centre of {link!r} and {other!r} there: {reason}"
         raise InputError(message, link=link)
-    subject = Subject(one)
+    subject = Subject(position)
     fixed, moving = _curves(subject, rows, link, other)
     points = np.concatenate([fixed, moving, pole[None]])
     on = subject.canvas(

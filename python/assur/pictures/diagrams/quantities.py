@@ -70,13 +70,13 @@ def quantities(motion: Motion, name: Any) -> list[Quantity]:
     if not isinstance(names, list | tuple) or not names:
         message = f"diagram: {short(name)} is not a name or a list of names"
         raise InputError(message)
-    found = [_quantity(motion, one) for one in names]
-    units = {"rad" if one.kind == "link" else "m" for one in found}
+    listed = [_quantity(motion, item) for item in names]
+    units = {"rad" if quantity.kind == "link" else "m" for quantity in listed}
     if len(units) > 1:
-        kinds = ", ".join(f"{one.kind} {one.name!r}" for one in found)
+        kinds = ", ".join(f"{quantity.kind} {quantity.name!r}" for quantity in listed)
         message = f"diagram: {kinds} have different units: draw links by themselves"
         raise InputError(message)
-    return found
+    return listed
 
 
 def _quantity(motion: Motion, name: Any) -> Quantity:

@@ -119,8 +119,8 @@ class _Pen:
             self._diameter(mark)
 
     def _at(self, points: Float) -> Float:
-        own: Float = (points - self._sheet.origin) * self._sheet.scale
-        return own
+        on_paper: Float = (points - self._sheet.origin) * self._sheet.scale
+        return on_paper
 
     def _path(self, path: Any, weight: float, dash_dotted: bool = False) -> None:
 

@@ -101,12 +101,12 @@ def forces_picture(
     return on.ax
 
 
-def _draw_faintly(subject: Subject, on: Canvas, own: tuple[str, ...]) -> None:
+def _draw_faintly(subject: Subject, on: Canvas, chosen: tuple[str, ...]) -> None:
     """Draw the mechanism, links other than its own still fainter."""
     drawn = Drawn(on, subject.scene, subject.frames[0])
     links = {part.name: part.link for part in subject.scene.parts}
     for artist in drawn.artists:
-        artist.set_alpha(OWN if links.get(artist.get_gid()) in own else OTHERS)
+        artist.set_alpha(OWN if links.get(artist.get_gid()) in chosen else OTHERS)
 
 
 def _once(forces: Sequence[PlacedForce]) -> list[PlacedForce]:

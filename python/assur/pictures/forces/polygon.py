@@ -74,11 +74,11 @@ def polygon_sides(system: ForceSystem) -> list[PlacedForce]:
     for force in system.forces:
         if force.inner:
             continue
-        own = force.name if force.kind == "reaction" else str(len(outer))
-        before = outer.get((force.kind, own))
+        name = force.name if force.kind == "reaction" else str(len(outer))
+        before = outer.get((force.kind, name))
         total = force.force if before is None else before.force + force.force
         first: Any = before or force
-        outer[force.kind, own] = first._replace(force=total)
+        outer[force.kind, name] = first._replace(force=total)
     greatest = max(float(np.hypot(*force.force)) for force in outer.values())
     kept = [f for f in outer.values() if np.hypot(*f.force) > LEAST * greatest]
     return sorted(kept, key=lambda force: ORDER.index(force.kind))

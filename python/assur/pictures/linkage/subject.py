@@ -70,7 +70,7 @@ class Subject:
         self,
         ax: Any,
         style: Style,
-        others: Iterable[Float] = (),
+        further: Iterable[Float] = (),
         head: float = 0.0,
         groups: bool = False,
     ) -> Canvas:
@@ -79,7 +79,7 @@ class Subject:
         `head`: points for other text above.
         """
         flag(groups, "groups")
-        points = np.concatenate([self.points(), *others])
+        points = np.concatenate([self.points(), *further])
         points = points[np.isfinite(points).all(axis=1)]
         extent = points.min(axis=0), points.max(axis=0)
         font = name_font()

@@ -166,10 +166,10 @@ def _mark_best(
             [x], [y], "o", markersize=MARK, markerfacecolor=style.canvas, clip_on=False,
             markeredgecolor=style.driver, markeredgewidth=2.0, zorder=5.0, gid=f"best {text}",
         )  # fmt: skip
-    said = [f"{text} {value_text(float(value), values)}{unit}" for text, _, _, value in places]
+    captions = [f"{text} {value_text(float(value), values)}{unit}" for text, _, _, value in places]
     points = np.array([(x, y) for _, x, y, _ in places]).reshape(-1, 2)
     reasons = [text for text in ax.texts if text.get_gid() == "reason"]
-    written = write_beside(ax, said, points, MARK, style.driver, "best text", avoid=reasons)
+    written = write_beside(ax, captions, points, MARK, style.driver, "best text", avoid=reasons)
     for text in written:
         text.set_path_effects([patheffects.withStroke(linewidth=3.0, foreground=style.canvas)])
     clear_of(ax, [*reasons, *written], "contour value")

@@ -49,8 +49,8 @@ def metric_curve(
     settle(ax)
     _spans(ax, x, reasons, style)
     for text, i in extremes(values, best):
-        said = f"{text} {value_text(float(values[i]), values)}{unit}"
-        mark(ax, float(x[i]), float(values[i]), said, text == "greatest", style.path, style)
+        caption = f"{text} {value_text(float(values[i]), values)}{unit}"
+        mark(ax, float(x[i]), float(values[i]), caption, text == "greatest", style.path, style)
 
 
 def _spans(ax: Any, x: Float, reasons: Reasons, style: Style) -> None:

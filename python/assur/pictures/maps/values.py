@@ -25,7 +25,7 @@ def extremes(values: Float, best: str) -> list[tuple[str, int]]:
     if not np.isfinite(values).any():
         return []
     both = [("least", int(np.nanargmin(values))), ("greatest", int(np.nanargmax(values)))]
-    return [one for one in both if best in (one[0], "both")]
+    return [extreme for extreme in both if best in (extreme[0], "both")]
 
 
 def level_text(level: float) -> str:

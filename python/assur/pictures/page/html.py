@@ -73,9 +73,9 @@ def notebook_html(of: Mechanism | Motion | Turn) -> str | None:
         played, data = _contents(of)
     except AssurError:
         return None
-    own = f"assur-{uuid4().hex}"
+    identifier = f"assur-{uuid4().hex}"
     start = f"""(() => {{
-const host = document.getElementById({json.dumps(own)});
+const host = document.getElementById({json.dumps(identifier)});
 if (!host || host.shadowRoot) return;
 {script()}
 const shadow = host.attachShadow({{ mode: "open" }});
@@ -88,7 +88,9 @@ host.style.height = "{NOTEBOOK_HEIGHT}px";
 mount(root, {_json(data)});
 }})();"""
     picture = svg_picture(played)
-    return f'<div id="{own}" class="assur-picture">{picture}</div>\n<script>{start}</script>\n'
+    return (
+        f'<div id="{identifier}" class="assur-picture">{picture}</div>\n<script>{start}</script>\n'
+    )
 
 
 def notebook_svg(of: Mechanism | Motion) -> str | None:

@@ -118,9 +118,9 @@ def hodograph(
 
 def _marked(on: Canvas, ends: Float, steps: int) -> list[int]:
     """Return the positions that have a dot: about a dozen of those given."""
-    given = range(0, len(ends), steps)
-    every = max(1, -(-(len(given) - 1) // DOTS))
-    marked = [i for i in given[::every] if np.isfinite(ends[i]).all()]
+    positions = range(0, len(ends), steps)
+    every = max(1, -(-(len(positions) - 1) // DOTS))
+    marked = [i for i in positions[::every] if np.isfinite(ends[i]).all()]
     # The last position of a turn is the first again.
     if len(marked) > 1 and np.hypot(*(ends[marked[-1]] - ends[marked[0]])) * on.scale < DOT:
         marked.pop()

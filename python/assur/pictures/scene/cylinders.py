@@ -54,8 +54,8 @@ def cylinder(axis: Axis, base: Float) -> Cylinder:
 
 def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
     """Draw a cylinder."""
-    own = cylinder(axis, base)
-    forward, rod_forward, barrel, rod = own.forward, own.rod_forward, own.barrel, own.rod
+    drawn = cylinder(axis, base)
+    forward, rod_forward, barrel, rod = drawn.forward, drawn.rod_forward, drawn.barrel, drawn.rod
     colour: Colour = "driver" if driven else "link"
     left = np.array([-forward[1], forward[0]])
     name = f"slide {axis.name}"

@@ -104,9 +104,9 @@ def frames_of(motion: Motion) -> Frames:
         # A link's frame is at its first joint; without one it takes another solution.
         origin = motion.joint(joints[0]) if joints else motion.reference_points[link]
         angle = motion.link(link)
-        for own, place, turned in zip(values, origin.arrays, angle.arrays, strict=False):
-            own[:, i, :2] = place.reshape(-1, 2)
-            own[:, i, 2] = turned.reshape(-1)
+        for columns, place, turned in zip(values, origin.arrays, angle.arrays, strict=False):
+            columns[:, i, :2] = place.reshape(-1, 2)
+            columns[:, i, 2] = turned.reshape(-1)
     frames = Frames(links, values, {})
     known = np.flatnonzero(frames.is_known)
     if not known.size:

@@ -30,11 +30,11 @@ def placed(
     radius: Float,
     obstacles: Float,
     bounds: tuple[Float, Float],
-    others: Float | None = None,
+    taken: Float | None = None,
     light: Float | None = None,
 ) -> Float:
     """Return the middles of names' boxes: see `chosen`."""
-    return chosen(points, sizes, radius, obstacles, bounds, others, light)[0]
+    return chosen(points, sizes, radius, obstacles, bounds, taken, light)[0]
 
 
 def chosen(
@@ -43,7 +43,7 @@ def chosen(
     radius: Float,
     obstacles: Float,
     bounds: tuple[Float, Float],
-    others: Float | None = None,
+    taken: Float | None = None,
     light: Float | None = None,
     kept: npt.NDArray[np.intp] | None = None,
 ) -> tuple[Float, npt.NDArray[np.intp]]:
@@ -80,7 +80,7 @@ def chosen(
     habit = HABIT * (1.0 - directions.sum(axis=1) / np.sqrt(2.0)) / 2.0
     count = len(points)
     middles, places = np.empty_like(points), np.zeros(count, dtype=np.intp)
-    boxes = np.zeros((0, 2, 2)) if others is None else others
+    boxes = np.zeros((0, 2, 2)) if taken is None else taken
     # Whatever is in the way, a row each: its middle, half its size, how bad it is to cover it.
     symbols = np.column_stack([points, np.full((count, 2), radius.max()), np.full(count, ON_NAME)])
     things = np.concatenate(

@@ -43,11 +43,11 @@ def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
     return rates
 
 
-def place_text(one: Motion) -> str:
+def place_text(position: Motion) -> str:
     """Write the coordinates of a position."""
-    mechanism = one.mechanism
+    mechanism = position.mechanism
     drivers = mechanism.description.drivers
-    q = np.atleast_1d(np.asarray(one.coordinate(())))
+    q = np.atleast_1d(np.asarray(position.coordinate(())))
     places = [
         f"{number(float(x))} m"
         if driver in mechanism.slides
