@@ -33,7 +33,7 @@ def pages() -> dict[str, tuple[str, str]]:
     }
 
 
-def application(given: Given | None, token: str, host: str, port: int) -> ASGIApp:
+def application(opened: Given | None, token: str, host: str, port: int) -> ASGIApp:
     """Return the application.
 
     Parameters
@@ -45,7 +45,7 @@ def application(given: Given | None, token: str, host: str, port: int) -> ASGIAp
     host, port : str, int
         Where the server listens.
     """
-    served, studio = pages(), Studio(given)
+    served, studio = pages(), Studio(opened)
 
     async def page(request: Request) -> Response:
         if request.url.path not in served:

@@ -89,9 +89,9 @@ def checked(data: Any) -> Node:
     node = Node(Tree(data if isinstance(data, dict) else {}), (), data)
     entries = node.keys(KEYS)
     for key, most in COUNTED.items():
-        own = entries[key].value if key in entries else ()
-        if isinstance(own, dict | list) and len(own) > most:
-            message = f"has {len(own)} entries: the studio takes {most}"
+        value = entries[key].value if key in entries else ()
+        if isinstance(value, dict | list) and len(value) > most:
+            message = f"has {len(value)} entries: the studio takes {most}"
             raise entries[key].error(message, kind="too_many")
     return node
 

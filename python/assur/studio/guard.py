@@ -112,15 +112,15 @@ class Guard:
         except ValueError:
             # More fields than that.
             return False
-        return any(self._is_token(one) for one in query.get("token", []))
+        return any(self._is_token(token) for token in query.get("token", []))
 
     def _has_cookie(self, headers: dict[str, list[str]]) -> bool:
         for text in headers.get("cookie", []):
             try:
-                found = SimpleCookie(text).get(self.cookie)
+                cookie = SimpleCookie(text).get(self.cookie)
             except CookieError:
                 continue
-            if found is not None and self._is_token(found.value):
+            if cookie is not None and self._is_token(cookie.value):
                 return True
         return False
 
@@ -139,10 +139,10 @@ class Guard:
 
 
 def _headers(scope: Scope) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
+    headers: dict[str, list[str]] = {}
     for name, value in scope["headers"]:
-        found.setdefault(name.decode("latin-1").lower(), []).append(value.decode("latin-1"))
-    return found
+        headers.setdefault(name.decode("latin-1").lower(), []).append(value.decode("latin-1"))
+    return headers
 
 
 def _adding(

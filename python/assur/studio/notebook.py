@@ -72,8 +72,8 @@ class Explorer(anywidget.AnyWidget):
 
     def __init__(self, what: Mechanism | Machine, height: int = 640) -> None:
         shown = self._shown = _shown(what)
-        own, place = document.document_of(what), _place(shown[0])
-        super().__init__(document=own, q=place, height=max(int(height), LEAST_HEIGHT))
+        shown_document, place = document.document_of(what), _place(shown[0])
+        super().__init__(document=shown_document, q=place, height=max(int(height), LEAST_HEIGHT))
         # Setting the document read it again.
         self._shown = shown
         self.on_msg(self._asked)

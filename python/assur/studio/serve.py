@@ -35,7 +35,7 @@ def require_packages() -> None:
 
 
 def serve(
-    given: Given | None,
+    opened: Given | None,
     host: str | None = None,
     port: int | None = None,
     browser: bool = True,
@@ -65,7 +65,7 @@ def serve(
 
     listening = _listening(host or LOCAL, port)
     token, own_port = secrets.token_urlsafe(24), listening.getsockname()[1]
-    app = application(given, token, host or LOCAL, own_port)
+    app = application(opened, token, host or LOCAL, own_port)
     config = uvicorn.Config(
         app,
         log_level="warning",
@@ -94,9 +94,9 @@ def _listening(host: str, port: int | None) -> socket.socket:
         raise InputError(message)
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     ports = range(USUAL_PORT, USUAL_PORT + MORE_PORTS) if port is None else ()
-    for one in ports:
+    for number in ports:
         with suppress(OSError):
-            return socket.create_server((host, one), family=family)
+            return socket.create_server((host, number), family=family)
     try:
         return socket.create_server((host, 0 if port is None else port), family=family)
     except OSError as error:

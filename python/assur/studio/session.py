@@ -68,8 +68,8 @@ class Given:
     @property
     def id(self) -> str:
         """What distinguishes it from other files and examples, for what a browser keeps of it."""
-        own = f"example:{self.example}" if self.path is None else os.path.realpath(self.path)
-        return stamp_of(os.fsencode(own))
+        source = f"example:{self.example}" if self.path is None else os.path.realpath(self.path)
+        return stamp_of(os.fsencode(source))
 
     @property
     def is_saved(self) -> bool:

@@ -31,9 +31,9 @@ def least_transmission(mechanism: Mechanism, line: Float, place: Float) -> list[
     `place` is what the page calls the coordinate: of several drivers the one that moves.
     """
     motion = mechanism.solve(line, order=0, on_error="nan")
-    found = []
+    listed = []
     for name, angles in transmission_angles(motion):
         if np.isfinite(angles).any():
             row = int(np.nanargmin(angles))
-            found.append({"at": name, "least": float(angles[row]), "q": float(place[row])})
-    return found
+            listed.append({"at": name, "least": float(angles[row]), "q": float(place[row])})
+    return listed

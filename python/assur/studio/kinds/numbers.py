@@ -58,8 +58,8 @@ def sensitivity(data: dict[str, Any], session: Session) -> Answer:
     by: dict[str, Any] = {}
     for dimension in mechanism.dimensions:
         session.deadline.check()
-        one = getattr(motion.sensitivity(dimension), kind)(name)
-        by[dimension] = _component(one, order, component)
+        derivative = getattr(motion.sensitivity(dimension), kind)(name)
+        by[dimension] = _component(derivative, order, component)
     value = _component(getattr(motion, kind)(name), order, component)
     unit = "rad" if kind == "link" else "m"
     units = {name: f"{unit}/{unit_of(name)}" for name in by}

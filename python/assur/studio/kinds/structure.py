@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 
 def structure_of(mechanism: Mechanism) -> dict[str, Any]:
     """Return mobility, formula and groups."""
-    own = mechanism.structure
+    structure = mechanism.structure
     return {
-        "mobility": own.mobility,
-        "mobility_at_drawing": own.mobility_at_drawing,
-        "counted": own.mobility_counted,
-        "moving_links": own.moving_links,
-        "turning_pairs": own.turning_pairs,
-        "sliding_pairs": own.sliding_pairs,
-        "class": roman(own.cls),
-        "formula": own.formula.split(ARROW),
-        "redundant": own.redundant,
+        "mobility": structure.mobility,
+        "mobility_at_drawing": structure.mobility_at_drawing,
+        "counted": structure.mobility_counted,
+        "moving_links": structure.moving_links,
+        "turning_pairs": structure.turning_pairs,
+        "sliding_pairs": structure.sliding_pairs,
+        "class": roman(structure.cls),
+        "formula": structure.formula.split(ARROW),
+        "redundant": structure.redundant,
         "groups": [
             {
                 "class": roman(group.cls),
@@ -34,7 +34,7 @@ def structure_of(mechanism: Mechanism) -> dict[str, Any]:
                 "joints": group.joints,
                 "slides": group.slides,
             }
-            for group in own.groups
+            for group in structure.groups
         ],
     }
 
