@@ -73,7 +73,9 @@ class Here:
             if not self.only_ours or (name.startswith(OURS) and contender.every_level)
         }
         self.repeats = {name: self._repeats(name) for name in self.contenders}
-        run = {name: one.designs or self.designs for name, one in self.contenders.items()}
+        run = {
+            name: contender.designs or self.designs for name, contender in self.contenders.items()
+        }
         return About(subject.designs, subject.positions, subject.units, subject.note, run)
 
     def _repeats(self, name: str) -> int:

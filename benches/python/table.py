@@ -81,10 +81,10 @@ def _side_by_side(head: str, subjects: list[dict[str, Any]]) -> list[list[str]]:
     many = len(levels(subjects))
     cells = [[head, *(title({"name": name, "level": level}, many) for name, level in keys)]]
     for subject in subjects:
-        found = {(t["name"], t["level"]): t for t in subject["timings"]}
+        timings = {(t["name"], t["level"]): t for t in subject["timings"]}
         label = subject["label"]
         label = count(label) if isinstance(label, int) else label
-        cells.append([label, *(_cell(subject, found.get(key)) for key in keys)])
+        cells.append([label, *(_cell(subject, timings.get(key)) for key in keys)])
     return cells
 
 
