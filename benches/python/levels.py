@@ -139,7 +139,7 @@ class There:
 
 
 def _serve(pipe: Connection, name: str, only_ours: bool) -> None:
-    """Do what is asked until there is nothing more."""
+    """Carry out requests until there are no more."""
     from cases import cases
 
     here = Here(cases(quick=False)[name], only_ours)

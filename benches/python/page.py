@@ -41,7 +41,7 @@ OTHERS = {
 
 
 def write() -> None:
-    """Replace what is between the markers; complain of a marker without figures."""
+    """Replace the text between the markers; complain of a marker without figures."""
     everything = figures.load()
     cases = everything["cases"]
 

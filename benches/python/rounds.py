@@ -39,7 +39,7 @@ def measure(
 ) -> tuple[About, list[Timing]]:
     """Return what a subject is, and the times of its contenders, which are known to agree.
 
-    sides: the processes of all levels, the best one first. rounds: so many of them, instead of as
+    sides: the processes of all levels, the best one first. rounds: this many of them, instead of as
     many as there is time for.
     """
     abouts = [side.open(label) for side in sides]

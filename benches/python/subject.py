@@ -42,11 +42,11 @@ def turn(count: int) -> Float:
 class Contender:
     """One way to an answer.
 
-    run: what is timed. answer: arrays of what `run` returned, compared with those of the first
-    contender; None: it has no answer (writing to memory). designs: how many of the designs it
-    does, the first ones; its time is scaled. where: the only places where it is compared.
-    prepare: called before each run, outside the clock; what it returns is held until the run has
-    ended. every_level: of this package, whether it runs at the lower levels too.
+    run: the function to time. answer: arrays of what `run` returned, compared with those of the
+    first contender; None: it has no answer (writing to memory). designs: how many of the designs it
+    does, the first ones; its time is scaled. where: the only places where it is compared. prepare:
+    called before each run, outside the clock; what it returns is held until the run has ended.
+    every_level: of this package, whether it runs at the lower levels too.
     """
 
     run: Callable[[], Any]

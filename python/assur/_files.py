@@ -30,7 +30,7 @@ def checked_path(path: Any, suffixes: Collection[str] = (), what: str = "path") 
 
 
 def shown_path(path: Any) -> str:
-    """Return a path as messages show it: one that is no Unicode text can be printed, too."""
+    """Return a path as messages show it: even one that is not Unicode text can be printed."""
     return str(path).encode("utf-8", "backslashreplace").decode("utf-8")
 
 

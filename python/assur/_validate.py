@@ -167,7 +167,7 @@ def checked_threads(threads: Any) -> int | None:
 
 
 def require_one_driver(drivers: int, what: str) -> None:
-    """Refuse what is defined for one driver alone."""
+    """Refuse several drivers where only one is defined."""
     if drivers > 1:
         message = f"{what} is defined for one driver; this mechanism has {drivers}"
         raise InputError(message)

@@ -122,7 +122,7 @@ class AssurError(Exception):
 class StructureError(AssurError, ValueError):
     """An invalid linkage, or one whose mobility differs from its number of drivers.
 
-    `remedies` has what would make a mechanism of it.
+    `remedies` has changes that make it a mechanism.
 
     Examples
     --------
@@ -145,8 +145,8 @@ class StructureError(AssurError, ValueError):
     def remedies(self) -> tuple[Remedy, ...]:
         """Up to three changes that make a mechanism of the linkage, the likeliest first.
 
-        Each was built before it is offered. Empty where none was found, and where what is wrong is
-        no matter of structure: a name, a number.
+        Each was built before it is offered. Empty if there are none, or if the error is not about
+        the structure but about a name or a number.
 
         Examples
         --------

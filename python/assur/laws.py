@@ -350,7 +350,7 @@ class Trapezoidal(Rise):
 
 
 class ModifiedSine(Rise):
-    """Sines of the acceleration of two frequencies, joined at an eighth of the time from both ends.
+    """An acceleration of sines of two frequencies, joined at an eighth of the time from both ends.
 
     The greatest acceleration is 4π²/(4 + π) = 5.528, the greatest speed 4π/(4 + π) = 1.760.
 
@@ -481,7 +481,7 @@ class Sequence(Law):
     Parameters
     ----------
     laws : tuple of Law
-        Ascending in time; each begins where the one before ends.
+        Ascending in time; each begins where the previous one ends.
 
     Examples
     --------

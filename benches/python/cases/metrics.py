@@ -37,7 +37,7 @@ def four_bar() -> assur.Mechanism:
 
 
 def space(count: int) -> dict[str, Float]:
-    """Random four-bars, of which most do not turn fully."""
+    """Random four-bars, most of which do not turn fully."""
     draw = np.random.default_rng(1).uniform
     return {
         "crank.length": draw(0.5, 2.0, count),

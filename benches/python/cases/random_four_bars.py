@@ -1,4 +1,4 @@
-"""A design space as users have it: random four-bars, of which most do not turn; a coupler point."""
+"""A design space as users have it: random four-bars, most of which do not turn; a coupler point."""
 
 from __future__ import annotations
 

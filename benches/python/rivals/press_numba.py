@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.flywheel import Flywheel
 
 WIDTH = float(PHI[1])
-# Steps of the fourth order between two knots, so many that the error is below 1e-9.
+# Steps of the fourth order between two knots, enough for an error below 1e-9.
 STEPS = 24
 # Places of a turn among which extremes are looked for.
 GRID = 181

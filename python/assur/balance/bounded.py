@@ -15,9 +15,10 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from assur._arrays import Float
 
-# A column counts as a sum of others where less than this part of it is left: some rounding errors.
+# A column counts as a sum of others where less than this fraction of it is left: some rounding
+# errors.
 DEPENDENT = 1e-13
-# A bounded variable is freed where its gradient exceeds this part of the right side.
+# A bounded variable is freed where its gradient exceeds this fraction of the right side.
 GRADIENT = 1e-14
 _Mask = npt.NDArray[np.bool_]
 

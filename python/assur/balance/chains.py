@@ -78,7 +78,7 @@ def _moving(mechanism: Mechanism) -> list[str]:
 
 
 def _pins(mechanism: Mechanism, kind: str) -> dict[frozenset[str], str]:
-    """Return the joint of every two links that share one; points of one link are no pins."""
+    """Return the joint of every two links that share one; points of one link are not pins."""
     pins: dict[frozenset[str], str] = {}
     for joint in mechanism.joint_names:
         links = [link for link, joints in mechanism.links.items() if joint in joints]

@@ -91,9 +91,9 @@ def fit(
         The motion over which to balance, as in `Machine.reactions`.
     places : mapping of str to a place
         By link: a joint or (x, y) in the link's frame, m, where a weight goes; or a list of them,
-        each for a weight (corners of a region: together they have any centre within it). Or, for a
-        link whose first joint rests, `MomentBounds`: a weight anywhere, of a mass moment within
-        bounds.
+        one for each weight (at the corners of a region they have any centre within it together).
+        Or, for a link whose first joint rests, `MomentBounds`: a weight anywhere, its mass moment
+        within bounds.
     most : float or mapping of str to float
         Greatest mass of each weight, kg, of all or by link. Does not hold for `MomentBounds`.
     moment_weight : float
@@ -109,7 +109,7 @@ def fit(
     Raises
     ------
     InputError
-        Unknown links, places that are none, bounds for a link whose first joint moves, a batch, a
+        Unknown links, invalid places, bounds for a link whose first joint moves, a batch, a
         machine of a table, wrong numbers.
     PositionError
         No position at some q.

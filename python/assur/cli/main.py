@@ -46,7 +46,7 @@ exit status:
   3    done, but some positions could not be solved; of a sweep no design is left
   130  interrupted
 """
-# A value that begins like a number is no option.
+# A value that begins like a number is not an option.
 NEGATIVE = re.compile(r"-\.?\d")
 
 

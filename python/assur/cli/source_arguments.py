@@ -1,4 +1,4 @@
-"""The arguments that say what is read: FILE, changes of it, how to read it."""
+"""The arguments that say what to read: FILE, changes of it, how to read it."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ def require_writable(path: str) -> None:
 
 
 def refuse_same(path: str, source: str) -> None:
-    """Refuse to overwrite what is read."""
+    """Refuse to overwrite the input."""
     is_same = False
     with suppress(OSError, ValueError):
         is_same = Path(path).samefile(source)

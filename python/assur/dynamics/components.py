@@ -140,6 +140,6 @@ def as_list(value: Any, name: str) -> list[Any]:
         raise InputError(message)
     try:
         return list(value)
-    except TypeError as error:  # A single mechanism is no batch of designs.
+    except TypeError as error:  # A single mechanism is not a batch of designs.
         message = f"{name} must be a sequence, got {short(value)}"
         raise InputError(message) from error

@@ -51,8 +51,8 @@ class Contents:
         Results that the file asks for, by the name of the method (``"solve"``, ``"reactions"``,
         ``"run"``, ``"steady_state"``, ``"flywheel"``): its arguments.
     input_speed : float or tuple of float or None
-        The driver's speed, counter-clockwise in rad/s, or m/s of a slide; of several drivers one
-        each. No result depends on it: the studio plays at it.
+        The driver's speed, counter-clockwise in rad/s, or m/s for a slide; one each for several
+        drivers. No result depends on it: the studio plays at this speed.
 
     Examples
     --------
@@ -113,7 +113,7 @@ class Contents:
         FileError
             Arguments that the method refuses, at their section.
         PositionError, MotionError
-            As the method does.
+            As raised by the method.
         InputError
             A result that the file does not ask for.
 
@@ -153,7 +153,7 @@ def read(path: str | PathLike[str]) -> Contents:
     Returns
     -------
     Contents
-        The mechanism, the machine if there is one, and the results wanted.
+        The mechanism, the machine if there is one, and the requested results.
 
     Raises
     ------
@@ -214,7 +214,7 @@ def _checked_speed(speed: Any, mechanism: Mechanism) -> InputSpeed:
 
 
 def load(path: str | PathLike[str]) -> Any:
-    """Return the mechanism of a file, or its machine if it has one.
+    """Return the mechanism in a file, or its machine if it has one.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Range"]
 
-# A last step of a range that misses its end by so much of a step is not left out.
+# A last step of a range that misses its end by this fraction of a step is not left out.
 ROUNDING = 1e-9
 
 
@@ -34,7 +34,7 @@ class Range:
     step : float, optional
         The distance of two coordinates (one driver). Give either this or:
     count : int, optional
-        How many they are.
+        Number of coordinates.
     endpoint : bool
         With `count`: whether `stop` is one of them.
 

@@ -105,7 +105,7 @@ def _check(drawn: MechanismModel, place: Place, section: Node) -> None:
     motion = solve(drawn, drawn.q0, order=0, on_error="nan")
     targets: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
     there = np.array([motion.joint(name).value for name in drawn.joint_names]).reshape(-1, 2)
-    # The comparison is false of NaN.
+    # The comparison is false for NaN.
     if not bool((np.abs(there - targets) <= SAME * size_of(drawn)).all()):
         message = (
             "does not fit the dimensions: leave it to save(), or leave it out, and draw the "

@@ -25,7 +25,7 @@ NO_MOTOR = "None"
 
 
 def read_machine(root: Node, mechanism: Mechanism) -> Machine | None:
-    """Return the machine of a file, if it has a section of one."""
+    """Return the machine of a file, if it has any of a machine's sections."""
     sections = {key: node for key, node in root.table().items() if key in SECTIONS}
     if not sections:
         return None

@@ -69,7 +69,8 @@ class Source(Tree):
     def _decoded(self, raw: bytes) -> str:
         raw = raw.removeprefix(b"\xef\xbb\xbf")  # which some editors write first
         try:
-            # The parser takes a line end of Windows for one; a key is where it is in either.
+            # The parser counts Windows' line end as one character; keys are at the same line and
+            # column.
             return raw.decode("utf-8").replace("\r\n", "\n")
         except UnicodeDecodeError as error:
             before = raw[: error.start].decode("utf-8")

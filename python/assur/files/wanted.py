@@ -113,7 +113,7 @@ WANTED: dict[str, dict[str, Callable[[Node], Any]]] = {
     },
 }
 NEEDED = {"flywheel": ("fluctuation",)}
-# Which of two is given: exactly one.
+# Pairs of keys, exactly one of which is given.
 EITHER = {"solve": ("q", "deg"), "reactions": ("q", "deg"), "run": ("t_end", "q_end")}
 
 

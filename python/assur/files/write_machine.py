@@ -53,7 +53,7 @@ def _typed(thing: Any, what: str) -> dict[str, Any]:
 
 
 def part(thing: Any, what: str) -> dict[str, Any]:
-    """Return what a part was given, without what it has by default."""
+    """Return the arguments of a part that differ from their defaults."""
     if type(thing) not in PARTS:
         message = f"{what} is of a class that a file cannot hold"
         raise InputError(message)

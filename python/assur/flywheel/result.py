@@ -1,4 +1,4 @@
-"""What is known of a machine with a flywheel in steady motion, whatever its motor."""
+"""A machine with its flywheel in steady motion, with any motor."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLOT_POINTS = 721
 
 
 class Flywheel(Tabular, ABC):
-    """A machine with its flywheel in steady motion, whatever its motor.
+    """A machine with its flywheel in steady motion, with any motor.
 
     Made by `from_table` and `evaluate` (with a constant motor) and by `Machine.flywheel`. Numbers
     and curves have the shape of the batch.

@@ -30,7 +30,7 @@ def parse_json(source: Source) -> dict[str, Any]:
 
 
 def has_numbers_as_ids(text: str) -> bool:
-    """Whether the joints of a JSON text are numbered: none of the formats does so."""
+    """Whether the joints of a JSON text are numbered, as in none of the formats."""
     try:
         data = json.loads(text)
     except (ValueError, RecursionError):

@@ -45,7 +45,8 @@ def read(
     source : str or path-like
         A file, or its text.
     scale : float, optional
-        The file's unit of length, m: by default 1/96 inch, whatever unit the program shows.
+        The file's unit of length, m: by default 1/96 inch, the same for all units that the program
+        shows.
     assembly : mapping of str to int, optional
         For dyads drawn with their links collinear: see `Mechanism`.
 

@@ -51,7 +51,7 @@ def read(
     Raises
     ------
     InputError
-        What is no expression, with its line; drivers that turn nothing.
+        A text that is not an expression, with its line; drivers that turn nothing.
     StructureError
         A linkage that is not a mechanism.
 

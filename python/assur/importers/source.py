@@ -30,7 +30,7 @@ LONGEST_NUMBER = 60
 LONGEST_LABEL = 300
 LABEL = r"[^{}|\n?=]*"
 CLOSING = {"(": ")", "[": "]", "<": ">", '"': '"', "'": "'", "`": "`"}
-# What is no part of an address at its end, unless it was opened there.
+# Characters that are not part of an address at its end, unless they were opened within it.
 ENDS = {")": "(", "]": "[", ">": "<"}
 # What only a text has, not a path.
 TEXT_LETTERS = frozenset("\n\r{[<|?")
@@ -54,7 +54,7 @@ class Source:
         return self.error(place, f"{what} is {shown}: {needed} is needed", **fields)
 
     def require_few(self, count: int, what: str = "joints") -> None:
-        """Refuse what no linkage has so many of; the steps that follow may take their square."""
+        """Refuse more items than any linkage has; the next steps may take time by their square."""
         if count > MOST_PARTS:
             raise self.error("", f"more than {MOST_PARTS} {what}: they are too many to be read")
 

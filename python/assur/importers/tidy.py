@@ -179,7 +179,7 @@ def _remove(sketch: Sketch, links: list[str], why: str) -> None:
 
 
 def _remove_inputs(sketch: Sketch) -> None:
-    """Remove the inputs of what is left out."""
+    """Remove the inputs of omitted parts."""
     for driven in list(sketch.inputs):
         slides = driven.slide in sketch.slots or driven.slide in sketch.cylinders
         turns = driven.link in sketch.links and driven.base in sketch.links

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Assemblies", "Assembly"]
 
-# How near (relative to the size) two positions of the same assembly are; others are farther.
+# Positions nearer than this (relative to the size) are those of one assembly.
 SAME = 1e-6
 # Joints in a repr.
 SHOWN = 2
@@ -52,7 +52,7 @@ class Assembly(Mapping[str, int]):
     Attributes
     ----------
     q : float or ndarray or None
-        Where it was found, rad or m; None if it was not found but named.
+        The coordinate at which it was found, rad or m; None if it was named instead.
     joints : mapping of str to tuple or None
         Positions of the joints there, m.
     is_double : bool
@@ -62,8 +62,8 @@ class Assembly(Mapping[str, int]):
 
     Notes
     -----
-    Assemblies of class II are equal if their signs are. Others are equal if following one of them
-    to the place of the other arrives there.
+    Assemblies of class II are equal if their signs are. Others are equal if one of them, followed
+    to the place of the other, arrives there.
 
     Examples
     --------
@@ -291,7 +291,7 @@ class Assemblies(list[Assembly]):
         Returns
         -------
         ndarray of matplotlib.axes.Axes
-            Those drawn on, one of each assembly; the title has its signs.
+            The axes drawn on, one for each assembly; titles have their signs.
 
         Raises
         ------

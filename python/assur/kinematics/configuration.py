@@ -1,4 +1,4 @@
-"""Where everything of a mechanism is, as one vector in which assemblies can be compared."""
+"""The configuration of a mechanism as one vector, by which assemblies are compared."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def place_vector(joints: Float, angles: Float, slides: Float, size: float) -> Float:
     """Return joints (…, J, 2), unit vectors of links (…, L) and slides (…, K), in sizes: (…, n).
 
-    Joints alone do not tell assemblies apart: a link of one joint may point either way.
+    Joints alone do not distinguish assemblies: a link of one joint may point either way.
     """
     sine, cosine = sin_cos(angles)
     flat = joints.reshape((*joints.shape[:-2], -1)) / size
@@ -48,9 +48,10 @@ def places_along(motion: MotionModel, size: float) -> Float:
 
 
 def nearest(places: Float, place: Float) -> float:
-    """Return how far the nearest of some places is, in sizes; infinite if there is none.
+    """Return the distance to the nearest of some places, in sizes; infinite without any.
 
-    What is farther away than a size, beside a joint at infinity, counts as a part of its distance.
+    What is farther away than a size, near a joint at infinity, is compared relative to its
+    distance.
     """
     if not len(places):
         return float("inf")
@@ -80,7 +81,7 @@ def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
 
 
 def size_of(mechanism: MechanismModel, drawn: bool = False) -> float:
-    """Return a length of one design, or of the drawing, that its size is of the order of, m."""
+    """Return the size of one design, or of its drawing, as an order of magnitude, m."""
     known = [length for length in lengths(mechanism, drawn) if np.isfinite(length)]
     at = np.array([point for _, *point in mechanism.description.joints])
     width = float(np.ptp(at, axis=0).max()) if len(at) else 0.0

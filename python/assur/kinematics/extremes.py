@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 __all__ = ["Extremes", "ValueAt"]
 
 
-# A coordinate stands that changes by less than this (rad, or sizes).
+# A coordinate that changes by less than this (rad, or sizes) stands still.
 STANDS = 1e-13
-# Least tolerance of a dwell, relative to the greatest value: the core's noise twice.
+# Least tolerance of a dwell, relative to the greatest value: twice the core's noise.
 FINEST = 2e-11
 
 
@@ -61,12 +61,12 @@ class Extremes:
         goes round. Turns of q and of angles count as in the intervals of `limits`: in the one that
         `q0` is in they are those of the motion from the drawing.
     time_ratio : float or None
-        Of the way from one extreme to the other and back at constant speed: the longer time over
-        the shorter; None if the driver does not go round.
+        Time from one extreme to the other over the time back at constant speed, the longer over the
+        shorter; None if the driver does not go round.
 
     Examples
     --------
-    The stroke of a slider-crank with an offset, and how much quicker its way back is:
+    The stroke of an offset slider-crank, and how much quicker it returns:
 
     >>> import assur
     >>> bore = assur.SliderCrank(1.0, 3.0, 0.5).extremes("bore")
@@ -135,7 +135,7 @@ class Extremes:
 
 
 def _near(stretches: list[list[float]], place: float, period: float | None) -> list[list[float]]:
-    """Return stretches in the turn about a place: one that has it, modulo a turn, contains it."""
+    """Shift stretches to the turn about a place: one that has it modulo a turn contains it."""
     if period is None:
         return stretches
     shifted = []

@@ -109,7 +109,7 @@ class Limits:
     def dead_points(self) -> Any:
         """Where the assembly ends, by q: a list of `DeadPoint`, nested in the shape of a batch.
 
-        Where it ends because a cylinder has length 0 there is none: nothing folds.
+        None where it ends because a cylinder has length 0: nothing folds there.
         """
         shape = self.intervals.shape[:-2]
         if shape:

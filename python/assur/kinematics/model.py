@@ -1,4 +1,4 @@
-"""Mechanisms as what is computed needs them: the core's handle, dimensions, names, the drawing."""
+"""What computations need of a mechanism: the core's handle, dimensions, names, the drawing."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ __all__ = [
     "with_values",
 ]
 
-# Four units in the last place: by so much a solved place differs from the drawing's by rounding.
+# Four units in the last place: rounding moves a solved place this far from the drawing's.
 TYPED = 1e-15
 
 AnyMechanism = TypeVar("AnyMechanism", bound="MechanismModel")
@@ -98,7 +98,7 @@ class MechanismModel:
     signs: list[int]
     # Indices of joints, links and slides by name.
     _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
-    # The class of what is made of it: of `FourBar` and others a plain mechanism.
+    # The class of mechanisms derived from it: a plain one, also for `FourBar` and others.
     _plain: ClassVar[type[Any]]
 
     def _initialise(
@@ -268,7 +268,7 @@ class MechanismModel:
 
     @property
     def q0_array(self) -> Float:
-        """The same, of one driver an array ().
+        """The same; an array () for one driver.
 
         :meta private:
         """
@@ -374,12 +374,12 @@ def at_place(mechanism: AnyMechanism, place: Place, core: Core) -> AnyMechanism:
 
 
 def copy_from(mechanism: MechanismModel, made: MechanismModel) -> None:
-    """Make a named mechanism, which is being constructed, another one that was made for it."""
+    """Turn a named mechanism under construction into the one that was made for it."""
     mechanism._share(made, made.values)
 
 
 def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
-    """Return a place; coordinates that differ from the drawing's by rounding alone are those."""
+    """Return a place; coordinates that differ by rounding alone become the drawing's."""
     size = float(np.abs(solved).max())
     return tuple(
         typed if abs(x - typed) <= TYPED * size else x

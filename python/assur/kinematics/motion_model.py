@@ -132,7 +132,7 @@ class MotionModel:
     def joint(self, name: str | Sequence[str]) -> Analogues:
         """Return the position of a joint, m, with its analogues.
 
-        Of a sequence of names, arrays are stacked along a new first axis.
+        A sequence of names stacks the results along a new first axis.
 
         Parameters
         ----------
@@ -157,7 +157,7 @@ class MotionModel:
     def link(self, name: str | Sequence[str]) -> Analogues:
         """Return the angle of a link, rad, continuous along q, with its analogues.
 
-        Of a sequence of names, arrays are stacked along a new first axis.
+        A sequence of names stacks the results along a new first axis.
 
         Parameters
         ----------
@@ -181,7 +181,7 @@ class MotionModel:
     def slide(self, name: str | Sequence[str]) -> Analogues:
         """Return the value of a slide, m, with its analogues.
 
-        Of a sequence of names, arrays are stacked along a new first axis.
+        A sequence of names stacks the results along a new first axis.
 
         Parameters
         ----------
@@ -250,12 +250,12 @@ class MotionModel:
 def overwrite(
     motion: MotionModel, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
 ) -> None:
-    """Make a motion that of another request."""
+    """Turn a motion into that of another request."""
     motion._replace_with(request, results, status)
 
 
 class _ReferencePoints(Mapping[str, Analogues]):
-    """Reference points of a motion's links; those that were solved are kept by the motion."""
+    """Reference points of a motion's links; the motion keeps those that were solved."""
 
     def __init__(self, motion: MotionModel, solved: dict[str, tuple[Float, ...]]) -> None:
         self._motion, self._solved = motion, solved

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["columns_of_designs", "dimensions_by_name", "with_dimensions"]
 
-# Columns of this package's own tables of results that are no dimensions.
+# Columns of this package's own tables of results that are not dimensions.
 LABELS = re.compile(r"design\d*|status|kept")
 # A column of row numbers, as pandas writes and reads it.
 UNNAMED = re.compile(r"(Unnamed: 0)?")
@@ -62,7 +62,7 @@ def dimensions_by_name(dimensions: Any, known: Collection[str]) -> Mapping[Any, 
 
 
 def _of_table(names: Iterable[Any], known: Collection[str]) -> list[Any]:
-    """Return the names that are dimensions; a table without any is refused."""
+    """Return the names that are dimensions; refuse a table without any."""
     listed = list(names)
     chosen = columns_of_designs(listed, known)
     if listed and not chosen:

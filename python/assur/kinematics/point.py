@@ -34,7 +34,7 @@ def point_of(motion: MotionModel, link: str, local: npt.ArrayLike) -> Analogues:
     x, y = points[:, 0].reshape(lead), points[:, 1].reshape(lead)
     arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
     drivers = motion.driver_count
-    # With one driver too an axis for each order, to be dropped again.
+    # Even with one driver each order has an axis, which is dropped again.
     rates = [
         rate.reshape(angle.value.shape + (drivers,) * order)
         for order, rate in enumerate(angle.arrays)

@@ -38,7 +38,7 @@ class Buffers:
 class Layout:
     """What the columns of a result are.
 
-    The core writes those of joints, then of slides, then of links: for each one by one the orders.
+    The core writes those of joints, then of slides, then of links: for each, its orders in turn.
     With several drivers each order adds an axis.
     """
 
@@ -70,7 +70,7 @@ class Layout:
 class Held(Mapping[str, tuple[Float, ...]]):
     """Arrays of joints, links or slides by name, one for each order, read-only.
 
-    Each has `width` components. `before` these there are so many others, with so many components.
+    Each has `width` components; `before` counts the others ahead of them, and their components.
     """
 
     def __init__(

@@ -65,7 +65,7 @@ def part_of(motion: AnyMotion, index: Any) -> AnyMotion:
 
 
 def _own(array: Any) -> Any:
-    """Return a copy that nobody may write to: the core needs contiguous arrays."""
+    """Return a read-only copy: the core needs contiguous arrays."""
     copied = np.array(array, order="C")
     copied.flags.writeable = False
     return copied

@@ -86,9 +86,9 @@ def solve(
 def _with_advice(
     mechanism: MechanismModel, assembly: Mapping[str, int] | None, failure: AssurError
 ) -> AssurError:
-    """Say of a position beyond a dead point what goes past it, or where to look."""
+    """Add what goes past a dead point, or where to look, to the error of a position beyond it."""
     advice = PAST_DEAD_POINTS.get(failure.kind or "")
-    # A configuration curve is of one design.
+    # A configuration curve is for one design.
     if advice is None or mechanism.driver_count > 1 or mechanism.shape:
         return failure
     if failure.kind == "not_closed" and not _moves_somewhere(mechanism, assembly):

@@ -102,7 +102,7 @@ def _moves(analogues: Analogues) -> bool:
         if bool(((value != first) & ~np.isnan(value) & ~np.isnan(first)).any()):
             return True
     elif len(analogues.arrays) == 1:
-        # One position without analogues does not show it.
+        # A single position without analogues does not show it.
         return True
     rates = analogues.arrays[1:2]
     return any(bool((np.nan_to_num(rate) != 0.0).any()) for rate in rates)

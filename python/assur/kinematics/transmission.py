@@ -136,7 +136,7 @@ def _at_slide(mechanism: MechanismModel, name: str) -> list[Line]:
 
 
 def _pivot(mechanism: MechanismModel, link: str) -> str:
-    """Return the joint about which a guide's link turns: that on the ground, or its only one."""
+    """Return the joint about which a guide's link turns: the one on the ground, or its only one."""
     joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
     fixed = [j for j in joined if j in mechanism.links["ground"]]
     pivots = fixed or joined

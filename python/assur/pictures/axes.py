@@ -25,7 +25,7 @@ MARGIN, FOOT = 30.0, 30.0
 # The scale bar is about so long, points.
 SCALE_BAR = 55.0
 TEXT = 9.0
-# Squares of what is drawn must not overflow, nor the number of pixels to a unit.
+# Squares of the extent must not overflow, nor the number of pixels per unit.
 LEAST_EXTENT, GREATEST_EXTENT = 1e-100, 1e100
 
 
@@ -83,7 +83,7 @@ class Canvas:
     size : float
         Points to a px of the symbols: they shrink where links are short.
     low, high : ndarray
-        Corners of what is seen, m.
+        Corners of the visible area, m.
     """
 
     ax: Any
@@ -134,7 +134,7 @@ def canvas(
         if ax.has_data() or ax.artists or ax.patches or ax.texts:
             (x0, x1), (y0, y1) = sorted(ax.get_xlim()), sorted(ax.get_ylim())
             low, high = np.minimum(low, (x0, y0)), np.maximum(high, (x1, y1))
-    # Limits stay as they are, whatever the layout does later; twins cannot keep them.
+    # Limits stay as they are when the layout changes later; twins cannot keep them.
     box = ax.get_position(original=True)
     siblings = {*ax.get_shared_x_axes().get_siblings(ax), *ax.get_shared_y_axes().get_siblings(ax)}
     twins = any(
@@ -167,7 +167,7 @@ def _spread(low: Float, high: Float) -> tuple[Float, Float]:
 
 
 def _new_axes(span: Float, margins: Float, style: Style) -> Any:
-    """Return axes that fill a new figure in the proportion of what is drawn."""
+    """Return axes that fill a new figure in the proportion of the drawing."""
     border = margins / 72.0
     width, height = np.maximum(span, 1e-300)
     tall = float((WIDTH - border[0]) * height / width + border[1])
@@ -180,7 +180,7 @@ def _new_axes(span: Float, margins: Float, style: Style) -> Any:
 
 
 def plain_figure(size: tuple[float, float], style: Style) -> Any:
-    """Return a figure for axes with places of their own, whatever layout rcParams ask for."""
+    """Return a figure for axes with places of their own, ignoring the layout in rcParams."""
     plt = pyplot()
     from matplotlib.layout_engine import PlaceHolderLayoutEngine
 

@@ -1,6 +1,6 @@
 """Sizes of symbols."""
 
-# All are px of a screen, of which an inch has 96, a point of print 72.
+# All are px of a screen, 96 to the inch; points of print are 72 to the inch.
 POINTS_PER_PX = 0.75
 
 JOINT = 5.0  # radius

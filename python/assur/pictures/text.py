@@ -50,7 +50,7 @@ def printable(text: str) -> str:
 
 
 def shortened(text: str) -> str:
-    """Return a text of no more than `LONGEST` letters; what is left out is in its middle."""
+    """Return a text of no more than `LONGEST` letters, shortened in its middle."""
     if len(text) <= LONGEST:
         return text
     half = LONGEST // 2

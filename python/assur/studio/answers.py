@@ -1,4 +1,4 @@
-"""From a request to its frame: every request has one answer, whatever it asks."""
+"""From a request to its frame: every request has exactly one answer."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ LEAST_HEIGHT = 320
 class Explorer(anywidget.AnyWidget):
     """A mechanism that is played, dragged and changed in a cell of a notebook.
 
-    Both ways: what is dragged or typed in the cell changes `mechanism`; setting `mechanism`
+    Both ways: dragging or typing in the cell changes `mechanism`; setting `mechanism`
     draws that one. Made by `Mechanism.explore` and `Machine.explore`.
 
     Parameters

@@ -77,7 +77,7 @@ class Given:
         return self.path is not None and self.path.suffix.lower() == ".toml"
 
     def bytes(self) -> bytes:
-        """Return what is in the file."""
+        """Return the contents of the file."""
         assert self.path is not None
         try:
             with self.path.open("rb") as file:

@@ -52,7 +52,7 @@ class Workers:
         Raises
         ------
         TimeIsUpError, BusyError
-            It takes longer, or it could not be begun.
+            It takes longer, or it could not be started.
         """
         if kind in self._left:
             if not self._left[kind].done():
@@ -70,7 +70,7 @@ class Workers:
             return await asyncio.wait_for(asyncio.wrap_future(future), seconds + GRACE)
         except asyncio.TimeoutError:
             if future.cancelled():
-                # It had not been begun.
+                # It had not been started.
                 raise BusyError from None
             self._left[kind] = future
             raise TimeIsUpError(seconds) from None

@@ -1,4 +1,4 @@
-"""What the tables, axes and reasons of a sweep's measures ask of these."""
+"""What the tables, axes and reasons of a sweep need of its measures."""
 
 from __future__ import annotations
 

@@ -31,13 +31,14 @@ class Designs:
         if not isinstance(mechanism, Mechanism):
             message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
             raise InputError(message)
-        # From here on it is drawn in the assembly: whatever is handed back is, too.
+        # From here on it is drawn in the assembly, and so is what is returned.
         self.mechanism = mechanism = in_assembly(mechanism, assembly)
         by_name = dimensions_by_name(dimensions, mechanism.core.dimension_names)
         names = [checked_name(name, "dimensions") for name in by_name]
         indices = [mechanism.core.dimension(name) for name in names]
         new = [real_array(by_name[n], f"dimension {n!r}", copy=False) for n in names]
-        # Designs are asked for later, when the caller may have changed his arrays (no grid's).
+        # Designs are read later, when the caller may have changed their arrays (a grid's cannot
+        # change).
         if not isinstance(dimensions, Grid):
             new = _copied(new)
         batch = mechanism.shape
@@ -95,7 +96,7 @@ class Designs:
 
 
 def _copied(arrays: list[Float]) -> list[Float]:
-    """Copy arrays into one: a large one gets large pages, which take a tenth of the time."""
+    """Copy arrays into one: a large one gets large pages, which are ten times as fast."""
     memory = np.empty(sum(array.size for array in arrays))
     copies, start = [], 0
     for array in arrays:

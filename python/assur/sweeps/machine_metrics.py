@@ -308,7 +308,7 @@ def rms_reaction(
 def peak_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
     """The greatest size of the torque or force of the drive, N·m or N.
 
-    With several drivers it is the greatest of all, whatever their units.
+    With several drivers it is the greatest of all, regardless of their units.
 
     Parameters
     ----------

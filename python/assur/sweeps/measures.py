@@ -40,11 +40,11 @@ class Measures(Mapping[str, Float]):
     Attributes
     ----------
     status : numpy.ndarray
-        A `Status` of each design, S: that of a position that cannot be solved, if one was
-        found, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN; otherwise
-        a metric that is NaN makes it ``NO_VALUE``: a load's table ends, friction locks the machine,
-        a path is not closed. A design that misses a condition is not solved further: it has ``OK``,
-        or what its solved positions have.
+        A `Status` of each design, S: that of a position that cannot be solved, if there is one, or
+        the worst. With a ``SINGULAR`` position metrics of derivatives are NaN; otherwise a metric
+        that is NaN makes it ``NO_VALUE``: a load's table ends, friction locks the machine, a path
+        is not closed. A design that misses a condition is not solved further: it has ``OK``, or
+        what its solved positions have.
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q, meet all conditions
         and have all metrics, ascending.
@@ -94,9 +94,9 @@ class Measures(Mapping[str, Float]):
         Parameters
         ----------
         n : int
-            How many; fewer are returned if fewer have a value.
+            Number of designs; fewer are returned if fewer have a value.
         by : str
-            Name of the metric. NaN is left out; of equal values the first is first.
+            Name of the metric. NaN is left out; equal values keep their order.
         greatest : bool
             Those with the greatest values instead.
 
@@ -272,12 +272,12 @@ class Measures(Mapping[str, Float]):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Data are in m and rad; the ticks are written in the units that suit.
+            The axes drawn on. Data are in m and rad; the ticks are written in the units that suit.
 
         Raises
         ------
         InputError
-            An unknown metric; designs that are no grid of one or two dimensions.
+            An unknown metric; designs that are not a grid of one or two dimensions.
 
         Examples
         --------
@@ -382,7 +382,7 @@ class Measures(Mapping[str, Float]):
             raise InputError(message)
         return self._values[name]
 
-    # `Mapping` asks for a KeyError.
+    # `Mapping` requires a KeyError.
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and name in self._values
 
@@ -394,7 +394,7 @@ class Measures(Mapping[str, Float]):
         name : str
             Name of the metric.
         default : object
-            What is returned otherwise.
+            The value to return otherwise.
 
         Returns
         -------

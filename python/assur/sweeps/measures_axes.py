@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.sweeps._measured import Measured
 
-# A value of `at` is one of the sweep's, to this part of their range.
+# A value of `at` matches one of the sweep's within this fraction of the greatest.
 SAME = 1e-9
 # What a picture shows.
 MOST = 2

@@ -1,4 +1,4 @@
-"""Measures designs: one number each of a metric, block by block."""
+"""Measures designs, block by block: one number for each metric."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Single
 
 Float: TypeAlias = npt.NDArray[np.float64]
-# For some designs: values by name, statuses, which are kept.
+# For some designs: values by name, statuses, and which are kept.
 Block: TypeAlias = tuple[dict[str, Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]
 
 # Positions of a block, between two reports of progress: some ten milliseconds. Positions whose
@@ -42,14 +42,14 @@ POSITIONS_OF_FUNCTIONS = 262_144
 
 
 def blocks(count: int, positions: int) -> Iterator[slice]:
-    """Blocks of designs with so many positions each."""
+    """The size of blocks of designs with this many positions each."""
     size = max(1, POSITIONS_OF_BLOCK // max(1, positions))
     for first in range(0, count, size):
         yield slice(first, min(first + size, count))
 
 
 class Measuring:
-    """What is measured of designs of one mechanism; it can be sent to other processes."""
+    """What to measure of the designs of one mechanism; it can be sent to other processes."""
 
     def __init__(
         self,
@@ -99,10 +99,10 @@ class Measuring:
         values = {name: np.full(count, np.nan) for name in self.metrics}
         status = np.zeros(count, dtype=np.uint8)
         kept = np.zeros(count, dtype=np.bool_)
-        # Room for the indices is taken now: a sweep that has no memory for them ends at once.
+        # Allocate the indices now: a sweep without memory for them ends at once.
         room = np.empty(count, dtype=np.intp)
         parts = list(blocks(count, len(self.q)))
-        # Here one block after another takes the same memory.
+        # Here all blocks reuse the same memory.
         size = designs.size * max((part.stop - part.start for part in parts), default=0)
         memory = np.empty(size) if engine is None else None
         tasks = ((part, designs.some(part, memory)) for part in parts)
@@ -170,7 +170,7 @@ class Measuring:
         values: dict[Single, Float] = {
             function: np.full(some.shape[0], np.nan) for function in self.functions
         }
-        # Reactions keep nothing of the positions.
+        # Reactions do not keep positions.
         keeps = not all(isinstance(function, Driven) for function in self.functions)
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):

@@ -61,7 +61,7 @@ class Solving:
 
 
 class Course:
-    """The coordinates of some designs: the same for all, or of each its own."""
+    """The coordinates of some designs: the same for all, or each design's own."""
 
     def __init__(self, every: Mechanism, q: npt.ArrayLike) -> None:
         array, positions, self.is_own = checked_coordinates(every, q)
@@ -103,9 +103,9 @@ def in_blocks(
     report: Report,
     engine: Any,
 ) -> Motion:
-    """Solve designs block by block; there is one at least, and their shape is not ()."""
+    """Solve designs block by block; there is at least one, and their shape is not ()."""
     tasks = course.tasks(designs)
-    # The first block shows what there is to write, and that the arguments are right.
+    # The first block shows which arrays to write, and that the arguments are right.
     block, task = next(tasks)
     first = solving.solve(task)
     motion = _whole(first, every, course, out)
@@ -124,7 +124,7 @@ def in_blocks(
 
     buffers = motion.stored.buffers
     assert buffers is not None
-    # What is interrupted cannot be read.
+    # An interrupted result cannot be read.
     buffers.complete = False
     store(block, _arrays(first))
     if engine is None:
@@ -141,7 +141,7 @@ def in_blocks(
 
 
 def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) -> Motion:
-    """Return a motion of all designs as that of the first ones is, with arrays to be written."""
+    """Return a motion of all designs like that of the first ones, with arrays to be written."""
     request = replace(first.request, mechanism=every, q=course.whole)
     indices = first.held_indices
     if out is None:

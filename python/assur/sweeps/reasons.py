@@ -52,7 +52,7 @@ def reasons(measures: Measured, values: Float) -> list[tuple[str, Flags]]:
 
 
 def _conditions(conditions: Sequence[Condition]) -> str:
-    """Return what a design misses: of several conditions, one of them at least."""
+    """Return what a design misses: at least one of several conditions."""
     relations = {"<": "≥", "<=": ">", ">": "≤", ">=": "<"}
     wrong = [f"{c.metric!r} {relations[c.relation]} {c.limit:.6g}" for c in conditions]
     return " or ".join(wrong).replace("'", "")
@@ -96,7 +96,7 @@ def _driver(measures: Measured) -> str:
 
 
 def _unreachable(measures: Measured, which: Flags) -> list[tuple[str, Flags]]:
-    """Tell designs that cannot be assembled at all from those whose driver stops on its way."""
+    """Separate designs that cannot be assembled at all from those whose driver stops on its way."""
     mechanism = measures._designs.mechanism
     indices = np.flatnonzero(which)
     if not indices.size:

@@ -1,4 +1,4 @@
-"""What metrics are made of: those of the core, functions in Python, combinations and conditions."""
+"""Terms of metrics: those of the core, functions in Python, combinations and conditions."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ def _given(file: str | None) -> Given | None:
 
 
 def _require_readable(opened: Given) -> None:
-    """Refuse what is not a mechanism before a browser opens."""
+    """Refuse a file without a mechanism before a browser opens."""
     from assur.studio.kinds.opening import read_text
 
     read_text(str(opened.path), opened.bytes())

@@ -1,4 +1,4 @@
-"""The flywheels of designs whose loads are smooth between coordinates of their own."""
+"""The flywheels of designs that each have their own coordinates where loads are not smooth."""
 
 from __future__ import annotations
 

@@ -247,7 +247,7 @@ def _knots(machine: MachineModel, cycle: float) -> list[float]:
 def _table_rows(knots: list[float], jumps: list[bool], rows: int) -> tuple[Any, Any, list[int]]:
     """Return coordinates with a row at every knot, two at a jump, and the indices of the knots.
 
-    The second array is where loads are evaluated: at a jump beside it.
+    The second array has the coordinates at which loads are evaluated: beside a jump, not at it.
     """
     parts, places, corners = [], [], [0]
     for index, (low, high) in enumerate(itertools.pairwise(knots)):

@@ -60,7 +60,7 @@ class Acting(NamedTuple):
 
     @property
     def what(self) -> str:
-        """What acts, for messages."""
+        """The name of what acts, for messages."""
         if self.kind == "drive":
             return "the drive"
         return f"a {self.name}" if self.kind == "load" else f"{self.kind} {self.name!r}"

@@ -30,7 +30,7 @@ class Bearing:
     ----------
     angle : ndarray
         Direction of the force, counter-clockwise from the frame's x, rad, in (−π, π], S + (N,).
-        A bore in the link is pressed on this side, a pin that is fast in the link on the opposite
+        The force presses a bore in the link on this side, a pin fixed to the link on the opposite
         one.
     size : ndarray
         N, S + (N,).
@@ -150,20 +150,21 @@ class Bearing:
     def plot(self, ax: Any = None, dark: bool = False) -> Any:
         """Draw the polar load diagram: the ends of the forces laid off from one pole.
 
-        Once as the ground sees them, once as the link does in whose frame they are given; the
-        greatest force is drawn and written (needs matplotlib).
+        Once in the ground's frame, once in the frame in which they are given; the greatest force is
+        drawn and labelled (needs matplotlib).
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes or sequence of two, optional
-            Where to draw: on one only the own frame's diagram; a new figure by default.
+            Where to draw: a single one takes only the diagram in its own frame; a new figure by
+            default.
         dark : bool
             Light lines on a dark ground.
 
         Returns
         -------
         matplotlib.axes.Axes or ndarray of two
-            Those drawn on; one if the frame is the ground's. Artists are named ``force``,
+            The axes drawn on; one if the frame is the ground's. Artists are named ``force``,
             ``greatest``, ``position 3``.
 
         Raises
@@ -198,7 +199,7 @@ class Bearing:
         size = self._rows("an extreme")
         is_single = np.ndim(self.q) == np.ndim(self.size)
         q = np.reshape(self.q, (*size.shape, 1 if is_single else self.q.shape[-1]))
-        # NaN only where all are.
+        # NaN only where all sizes are.
         index = np.argmin(np.where(np.isnan(size), np.inf, sign * size), axis=-1)[..., np.newaxis]
         value = np.take_along_axis(size, index, -1)[..., 0][()]
         at = np.take_along_axis(q, index[..., np.newaxis], -2)[..., 0, :]
@@ -219,7 +220,7 @@ def bearing(
     for what, link in (("frame", frame), ("against", against)):
         known = links if what == "frame" else opposites
         allowed = (*known, *(["ground"] if what == "frame" else []))
-        # An array equals each of them part by part.
+        # An array would be compared with each of them part by part.
         if link is not None and not (type(link) in (str, np.str_) and link in allowed):
             message = f"{what} is {short(link)}: at joint {name!r} it is one of {', '.join(known)}"
             raise InputError(message, joint=name)

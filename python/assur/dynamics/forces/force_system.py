@@ -1,4 +1,4 @@
-"""The forces on links cut free at one position: what is drawn in place, and as a polygon."""
+"""The forces on links cut free at one position, which are drawn in place and as a polygon."""
 
 from __future__ import annotations
 
@@ -65,7 +65,8 @@ def force_system(
 ) -> ForceSystem:
     """Return the forces on links at an index into the shape of reactions.
 
-    Of all moving links, with `links=None`, those in the joints between them too.
+    With `links=None`, all moving links are cut free, with the forces in the joints between them
+    too.
     """
     if solved._source is None:
         message = "a copy of reactions does not keep functions among the loads: draw the original"

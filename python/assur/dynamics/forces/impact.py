@@ -34,7 +34,7 @@ class Impact(NamedTuple):
     energy_lost : ndarray
         Kinetic energy before less that after, J.
     reactions : Reactions
-        Impulses in the pairs, N·s, and their moments, N·m·s. The drive gives none but that which
+        Impulses in the pairs, N·s, and their moments, N·m·s. The drive gives only the impulse that
         turns the rotor of its motor.
 
     Examples
@@ -168,8 +168,8 @@ def _impulses(
 ) -> Reactions:
     """Return the impulses in all pairs: those of the change of speed, and of the impact itself.
 
-    `one`: the machine with the unit load alone. Impulses balance as forces do that accelerate the
-    bodies, from rest, by the change of speed.
+    `unit_load` is the machine with the unit load alone. Impulses balance like forces that
+    accelerate the bodies, from rest, by the change of speed.
     """
     mechanism = machine.mechanism
     assert mechanism is not None

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from assur.dynamics.motion.sense_at_rest import Senses
     from assur.kinematics.mechanism import Mechanism
 
-# What the core says where it would have to search for too many solutions, or cannot know a force.
+# The core's codes for too many solutions to search for, and for a force that it cannot know.
 UNSOLVED, UNDETERMINED = -1.0, -2.0
 
 
@@ -44,7 +44,7 @@ def _keys(mechanism: Mechanism) -> list[Key]:
     keys: list[Key] = []
     for joint, links in links_at(mechanism).items():
         index = core.require("joint", joint)
-        # What the last link takes follows from the others, unless these are undetermined.
+        # The force on the last link follows from the others, unless these are undetermined.
         asked = links if is_redundant and len(links) > 1 else links[:-1]
         keys += [Key("joint", index, core.require("link", link)) for link in asked]
     for slide in range(len(mechanism.slides)):
@@ -70,7 +70,7 @@ def _keys_of_friction(machine: MachineModel) -> list[Key]:
 
 
 def _require_solved(arrays: dict[Key, Float]) -> None:
-    """Raise InputError where the core has not looked for the frictions of a position."""
+    """Raise InputError where the core has not solved for the friction of a position."""
     counts = arrays[SOLUTIONS]
     if np.any(counts == UNDETERMINED):
         message = (
@@ -167,7 +167,7 @@ def _solved_in_senses(
     senses: Senses | None,
     friction: tuple[float | Sequence[float] | None, int],
 ) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
-    """Return what `_solved` does of a motion that has these senses where its speed is 0."""
+    """Return what `_solved` does for a motion with these senses where its speed is 0."""
     if senses is None:
         return _solved(machine, moving, t, threads, keys, squares=False, friction=friction)
     x, v, a, shape = moving
@@ -210,7 +210,7 @@ def reaction_squares(
 ) -> dict[Key, Float]:
     """Return the greatest and the mean square of reactions over all positions, (designs, 2).
 
-    NaN where a position of a design has no value. Nothing is kept of the positions.
+    NaN where a position of a design has no value. Positions are not kept.
     """
     moving = broadcast_motion(machine, motion)
     arrays, _, _ = _solved(machine, moving, motion.t, threads, keys, squares=True)
@@ -340,7 +340,7 @@ def effort(
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
     n = machine.driver_count
     if machine.friction:
-        # What friction takes depends on the forces in its pairs.
+        # The power that friction takes depends on the forces in its pairs.
         keys = [*(Key("driver", driver) for driver in range(n)), SOLUTIONS]
         return reactions(machine, motion, None, on_error, keys, sense).driver
     x, v, a, shape = broadcast_motion(machine, motion)

@@ -50,7 +50,7 @@ class LoadForce(NamedTuple):
 def loads_of(solved: Reactions) -> list[LoadForce]:
     """Return what the loads do to links at the positions of reactions, weight aside.
 
-    Where a motion stays at rest no load acts that is of one sense only.
+    Where a motion stays at rest, loads of one sense only do not act.
     """
     assert solved._source is not None
     machine, again = solved._source

@@ -104,7 +104,7 @@ def _coefficients(x: Float, y: Float, closed: bool) -> tuple[Float, Float, Float
 
 
 def _quadratic(a: Float, b: Float, c: Float) -> list[Float]:
-    """Return the real roots of a + b t + c t²; NaN or infinite where there is none."""
+    """Return the real roots of a + b t + c t²; NaN or infinite where no real root exists."""
     with np.errstate(all="ignore"):
         root = np.sqrt(b * b - 4 * a * c)
         q = -0.5 * (b + np.copysign(root, b))

@@ -66,7 +66,7 @@ class Beam(NamedTuple):
     edges : ndarray
         Where cells begin and end, (P, cells + 1), m.
     coefficients : dict of str to ndarray
-        Of powers of the distance from a cell's left edge, (P, cells, 5), by quantity.
+        Coefficients of powers of the distance from a cell's left edge, (P, cells, 5), by quantity.
     end : ndarray
         What is left of the quantities beyond the last load, (P, 3): 0 in equilibrium.
     """
@@ -130,7 +130,7 @@ def solve_beam(
     positions = axial.shape[0]
     nodes = np.broadcast_to(density.x[:-1], (positions, density.x.size - 1))
     starts = np.concatenate([nodes, *(load.x[:, np.newaxis] for load in loads)], axis=1)
-    # No cell begins at the far end: loads there are in none.
+    # No cell begins at the far end, so loads there are in no cell.
     starts = np.sort(np.where(starts < length, starts, 0.0), axis=1)
     edges = np.concatenate([starts, np.full((positions, 1), length)], axis=1)
     jumps = np.zeros((3, positions, edges.shape[1]))
@@ -194,7 +194,7 @@ def _stationary(coefficients: Float, length: Float) -> list[Float]:
 
 
 def _quadratic_roots(coefficients: Float, length: Float) -> tuple[Float, Float]:
-    """Return the roots of c + b t + a t², kept within (0, length); where there are none 0."""
+    """Return the roots of c + b t + a t², kept within (0, length); 0 without real roots."""
     c, b, a = (coefficients[..., k] for k in range(3))
     with np.errstate(all="ignore"):
         root = np.sqrt(b * b - 4.0 * a * c)

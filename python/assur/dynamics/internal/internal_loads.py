@@ -53,7 +53,7 @@ class LoadExtremes(NamedTuple):
 
 
 class InternalLoads:
-    """What the parts of a link do to each other, by `Machine.internal_loads`.
+    """The loads between the parts of a link, by `Machine.internal_loads`.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ class InternalLoads:
         Returns
         -------
         LoadExtremes
-            Exact: not of the places `x`, but where the slope vanishes, or at a load.
+            Exact: not sampled at `x`, but found where the slope vanishes, or at a load.
 
         Examples
         --------
@@ -142,8 +142,8 @@ class InternalLoads:
         -------
         Peak
             With one driver, one row of ascending or descending coordinates and one speed and
-            acceleration for all, refined between the positions; else at one of them. NaN counts
-            for nothing.
+            acceleration for all, refined between the positions; otherwise at one of them. NaN is
+            ignored.
 
         Raises
         ------

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from assur.dynamics.internal.rod import Rod
 
 MEASURES = ("size", "greatest", "least")
-# Positions tried at a time between the neighbours of a peak, and the last distance of neighbours in
-# parts of the first: a maximum is known to the square of that.
+# Positions tried at a time between the neighbours of a peak, and the last distance of neighbours
+# relative to the first: a maximum is known to the square of that.
 TRIED = 9
 CLOSEST = 1e-8
-# Peaks this close to the greatest, in parts of the range of all positions, are refined too.
+# Peaks this close to the greatest, relative to the range of all positions, are refined too.
 NEAR = 0.2
 
 
@@ -85,7 +85,7 @@ def find_peak(
 def _refined(
     rod: Rod, rates: tuple[float, float, float], asked: tuple[str, str], low: Float, high: Float
 ) -> list[tuple[float, Peak]]:
-    """Return the peaks between positions: the best of a few in between, again and again."""
+    """Return the peaks between positions: narrowed down to the best of a few, repeatedly."""
     last: tuple[Float, ...] = ()
 
     def height(q: Float) -> Float:
@@ -103,7 +103,7 @@ def _refined(
 
 
 def _measured(beam: Beam, quantity: str, of: str) -> tuple[Float, Float, Float]:
-    """Return what is to be greatest at each position (−inf: no value), the value and its place."""
+    """Return the measure to maximise at each position (−inf: no value), the value and its place."""
     least, least_x, greatest, greatest_x = beam.extremes(quantity)
     up = np.abs(greatest) >= np.abs(least) if of == "size" else np.full(least.shape, of != "least")
     value, x = np.where(up, greatest, least), np.where(up, greatest_x, least_x)

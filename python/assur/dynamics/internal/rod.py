@@ -1,4 +1,4 @@
-"""A link as a straight rod with mass along it, and what it is loaded with at positions."""
+"""A link as a straight rod with mass along it, and the loads on it at positions."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from assur.dynamics.model import MachineModel, OnError
     from assur.kinematics.mechanism import Mechanism
 
-# The body and its distribution may differ by this part: they are typed.
+# The body and its distribution may differ by this fraction: they are typed numbers.
 AGREE = 1e-9
 
 
@@ -77,7 +77,7 @@ class Rod(NamedTuple):
                 f"its length of {self.length:g} m: name its outer joints as along"
             )
             raise InputError(message, link=self.link, value=where)
-        # A foot at an end but for rounding is at the end; its couple stays what it was.
+        # A foot that is at an end but for rounding moves there; its couple stays the same.
         at_end = np.where(x > self.length - tiny, self.length, x)
         foot = np.where(x < tiny, 0.0, at_end)
         return PointLoad(foot, along, across, load.couple - y * along + (x - foot) * across)
@@ -108,7 +108,7 @@ def straight_rod(
                 f"along: {short(joint)} is not one of the joints of {link!r}, {', '.join(joints)}"
             )
             raise InputError(message, link=link)
-    # One joint twice too has no length.
+    # The same joint twice also has no length.
     first, second = (joint_place(mechanism, link, joint) for joint in ends)
     span = second - first
     length = float(np.sqrt(span.real * span.real + span.imag * span.imag))

@@ -14,7 +14,7 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-# Tried where a function has no value at rest: a load of constant power.
+# Speeds to try where a function has no value at rest, like a load of constant power.
 SPEEDS = 0.0, 1.0
 
 

@@ -80,8 +80,8 @@ class Pressure:
         Area of the piston, m².
     pressure : Gas, float, Table or callable
         Absolute pressure, Pa: a closed `Gas`, a number, a `Table` over q or (``over=``) over the
-        value of a slide, or a function of (t, q, speed). An engine of four strokes has a table over
-        q with the period 4π; a compressor, whose lines of compression and expansion differ, has two
+        value of a slide, or a function of (t, q, speed). A four-stroke engine has a table over q
+        with the period 4π; a compressor, whose lines of compression and expansion differ, has two
         pressures over its slide, each with its ``while_``.
     expands : {"forward", "backward"}
         The direction of the slide in which the volume grows: the pressure drives it there.

@@ -23,10 +23,10 @@ __all__ = ["BESIDE", "driven_motion", "jumps_between", "stations_between"]
 
 # How far beside a jump loads are evaluated, rad (relative beyond 1 rad): beyond its rounding.
 BESIDE = 1e-10
-# The same beside a reversal of a pair with friction, which must not seem to rest there: of a rod a
-# hundred cranks long the relative speed is a hundredth of the crank's.
+# The same beside a reversal of a pair with friction, which must not seem to rest there: the
+# relative speed of a rod a hundred cranks long is a hundredth of the crank's.
 BESIDE_REVERSAL = 1e-9
-# Most jumps of a table that are looked for.
+# Greatest number of jumps of a table to look for.
 MAX_JUMPS = 1_000_000
 # A coordinate this near to a jump is at it.
 AT_JUMP = 1e-11
@@ -77,7 +77,7 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
     """Return a motion at the ends of its steps, moved off the jumps of loads and friction.
 
     The acceleration at the end of a step is that before a jump, at the start of the motion that
-    behind it: loads and friction must be those of the same side.
+    after it: loads and friction must be those of the same side.
     """
     q, speed = np.asarray(motion.q), np.asarray(motion.speed)
     if machine.driver_count > 1 or q.ndim != 1 or q.size == 0 or not np.isfinite(q).all():
@@ -97,7 +97,7 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
     moved, states = np.where(at_jump, q + way * sense, q), [speed, np.asarray(motion.acceleration)]
     rows = at_jump & (speed != 0.0)
     if rows.any():
-        # So near the run itself says how fast it is: its own effort stays zero.
+        # This close, the run itself gives the speed: its own effort stays zero.
         if run.along_q:
             state = run.at(q=np.clip(moved[rows], low + reach, high - reach))
         else:

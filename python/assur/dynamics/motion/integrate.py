@@ -56,7 +56,7 @@ EARLY_ENDS = (
     "step limit",
     "time limit",
 )
-# Places of a period at which tables are looked at, to name the load of one that does not cover it.
+# Places of a period at which tables are tried, to name the load whose table does not cover it.
 PLACES = 721
 # Events of friction.
 STICK, SLIP = "stick", "slip"
@@ -111,7 +111,7 @@ def run(
             checked_breaks(options["breaks"]),
             checked,
         )
-    # The core counts what friction does after the events that were asked for.
+    # The core numbers friction's events after those that were asked for.
     made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, table_names(machine))
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
@@ -156,7 +156,7 @@ def steady_state(
         message = f"rtol is {options['rtol']!r}: it must be at most {LOOSEST_RTOL}"
         raise InputError(message)
     start = _start(machine, q0, "q0")[0]
-    # Where the core finds a table that does not cover the period, it says nothing of the load.
+    # The core does not know which load has a table that does not cover the period.
     places = start + np.linspace(0.0, span, PLACES)
     with _naming_tables(machine, places, [0.0 if guess is None else guess]):
         core, numbers = machine.core.steady(

@@ -24,7 +24,7 @@ MotionLike: TypeAlias = "npt.ArrayLike | Run | SteadyState | State | TimedMotion
 class DrivenMotion(NamedTuple):
     """Coordinates, speeds and accelerations of the drivers, and times.
 
-    Of a run with one driver also its sense where the speed is 0.
+    A run with one driver also has its sense where the speed is 0.
     """
 
     q: Any

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
 
 
-# `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as many.
+# `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as much.
 END_ULPS = 4.0
 # Rounding of the sum of the energies, in units of the last place of the greatest.
 ROUNDINGS = 64.0
@@ -227,7 +227,7 @@ class Run(Tabular):
     q, speed, acceleration : ndarray
         Coordinate, speed and acceleration of the driver at these times. Where the acceleration
         jumps (a load, friction that reverses, a stop) it is that before the jump; in the first row
-        that behind it.
+        that after it.
     events : list of EventRecord
         The events detected, in order.
     end : str
@@ -426,7 +426,7 @@ class Run(Tabular):
         Returns
         -------
         matplotlib axes
-            Those drawn on.
+            The axes drawn on.
 
         Examples
         --------
@@ -482,7 +482,7 @@ class Run(Tabular):
         write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
 
     def _repr_html_(self) -> str | None:
-        """Return what a notebook shows; none of a machine of tables."""
+        """Return what a notebook shows; None for a machine of tables."""
         from assur.pictures.page.html import notebook_html
         from assur.pictures.page.turn_in_time import turn_of_run
 

@@ -1,4 +1,4 @@
-"""In which sense a motion goes where its speed is 0, which friction asks for."""
+"""The sense of a motion where its speed is 0, which friction needs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Senses(NamedTuple):
         return np.isnan(self.sense)
 
     def creeping(self, speed: Float, with_begins: bool) -> Float:
-        """Return the speeds; where they are 0, one that is next to nothing in the sense.
+        """Return the speeds; where they are 0, one next to nothing in the direction of the sense.
 
         Positions at which it leaves its rest keep 0, unless asked for `with_begins`.
         """

@@ -1,4 +1,4 @@
-"""What the core finds of reduced inertia and moment: checks of shapes, then its answer."""
+"""Reduced inertia and moment by the core: checks of shapes, then its answer."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def answer(
 def checked_senses(
     machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
 ) -> list[float]:
-    """Return in which sense each driver is about to move at rest, which some loads need."""
+    """Return the sense in which each driver is about to move at rest, which some loads need."""
     if sense is not None:
         senses = real_array(sense, "sense").ravel()
         if senses.size != machine.driver_count or not np.isin(senses, (-1.0, 1.0)).all():

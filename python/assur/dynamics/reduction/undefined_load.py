@@ -48,7 +48,7 @@ class Moment(NamedTuple):
 
 
 def without_value(machine: MachineModel, moment: Moment, what: str) -> AssurError:
-    """Return the error of one design without a finite value of what is asked for."""
+    """Return the error of one design for which the quantity asked for is not finite."""
     mechanism = machine.mechanism
     assert mechanism is not None
     for name, load in named_loads(machine):

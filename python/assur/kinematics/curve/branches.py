@@ -46,7 +46,7 @@ class Branches:
 
     @property
     def unit(self) -> float:
-        """What the driver's coordinate is measured in: rad, or for a slide the size."""
+        """Unit of the driver's coordinate: rad, or for a slide the size."""
         return 1.0 if self.is_angle else self.size
 
     def places(self, assembly: Mapping[str, int], q: Float) -> Float:
@@ -73,7 +73,7 @@ class Branches:
             Branch(assembly, low, high, own_limits.period)
             for low, high in own_limits.intervals.tolist()
         ]
-        # An angle may be in several of them, each in other turns.
+        # Several of them may contain an angle, each in other turns.
         there = [self._solve(branch, [q])[q] for branch in intervals]
         apart = [(nearest(places, place), index) for index, places in enumerate(there)]
         least, index = min(apart, default=(math.inf, 0))

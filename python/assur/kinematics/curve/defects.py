@@ -31,7 +31,7 @@ class Defects:
     Attributes
     ----------
     circuit : bool
-        Whether they lie on different circuits: it would have to be taken apart.
+        Whether they lie on different circuits: the linkage would have to be taken apart.
     branch : bool
         Whether they lie on different branches: the driver cannot lead from one to another.
     order : bool
@@ -106,7 +106,7 @@ def _is_in_order(curve: ConfigurationCurve, circuit: int, located: list[tuple[in
         low, high = ends_of(curve.branches[number], curve.mechanism)
         part = (q - low) / (high - low)
         places.append(step + (part if ways[step][1] > 0 else 1.0 - part))
-    # Rounded, so that the same place twice is no step backward by a whole round.
+    # Rounded, so that the same place twice is not a step backward by a whole round.
     steps = np.diff(np.array([*places, places[0]]).round(9))
     if len(places) < 3 or not steps.any():
         return True

@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 
 __all__ = ["Defect"]
 
-# How near (relative to the size) the joints of an assembly must be to those that are given.
+# How near (relative to the size) the joints of an assembly must be to the given ones.
 THERE = 1e-6
 # How far apart assemblies are that such joints should distinguish.
 APART = 1e-3
 
 
 class Defect(IntFlag):
-    """What keeps a design from going through given positions; several may.
+    """What keeps a design from going through given positions; flags combine.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def _of_one(mechanism: MechanismModel, q: list[float], targets: dict[str, Float]
 
 
 def _nearest(mechanism: MechanismModel, q: float, targets: dict[str, Float]) -> Assembly | None:
-    """Return the assembly whose joints are where they are wanted."""
+    """Return the assembly whose joints are at the given places."""
     size = size_of(mechanism)
     fitting: list[tuple[float, Assembly]] = []
     for assembly in assemblies(mechanism, q):

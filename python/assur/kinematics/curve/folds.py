@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.branches import Branches
     from assur.kinematics.curve.elements import Branch
 
-# How far from a dead point, as a part of the branch, positions are taken to extrapolate it …
+# Distance from a dead point, as a fraction of the branch, of positions that extrapolate to it …
 BESIDE = 1e-6
 # … and at least, in units of the coordinate: dead points are known to less.
 NEAREST = 1e-11
@@ -25,7 +25,7 @@ STRAIGHT = 1e-3
 # Distances from it, as squares, for the roots go as 1, 2 and 3; their weights at a distance of 0.
 SQUARES = np.array([1.0, 4.0, 9.0])
 WEIGHTS = np.array([3.0, -3.0, 1.0])
-# How near (relative to the size) two extrapolations of one fold are.
+# Extrapolations nearer than this (relative to the size) are those of one fold.
 SAME_FOLD = 1e-4
 
 
@@ -45,7 +45,7 @@ class Folds:
 
     known: Branches
     _ends: list[End] = field(default_factory=list)
-    # How many branches are among the ends; at how many ends a partner has been looked for.
+    # Numbers of branches whose ends are listed, and of ends whose partner has been looked for.
     _measured: int = 0
     _looked: int = 0
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.elements import Fold
     from assur.kinematics.model import MechanismModel
 
-# A fan of so many takes minutes, and 100 MB; its time grows faster than its positions.
+# A fan of this size takes minutes and 100 MB; its time grows faster than its positions.
 MOST_POSITIONS = 100_000
 # Halvings of the fan where the ends of branches do not explain a change of the count.
 MOST_HALVINGS = 12

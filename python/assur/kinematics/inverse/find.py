@@ -1,7 +1,7 @@
 """The inverse question: where a coordinate has a value.
 
 The coordinate drives in place of the driver, locked at the value; all assemblies of that mechanism
-are the answers. Of a joint's x and y, sliders are added that carry it.
+are the answers. For a joint's x or y, added sliders carry the joint.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from assur.kinematics.model import AssemblyNumbers, MechanismModel
 
 # Places of the same assembly found in two ways, in sizes. Beside a fold half of the digits are
-# lost; there the assemblies so far (rad, or in sizes) from it tell.
+# lost; there the assemblies at this distance (rad, or in sizes) from it decide.
 SAME = 1e-6
 AT_FOLD = 1e-3
 BESIDE = 1e-9
@@ -71,7 +71,7 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[tuple[Any, As
 
 
 def _is_same(answer: tuple[Any, Assembly], known: tuple[Any, Assembly]) -> bool:
-    """Whether an answer is there already: a double one is found twice."""
+    """Whether two answers are the same: a double one is found twice."""
     gap = np.abs(np.ravel(answer[0]) - np.ravel(known[0])).max()
     return bool(gap == 0.0) and answer[1] == known[1]
 

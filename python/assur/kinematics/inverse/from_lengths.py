@@ -22,11 +22,11 @@ from assur.kinematics.solve import solve
 if TYPE_CHECKING:
     from assur.kinematics.model import AnyMechanism, MechanismModel
 
-# How far (relative to the length) a distance that others decide may be from the one that is given.
+# How far (relative to the length) a distance that others determine may be from the given one.
 AGREES = 1e-6
 
-# Sines of the angle at which a sketch shows a joint beside a line: below the one it does not, for
-# typed numbers are rounded; below the other, a degree, a hand may have meant the other side.
+# Sines of the angle at which a sketch shows a joint beside a line. Below the first it does not,
+# because typed numbers are rounded; below the second, a degree, the other side may have been meant.
 ON_LINE, HARDLY = 1e-9, 0.0175
 
 # The joints of a link in its own frame: complex numbers.
@@ -104,7 +104,7 @@ def _dimensions(
     placed: Shape = {}
     left = list(joints)
     while left:
-        # The one with the most distances to those already placed; the sketch's first among equals.
+        # The joint with the most distances to those already placed; ties in the sketch's order.
         def known(name: str) -> int:
             return sum(frozenset((name, joint)) in lengths for joint in placed)
 

@@ -29,7 +29,7 @@ class Edge:
     found: list[Any]
 
     def cut(self, end: int, place: Float, state: Any) -> Edge:
-        """Return the edge with another place in place of one end."""
+        """Return the edge with one end replaced by another place."""
         edge = Edge(self.ends.copy(), list(self.found))
         edge.ends[end], edge.found[end] = place, state
         return edge

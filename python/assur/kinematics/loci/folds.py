@@ -1,7 +1,7 @@
 """Where the number of assemblies changes over the plane of two drivers.
 
-All assemblies are found on a grid. Between two neighbours that have not the same number, folds are
-found by bisection: the two assemblies that meet there lie beside each other.
+All assemblies are found on a grid. Between two neighbours whose numbers differ, folds are found by
+bisection: the two assemblies that meet there lie beside each other.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 HALVINGS = 20
 # How far apart (rad, or sizes) two assemblies beside a fold may be.
 NEAR = 0.05
-# Edges whose folds do not explain the change of the count are searched again, this often.
+# How often edges are searched again whose folds do not explain the change of the count.
 MOST_PASSES = 4
 
 
@@ -150,7 +150,7 @@ def _meetings(surface: Surface, edge: Edge) -> list[Pose]:
     fewer, more = (list(poses) for poses in sorted(edge.found, key=len))
     here = [surface.coordinates(pose) for pose in more]
     for pose in fewer:
-        # What goes on is what is nearest on the other side.
+        # The assembly that continues is the nearest one on the other side.
         there = surface.coordinates(pose)
         gaps = [float(np.abs(surface.difference(position, there)).max()) for position in here]
         nearest = int(np.argmin(gaps))

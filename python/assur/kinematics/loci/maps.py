@@ -115,7 +115,7 @@ class DesignMap:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Data are in m and rad; the ticks are written in the units that suit.
+            The axes drawn on. Data are in m and rad; the ticks are written in the units that suit.
 
         Examples
         --------
@@ -221,7 +221,7 @@ def _boundaries(
         elif crossed:
             _join(joined, *crossed)
     if saddles:
-        # Opposite corners are alike: the middle tells which of them are connected.
+        # Opposite corners are alike: the middle shows which of them are connected.
         middles = np.array([places[i : i + 2, j : j + 2].mean(axis=(0, 1)) for i, j, _ in saddles])
         for (i, j, around), value in zip(saddles, look_at(middles), strict=True):
             bottom, right, top, left = around

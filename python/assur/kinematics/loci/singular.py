@@ -1,7 +1,7 @@
 """Singular loci of mechanisms with two drivers, and the workspace of a joint.
 
-Of the second kind are positions where the locked drivers do not hold the mechanism, of the first
-kind those where a locked joint does not (C. Gosselin and J. Angeles, IEEE Trans. Robotics and
+Positions of the second kind are those where the locked drivers do not hold the mechanism, of the
+first kind those where a locked joint does not (C. Gosselin and J. Angeles, IEEE Trans. Robotics and
 Automation 6 (1990) 281). Both are folds: of the assemblies over the plane of the drivers, and of
 those over the plane of the joint, which drives in their place.
 """
@@ -46,13 +46,13 @@ __all__ = ["SingularLocus", "Workspace"]
 
 # Edges that are searched for folds before those curves are traced.
 AT_ONCE = 8
-# How near (as a part of the step) a position must be to a locus to be one of it.
+# How near (as a fraction of the step) a position must be to a locus to lie on it.
 ON_LOCUS = 0.05
 # How far beyond the positions seen from the grid of drivers that of a joint goes.
 MARGIN = 0.1
 # Where, as a part of a step, the grid begins: off the values that people draw at.
 OFF = 0.0123
-# In sizes, where no joint of a mechanism of turning pairs comes.
+# In sizes, a distance that no joint of a mechanism with turning pairs alone reaches.
 FAR = 1000.0
 # Fewest and most positions of a grid along an axis.
 FEWEST = 4
@@ -120,7 +120,7 @@ class SingularLocus:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on; data are in m and rad.
+            The axes drawn on; data are in m and rad.
 
         Raises
         ------
@@ -161,7 +161,7 @@ class Workspace:
     x, y : ndarray
         Coordinates of a grid, m.
     count : ndarray of int
-        In how many ways (coordinates of the drivers and assemblies) the joint reaches each node,
+        The number of ways (coordinates of the drivers and assemblies) to reach each node,
         shape (len(x), len(y)).
     boundary : tuple of SingularLocus
         The loci of the first kind: where that number changes.
@@ -207,7 +207,7 @@ class Workspace:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on.
+            The axes drawn on.
 
         Examples
         --------
@@ -388,7 +388,7 @@ def _loci(
 
 
 def _traced(surface: Surface, grid: Grid) -> tuple[list[Traced], int]:
-    """Trace every locus that the grid shows; return too how many were not found again."""
+    """Trace every locus that the grid shows; also return how many were not found again."""
     traced: list[Traced] = []
     lost = 0
     is_inside = _within(surface, grid)

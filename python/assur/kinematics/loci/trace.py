@@ -33,7 +33,7 @@ GREATEST_STEP = 0.1
 # lengthened.
 GREATEST_TURN = 0.99
 SMALL_TURN = 0.999
-# Where Newton's iteration along the gradient has arrived; and its most steps.
+# Tolerance of Newton's iteration along the gradient, and its greatest number of steps.
 ARRIVED = 1e-11
 MOST_ITERATIONS = 6
 # How many times better another pair of coordinates leads before the chart is changed.

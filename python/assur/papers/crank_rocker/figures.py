@@ -59,7 +59,7 @@ def plot_zone(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -151,7 +151,7 @@ def plot_push_and_pull(
     Returns
     -------
     ndarray of matplotlib.axes.Axes
-        Those drawn on; their titles say whether the coupler pushes or pulls, and γ.
+        The axes drawn on; their titles say whether the coupler pushes or pulls, and γ.
 
     References
     ----------
@@ -243,7 +243,7 @@ def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -306,7 +306,7 @@ def plot_transmission(
     l4 : float or sequence of float
         Grounds, m; the last is drawn bold.
     gamma_min : float, optional
-        Least transmission angle, rad: what is below it is shaded, and where the last ground's
+        Least transmission angle, rad: the region below it is shaded, and where the last ground's
         mechanism is there.
     ax : pair of matplotlib axes, optional
         Where to draw; a new figure by default.

@@ -132,7 +132,7 @@ class JammingRun:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on.
+            The axes drawn on.
 
         References
         ----------

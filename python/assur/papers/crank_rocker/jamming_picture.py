@@ -117,7 +117,7 @@ def _positions(run: _Jamming, ax: Any, dark: bool, style: Style) -> Any:
 
 
 def _misleads(artist: Any, run: _Jamming, ax: Any) -> bool:
-    """Whether an artist shows what is not so: the rod, not a drive, moves D; the crank turns."""
+    """Whether an artist is misleading: the rod, not a drive, moves D; the crank turns."""
     gid = artist.get_gid()
     if gid == "limit crank":
         return True

@@ -46,7 +46,7 @@ def plot_contour(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -131,7 +131,7 @@ def plot_positions(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -267,7 +267,7 @@ def plot_motion(
     Returns
     -------
     matplotlib.axes.Axes or ndarray of them
-        Those drawn on, one for each order.
+        The axes drawn on, one for each order.
 
     References
     ----------
@@ -399,7 +399,7 @@ def plot_deviation(
     Returns
     -------
     ndarray of matplotlib.axes.Axes
-        Those drawn on, (quantities, approximations).
+        The axes drawn on, (quantities, approximations).
 
     References
     ----------

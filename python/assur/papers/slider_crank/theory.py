@@ -316,7 +316,7 @@ def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
     """Return the crank angle of the most negative acceleration of the stroke, and its value.
 
     The crank speed is constant. For k ≥ (3 + √21)/2 = 3.791 it is the inner dead point (φ = π); a
-    shorter rod has two such angles, of which the one below π is returned.
+    shorter rod has two such angles; the one below π is returned.
 
     Parameters
     ----------

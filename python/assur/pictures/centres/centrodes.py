@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 # Positions of a whole motion: the curves are smooth, and far branches end far off.
 ROWS = 721
-# What is farther than so many times the mechanism's size is cut off; the picture shows less.
+# Curves are cut off at this multiple of the mechanism's size; the picture shows less.
 FAR, SIGHT = 25.0, 0.6
 LINE = 1.8
 DOT = 6.0
@@ -61,7 +61,7 @@ def centrodes(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. Artists are named ``fixed centrode``, ``moving centrode``, ``pole``.
+        The axes drawn on. Artists are named ``fixed centrode``, ``moving centrode``, ``pole``.
 
     Raises
     ------

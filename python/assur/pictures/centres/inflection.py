@@ -31,7 +31,7 @@ AT_REST = 1e-9
 LINE = 1.8
 # Dash-dotted lines of pole tangent and normal reach so far beyond the circle, points.
 BEYOND = 24.0
-# A circle so many times greater than the mechanism is drawn as far as it is in sight.
+# A circle greater than this multiple of the mechanism is drawn only where it is in sight.
 SIGHT = 1.2
 
 
@@ -67,7 +67,7 @@ def inflection_circle(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. Artists are named ``inflection circle``, ``pole``, ``inflection pole``,
+        The axes drawn on. Artists are named ``inflection circle``, ``pole``, ``inflection pole``,
         ``pole tangent``, ``pole normal``, ``second circle``, ``acceleration pole``.
 
     Raises

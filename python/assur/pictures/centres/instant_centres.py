@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 # Centres farther from the mechanism than this part of its size are shown at the border.
 SIGHT = 0.75
-# Lines of Kennedy are drawn by default for so many links.
+# Kennedy's lines are drawn by default for up to this many links.
 FEW = 6
 # A legend of more letters may need two lines.
 LONG = 60
@@ -65,7 +65,7 @@ def instant_centres(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. A centre is named ``centre crank coupler``, one out of sight
+        The axes drawn on. A centre is named ``centre crank coupler``, one out of sight
         ``centre crank coupler beyond``: an arrow at the border points to it.
 
     Raises

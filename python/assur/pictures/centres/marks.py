@@ -24,12 +24,12 @@ DOT = 5.0
 BORDER_ARROW, BORDER = 22.0, 22.0
 # Centres nearer than this, points, have one name.
 TOGETHER = 4.0
-# If more centres are in one place, so many are named and the others counted.
+# If more centres are in one place, this many are named and the others counted.
 NAMED = 4
 
 
 class CentreMarks:
-    """Draws centres; names them all in the end, clear of what is drawn.
+    """Draws centres; names them all in the end, clear of the drawing.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 MOST_PANELS = 12
 # Height of one diagram in a column, inches.
 LOW = 2.6
-# A curve whose range is so many times that of its middle nine tenths runs to infinity.
+# A curve whose range is this multiple of that of its middle nine tenths runs to infinity.
 RUNAWAY, MIDDLE, KEPT = 12.0, (5.0, 95.0), 1.0
 DASHED = (0.0, (4.0, 2.0))
 BAND = 0.22

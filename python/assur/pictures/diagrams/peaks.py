@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 FLAT = 1e-9
 # If a curve has many hills, the highest are searched.
 HILLS = 4
-# A search tries so many places between two samples, then again about the best of them, until these
-# are so much closer: four times.
+# A search tries this many places between two samples, then again about the best of them, until
+# these are so much closer: four times.
 PLACES, CLOSEST = 17, 1 / 500
 # Interpolation is believed where it gains so much over the sample, relative to the range.
 GAIN = 1e-6

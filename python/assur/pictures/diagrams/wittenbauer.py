@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # Beside the loop, relative to it: left for the intercept, right, and above and below.
 LEFT, RIGHT, ABOVE = 0.42, 0.22, 0.16
-# Tangents are steep if they rise so many times the height of the loop from the side to it.
+# Tangents are steep if they rise by this multiple of the loop's height from the side to it.
 STEEP = 1.5
 # From the frame to the intercept, relative to the picture.
 INSET = 0.02

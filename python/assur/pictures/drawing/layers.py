@@ -19,7 +19,7 @@ def valid_text(text: str) -> str:
 
 
 def layer_names(names: Iterable[str]) -> dict[str, str]:
-    """Return a valid name for each, different from the others whatever the case of letters."""
+    """Return a valid name for each, different from the others in any case of letters."""
     layers: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:

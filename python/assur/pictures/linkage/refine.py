@@ -20,7 +20,7 @@ ROWS = 361
 
 
 def checked_motion(motion: Any) -> Motion:
-    """Return a motion; what is none is refused."""
+    """Return a motion; refuse anything else."""
     if not hasattr(motion, "instant_centre"):
         message = f"motion is {short(motion)}: an assur.Motion is needed, as solve() gives"
         raise InputError(message)

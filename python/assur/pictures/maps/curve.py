@@ -29,7 +29,7 @@ TURN = 2.0 * np.pi
 # More dead points than this are marked without their q.
 MOST = 8
 DASHES = (0.0, (3.0, 4.0))
-# Values farther from the middle than so many times the mechanism's size are out of sight.
+# Values farther from the middle than this multiple of the mechanism's size are out of sight.
 FAR = 4.0
 # Curves so near, relative to their range, over half of one of them look like one.
 ALIKE = 0.008

@@ -109,7 +109,7 @@ def _contours(ax: Any, x: Float, y: Float, values: Float, unit: str, style: Styl
 
 
 def _reached(values: Float) -> Float:
-    """Return values with those of neighbours where there are none."""
+    """Return values, with those of neighbours where they are missing."""
     whole = values.copy()
     for _ in range(2):
         padded = np.pad(whole, 1, constant_values=np.nan)

@@ -31,7 +31,7 @@ def metric_curve(
     unit: str,
     style: Style,
 ) -> None:
-    """Draw the values over the axis, hatched where there are none, extremes marked."""
+    """Draw the values over the axis, with gaps hatched and extremes marked."""
     x_name, x = axis
     margin = 0.0 if len(x) > 1 else abs(float(x[0])) or 1.0
     ax.set_xlim(float(x[0]) - margin, float(x[-1]) + margin)

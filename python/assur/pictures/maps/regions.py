@@ -47,7 +47,7 @@ def roomiest(
 
     The size is in the units of x and y; above 1 it fits.
     """
-    # Between nodes the nearest counts, as in what is hatched.
+    # Between nodes the nearest counts, as for hatching.
     fine = [np.linspace(axis[0], axis[-1], NODES) for axis in (x, y)]
     nearest = [
         np.searchsorted((axis[1:] + axis[:-1]) / 2.0, nodes)

@@ -34,6 +34,6 @@ def level_text(level: float) -> str:
 
 
 def value_text(value: float, values: Float) -> str:
-    """Write a value of the map; what is only rounding, beside the others, is 0."""
+    """Write a value of the map; mere rounding, compared with the others, becomes 0."""
     greatest = float(np.nanmax(np.abs(values)))
     return number(0.0 if abs(value) <= ROUNDING * greatest else value)

@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 GREATEST_NUMBER = float(np.finfo(np.float32).max)
 ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 ARROW = " → "
-# A page turns once in so many seconds, if no speed is given.
+# Seconds of a turn on a page without a given speed.
 SECONDS = 4.0
 
 
 @dataclass(frozen=True, eq=False)
 class Played:
-    """What a page shows: a mechanism, its scene, and what is played."""
+    """What a page shows: a mechanism, its scene, and the turn that it plays."""
 
     mechanism: Mechanism
     turn: Turn
@@ -68,7 +68,7 @@ class Played:
 
 
 def played_of(turn: Turn) -> Played:
-    """Return a mechanism with its scene over what is played."""
+    """Return a mechanism with its scene over the turn that is played."""
     mechanism = turn.mechanism
     known = turn.frames.is_known
     values = (turn.frames.values[0][known],)
@@ -237,5 +237,5 @@ def _flat(vertices: Iterable[Vertex]) -> list[float]:
 
 
 def _short(numbers: Iterable[float]) -> list[float]:
-    """Return numbers to seven digits, as many as Float32 has."""
+    """Return numbers to the seven digits of Float32."""
     return [int(x) if x == int(x) else x for x in (float(f"{number:.7g}") for number in numbers)]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
-# About so many positions of a curve have a dot.
+# About this many positions of a curve have a dot.
 DOTS = 12
 LINE, DOT = 1.8, 4.0
 
@@ -40,7 +40,7 @@ def hodograph(
     ax: Any = None,
     dark: bool = False,
 ) -> Any:
-    """Draw the hodograph of a joint: the ends of its velocities laid off from one pole.
+    """Draw the hodograph of a joint: the ends of its velocities drawn from one pole.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def hodograph(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. Artists are named ``hodograph C``, ``position 3`` with its number, and
+        The axes drawn on. Artists are named ``hodograph C``, ``position 3`` with its number, and
         ``greatest`` for the vector of greatest size.
 
     Raises

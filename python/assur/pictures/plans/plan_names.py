@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def numbered(point: str, link: int) -> str:
-    """Return the name of a point of a link of which another link has one at the same place."""
+    """Return the name of a link's point that coincides with a point of another link."""
     return f"{point}{link}" if len(point) == 1 and point.isalpha() else f"{point}({link})"
 
 

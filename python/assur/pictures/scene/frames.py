@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur._faces import Motion
 
-# Joints farther from the middle of the drawing than so many times its size are out of sight.
+# Joints farther from the middle of the drawing than this multiple of its size are out of sight.
 FAR = 4.0
 
 

@@ -81,7 +81,7 @@ def chosen(
     count = len(points)
     middles, places = np.empty_like(points), np.zeros(count, dtype=np.intp)
     boxes = np.zeros((0, 2, 2)) if taken is None else taken
-    # Whatever is in the way, a row each: its middle, half its size, how bad it is to cover it.
+    # One row per obstacle: its middle, half its size, and the cost of covering it.
     symbols = np.column_stack([points, np.full((count, 2), radius.max()), np.full(count, ON_NAME)])
     things = np.concatenate(
         [
@@ -146,7 +146,7 @@ def within(centres: Float, half: Float, bounds: tuple[Float, Float]) -> Float:
 def along(polylines: list[Float], step: float, bounds: tuple[Float, Float] | None = None) -> Float:
     """Return points along lines, no farther apart than a step, (m, 2).
 
-    With `bounds`, corners of a picture, only of what is in or near it.
+    With `bounds`, the corners of a picture, only those in or near it.
     """
     starts = np.concatenate([np.zeros((0, 2)), *(line[:-1] for line in polylines)])
     ends = np.concatenate([np.zeros((0, 2)), *(line[1:] for line in polylines)])

@@ -180,7 +180,7 @@ def path_vectors(
     scale : float, optional
         Points to a unit; by default the longest vector gets `LONGEST`.
     lines : sequence of ndarray
-        Lines of the picture, m, of which texts keep clear.
+        Lines of the picture, m, which texts avoid.
     texts : bool
         Whether sizes are written.
     names : sequence of str

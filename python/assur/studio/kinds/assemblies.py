@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
     from assur.studio.session import Session
 
-# The greatest number of which all are listed.
+# The greatest number of assemblies that are all listed.
 MOST_LISTED = 64
 
 

@@ -1,4 +1,4 @@
-"""``check``: what a document says while it is drawn: it moves, or what is missing or too much."""
+"""``check``: the state of a document while it is drawn: it moves, lacks or has too much."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def _state(drawing: dict[str, Any], state: str, message: str, **more: Any) -> An
 
 
 def _counted(drawing: dict[str, Any]) -> dict[str, int]:
-    """Count as Chebyshev and Grübler do, also what is not yet a mechanism."""
+    """Count as Chebyshev and Grübler do, even before it is a mechanism."""
     links = {n: on for n, on in drawing["links"].items() if isinstance(on, list)}
     slides = drawing.get("slides")
     slides = slides if isinstance(slides, dict) else {}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 # Positions of a turn: extremes are found among them.
 ROWS = 721
-# Values between low and high, then between the two about the wanted one, so many times.
+# Values between low and high, then between the two about the target, this many times.
 VALUES, FINER, TIMES = 61, 21, 4
 
 

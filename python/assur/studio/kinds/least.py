@@ -1,4 +1,4 @@
-"""The least transmission angle of each dyad over what is played."""
+"""The least transmission angle of each dyad over the turn that is played."""
 
 from __future__ import annotations
 

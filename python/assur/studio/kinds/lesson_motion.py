@@ -236,7 +236,7 @@ def _continuous(angles: Float) -> Float:
 
 def _slide(lengths: Lengths, rod: float, phi: Float) -> Float:
     """Return value, first and second derivative by φ₁ of the frames of a slider-crank."""
-    # The crank towards D: there the rod reaches the line of centres whatever its length is.
+    # The crank towards D: there a rod of any length reaches the line of centres.
     widened = lengths._replace(l4=lengths.l1 + rod)
     places, angles = _drawing(widened, math.pi)
     links = {

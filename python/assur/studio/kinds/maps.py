@@ -28,7 +28,7 @@ AXIS = ("dimension", "low", "high")
 
 
 def map_of(data: dict[str, Any], session: Session) -> Answer:
-    """Return the metric at each cell, row by row from low y; where there is none, why."""
+    """Return the metric at each cell, row by row from low y; where it is missing, why."""
     known = ("document", "x", "y", "metric", "n", "rows", "low", "high")
     fields = Fields(data, known, ("document", "x", "y", "metric"))
     contents = document.read(fields["document"])

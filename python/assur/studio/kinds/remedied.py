@@ -46,7 +46,7 @@ def _readable(edited: Table) -> Iterator[Table]:
         except AssurError:
             continue
         yield candidate
-    # Masses or loads that were wrong before are none of the remedy's business.
+    # Masses or loads that were wrong before do not concern the remedy.
     for candidate in (edited, geometry):
         try:
             document.read_mechanism(candidate)

@@ -69,7 +69,7 @@ def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
 
 
 def played_answer(turn: Turn, fields: Fields, orders: int, speed: float | None = None) -> Answer:
-    """Return what is played with its scene."""
+    """Return the turn to play with its scene."""
     kept: list[Float] = []
     shown = payload(
         played_of(turn), "", speed, fields["paths"], fields["diagrams"], encode=kept.append
@@ -132,7 +132,7 @@ def _reach(mechanism: Mechanism, q: Float, axis: int) -> tuple[float, float]:
 
 
 def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
-    """Return how far a driver can go: step by step, for what is out of reach is slow to show."""
+    """Return how far a driver can go, step by step: positions out of reach are slow to show."""
 
     def holds(way: float) -> bool:
         at = q.copy()
