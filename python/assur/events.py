@@ -257,7 +257,7 @@ def _obstacle(event: Obstacle, mechanism: Mechanism | None, drivers: int) -> Obs
         raise InputError(message)
     at: Any = event.at
     if not isinstance(at, Position | TransmissionAngle | Crossing):
-        message = f"Obstacle at: {short(at)} is no Position, TransmissionAngle or Crossing"
+        message = f"Obstacle at: {short(at)} is not a Position, TransmissionAngle or Crossing"
         raise InputError(message)
     if at.direction == "either":
         message = f"{event!r}: direction= says from which side, 'rising' or 'falling'"

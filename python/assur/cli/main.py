@@ -101,7 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except (AssurError, AssurWarning, ImportError) as error:
             note(reworded(error))
         except MemoryError:
-            note("there is not enough memory for so many results: ask for fewer")
+            note("there is not enough memory for these results: ask for fewer")
         except OSError as error:
             cannot_write(error)
         except KeyboardInterrupt:

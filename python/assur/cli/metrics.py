@@ -46,7 +46,7 @@ def named_metric(text: str) -> tuple[str, Metric]:
     name, body = (match[1], match[2]) if match else (text.strip(), text)
     what = _Reader(body).whole()
     if not isinstance(what, Metric):
-        message = f"{text!r} is no metric: write a function, such as {name[:20]}=span(B.x)"
+        message = f"{text!r} is not a metric: write a function, such as {name[:20]}=span(B.x)"
         raise InputError(message)
     return name, what
 
@@ -55,7 +55,7 @@ def condition(text: str) -> Condition:
     """Return ``least_transmission(C) > 40deg``."""
     parsed = _Reader(text).whole()
     if not isinstance(parsed, Condition):
-        message = f"{text!r} is no condition, such as least_transmission(C) > 40deg"
+        message = f"{text!r} is not a condition, such as least_transmission(C) > 40deg"
         raise InputError(message)
     return parsed
 

@@ -36,7 +36,7 @@ def motors(motor: Any, drivers: int) -> list[Motor | None]:
         return [None] * drivers
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
     if not isinstance(many, list | tuple) or len(many) != drivers:
-        needed = f"{drivers} drivers need a sequence of as many (None: none)"
+        needed = f"{drivers} drivers need a sequence of {drivers} motors (None: no motor)"
         message = f"motor is {short(motor)}: {needed}"
         raise InputError(message)
     return [None if item is None else checked_motor(item) for item in many]

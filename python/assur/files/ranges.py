@@ -69,7 +69,7 @@ class Range:
             message = "a range needs either step or count"
             raise InputError(message)
         if np.shape(self.start) != np.shape(self.stop):
-            message = "a range needs as many numbers for start as for stop"
+            message = "a range needs the same number of numbers for start and stop"
             raise InputError(message)
         if self.step is not None and (np.shape(self.start) or not self.endpoint):
             message = "a range with several drivers, or without its end, needs count, not step"

@@ -166,7 +166,7 @@ class _Reader:
         speed = 2.0 * stroke * cycles / 60.0 or None
         self._sketch.inputs.append(Input(element.place, slide=name, speed=speed))
         throw = f"{stroke * self._scale:g} m"
-        self._sketch.omitted.append(f"The throw {throw} of actuator {name} is no limit here.")
+        self._sketch.omitted.append(f"The throw {throw} of actuator {name} is not a limit here.")
         return ""
 
     def _fasten(self, element: Element) -> None:
@@ -214,7 +214,7 @@ class _Reader:
             problem = f"joint {name} cannot slide between {listed(ends)}"
             raise self._source.error(connector.place, problem, joint=name)
         self._sketch.omitted.append(
-            f"The ends {listed(ends)} of the slot of {name} are no limits here."
+            f"The ends {listed(ends)} of the slot of {name} are not limits here."
         )
         riders = self._sketch.links_at(name)
         self._sketch.add_slot(name, carrier, riders, float(arctan2(v - y, u - x)), turns=True)
@@ -226,7 +226,7 @@ class _Reader:
             self._sketch.omitted.append(f"Input {name} has no link: left out.")
             return
         if not connector.is_true("anchor"):
-            problem = f"input {name} is no anchor: Linkage turns links about anchors only"
+            problem = f"input {name} is not an anchor: Linkage turns links about anchors only"
             raise self._source.error(connector.place, problem, joint=name)
         rpm = self._source.number(connector.attributes.get("rpm", "15"), connector.place, "rpm")
         # Clockwise; 0 stays +0.

@@ -121,7 +121,7 @@ def _add_link(source: Source, sketch: Sketch, place: str, row: list[str]) -> Non
     members = [word for word in row[5].split("|") if word] if row[5:] else []
     if not name or not members:
         needed = "id, mass, inertia, centre of mass and joints are needed"
-        raise source.error(place, f"{short(','.join(row))} is no link: {needed}")
+        raise source.error(place, f"{short(','.join(row))} is not a link: {needed}")
     # A link that is called as the frame is not the frame.
     key = f"{name} " if name == GROUND else name
     if key in sketch.links:

@@ -127,10 +127,10 @@ def joint_of(source: Source, place: str, text: str) -> Joint:
     words = text.split(",")
     if len(words) < 5 or not words[0][1:]:
         needed = "flags, id, name, x, y and angle are needed"
-        raise source.error(place, f"{short(text)} is no joint: {needed}")
+        raise source.error(place, f"{short(text)} is not a joint: {needed}")
     flags = DIGITS.find(words[0][0])
     if flags < 0:
-        raise source.error(place, f"the flags {words[0][0]!r} are no digit")
+        raise source.error(place, f"the flags {words[0][0]!r} are not a digit")
     x, y, angle = (
         decimal(source, word, place, what)
         for word, what in zip(words[2:5], ("x", "y", "the angle"), strict=True)
@@ -159,7 +159,7 @@ def links_of(source: Source, place: str, text: str) -> list[Link]:
     words = text.split(",")
     if len(words) < 8 or len(words[0]) < 3 or words[0][0] not in ROOTS + PARTS:
         needed = "kind, id, name, mass, inertia, centre, colour and joints are needed"
-        raise source.error(place, f"{short(text)} is no link: {needed}")
+        raise source.error(place, f"{short(text)} is not a link: {needed}")
     if words[0][1] not in "RP":
         raise source.error(place, f"the kind {words[0][1]!r} is neither R nor P")
     if words[0][0] in PARTS:

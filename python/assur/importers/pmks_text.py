@@ -97,7 +97,7 @@ def _record(
     words = [word for word in re.split(r"[,\s]+", text) if word]
     at = max((i for i, word in enumerate(words) if word.upper() in TYPES), default=0)
     if not at:
-        problem = f"{short(text.strip())} is no joint: its links, R, P or RP, x and y are needed"
+        problem = f"{short(text.strip())} is not a joint: its links, R, P or RP, x and y are needed"
         raise source.error(place, problem)
     links, kind, rest = words[:at], words[at].upper(), words[at + 1 :]
     flags = ""

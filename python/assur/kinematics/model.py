@@ -351,7 +351,7 @@ class MechanismModel:
 
     def __len__(self) -> int:
         if not self.shape:
-            message = "one mechanism has no length: it is no batch of designs"
+            message = "one mechanism has no length: it is not a batch of designs"
             raise TypeError(message)
         return self.shape[0]
 

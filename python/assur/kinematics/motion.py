@@ -110,7 +110,7 @@ class Motion(MotionModel):
             if index in names:
                 return of(index)
         known = ", ".join(repr(name) for kind in kinds for name in kind)
-        message = f"[{short(index)}]: nothing is called so; there are {known}"
+        message = f"[{short(index)}]: no joint, link or slide has this name; there are {known}"
         raise InputError(message)
 
     def __iter__(self) -> Iterator[Motion]:

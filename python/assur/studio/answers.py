@@ -76,7 +76,7 @@ def described(error: BaseException) -> dict[str, Any]:
     if isinstance(error, RecursionError):
         return {"message": "the document is nested too deeply", "kind": "malformed"}
     if isinstance(error, UnicodeError):
-        return {"message": "a text has letters that are no letters", "kind": "malformed"}
+        return {"message": "a text is not valid Unicode", "kind": "malformed"}
     LOG.error("a request failed", exc_info=error)
     message = f"the studio failed at this ({type(error).__name__}); the document is not changed"
     return {"message": message, "kind": "internal"}

@@ -77,7 +77,7 @@ def parse(text: str | bytes) -> Request:
 
 
 def _refuse(word: str) -> NoReturn:
-    message = f"{word} is no number of JSON"
+    message = f"{word} is not a JSON number"
     raise ValueError(message)
 
 

@@ -377,7 +377,7 @@ class Measures(Mapping[str, Float]):
         if name not in self:
             names = ", ".join(map(repr, self._values))
             message = (
-                f"[{short(name)}]: no metric is called so; there are {names}{self._near(name)}"
+                f"[{short(name)}]: no metric has this name; there are {names}{self._near(name)}"
             )
             raise InputError(message)
         return self._values[name]

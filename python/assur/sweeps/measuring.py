@@ -241,7 +241,7 @@ def _conditions(where: Any) -> list[Condition]:
         raise InputError(message) from error
     for condition in conditions:
         if not isinstance(condition, Condition):
-            message = f"where: {short(condition)} is no condition, as metric > limit is"
+            message = f"where: {short(condition)} is not a condition, such as metric > limit"
             raise InputError(message)
     return conditions
 

@@ -81,8 +81,8 @@ def test_every_metric_but_functions_can_be_written() -> None:
     [
         ("", "a number or a metric is missing"),
         ("a=", "a number or a metric is missing"),
-        ("3", "is no metric"),
-        ("span(B.x) > 2", "is no metric"),
+        ("3", "is not a metric"),
+        ("span(B.x) > 2", "is not a metric"),
         ("span", "'(' is missing after span"),
         ("span(B.x", "')' is missing"),
         ("(span(B.x)", "')' is missing"),

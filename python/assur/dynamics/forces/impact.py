@@ -111,7 +111,7 @@ def _check_load(load: Any) -> None:
         message = f"{short(load)}: an impact needs a direction in numbers"
         raise InputError(message)
     if load.while_ is not None:
-        message = f"{short(load)}: an impact is no motion in one direction; leave while_= out"
+        message = f"{short(load)}: an impact is not a motion in one direction; leave while_= out"
         raise InputError(message)
     if not any(parts):
         message = f"{short(load)} is zero: an impact needs a direction"

@@ -75,12 +75,12 @@ def _require_solved(arrays: dict[Key, Float]) -> None:
     if np.any(counts == UNDETERMINED):
         message = (
             "redundant links leave forces in a pair with friction undetermined, and its friction "
-            "with them: leave it out, or the redundant links"
+            "with them: remove the friction, or the redundant links"
         )
         raise InputError(message)
     if np.any(counts == UNSOLVED):
         message = (
-            "so many pairs with friction depend on one another that their solutions are not "
+            "too many pairs with friction depend on one another: their solutions are not "
             "searched for, and there may be several or none: leave out the friction that matters "
             "least"
         )

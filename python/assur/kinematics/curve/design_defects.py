@@ -126,6 +126,6 @@ def _nearest(mechanism: MechanismModel, q: float, targets: dict[str, Float]) -> 
         if assembly.place is not None
     ]
     if any(np.abs(place - places[0]).max() > APART for place in places[1:]):
-        message = f"joints: {', '.join(targets)} do not tell which assembly is meant: add others"
+        message = f"joints: {', '.join(targets)} do not determine the assembly: add others"
         raise InputError(message, value=q)
     return min(fitting, key=lambda pair: pair[0])[1] if fitting else None
