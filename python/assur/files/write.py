@@ -28,7 +28,7 @@ HEAD = ("format", "driver", "input_speed")
 
 
 def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -> None:
-    """Write a mechanism, a machine, or both with the results wanted, to a TOML file.
+    """Write a mechanism, a machine, or both with the requested results, to a TOML file.
 
     Parameters
     ----------
