@@ -36,7 +36,7 @@ def add_coordinates(parser: argparse.ArgumentParser) -> None:
 def coordinates(
     mechanism: Mechanism, flags: list[Numbers] | None, in_file: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return the argument ``q`` of a method, or ``deg``: of flags, or what a file asks for."""
+    """Return the argument ``q`` of a method, or ``deg``: from flags, or from the file."""
     from assur.kinematics.table import driven_angles
 
     angles = driven_angles(mechanism)
@@ -71,7 +71,7 @@ def _together(columns: list[Float]) -> Float:
 
 
 def speeds(mechanism: Mechanism, flag: Numbers | None, what: str) -> Any:
-    """Return a speed, of several drivers one each; None if none is given."""
+    """Return a speed, one for each of several drivers; None if none is given."""
     from assur.kinematics.table import driven_angles
 
     if flag is None:
@@ -88,7 +88,7 @@ def speeds(mechanism: Mechanism, flag: Numbers | None, what: str) -> Any:
 
 
 def plain(flag: Numbers | None, mechanism: Mechanism, what: str) -> Any:
-    """Return an acceleration, of several drivers one each: always in SI units."""
+    """Return an acceleration, one for each of several drivers: always in SI units."""
     if flag is not None and flag.unit is not None:
         message = f"{what} is in rad/s² or m/s²: write no unit"
         raise InputError(message)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def read_designs(path: str, known: Iterable[str]) -> dict[str, Float]:
     """Return the dimensions of a table, a column each: the header has their names.
 
-    Of a table that ``assur sweep`` wrote, the columns of results are left out.
+    The columns of results in a table that ``assur sweep`` wrote are left out.
     """
     try:
         with Path(path).open(encoding="utf-8-sig", newline="") as file:

@@ -23,7 +23,7 @@ def add_progress(parser: argparse.ArgumentParser) -> None:
 
 
 def progress(arguments: argparse.Namespace) -> Progress:
-    """Return what `assur.sweep` reports to: tqdm's bar in a terminal, if it is installed."""
+    """Return the progress for `assur.sweep`: tqdm's bar in a terminal, if it is installed."""
     if arguments.quiet or sys.stderr is None:
         return False
     if sys.stderr.isatty() and find_spec("tqdm") is not None:

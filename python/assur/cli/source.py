@@ -25,7 +25,7 @@ STDIN, STDIN_NAME = "-", "the standard input"
 
 
 def read(arguments: argparse.Namespace) -> Contents:
-    """Return what FILE holds; what does not carry over is said on the standard error."""
+    """Return the contents of FILE; report on the standard error what does not carry over."""
     contents = _changed(_found(arguments), arguments.set)
     if arguments.design is None:
         return contents

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 LENGTH, ANGLE, LINEAR, ROTARY = "a length", "an angle", "a speed", "an angular speed"
-# What a unit is of, and what it is in SI units: a factor, or (int) a power of ten.
+# The kind of a unit, and its value in SI units: a factor, or (int) a power of ten.
 UNITS: dict[str, tuple[str, float | int]] = {
     "m": (LENGTH, 0),
     "cm": (LENGTH, -2),
@@ -49,7 +49,7 @@ class Numbers(NamedTuple):
     unit: str | None
 
     def require(self, kind: str, what: str) -> None:
-        """Refuse a unit of another kind; what has no kind ("") has no unit."""
+        """Refuse a unit of another kind; no kind ("") means no unit."""
         if self.unit is None or UNITS[self.unit][0] == kind:
             return
         known = ", ".join(name for name, (of, _) in UNITS.items() if of == kind)

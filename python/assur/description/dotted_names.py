@@ -1,6 +1,6 @@
 """Names of two parts with a dot between them: a coordinate "B.x", a dimension "crank.length".
 
-No joint, link or slide has a dot in its name, so the last dot parts item and component.
+No joint, link or slide has a dot in its name, so the last dot separates item and component.
 """
 
 from __future__ import annotations

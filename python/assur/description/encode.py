@@ -21,12 +21,12 @@ from assur.errors import AssurWarning, InputError, StructureError, offer_remedie
 
 T = TypeVar("T")
 
-# Guides beyond two turns are in degrees, as far as anyone meant them.
+# Guides beyond two turns are probably in degrees.
 LIKE_DEGREES = 4.0 * np.pi
 
 
 class Description(NamedTuple):
-    """A description that is checked: names with coordinates, members, slides; drivers; signs."""
+    """A checked description: names with coordinates, members, slides; drivers; signs."""
 
     joints: tuple[tuple[str, float, float], ...]
     links: tuple[tuple[str, tuple[str, ...]], ...]
@@ -36,7 +36,7 @@ class Description(NamedTuple):
 
 
 def core_of(description: Description) -> Core:
-    """Compile a description. What refuses it can find remedies of it."""
+    """Compile a description. The error that refuses it can find remedies."""
     return _with_remedies(Core, _parts(description))
 
 
@@ -85,7 +85,7 @@ def _parts(description: Description) -> dict[str, Any]:
 
 
 def _with_remedies(make: Callable[..., T], parts: dict[str, Any]) -> T:
-    """Make something of the parts; the error of a structure can find remedies of them."""
+    """Make something of the parts; a StructureError can find remedies."""
     try:
         return make(**parts)
     except StructureError as error:

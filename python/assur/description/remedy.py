@@ -1,4 +1,4 @@
-"""Finding what would make a mechanism of a description that is refused."""
+"""Finding changes that make a mechanism of a refused description."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["find"]
 
 
 def find(description: dict[str, Any]) -> tuple[Remedy, ...]:
-    """Return up to three remedies of a description, as the core takes it, that is refused."""
+    """Return up to three remedies of a refused description, as the core takes it."""
     return tuple(
         Remedy(
             text=parts["text"],

@@ -137,8 +137,7 @@ class Cylinder:
     -----
     Where both joints coincide the direction of the cylinder is not determined: the position is
     `Status.SINGULAR`. A motion through that point goes on with a length that grows again; the
-    cylinder has then turned by half a turn at once, counter-clockwise as q grows (either way would
-    be as good).
+    cylinder has then turned by half a turn at once, counter-clockwise as q grows (by convention).
 
     Examples
     --------

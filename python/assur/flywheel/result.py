@@ -211,7 +211,7 @@ class Flywheel(Tabular, ABC):
     def reduced_moment(self, q: npt.ArrayLike) -> Any:
         """Return the reduced moment of the loads at coordinates, N·m, without the motor.
 
-        Of a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
+        For a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
 
         Parameters
         ----------

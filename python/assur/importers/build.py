@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from assur.importers.sketch import Input, Sketch
     from assur.importers.source import Source
 
-# Part of the file's resolution from which on a move of joints is said.
+# Fraction of the file's resolution from which moves of joints are reported.
 LEAST_SAID = 1e-6
 
 

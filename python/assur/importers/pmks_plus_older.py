@@ -122,7 +122,7 @@ def _add_link(source: Source, sketch: Sketch, place: str, row: list[str]) -> Non
     if not name or not members:
         needed = "id, mass, inertia, centre of mass and joints are needed"
         raise source.error(place, f"{short(','.join(row))} is not a link: {needed}")
-    # A link that is called as the frame is not the frame.
+    # A link with the frame's name is not the frame.
     key = f"{name} " if name == GROUND else name
     if key in sketch.links:
         raise source.error(place, f"a second link {short(name)}", link=name)

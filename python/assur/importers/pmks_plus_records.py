@@ -1,8 +1,9 @@
 """Records of PMKS+: what an address holds after its question mark.
 
-Parts are parted by dots: flags, decimals, whole numbers, units, then a record a joint, an empty
-part, a record a link, an empty part, a record a force, and the selection with a letter that checks
-the length. Newer addresses go on behind an asterisk, which the letter does not count.
+Parts are separated by dots: flags, decimals, whole numbers, units, then a record for each joint, an
+empty part, a record for each link, an empty part, a record for each force, and the selection with a
+letter that checks the length. Newer addresses go on behind an asterisk, which the letter does not
+count.
 
 joint
     a digit of flags (slides, input, frame, welded, path, cylinder), its id, name, x, y, angle in

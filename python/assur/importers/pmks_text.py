@@ -1,4 +1,4 @@
-"""The text of PMKS: a line a joint, also in an address after ``mech=``, parted by ``|``.
+"""The text of PMKS: a line per joint; in an address after ``mech=``, separated by ``|``.
 
 A line has the names of the joint's links, its type (R, P, RP), x, y, for P and RP the direction of
 the guide in degrees, and four letters t or f, the last of which marks the input. The first link

@@ -51,7 +51,7 @@ def read(
     Returns
     -------
     Imported
-        Its speed is rad a step: pylinkage has no time.
+        Its speed is in rad per step: pylinkage has no time.
 
     Raises
     ------

@@ -26,13 +26,13 @@ MOST_PARTS = 500
 LARGEST_NUMBER = 1e100
 # A float64 is written in 24 letters at most; reading a longer one could take long.
 LONGEST_NUMBER = 60
-# What may be before an address on its line: a label, brackets, a quote.
+# Text that may precede an address on its line: a label, brackets, a quote.
 LONGEST_LABEL = 300
 LABEL = r"[^{}|\n?=]*"
 CLOSING = {"(": ")", "[": "]", "<": ">", '"': '"', "'": "'", "`": "`"}
 # Characters that are not part of an address at its end, unless they were opened within it.
 ENDS = {")": "(", "]": "[", ">": "<"}
-# What only a text has, not a path.
+# Characters that only a text has, not a path.
 TEXT_LETTERS = frozenset("\n\r{[<|?")
 
 
@@ -99,7 +99,7 @@ def open_source(source: Any) -> Source:
 
 
 def _unwrapped(text: str) -> str:
-    """Return an address without what a mail or a page in Markdown puts around it."""
+    """Return an address without the marks that a mail or a Markdown page puts around it."""
     start = re.search(r"https?://", text[:LONGEST_LABEL], re.IGNORECASE)
     line = text.strip()
     if start is None or "\n" in line or not re.fullmatch(LABEL, text[: start.start()]):

@@ -68,7 +68,7 @@ def _resolve(source: Source, sketch: Sketch, driven: Input) -> None:
 
 
 def _merge_joints(sketch: Sketch) -> None:
-    """Joints of one link at one place are one joint."""
+    """Merge joints of one link at one place."""
     for link in list(sketch.links):
         first: dict[tuple[float, float], str] = {}
         for joint in list(sketch.links[link]):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 WIDTH, LEAST_WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 6.4, 3.6, 2.4, 6.4
 # About the mechanism, points: for names, pivots, drivers; and below for the scale bar.
 MARGIN, FOOT = 30.0, 30.0
-# The scale bar is about so long, points.
+# About the length of the scale bar, points.
 SCALE_BAR = 55.0
 TEXT = 9.0
 # Squares of the extent must not overflow, nor the number of pixels per unit.
@@ -64,7 +64,7 @@ def checked_axes(ax: Any) -> Any:
 
 
 def root_figure(ax: Any) -> Any:
-    """Return the figure that the axes are on, at last: they may be on a part of it."""
+    """Return the figure that the axes are on in the end: they may be on a part of it."""
     return ax.figure.figure
 
 

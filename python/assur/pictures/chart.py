@@ -93,7 +93,7 @@ def title(ax: Any, text: str, style: Style, below: str = "") -> None:
 
 
 def degree_ticks(ax: Any, low: float, high: float) -> None:
-    """Put ticks at every 60°, of long spans at every turn."""
+    """Put ticks at every 60°, or at every turn for long spans."""
     from matplotlib.ticker import FuncFormatter, MultipleLocator
 
     steps = (60.0, 180.0, 360.0, 720.0, 3600.0)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def settle(ax: Any) -> None:
-    """Lay the figure out now: what is placed clear of something else stays so."""
+    """Compute the figure's layout now, so that texts placed clear of others stay clear."""
     figure = root_figure(ax)
     engine = figure.get_layout_engine()
     if engine is not None:

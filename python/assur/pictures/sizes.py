@@ -23,5 +23,5 @@ HATCH = 1.0
 BRIDGE = 18.0
 ARROW_RADIUS, ARROW, ARROW_HEAD, ARROW_HEAD_WIDTH = 24.0, 2.25, 10.0, 9.0
 DRIVE_LENGTH, DRIVE_DISTANCE = 30.0, 12.0
-# Where links are shorter than this, all symbols shrink, to no less than that part.
+# Where links are shorter than this, all symbols shrink, to no less than this fraction.
 USUAL_LINK, LEAST_DENSITY = 60.0, 0.6

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.axes import Canvas
 
-# Serif italic for joints and quantities; what it lacks comes from the default font.
+# Serif italic for joints and quantities; letters it lacks come from the default font.
 NAME_FONT = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 NAME_SIZE = 12.0
 # For a letter that no font has.
@@ -39,7 +39,7 @@ def name_font(size: float = NAME_SIZE) -> FontProperties:
 def printable(text: str) -> str:
     """Return a text with a box for each letter that the default font, rcParams, does not have.
 
-    That is what matplotlib draws of such a letter, with a warning.
+    Matplotlib draws the same for such a letter, with a warning.
     """
     if text.isascii():
         return text
@@ -112,8 +112,8 @@ def write_names(
 ) -> list[Any]:
     """Write names beside points, m.
 
-    `radii` of their symbols are in points, `lines` in m; `others` are boxes that are there
-    already: their middles and halves in points, (k, 2, 2); `light` are lines to be covered first.
+    `radii` of their symbols are in points, `lines` in m; `boxes` are there already: their
+    middles and halves in points, (k, 2, 2); `light` are lines to be covered first.
     The font and ink of names by default; texts whose `sizes`, points, are given may have formulas.
     """
     names = Names(on, texts, radii, gids, font, colours, sizes)

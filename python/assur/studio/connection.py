@@ -1,4 +1,4 @@
-"""One page: reads its requests, computes them in two lanes, keeps of live kinds the newest."""
+"""One page: reads its requests, computes them in two lanes, keeps the newest of live kinds."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ TRY_LATER = 1013
 
 
 class Studio:
-    """What all connections share: the file given, the threads, who is connected."""
+    """What all connections share: the file given, the threads, the connections."""
 
     def __init__(self, given: Given | None = None) -> None:
         self.given = given
@@ -123,7 +123,7 @@ class Connection:
         lane.add(request)
 
     async def _compute(self, lane: Lane) -> None:
-        """Answer what waits in a lane."""
+        """Answer the requests that wait in a lane."""
         while True:
             await self._send(await self._answer(await lane.next()))
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
     from assur.kinematics.mechanism import Mechanism
 
-# Mechanisms of the documents that were read last: a page asks many things of one.
+# Mechanisms of the documents that were read last: a page asks much of each.
 MOST_KNOWN = 8
 _KNOWN: OrderedDict[str, Mechanism] = OrderedDict()
 
@@ -38,7 +38,7 @@ def read(data: Any) -> Contents:
     Raises
     ------
     FileError
-        What is wrong, with its key in the document.
+        The fault, with its key in the document.
     """
     node = checked(data)
     contents = contents_of(Tree({"format": FORMAT, **node.value}))
@@ -59,7 +59,7 @@ def read_mechanism(data: Any) -> Mechanism:
 
 
 def remember(data: dict[str, Any], mechanism: Mechanism) -> None:
-    """Keep the mechanism of a document that was made of it: the page asks for it next."""
+    """Keep the mechanism of a document made from it: the page asks for it next."""
     _remember(json.dumps(_geometry(data)), mechanism)
 
 

@@ -35,7 +35,7 @@ class Explorer(anywidget.AnyWidget):
     what : Mechanism or Machine
         What is shown first.
     height : int
-        Of the cell, px.
+        Height of the cell, px.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Explorer(anywidget.AnyWidget):
     machine : Machine or None
         With masses and loads, if there are any.
     q : float or list of float
-        The coordinate of the driver at which it stands, rad or m; of several drivers a list.
+        The driver's coordinate, rad or m; a list for several drivers.
         Assign to move it.
     document : dict
         The description as the page has it, also while it does not move. Observe it, with

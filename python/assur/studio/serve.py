@@ -35,7 +35,7 @@ def require_packages() -> None:
 
 
 def serve(
-    opened: Given | None,
+    given: Given | None,
     host: str | None = None,
     port: int | None = None,
     browser: bool = True,
@@ -46,7 +46,7 @@ def serve(
     Parameters
     ----------
     given : Given or None
-        What is opened; None for an empty page.
+        The document to open; None for an empty page.
     host : str, optional
         Where to listen: this machine alone by default.
     port : int, optional
@@ -65,7 +65,7 @@ def serve(
 
     listening = _listening(host or LOCAL, port)
     token, own_port = secrets.token_urlsafe(24), listening.getsockname()[1]
-    app = application(opened, token, host or LOCAL, own_port)
+    app = application(given, token, host or LOCAL, own_port)
     config = uvicorn.Config(
         app,
         log_level="warning",

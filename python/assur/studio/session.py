@@ -62,7 +62,7 @@ class Given:
 
     @property
     def title(self) -> str:
-        """What the page calls it."""
+        """Its name on the page."""
         return self.path.name if self.path is not None else str(self.example)
 
     @property

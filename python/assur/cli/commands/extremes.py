@@ -70,7 +70,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 
 def _instead(mechanism: Mechanism, link: str, extremes: Extremes) -> list[str]:
-    """Return, of a link that does not turn, which of its slides move."""
+    """Return the notes on a link that does not turn: which of its slides move."""
     from assur.kinematics.configuration import size_of
     from assur.kinematics.extremes import STANDS
 

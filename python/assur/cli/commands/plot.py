@@ -102,7 +102,7 @@ def _write_page(arguments: argparse.Namespace, mechanism: Mechanism, asked: Any,
 
 
 def _stem(file: str) -> str:
-    """Return what a picture is called if it has no name."""
+    """Return the name of a picture's file by default."""
     if file == STDIN or "://" in file:
         return "mechanism"
     return PurePath(file.removeprefix(EXAMPLE)).stem or "mechanism"

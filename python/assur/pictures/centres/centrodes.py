@@ -47,12 +47,12 @@ def centrodes(
     Parameters
     ----------
     motion : Motion
-        Of one design and one driver: a row of positions over which the curves go, or one position,
-        which stands for the whole motion of the mechanism.
+        A motion of one design and one driver: a row of positions over which the curves go, or one
+        position, which stands for the whole motion of the mechanism.
     link, other : str
         The link, and the link relative to which it moves.
     at : int or tuple of int
-        Index of the position drawn; of a row of positions the first by default.
+        Index of the position drawn; by default the first of a row.
     ax : matplotlib.axes.Axes, optional
         Where to draw; a new figure by default.
     dark : bool

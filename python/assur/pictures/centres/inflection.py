@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from assur.pictures.axes import Canvas
 
 DOT = 5.5
-# The pole of a crank rests: rounding moves it by less than this part of the mechanism's size.
+# The pole of a crank rests: rounding moves it by less than this fraction of the mechanism's size.
 AT_REST = 1e-9
 LINE = 1.8
-# Dash-dotted lines of pole tangent and normal reach so far beyond the circle, points.
+# How far the dash-dotted pole tangent and normal reach beyond the circle, points.
 BEYOND = 24.0
 # A circle greater than this multiple of the mechanism is drawn only where it is in sight.
 SIGHT = 1.2

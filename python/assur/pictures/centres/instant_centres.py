@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from assur._faces import Motion
 
 
-# Centres farther from the mechanism than this part of its size are shown at the border.
+# Centres farther from the mechanism than this multiple of its size are shown at the border.
 SIGHT = 0.75
 # Kennedy's lines are drawn by default for up to this many links.
 FEW = 6

@@ -41,7 +41,7 @@ class Centre(NamedTuple):
 
 
 def centres_of(motion: Motion, links: Sequence[str]) -> dict[frozenset[str], Centre]:
-    """Return the instant centres of links at one position; none of pairs at relative rest."""
+    """Return the instant centres of links at one position, except for pairs at relative rest."""
     centres = {}
     for first, second in combinations(links, 2):
         centre = _centre(motion, first, second)

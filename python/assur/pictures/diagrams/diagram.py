@@ -76,7 +76,7 @@ def timed_diagram(
 def diagrams(
     source: Source, shown: list[Quantity], ax: Any, orders: Any, style: Style, listed: bool = False
 ) -> Any:
-    """Draw one diagram an order; `listed`: several quantities, each with its name beside it."""
+    """Draw one diagram per order; `listed`: several quantities, each with its name beside it."""
     chosen = _checked_orders(orders, source.orders)
     count = len(chosen)
     rows, columns = (2, 2) if count == 4 else (count, 1)
@@ -199,7 +199,7 @@ class _Panel:
         name_lines(ax, named)
 
     def _written(self, shown: Shown, values: Float) -> str:
-        """Return the name beside a line; of a single line that is constant, its value."""
+        """Return the name beside a line, or the value of a single line that is constant."""
         if self.named:
             return shown.name
         known = values[np.isfinite(values)]

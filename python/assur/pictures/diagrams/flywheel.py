@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from assur._faces import Flywheel
     from assur.pictures.style import Style
 
-# Areas of less than that part of the greatest are not labelled.
+# Areas below this fraction of the greatest are not labelled.
 SMALL = 0.04
-# A sign changes where halving a step so often has put it.
+# Halvings of a step to find where a sign changes.
 HALVINGS = 50
 
 
@@ -189,7 +189,7 @@ def _rising(q: Float, y: Float) -> tuple[Float, Float]:
 
 
 def energy_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, style: Style) -> Any:
-    """Draw the work of motor and loads, and what of it the flywheel stores."""
+    """Draw the work of motor and loads, and the part of it that the flywheel stores."""
     axes = chart.chart_axes(ax, style)
     start(axes, over, style)
     x = over.values

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 REACHES, ENOUGH, FARTHER, HABIT = (2.0, 8.0, 16.0, 28.0), 7.0, 0.35, 2.0
 # An optional text nearer to others than this, points, is left out.
 LEAST = 0.5
-# From its point, of a text that may lie on it.
+# Gap from its point for a text that may lie on it.
 SHIFTS = (0.0, 8.0, -8.0, 16.0, -16.0, 24.0, -24.0)
 
 

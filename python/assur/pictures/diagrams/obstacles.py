@@ -1,4 +1,4 @@
-"""What texts of a diagram keep clear of: its curves, marks and other texts."""
+"""What texts of a diagram avoid: its curves, marks and other texts."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ HILLS = 4
 # A search tries this many places between two samples, then again about the best of them, until
 # these are so much closer: four times.
 PLACES, CLOSEST = 17, 1 / 500
-# Interpolation is believed where it gains so much over the sample, relative to the range.
+# Interpolation counts where it gains more than this over the sample, relative to the range.
 GAIN = 1e-6
 
 
@@ -44,7 +44,7 @@ def peaks(
     slope: Float | None = None,
     again: Callable[[Float], Float] | None = None,
 ) -> list[Peak]:
-    """Return the greatest and the least value of a curve, in this order; none of a constant.
+    """Return the greatest and the least value of a curve, in this order; nothing for a constant.
 
     Parameters
     ----------

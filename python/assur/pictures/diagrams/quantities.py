@@ -87,13 +87,13 @@ def _quantity(motion: Motion, name: Any) -> Quantity:
         joint, axis = split_name(name)
         if axis in AXES and joint in motion.mechanism.joint_names:
             return Quantity("joint", joint, AXES.index(axis))
-    # It says what there is.
+    # This raises the error that lists the names.
     motion[name if isinstance(name, str) else short(name)]
     raise AssertionError(name)  # pragma: no cover
 
 
 def components(of: Quantity, order: int, values: Float, slopes: Float | None) -> list[Line]:
-    """Return the components, and of a joint's derivatives the magnitude."""
+    """Return the components, and the magnitude of a joint's derivatives."""
     if of.kind != "joint":
         return [Line("", values, slopes)]
     axes: Sequence[int] = (0, 1) if of.axis is None else (of.axis,)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 POINTS = 1001
 # Energies whose range is less than that of the greatest are not drawn.
 STILL = 1e-9
-# The names of events lie that far below the upper side, relative to the diagram.
+# How far the names of events lie below the upper side, relative to the diagram.
 EVENTS = 0.07
 SUM, DASHED = "sum", (0.0, (5.0, 3.0))
 # Above the curves, relative to their range, for the names of events.
@@ -152,7 +152,7 @@ def _event_lines(ax: Any, events: list[EventRecord], style: Style) -> None:
 
 
 def _event_notes(ax: Any, events: list[EventRecord], style: Style) -> list[Any]:
-    """Return the names of the events at the upper side; of many alike the first is named."""
+    """Return the names of the events at the upper side; the first of many alike is named."""
     bottom, top = ax.get_ylim()
     y = top - EVENTS * (top - bottom)
     counts: dict[str, int] = {}

@@ -1,4 +1,4 @@
-"""What diagrams are drawn over, and their titles: the driver's coordinate, or time."""
+"""The abscissas of diagrams, and their titles: the driver's coordinate, or time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ POWERS = ("", "", "²", "³")
 
 
 class Source(Protocol):
-    """What diagrams are drawn of.
+    """The source of a diagram's curves.
 
     Attributes
     ----------

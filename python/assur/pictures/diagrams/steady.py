@@ -41,7 +41,7 @@ def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark:
 
 
 class Abscissa:
-    """What a curve over a turn is drawn over: its values, its name, and the places of extremes."""
+    """The abscissa of a curve over a turn: its values, its name, and the places of extremes."""
 
     def __init__(
         self, values: Float, label: str, of: Callable[[float], float], place: Callable[[float], str]

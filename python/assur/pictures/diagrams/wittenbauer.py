@@ -26,9 +26,9 @@ LEFT, RIGHT, ABOVE = 0.42, 0.22, 0.16
 STEEP = 1.5
 # From the frame to the intercept, relative to the picture.
 INSET = 0.02
-# A loop without width is drawn as wide as that part of the inertia.
+# A loop without width is drawn as wide as this fraction of the inertia.
 THIN = 0.2
-# Dots and their names are so far apart.
+# Distances between dots, and between their names.
 DOTS, NAMES = np.pi / 6.0, 2
 # From the intercept to its text, points.
 GAP = 6.0
@@ -84,7 +84,7 @@ def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, style: Style) -> 
 def _width(inertia: Float, energy: Float, speed: float) -> tuple[float, float, bool]:
     """Return the limits of the abscissa, and whether tangents are too steep to meet its left end.
 
-    Of a flat loop they may be much steeper than it is high.
+    For a flat loop they may be much steeper than it is high.
     """
     low, high = float(inertia.min()), float(inertia.max())
     span = high - low
@@ -122,7 +122,7 @@ def _height(energy: Float, tangents: list[Float]) -> tuple[float, float]:
 def _intercept(ax: Any, tangents: list[Float], steep: bool, style: Style) -> None:
     """Draw what the tangents cut off the frame as a length with its value.
 
-    On the left side it is an energy; of steep tangents it is an inertia at the bottom.
+    On the left side it is an energy; for steep tangents it is an inertia at the bottom.
     """
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     ends = np.array([float(line[0]) for line in tangents])

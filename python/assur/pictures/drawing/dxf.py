@@ -87,7 +87,7 @@ def _dimension_style(doc: Any, per: float, decimals: int) -> None:
 
 
 def _weight(mm: float) -> int:
-    """Return the line weight that is nearest."""
+    """Return the nearest line weight."""
     return min(WEIGHTS, key=lambda weight: abs(weight - 100.0 * mm))
 
 

@@ -34,13 +34,13 @@ BLOCK_LENGTH, SLOT = 1.2, 0.6
 BARREL, ROD = 1.0, 0.3
 # From the outline to the first dimension line, and from line to line, mm of the paper.
 FIRST, NEXT = 9.0, 8.0
-# Distances below this part of the link's size are 0.
+# Distances below this fraction of the link's size are 0.
 NEAR = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Workshop:
-    """What parts are made by.
+    """The settings by which parts are made.
 
     `width` and `hole` are mm, `per` is the length of a mm of the paper; `layers` has the layer of
     each link.

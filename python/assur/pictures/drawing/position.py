@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 # A px of the symbols, mm of the paper.
 PX = 25.4 / 96.0
-# A dimension of a link is so far from it on either side, mm of the paper.
+# Distances of a dimension from its link on either side, mm of the paper.
 BESIDE = (8.0, -8.0, 14.0, -14.0, 20.0, -20.0)
-# Number of points among which the nearest to a dimension is looked for.
+# Number of points among which to look for the nearest to a dimension.
 MOST = 4000
 
 
 def schematic(subject: Subject, layers: dict[str, str], per: float) -> list[Mark]:
-    """Return the symbols of a position; what lies under joints and blocks is left out."""
+    """Return the symbols of a position, without the lines under joints and blocks."""
     size = PX * per * _density(subject, per)
     drawn: list[tuple[Part, Float]] = []
     for part in subject.scene.parts:

@@ -23,7 +23,7 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, place_text, write_headin
 if TYPE_CHECKING:
     from assur._faces import ForceSystem, PlacedForce
 
-# The order of the sides; forces smaller than this part of the greatest are not drawn.
+# The order of the sides; forces smaller than this fraction of the greatest are not drawn.
 ORDER, LEAST = ("load", "weight", "inertia", "drive", "reaction"), 1e-9
 DOT = 4.0
 

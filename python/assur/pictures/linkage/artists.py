@@ -1,4 +1,4 @@
-"""Scenes drawn by matplotlib: one artist a part, moved by the frame of its link."""
+"""Scenes drawn by matplotlib: one artist per part, moved by the frame of its link."""
 
 from __future__ import annotations
 

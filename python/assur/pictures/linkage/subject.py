@@ -1,4 +1,4 @@
-"""What is drawn of a mechanism: its scene, its positions, and the frame they fit into."""
+"""A mechanism to draw: its scene, its positions, and the frame they fit into."""
 
 from __future__ import annotations
 
@@ -146,7 +146,7 @@ def assembly_of(motion: Motion) -> dict[str, int]:
 
 
 def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | None:
-    """Return a part's line in the drawing's axes; none of a disc."""
+    """Return a part's line in the drawing's axes; None for a disc."""
     if isinstance(part, Disc):
         return None
     per = on.size / on.scale

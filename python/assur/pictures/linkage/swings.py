@@ -35,7 +35,7 @@ class Swing(NamedTuple):
 
 
 def swings(mechanism: Mechanism, assembly: dict[str, int]) -> list[Swing]:
-    """Return the links that turn about the ground; of several drivers none is known."""
+    """Return the links that turn about the ground; with several drivers none is known."""
     if mechanism.driver_count > 1:
         return []
     ground = set(mechanism.links.get("ground", ()))

@@ -48,7 +48,7 @@ def fill_counts(
 ) -> None:
     """Fill regions between lines by the number in them, and write `name(number)` there.
 
-    What has no room is explained in a legend, so far below the axes, relative to their height.
+    A legend this far below the axes, relative to their height, explains what has no room.
     With `hatched` regions of 0 are hatched as those that are not feasible.
     """
     fine_x, fine_y, fine = finer(x, y, values, lines)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 SAMPLES = 240
 DIAMOND = 9.0
-# A span so near a turn is one.
+# A span this near to a turn is one.
 NEAR = 1e-6
 TURN = 2.0 * np.pi
 # More dead points than this are marked without their q.
@@ -31,7 +31,7 @@ MOST = 8
 DASHES = (0.0, (3.0, 4.0))
 # Values farther from the middle than this multiple of the mechanism's size are out of sight.
 FAR = 4.0
-# Curves so near, relative to their range, over half of one of them look like one.
+# Curves this near, relative to their range, over half of one of them look like one.
 ALIKE = 0.008
 
 
@@ -59,7 +59,7 @@ def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> 
     drawn = [_in_window(line, (turns, of_angle), (wrap[0], wrap[1])) for line in lines]
     colours = [style.ink, style.path, *style.groups]
     for i, line in enumerate(drawn):
-        # On another circuit the dashes let that be seen.
+        # Dashes on another circuit let it be seen.
         hides = any(_coincide(line, earlier) for earlier in drawn[:i])
         ax.plot(
             *line.T, color=colours[i % len(colours)], linewidth=CURVE, gid=f"circuit {i}",

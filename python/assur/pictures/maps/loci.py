@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 LINE = 2.0
 # The kinds by what they mean; dead points have the colour of errors.
 NAMES = {1: "limit of reach", 2: "dead points"}
-# On dead points at the rim of a workspace the dashes let its boundary be seen.
+# Dashes of dead points at the rim of a workspace let its boundary be seen.
 DASHES: dict[int, Any] = {1: "solid", 2: (0.0, (4.0, 1.6))}
 
 
@@ -106,7 +106,7 @@ def _colour(kind: int, style: Style) -> str:
 
 
 def _name_lines(ax: Any, kinds: dict[int, list[Float]], style: Style) -> None:
-    """Write what each kind is beside its longest line, once in a picture."""
+    """Write the name of each kind beside its longest line, once in a picture."""
     settle(ax)
     written = [text.get_text() for text in ax.texts]
     for kind, lines in kinds.items():

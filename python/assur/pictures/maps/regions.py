@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.pictures.style import Style
 
 HATCHES = ("////", "\\\\\\\\", "xx", "...")
-# Places along an axis among which the roomiest is looked for.
+# Places along an axis among which to look for the roomiest.
 NODES = 49
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     # Why there is no value, and at which nodes.
     Reasons = list[tuple[str, npt.NDArray[np.bool_]]]
 
-# Part of the greatest value of a map below which values are rounding.
+# Fraction of a map's greatest value below which values are rounding.
 ROUNDING = 1e-12
 
 

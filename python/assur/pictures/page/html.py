@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from assur.pictures.page.payload import Played
     from assur.pictures.style import Style
 
-# What a page has beside the colours of pictures: panels, edges, the ring of the dial.
+# Colours of a page beside those of pictures: panels, edges, the ring of the dial.
 PANELS = {
     False: {"panel": "#FFFFFF", "canvas": "#FBFCFD", "edge": "#D9DFE5", "hover": "#EEF3F9",
             "reach": "#9BB5DA", "on-driver": "#FFFFFF", "dark": "0"},

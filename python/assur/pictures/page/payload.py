@@ -84,7 +84,7 @@ def payload(
     diagrams: Any = None,
     encode: Callable[[Float], Any] | None = None,
 ) -> dict[str, Any]:
-    """Return what the page gets, ready for `json.dumps`.
+    """Return the page's data, ready for `json.dumps`.
 
     `encode` makes JSON of the array of positions; by default it becomes base64 of Float32.
     """

@@ -1,4 +1,4 @@
-"""What a page shows at first, by the names that columns of `Motion.to_dataframe` have."""
+"""What a page shows at first, by the column names of `Motion.to_dataframe`."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _require(names: Iterable[str], known: list[str], what: str, noun: str) -> No
 
 
 def _output(mechanism: Mechanism) -> list[str]:
-    """Return what the driver moves last: a slide of the ground, else the last link."""
+    """Return the output of the driver: a slide of the ground, else the last link."""
     drivers = mechanism.description.drivers
     free = {n: slide for n, slide in mechanism.slides.items() if n not in drivers}
     slides = [n for n, slide in free.items() if slide.on == "ground"]

@@ -1,4 +1,4 @@
-"""Hodographs: where velocities or accelerations end that begin at one pole."""
+"""Hodographs: the ends of velocities or accelerations drawn from one pole."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur._faces import Analogues, Motion
 
 Part = Literal["absolute", "relative", "normal", "tangential", "sliding", "coriolis"]
-# Vectors shorter than this part of the greatest are not drawn.
+# Vectors shorter than this fraction of the greatest are not drawn.
 SHORT = 4e-3
 
 
@@ -195,7 +195,7 @@ class _Builder:
         return point in self._under or sum(point in points for points in self._links.values()) > 1
 
     def _slides(self) -> None:
-        """Add what sliding points do relative to their guides."""
+        """Add the motion of sliding points relative to their guides."""
         for slide in self._m.slides.values():
             if slide.on == "ground" or slide.link == "ground":
                 continue

@@ -38,7 +38,7 @@ TOGETHER = 4.0
 
 
 def _of_one(position: Motion, values: Any, name: str) -> Any:
-    """Return a speed or acceleration of one position: a number, of several drivers one each."""
+    """Return a speed or acceleration of one position: a number, or one for each driver."""
     rates, drivers = real_array(values, name), position.mechanism.driver_count
     if rates.size not in (1, drivers) or rates.ndim > 1:
         message = f"{name} has shape {rates.shape}: a plan is of one position, with one {name}"
@@ -95,7 +95,7 @@ class _Drawing:
         lines = [*outlines, *(np.array([v.start, v.end]) for v in vectors)]
         beside = Beside(self._on, lines)
         self._name_images(lines, beside)
-        # Whole vectors first: what has no room is left out.
+        # Whole vectors first: names without room are left out.
         order = sorted(vectors, key=lambda v: (v.part not in ("absolute", "sliding"), -_size(v)))
         for vector in order:
             colour = self._colour(vector)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
-    """Return what is drawn of a mechanism; `frames` are those of its whole motion."""
+    """Return the scene of a mechanism; `frames` are those of its whole motion."""
     angles, sliding = _drivers(mechanism)
     driven = frozenset(link for link, _ in angles)
     slides = Slides(mechanism, frames, driven, frozenset(sliding))

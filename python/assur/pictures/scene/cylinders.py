@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.scene.axis import Axis
 
-# The barrel is so much of the least length; the piston keeps so far from its ends.
+# Length of the barrel by the least length; distance that the piston keeps from its ends.
 BARREL_OF_LEAST, CLEARANCE = 0.86, 0.07
 # Between the joint and the barrel, px.
 EYE = 9.0

@@ -130,7 +130,7 @@ def _local(frame: Float, places: dict[str, Float]) -> dict[str, Float]:
 
 
 def nearby(whole: Frames, at: Frames, drawing: Float) -> Frames:
-    """Return the positions of both; of the whole motion those near the joints of the drawing.
+    """Return the positions of both; from the whole motion only those near the drawing's joints.
 
     Where a joint goes toward infinity no picture can follow.
     """

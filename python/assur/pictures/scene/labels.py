@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 PLACES = 16
 # Between a symbol and its name, points.
 GAP = 3.0
-# A name in motion stays until another place is better by so much.
+# A name in motion stays until another place is better by this.
 WORSE = 4.5
 # Beyond this distance nothing is better for being farther.
 ENOUGH = 14.0
-# What a place that is not above or right of its point loses: reading habits, in points.
+# Cost of a place that is not above or right of its point: reading habits, in points.
 HABIT = 1.5
 # How much worse it is to cover a line, or a name or joint, than a light line.
 ON_LINE, ON_NAME = 4.0, 12.0
@@ -61,7 +61,7 @@ def chosen(
         (m, 2): points along lines and outlines, no farther apart than about half a box.
     bounds : (ndarray, ndarray)
         Corners of the picture, which the boxes stay within.
-    others : ndarray, optional
+    taken : ndarray, optional
         (k, 2, 2): middles and halves of boxes that are there already.
     light : ndarray, optional
         (l, 2): points along light lines, which a box covers rather than anything else.

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from assur._faces import Mechanism
     from assur.pictures.scene.frames import Frames
 
-# What of a guide is seen beyond the block at the ends of its stroke, px.
+# Length of a guide beyond the block at the ends of its stroke, px.
 BEYOND = 8.0
 # Length of a driven slide whose stroke is not known both ways, relative to the mechanism's size.
 FREE_STROKE = 0.15
@@ -83,7 +83,7 @@ class Slides:
         return ON_LINE * self._size
 
     def parts(self) -> list[Line]:
-        """Return what is drawn."""
+        """Return the lines to draw."""
         return [part for name in self._mechanism.slides for part in self._of(name)]
 
     def axis(self, name: str) -> Axis:

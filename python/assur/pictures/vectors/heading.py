@@ -31,7 +31,7 @@ def link_numbers(mechanism: Mechanism) -> dict[str, int]:
 
 
 def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
-    """Return finite rates of the drivers: a number, of several drivers one each."""
+    """Return finite rates of the drivers: a number, or one for each of several drivers."""
     drivers = mechanism.driver
     count = len(drivers) if isinstance(drivers, tuple) else 0
     shape = (count,) if count else ()

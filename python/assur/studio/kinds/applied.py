@@ -21,7 +21,7 @@ def applied_forces(machine: Machine, solved: Reactions) -> tuple[list[dict[str, 
     names: list[dict[str, Any]] = []
     columns: list[Float] = []
     for force in loads_of(solved):
-        # What pulls at the ground moves nothing.
+        # A load that pulls at the ground moves nothing.
         is_anchor = force.link == "ground" and not isinstance(machine.loads[force.load], Force)
         if force.place is None or is_anchor or not np.any(force.force):
             continue

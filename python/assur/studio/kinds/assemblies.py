@@ -35,7 +35,7 @@ def assemblies(data: dict[str, Any], session: Session) -> Answer:
     most = 2 ** len(mechanism.assembly)
     if most > MOST_LISTED:
         listed = _neighbours(mechanism, q)
-        # Other solutions of a group above class II are not looked for.
+        # Other solutions of a group above class II are not searched.
         is_complete = mechanism.core.cls <= 2
         rest: dict[str, Any] = {"failures": [], "is_complete": is_complete, "complex_count": []}
     else:
@@ -76,7 +76,7 @@ def _neighbours(mechanism: Mechanism, q: Any) -> list[tuple[Assembly, dict[str, 
 
 
 def _drawn_in(data: dict[str, Any], mechanism: Mechanism, assembly: Assembly) -> dict[str, Any]:
-    """Return the document drawn in an assembly; of signs alone the drawing stays."""
+    """Return the document drawn in an assembly; signs alone leave the drawing."""
     if assembly.q is None:
         return {**data, "assembly": dict(assembly)}
     beside = {key: data[key] for key in document.BESIDE if key in data}

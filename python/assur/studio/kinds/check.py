@@ -22,7 +22,7 @@ COUNTS = ("No", "One", "Two", "Three", "Four", "Five", "Six")
 
 
 def check(data: dict[str, Any], session: Session) -> Answer:
-    """Return the state of a document, with the names of all that is concerned."""
+    """Return the state of a document, with the names of the parts concerned."""
     fields = Fields(data, ("document",), ("document",))
     node = document.checked(fields["document"])
     drawing = {"joints": {}, "links": {"ground": []}, **node.value}
@@ -68,7 +68,7 @@ def _without_driver(drawing: dict[str, Any], session: Session) -> Answer:
 
 
 def _drives(drawing: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return what would drive it, as remedies."""
+    """Return possible drivers, as remedies."""
     undriven = {**drawing, "driver": []}
     try:
         document.read_mechanism(undriven)

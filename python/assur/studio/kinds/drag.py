@@ -101,7 +101,7 @@ def _ways(
 ) -> Iterator[tuple[dict[str, float], Any]]:
     """Yield dimensions and the coordinate to try with them.
 
-    Zero of a slide without origin is the place of its drawing; first as if that had not moved.
+    A slide without origin has its zero where it is drawn; first as if that had not moved.
     """
     slides = mechanism.slides
     zeros = {f"{name}.origin.{axis}" for name in slides for axis in ("x", "y")}
@@ -124,7 +124,7 @@ def _ways(
 def _led_there(
     mechanism: Mechanism, changed: dict[str, float], q: Any, targets: dict[str, Float]
 ) -> Mechanism | None:
-    """Return the mechanism with other dimensions if its joints are at q where they are wanted."""
+    """Return the mechanism with other dimensions if its joints are at their targets at q."""
     try:
         sized = mechanism.with_dimensions(changed)
         motion = sized.solve(q, order=0)

@@ -48,7 +48,7 @@ def reactions(data: dict[str, Any], session: Session) -> Answer:
 
 
 def forces_of(mechanism: Mechanism, solved: Reactions) -> tuple[dict[str, Any], dict[str, Float]]:
-    """Return which forces there are, and the forces over the rows."""
+    """Return the list of forces, and the forces over the rows."""
     joints = list(_pins(mechanism))
     rows = np.asarray(solved.status).size
     forces = [solved.joint(joint, on=on).reshape(rows, 2) for joint, on, _ in joints]
@@ -81,7 +81,7 @@ def _stacked(parts: list[Float], empty: tuple[int, ...]) -> Float:
 
 
 def _pins(mechanism: Mechanism) -> Any:
-    """Yield joints with the link that the force is on; of two links the other is where it is from.
+    """Yield joints with the link that the force acts on; of two links the other exerts it.
 
     The force on that one is the opposite.
     """

@@ -1,8 +1,8 @@
 """The motion of the lesson: the crank-rocker over a turn, and the slider-crank while C is jammed.
 
 The transmission angle depends on BD alone, so C is jammed exactly where the ground would make BD
-longer than the outer rod, or shorter than the inner one, whatever came before. A turn is therefore
-a row of stretches, each of them smooth: the rocker swings, or D slides.
+longer than the outer rod, or shorter than the inner one, regardless of what came before. A turn is
+therefore a row of stretches, each of them smooth: the rocker swings, or D slides.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def tables(lengths: Lengths, parts: list[Stretch], rows: int) -> dict[str, Float
 def position(
     lengths: Lengths, parts: list[Stretch], phi1: float, speed: float, ground_speed: float
 ) -> dict[str, Any]:
-    """Return the figures at φ₁ of what moves there: crank-rocker or slider-crank."""
+    """Return the figures at φ₁ of the mechanism that moves there: crank-rocker or slider-crank."""
     *held, by_ground = _with_moving_support(lengths, phi1, speed, ground_speed)
     here = next((part for part in parts if _is_within(phi1, part)), parts[0])
     value, first, second = held

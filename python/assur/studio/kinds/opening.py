@@ -1,4 +1,4 @@
-"""``start``: what there is to open. ``open``: an example, a text, or the file given."""
+"""``start``: what can be opened. ``open``: an example, a text, or the file given."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _file(fields: Fields, session: Session) -> Answer:
 
 
 def read_text(name: str, raw: bytes) -> tuple[Contents, tuple[str, ...], Any]:
-    """Return what a text holds, what was left out of it, and its speed."""
+    """Return the contents of a text, what was left out, and its speed."""
     try:
         text = raw.decode("utf-8")
     except UnicodeDecodeError:

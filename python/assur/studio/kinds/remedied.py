@@ -20,7 +20,7 @@ WITHOUT_MOTOR: Table = {"type": NO_MOTOR}
 
 
 def remedied(table: Table, remedies: Collection[Remedy]) -> list[Table]:
-    """Return each remedy with the whole document as it is then; only what can be read."""
+    """Return each remedy with the whole resulting document, if that can be read."""
     documents = []
     for remedy in remedies:
         edited = next(_readable(_edited(table, remedy)), None)
@@ -56,7 +56,7 @@ def _readable(edited: Table) -> Iterator[Table]:
 
 
 def _edited(table: Table, remedy: Remedy) -> Table:
-    """Return the document with the change, without what belongs to things that are gone."""
+    """Return the document with the change, without data of parts that are gone."""
     parts = remedy.arguments
     joints, links, slides = parts["joints"], parts["links"], parts["slides"]
     entries = _slides(table.get("slides") or {}, parts)
@@ -147,7 +147,7 @@ def _listed(entry: Any) -> list[Any]:
 
 
 def _motor(motor: Any, old: list[Any], driver: Any) -> Any:
-    """Return the motor, or the motors of several drivers: what did not drive before has none."""
+    """Return the motor, or the motors of several drivers: new drivers have none."""
     drivers = _listed(driver)
     if len(drivers) == len(old) or not old:
         return motor

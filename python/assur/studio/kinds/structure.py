@@ -1,4 +1,4 @@
-"""What is said of a mechanism's structure and dimensions."""
+"""The structure and dimensions of a mechanism, for the page."""
 
 from __future__ import annotations
 

@@ -19,14 +19,14 @@ LAWS: dict[str, type[Law]] = {
     for name in laws.__all__
     if name not in ("Law", "Sequence") and inspect.isclass(getattr(laws, name))
 }
-# What is measured without masses and with them; each takes what its function does.
+# Metrics without masses and with them; each takes its function's arguments.
 METRICS: dict[str, Callable[..., Metric]] = {
     name: getattr(metric, name) for name in metric.__all__ if name.islower() and name != "function"
 }
 
 
 def law(node: Node) -> Law:
-    """Return an input law, of a list one after another."""
+    """Return an input law; a list makes a sequence."""
     if isinstance(node.value, list):
         every = tuple(law(entry) for entry in node.entries())
         with node.refusing():
