@@ -305,7 +305,7 @@ def design_columns(
 def coordinate_columns(
     q: npt.NDArray[Any], angles: Sequence[bool], shape: tuple[int, ...], degrees: bool
 ) -> list[Column]:
-    """Return coordinates for each row; of several drivers q has a last axis."""
+    """Return coordinates for each row; with several drivers q has a last axis."""
     columns = []
     for k, is_angle in enumerate(angles):
         name = "q" if len(angles) == 1 else f"q{k}"

@@ -99,7 +99,7 @@ def span(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def least(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def greatest(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -287,7 +287,7 @@ def mean(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver; over one turn in even steps it is the
+        m or rad; a derivative per rad or m of the driver; over one turn in even steps it is the
         mean of the turn.
 
     Raises
@@ -324,7 +324,7 @@ def rms(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------

@@ -95,7 +95,7 @@ def fit(
         Or, for a link whose first joint rests, `MomentBounds`: a weight anywhere, its mass moment
         within bounds.
     most : float or mapping of str to float
-        Greatest mass of each weight, kg, of all or by link. Does not hold for `MomentBounds`.
+        Greatest mass of each weight, kg: one for all, or by link. Does not hold for `MomentBounds`.
     moment_weight : float
         How many newtons a newton metre of shaking moment (about the origin) counts as, 1/m, not
         negative. More than 0 needs places: a weight's moment of inertia depends on them.

@@ -48,7 +48,7 @@ class Harmonics:
 
     @property
     def amplitude(self) -> Float:
-        """Greatest value of each harmonic, 0 or more; of n = 0 the mean without its sign."""
+        """Greatest value of each harmonic, 0 or more; for n = 0 the mean without its sign."""
         return _size(self.cosine, self.sine)
 
     @property

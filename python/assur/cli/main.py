@@ -43,7 +43,7 @@ exit status:
   0    done
   1    the input is wrong, or has no answer: a line on the standard error says why
   2    the command line is wrong
-  3    done, but some positions could not be solved; of a sweep no design is left
+  3    done, but some positions could not be solved, or a sweep has no design left
   130  interrupted
 """
 # A value that begins like a number is not an option.

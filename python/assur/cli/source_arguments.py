@@ -51,7 +51,7 @@ def add_source(parser: argparse.ArgumentParser, others: bool = True) -> None:
         "--drivers",
         metavar="I-J",
         type=argument(_pairs),
-        help="of a pyslvs expression: the drivers, each by its two points, 0-1",
+        help="drivers of a pyslvs expression, each by its two points, 0-1",
     )
 
 

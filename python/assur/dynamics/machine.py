@@ -346,7 +346,7 @@ class Machine(MachineModel):
         link : str
             A moving link of two joints or more, a straight rod between two of them.
         q, speed, acceleration, t
-            The motion, as in `reactions`; of one design.
+            The motion, as in `reactions`, for one design.
         along : (str, str), optional
             The joints at the ends of the rod; the link's first two by default.
         density : (x, kg/m), optional

@@ -111,7 +111,7 @@ def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
 
 
 def _dimensions(mechanism: MechanismModel) -> dict[str, Any]:
-    """Return all dimensions; of a batch, lists of those that differ."""
+    """Return all dimensions; for a batch, lists of those that differ."""
     names, values = mechanism.core.dimension_names, mechanism.values
     if values.size == 0 and names:
         message = f"a batch {mechanism.shape} without designs cannot be saved"

@@ -577,8 +577,8 @@ class Mechanism(MechanismModel):
         Parameters
         ----------
         positions : int
-            Coordinates of the fan about `q0`, over a turn, or over all that a slide can reach: from
-            2 to 100 000.
+            Number of coordinates of the fan about `q0`, over a turn, or over all that a slide can
+            reach: from 2 to 100 000.
 
         Returns
         -------
@@ -650,8 +650,8 @@ class Mechanism(MechanismModel):
         drivers : sequence of str or Drive, optional
             With more than two drivers the two that move; the others are held at `q0`.
         positions : int
-            Coordinates of the grid along each axis: over a turn of an angle; of a slide over the
-            sum of all lengths, both ways.
+            Number of coordinates of the grid along each axis: over a turn for an angle; for a slide
+            over the sum of all lengths, both ways.
 
         Returns
         -------
@@ -696,7 +696,7 @@ class Mechanism(MechanismModel):
         drivers : sequence of str or Drive, optional
             As for `singular_loci`.
         positions : int
-            Coordinates of the grids, of the drivers and of the joint, along each axis.
+            Number of coordinates of the grids, of drivers and joint, along each axis.
 
         Returns
         -------

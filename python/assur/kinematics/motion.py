@@ -194,7 +194,7 @@ class Motion(MotionModel):
         Returns
         -------
         ndarray
-            S + (N,); of a link without unit, of a slide 1/m.
+            S + (N,); without unit for a link, 1/m for a slide.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""Dimensions by name: of a mapping, or of a table of pandas or xarray."""
+"""Dimensions by name, from a mapping or from a table of pandas or xarray."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ENDINGS = (".length", ".angle", ".offset")
 
 
 def dimensions_by_name(dimensions: Any, known: Collection[str]) -> Mapping[Any, Any]:
-    """Return dimensions by name: of a mapping, a DataFrame, a Series or a Dataset.
+    """Return dimensions by name from a mapping, a DataFrame, a Series or a Dataset.
 
     A DataFrame has a design in each row, a Series is one of them. Variables of a Dataset
     broadcast by the names of their axes, coordinates that are named like dimensions too.

@@ -126,7 +126,7 @@ class Explorer(anywidget.AnyWidget):
 
 
 def _shown(what: Any) -> tuple[Mechanism, Machine | None]:
-    """Return a mechanism, and its machine if it is one, of one design."""
+    """Return the mechanism of one design, and its machine if it is one."""
     is_machine = isinstance(what, Machine)
     mechanism: Any = what.mechanism if is_machine else what
     shape = getattr(mechanism, "shape", None)

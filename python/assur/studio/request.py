@@ -152,7 +152,7 @@ class Fields:
         return self.node(name).pair()
 
     def drivers(self, name: str, mechanism: Mechanism, default: float | None = None) -> Any:
-        """Return a number for each driver: of one driver a number, else an array."""
+        """Return a number for each driver: for one driver a number, else an array."""
         count = mechanism.driver_count
         if name not in self:
             if default is None:

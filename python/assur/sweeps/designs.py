@@ -89,7 +89,7 @@ class Designs:
         return with_values(self.mechanism, values)
 
     def values(self, name: str) -> Float:
-        """Return a dimension that the sweep changes, of all designs in C order."""
+        """Return a dimension that the sweep changes, for all designs in C order."""
         column = self._columns[self.changed[name]]
         values: Float = np.broadcast_to(column, self.shape).reshape(-1)
         return values

@@ -438,5 +438,5 @@ def counts_text(measures: Measures) -> str:
 
 
 def changed_dimensions(measures: Measures) -> dict[str, Float]:
-    """Return the dimensions that a sweep changed, of all designs in C order."""
+    """Return the dimensions that a sweep changed, for all designs in C order."""
     return {name: measures._designs.values(name) for name in measures._designs.changed}

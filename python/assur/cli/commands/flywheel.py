@@ -1,4 +1,4 @@
-"""``assur flywheel``: of a machine, or of a table of reduced moment and inertia."""
+"""``assur flywheel``: for a machine, or a table of reduced moment and inertia."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     either.add_argument(
         "--flywheel",
         type=argument(numbers),
-        help="of a table: a given flywheel, kg·m², instead",
+        help="instead, a given flywheel, kg·m² (tables only)",
     )
     parser.add_argument(
         "--mean-speed", metavar="SPEED", type=argument(numbers), help="rad/s, or 143rpm"
     )
-    parser.add_argument("--mean", choices=flywheel.MEANS, help="definition of it; extremes")
-    parser.add_argument("--turns", type=int, help="of a machine: turns of a cycle; 1")
-    parser.add_argument("--spline", choices=flywheel.SPLINES, help="of a table; not-a-knot")
+    parser.add_argument("--mean", choices=flywheel.MEANS, help="definition of the mean; extremes")
+    parser.add_argument("--turns", type=int, help="turns of a cycle (machines only); 1")
+    parser.add_argument("--spline", choices=flywheel.SPLINES, help="tables only; not-a-knot")
     parser.add_argument(
         "--degrees", action="store_true", help="phi of the table, q of --out, in degrees"
     )

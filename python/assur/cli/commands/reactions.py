@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--speed",
         metavar="SPEED",
         type=argument(numbers),
-        help="of the driver, 10rad/s, 60rpm, 20mm/s; of several drivers 1,2",
+        help="of the driver, 10rad/s, 60rpm, 20mm/s; 1,2 for several drivers",
     )
     parser.add_argument(
         "--acceleration", metavar="NUMBER", type=argument(numbers), help="rad/s² or m/s²"
@@ -46,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--sense",
         metavar="SIGN",
         type=argument(numbers),
-        help="1 or -1: in which way the drive is about to move at speed 0, if there is friction",
+        help="1 or -1: direction in which the drive is about to move at speed 0, with friction",
     )
     parser.add_argument("--degrees", action="store_true", help="angles of the table in degrees")
     add_output(parser)

@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--host",
         metavar="H",
-        help="listen there, 0.0.0.0 for the whole network: who has the address can use it",
+        help="listen there, 0.0.0.0 for the whole network: anyone with the address can use it",
     )
 
 

@@ -75,7 +75,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=METRIC",
         action="append",
         required=True,
-        help="what is measured, gamma=least_transmission(C)",
+        help="a metric, gamma=least_transmission(C)",
     )
     parser.add_argument(
         "--where",
@@ -92,9 +92,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--positions",
         type=int,
         metavar="N",
-        help=f"instead of --q: so many even steps of a turn; {POSITIONS}",
+        help=f"instead of --q: the number of even steps of a turn; {POSITIONS}",
     )
-    parser.add_argument("--threads", type=int, metavar="N", help="most threads; one a core")
+    parser.add_argument("--threads", type=int, metavar="N", help="most threads; one per core")
     add_output(parser)
     add_progress(parser)
 

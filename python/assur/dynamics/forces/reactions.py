@@ -78,7 +78,7 @@ class Reactions(Tabular):
     q, speed, acceleration : ndarray
         The motion of the drivers, broadcast.
     driver : ndarray
-        Torque of the drive, counter-clockwise on the driven link, N·m; of a driven slide its force
+        Torque of the drive, counter-clockwise on the driven link, N·m; for a driven slide its force
         along the guide on the sliding link, N. With n drivers (..., n). A motor's rotor is not in
         it.
     shaking_force, shaking_moment : ndarray
@@ -149,7 +149,7 @@ class Reactions(Tabular):
         return {**self.__dict__, "_source": source if kept else None}
 
     def _columns(self, degrees: bool) -> list[Column]:
-        """Return all forces: of a joint on every link but the first, which takes the rest."""
+        """Return all forces: those at a joint on every link but the first, which takes the rest."""
         mechanism, shape = self.mechanism, self.status.shape
         angles = driven_angles(mechanism)
         columns = [

@@ -125,7 +125,7 @@ def _require_potential(machine: MachineModel, q: npt.ArrayLike, energies: Float)
 
 
 def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineModel, Any]:
-    """Return the machine of one design, and the design's index in a batch, of a flat position."""
+    """Return the machine of the design of a flat position, and the design's index in a batch."""
     if not machine.shape or machine.mechanism is None:
         return machine, None
     design = row // max(1, positions // math.prod(machine.shape))

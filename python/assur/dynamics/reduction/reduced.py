@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Answer(NamedTuple):
-    """Mass matrices, their derivatives, moments and potential energies, of a shape."""
+    """Mass matrices, their derivatives, moments and potential energies, in a shape."""
 
     inertia: Float
     rates: Float

@@ -93,7 +93,7 @@ class Branches:
         return self._limits[signs]
 
     def has(self, place: Float, q: float) -> bool:
-        """Whether a known branch goes through a place at a coordinate, of an angle in any turn."""
+        """Whether a known branch goes through a place at a coordinate; angles in any turn."""
         for branch, solved in zip(self.branches, self._solved, strict=True):
             if q not in solved:
                 asked = [known for known in self.coordinates if known not in solved]
@@ -103,7 +103,7 @@ class Branches:
         return False
 
     def _solve(self, branch: Branch, coordinates: list[float]) -> dict[float, Float]:
-        """Return all places of a branch at each coordinate, of an angle in any turn."""
+        """Return all places of a branch at each coordinate; angles in any turn."""
         turns = [self._turns(branch, q) for q in coordinates]
         inside = [coordinate for turn in turns for coordinate in turn]
         if not inside:

@@ -95,7 +95,7 @@ class Fan:
         return middles
 
     def _is_between(self, at: Float, low: float, high: float) -> npt.NDArray[np.bool_]:
-        """Whether coordinates, of an angle in any turn, are between two."""
+        """Whether coordinates are between two; angles in any turn."""
         turned = low + np.mod(at - low, math.tau) if self.known.is_angle else at
         return (low < turned) & (turned < high)
 

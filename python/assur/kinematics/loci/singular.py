@@ -455,7 +455,7 @@ def _passes(surface: Surface, traced: Traced, there: Float) -> bool:
 
 
 def _round(traced: Traced) -> list[Pose]:
-    """Return the poses of a locus; of one that is closed the first again at the end."""
+    """Return the poses of a locus; a closed one has the first again at the end."""
     return [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
 
 

@@ -58,7 +58,7 @@ def jamming_picture(run: _Jamming, what: str, ax: Any, degrees: bool, dark: bool
 
 
 def mechanism_of(run: _Jamming) -> Mechanism:
-    """Return the mechanism with its support on a slide: of two drivers, the crank and the slide."""
+    """Return the mechanism with its support on a slide: the crank and the slide drive it."""
     joints: dict[str, tuple[float, float]] = {"A": (0.0, 0.0)}
     for name, points in (("B", run.B), ("C", run.C), ("D", run.D)):
         joints[name] = (float(points[0, 0]), float(points[0, 1]))

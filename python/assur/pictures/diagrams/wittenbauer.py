@@ -28,7 +28,7 @@ STEEP = 1.5
 INSET = 0.02
 # A loop without width is drawn as wide as this fraction of the inertia.
 THIN = 0.2
-# Distances between dots, and between their names.
+# The angle between dots; every second dot has its name.
 DOTS, NAMES = np.pi / 6.0, 2
 # From the intercept to its text, points.
 GAP = 6.0

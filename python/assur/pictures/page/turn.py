@@ -178,7 +178,7 @@ def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
 
 
 def _slope(values: Float, t: Float) -> Float:
-    """Return derivatives along evenly spaced times; of a motion that comes back, across its end."""
+    """Return derivatives along evenly spaced times, across the end of a motion that comes back."""
     if (np.abs(values[-1] - values[0]) > 1e-9 * np.abs(values).max()).any():
         return np.asarray(np.gradient(values, t, axis=0, edge_order=2 if len(t) > 2 else 1))
     step = t[1] - t[0]

@@ -39,7 +39,7 @@ class Under(NamedTuple):
 
 
 class State(NamedTuple):
-    """Place, velocity and acceleration of a point; or angle and its rates, of a link."""
+    """Place, velocity and acceleration of a point; or the angle of a link and its rates."""
 
     value: Any
     rate: Any

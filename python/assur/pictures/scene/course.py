@@ -63,7 +63,7 @@ def _reachable(
 
 
 def interval_at(limits: Limits, q0: float, turns: bool) -> tuple[float, float]:
-    """Return the interval that holds q0; of an angle at the turn of q0."""
+    """Return the interval that holds q0; for an angle, at the turn of q0."""
     for first, last in limits.intervals.tolist():
         # Intervals lie about the drawing's coordinate, q0 wherever it was typed.
         middle = (first + last) / 2.0

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.scene.axis import Axis
 
-# Length of the barrel by the least length; distance that the piston keeps from its ends.
+# The barrel, relative to the least length; how far the piston stays from its ends.
 BARREL_OF_LEAST, CLEARANCE = 0.86, 0.07
 # Between the joint and the barrel, px.
 EYE = 9.0

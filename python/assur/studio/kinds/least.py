@@ -28,7 +28,7 @@ def transmission_angles(motion: Motion) -> Iterator[tuple[str, Float]]:
 def least_transmission(mechanism: Mechanism, line: Float, place: Float) -> list[dict[str, Any]]:
     """Return the least angle, rad, of each dyad at these coordinates, and where it is.
 
-    `place` is what the page calls the coordinate: of several drivers the one that moves.
+    `place` is what the page calls the coordinate: with several drivers that of the one that moves.
     """
     motion = mechanism.solve(line, order=0, on_error="nan")
     listed = []
