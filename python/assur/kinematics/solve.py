@@ -155,6 +155,6 @@ def _outputs(mechanism: MechanismModel, names: Iterable[str] | None) -> Names:
                 is_known = True
         if not is_known:
             known = ", ".join(repr(n) for n in (*joints, *links, *slides))
-            message = f"outputs: nothing is called {short(name)}; there are {known}"
+            message = f"outputs: no joint, link or slide is called {short(name)}; there are {known}"
             raise InputError(message)
     return chosen

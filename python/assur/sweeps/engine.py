@@ -25,7 +25,7 @@ class Future(Protocol):
         """Return it, or raise what the call raised."""
 
     def cancel(self) -> Any:
-        """Cancel the call, if it has not begun."""
+        """Cancel the call if it has not started."""
 
 
 class Engine(Protocol):

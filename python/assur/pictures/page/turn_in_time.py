@@ -23,7 +23,7 @@ def turn_of_run(run: Run) -> Turn:
     """Return the positions of a run at equal steps of time."""
     mechanism = run.mechanism
     if mechanism is None:
-        message = "this run is that of a machine of tables: there is no mechanism to play"
+        message = "the machine of this run is given by tables: it has no mechanism to play"
         raise InputError(message)
     return turn_over_time(mechanism, *course_of_run(run))
 
