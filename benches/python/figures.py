@@ -18,11 +18,13 @@ DIGITS = 4
 
 def load() -> dict[str, Any]:
     """All that was measured last, by case; and the machine."""
-    found: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
-    return found
+    everything: dict[str, Any] = (
+        json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
+    )
+    return everything
 
 
-def keep(name: str, case: Case, found: list[dict[str, Any]]) -> None:
+def keep(name: str, case: Case, subjects: list[dict[str, Any]]) -> None:
     """Replace the figures of one case; drop those of another machine, which do not compare."""
     here = machine()
     everything = load()
@@ -33,7 +35,7 @@ def keep(name: str, case: Case, found: list[dict[str, Any]]) -> None:
         "axis": case.axis,
         "plotted": case.plotted,
         "every_level": case.every_level,
-        "subjects": [_rounded(subject) for subject in found],
+        "subjects": [_rounded(subject) for subject in subjects],
     }
     text = json.dumps(everything, indent=1, ensure_ascii=False, sort_keys=True)
     FILE.write_text(text + "\n", encoding="utf-8")
@@ -59,5 +61,5 @@ def _rounded(value: Any) -> Any:
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, dict):
-        return {key: _rounded(one) for key, one in value.items()}
-    return [_rounded(one) for one in value] if isinstance(value, list) else value
+        return {key: _rounded(item) for key, item in value.items()}
+    return [_rounded(item) for item in value] if isinstance(value, list) else value

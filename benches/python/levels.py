@@ -73,7 +73,9 @@ class Here:
             if not self.only_ours or (name.startswith(OURS) and contender.every_level)
         }
         self.repeats = {name: self._repeats(name) for name in self.contenders}
-        run = {name: one.designs or self.designs for name, one in self.contenders.items()}
+        run = {
+            name: contender.designs or self.designs for name, contender in self.contenders.items()
+        }
         return About(subject.designs, subject.positions, subject.units, subject.note, run)
 
     def _repeats(self, name: str) -> int:
@@ -137,7 +139,7 @@ class There:
 
 
 def _serve(pipe: Connection, name: str, only_ours: bool) -> None:
-    """Do what is asked until there is nothing more."""
+    """Carry out requests until there are no more."""
     from cases import cases
 
     here = Here(cases(quick=False)[name], only_ours)

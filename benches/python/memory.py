@@ -1,4 +1,4 @@
-"""What memory allows: the time to write as many numbers, by two threads, and nothing else."""
+"""What memory allows: the time to write the same number of values by two threads, no more."""
 
 from __future__ import annotations
 

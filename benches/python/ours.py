@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 
 def arrays(motion: assur.Motion, outputs: Sequence[str], order: int) -> list[Float]:
     """What a motion holds, output by output and order by order; joints as (..., 2)."""
-    found = []
+    columns = []
     for name in outputs:
         if name in motion.mechanism.joints:
             held: Any = motion.joint(name)
         else:
             held = (motion.slide if name in motion.mechanism.slides else motion.link)(name)
-        found += [held.value, *(getattr(held, f"d{k}") for k in range(1, order + 1))]
-    return found
+        columns += [held.value, *(getattr(held, f"d{k}") for k in range(1, order + 1))]
+    return columns
 
 
 def good(motion: assur.Motion) -> Bool:
     """Where answers are to agree: beyond, rounding of the dimensions decides."""
     condition = motion.condition
-    found: Bool = np.isnan(condition) | (condition < GOOD)
-    return found
+    agrees: Bool = np.isnan(condition) | (condition < GOOD)
+    return agrees
 
 
 def sweeps(
@@ -52,11 +52,11 @@ def sweeps(
     def drop() -> None:
         run()
 
-    given = run()
+    reused = run()
     return {
         # Other contenders take the memory that was dropped: before the clock starts, some is again.
         OURS: Contender(run, answer, prepare=drop),
-        f"{OURS}, out=": Contender(partial(run, given), answer),
+        f"{OURS}, out=": Contender(partial(run, reused), answer),
         f"{OURS}, every result kept": Contender(run, answer, prepare=_forget, every_level=False),
     }
 

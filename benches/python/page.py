@@ -41,24 +41,24 @@ OTHERS = {
 
 
 def write() -> None:
-    """Replace what is between the markers; complain of a marker without figures."""
+    """Replace the text between the markers; complain of a marker without figures."""
     everything = figures.load()
     cases = everything["cases"]
 
-    def fresh(found: re.Match[str]) -> str:
-        start, name, _, end = found.groups()
+    def fresh(match: re.Match[str]) -> str:
+        start, name, _, end = match.groups()
         if name == "machine":
             return f"{start}{_machine(everything['machine'], cases)}\n{end}"
         if name == "expect":
             return f"{start}{_expect(cases)}\n{end}"
         if name not in cases:
             print(f"docs/speed.md: no figures of {name}: left as it is")
-            return found[0]
+            return match[0]
         return f"{start}{_section(name, cases[name])}\n{end}"
 
     text = MARKERS.sub(fresh, PAGE.read_text(encoding="utf-8"))
     PAGE.write_text(text, encoding="utf-8")
-    shown = {found[2] for found in MARKERS.finditer(text)}
+    shown = {match[2] for match in MARKERS.finditer(text)}
     for name in sorted(set(cases) - shown):
         print(f"docs/speed.md has no marker of {name}")
 
@@ -124,5 +124,7 @@ def _expect(cases: dict[str, Any]) -> str:
 
 def _ratios(subject: dict[str, Any]) -> dict[str, float]:
     """Times of others, this package's being 1."""
-    found = {t["name"]: t["ratio"] for t in subject["timings"] if not t["name"].startswith(OURS)}
-    return {kind: found[name] for kind, names in OTHERS.items() for name in names if name in found}
+    ratios = {t["name"]: t["ratio"] for t in subject["timings"] if not t["name"].startswith(OURS)}
+    return {
+        kind: ratios[name] for kind, names in OTHERS.items() for name in names if name in ratios
+    }

@@ -39,7 +39,7 @@ def measure(
 ) -> tuple[About, list[Timing]]:
     """Return what a subject is, and the times of its contenders, which are known to agree.
 
-    sides: the processes of all levels, the best one first. rounds: so many of them, instead of as
+    sides: the processes of all levels, the best one first. rounds: this many of them, instead of as
     many as there is time for.
     """
     abouts = [side.open(label) for side in sides]
@@ -58,15 +58,15 @@ def measure(
 
 def _medians(times: dict[Key, list[float]], designs: dict[str, int]) -> Iterator[Timing]:
     first = next(iter(times.values()))
-    for (name, level), found in times.items():
-        middle = statistics.median(found)
-        low, _, high = statistics.quantiles(found) if len(found) > 1 else [middle] * 3
+    for (name, level), seconds in times.items():
+        middle = statistics.median(seconds)
+        low, _, high = statistics.quantiles(seconds) if len(seconds) > 1 else [middle] * 3
         yield Timing(
             name=name,
             level=level,
             seconds=middle,
-            ratio=statistics.median(a / b for a, b in zip(found, first, strict=True)),
+            ratio=statistics.median(a / b for a, b in zip(seconds, first, strict=True)),
             spread=(high - low) / middle,
             designs=designs[name],
-            rounds=len(found),
+            rounds=len(seconds),
         )

@@ -49,17 +49,17 @@ def main() -> None:
         for name, case in cases(asked.quick).items():
             if asked.only and name not in asked.only:
                 continue
-            start, found = perf_counter(), []
+            start, subjects = perf_counter(), []
             rounds = 1 if asked.quick else asked.rounds or case.rounds
             with sides(case, asked.quick) as levels:
                 for label in case.subjects:
                     about, timings = measure(levels, label, rounds)
                     rows: list[dict[str, Any]] = [asdict(timing) for timing in timings]
-                    found.append({"label": label, **asdict(about), "timings": rows})
+                    subjects.append({"label": label, **asdict(about), "timings": rows})
             print(f"\n{name} ({perf_counter() - start:.0f} s)\n")
-            print("\n".join(table.rows(case.unit, case.axis, found)), flush=True)
+            print("\n".join(table.rows(case.unit, case.axis, subjects)), flush=True)
             if asked.write:
-                figures.keep(name, case, found)
+                figures.keep(name, case, subjects)
     if asked.write or asked.page:
         page.write()
 

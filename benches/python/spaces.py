@@ -63,8 +63,8 @@ def random_four_bars(designs: int) -> Space:
     random = np.random.default_rng(3)
     lengths = random.uniform(0.5, 4.0, (4, designs))
     point = random.uniform(-1.0, 2.0, (2, designs))
-    one = assur.Mechanism(JOINTS, {name: list(of) for name, of in LINKS.items()}, "crank")
-    return Space(one, (*FOUR_BAR, *POINT), np.concatenate([lengths, point]))
+    mechanism = assur.Mechanism(JOINTS, {name: list(of) for name, of in LINKS.items()}, "crank")
+    return Space(mechanism, (*FOUR_BAR, *POINT), np.concatenate([lengths, point]))
 
 
 def random_six_bars(designs: int) -> Space:
@@ -76,10 +76,10 @@ def random_six_bars(designs: int) -> Space:
     tip = random.uniform(-1.0, 2.0, (2, designs))
     joints = {**JOINTS, "E": (6.0, 0.5), "S": (4.0, 3.5), "T": (3.0, 4.5)}
     links = {**LINKS, "ground": "ADE", "fifth": "PST", "sixth": "ES"}
-    one = assur.Mechanism(joints, {name: list(of) for name, of in links.items()}, "crank")
+    mechanism = assur.Mechanism(joints, {name: list(of) for name, of in links.items()}, "crank")
     names = ("fifth.length", "sixth.length", "ground.E.x", "ground.E.y", "fifth.T.x", "fifth.T.y")
     values = np.concatenate([four_bars.values, second, tip])
-    return Space(one, (*four_bars.names, *names), values)
+    return Space(mechanism, (*four_bars.names, *names), values)
 
 
 # Dyads of a chain after which its proportions begin again.
@@ -96,13 +96,15 @@ def chain(dyads: int, designs: int) -> Space:
         joints |= {foot: (x, y - 3.0 + 0.01 * (k % PERIOD)), tip: (x, y + 0.01)}
         links["ground"].append(foot)
         links |= {f"coupler{k}": [before, tip], f"rocker{k}": [foot, tip]}
-    one = assur.Mechanism(joints, links, "crank")
-    return Space(one, ["crank.length"], np.random.default_rng(4).uniform(0.5, 0.505, (1, designs)))
+    mechanism = assur.Mechanism(joints, links, "crank")
+    return Space(
+        mechanism, ["crank.length"], np.random.default_rng(4).uniform(0.5, 0.505, (1, designs))
+    )
 
 
-def chain_lengths(one: assur.Mechanism, dyads: int) -> tuple[Float, Float]:
+def chain_lengths(mechanism: assur.Mechanism, dyads: int) -> tuple[Float, Float]:
     """Pivots of the rockers; lengths of coupler and rocker, and the side that the tip is on."""
-    joints = {name: np.array(place) for name, place in one.joints.items()}
+    joints = {name: np.array(place) for name, place in mechanism.joints.items()}
     feet, lengths = np.empty((dyads, 2)), np.empty((dyads, 3))
     for k in range(dyads):
         before, foot, tip = joints[f"C{k}"], joints[f"D{k + 1}"], joints[f"C{k + 1}"]

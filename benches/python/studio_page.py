@@ -174,9 +174,9 @@ def measure(links: int) -> None:
 def memory(process: int) -> float:
     """Return the memory of a process, MB."""
     status = Path(f"/proc/{process}/status").read_text(encoding="ascii")
-    found = re.search(r"VmRSS:\s+(\d+)", status)
-    assert found is not None
-    return int(found[1]) / 1024.0
+    match = re.search(r"VmRSS:\s+(\d+)", status)
+    assert match is not None
+    return int(match[1]) / 1024.0
 
 
 def endure(minutes: float) -> None:
@@ -204,9 +204,9 @@ def main() -> None:
     """Measure, or endure."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=0.0)
-    given = parser.parse_args()
-    if given.minutes:
-        endure(given.minutes)
+    arguments = parser.parse_args()
+    if arguments.minutes:
+        endure(arguments.minutes)
         return
     for links in LINKS:
         measure(links)

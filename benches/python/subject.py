@@ -42,11 +42,11 @@ def turn(count: int) -> Float:
 class Contender:
     """One way to an answer.
 
-    run: what is timed. answer: arrays of what `run` returned, compared with those of the first
-    contender; None: it has no answer (writing to memory). designs: how many of the designs it
-    does, the first ones; its time is scaled. where: the only places where it is compared.
-    prepare: called before each run, outside the clock; what it returns is held until the run has
-    ended. every_level: of this package, whether it runs at the lower levels too.
+    run: the function to time. answer: arrays of what `run` returned, compared with those of the
+    first contender; None: it has no answer (writing to memory). designs: how many of the designs it
+    does, the first ones; its time is scaled. where: the only places where it is compared. prepare:
+    called before each run, outside the clock; what it returns is held until the run has ended.
+    every_level: of this package, whether it runs at the lower levels too.
     """
 
     run: Callable[[], Any]
@@ -83,13 +83,13 @@ class Subject:
             if contender.answer is None:
                 contender.run()
                 continue
-            found = [np.atleast_1d(array) for array in contender.answer(contender.run())]
+            arrays = [np.atleast_1d(array) for array in contender.answer(contender.run())]
             if first is None:
                 # Arrays that are used again must not be compared with themselves.
-                first = [np.array(array) for array in found]
+                first = [np.array(array) for array in arrays]
                 continue
-            assert len(found) == len(first), f"{name}: {len(found)} arrays"
-            for place, (every, theirs) in enumerate(zip(first, found, strict=True)):
+            assert len(arrays) == len(first), f"{name}: {len(arrays)} arrays"
+            for place, (every, theirs) in enumerate(zip(first, arrays, strict=True)):
                 ours = every[: contender.designs]
                 assert ours.shape == theirs.shape, f"{name}: {theirs.shape}, not {ours.shape}"
                 where = np.ones(ours.shape, dtype=bool) if good is None else good[: len(ours)]

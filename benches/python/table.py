@@ -10,7 +10,7 @@ LEVELS = {"avx512": "AVX-512", "avx2": "AVX2", "baseline": "baseline"}
 
 
 def quantity(seconds: float, digits: int = 2) -> str:
-    """A time with its unit, to so many digits."""
+    """A time with its unit, to a number of digits."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)):
         if seconds >= size or unit == "ns":
             return f"{number(seconds / size, digits)} {unit}"
@@ -18,7 +18,7 @@ def quantity(seconds: float, digits: int = 2) -> str:
 
 
 def number(value: float, digits: int = 2) -> str:
-    """To so many digits, without an exponent; a thousand and more with blanks between them."""
+    """To a number of digits, without an exponent; blanks separate thousands."""
     rounded = float(f"{value:.{digits}g}")
     if rounded >= 1000:
         return count(round(rounded))
@@ -81,10 +81,10 @@ def _side_by_side(head: str, subjects: list[dict[str, Any]]) -> list[list[str]]:
     many = len(levels(subjects))
     cells = [[head, *(title({"name": name, "level": level}, many) for name, level in keys)]]
     for subject in subjects:
-        found = {(t["name"], t["level"]): t for t in subject["timings"]}
+        timings = {(t["name"], t["level"]): t for t in subject["timings"]}
         label = subject["label"]
         label = count(label) if isinstance(label, int) else label
-        cells.append([label, *(_cell(subject, found.get(key)) for key in keys)])
+        cells.append([label, *(_cell(subject, timings.get(key)) for key in keys)])
     return cells
 
 

@@ -205,11 +205,11 @@ if not TYPE_CHECKING:  # a type checker would take any name for one of the packa
             raise AttributeError(message, name=name, obj=import_module(__name__))
         home = _HOME[name]
         if home in ("assur", "assur.papers"):
-            found = import_module(f"{home}.{name}")
+            value = import_module(f"{home}.{name}")
         else:
-            found = getattr(import_module(home), name)
-        globals()[name] = found
-        return found
+            value = getattr(import_module(home), name)
+        globals()[name] = value
+        return value
 
     def __dir__():
         return sorted({*globals(), *_HOME})

@@ -11,7 +11,7 @@ __all__ = ["ByValue", "key_of"]
 
 
 def key_of(value: Any) -> Any:
-    """Return what stands for a value where it is compared: of an array its shape and numbers."""
+    """Return the key by which a value is compared: for an array its shape and numbers."""
     if isinstance(value, np.ndarray):
         # Added to 0, −0 is 0: as numbers they are equal.
         return value.shape, (value + 0.0).tobytes()
@@ -29,8 +29,10 @@ class ByValue:
     __slots__ = ()
 
     def _key(self) -> tuple[Any, ...]:
-        own: Any = self
-        return tuple(key_of(getattr(self, one.name)) for one in fields(own) if one.compare)
+        instance: Any = self
+        return tuple(
+            key_of(getattr(self, field.name)) for field in fields(instance) if field.compare
+        )
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):

@@ -16,19 +16,21 @@ if TYPE_CHECKING:
 def checked_path(path: Any, suffixes: Collection[str] = (), what: str = "path") -> Path:
     """Return a path whose ending is one of those known, if there are such."""
     try:
-        own = Path(path)
+        checked = Path(path)
     except TypeError as error:
         message = f"{what} is {short(path)}: a path is needed"
         raise InputError(message) from error
-    if suffixes and own.suffix.lower() not in suffixes:
+    if suffixes and checked.suffix.lower() not in suffixes:
         known = ", ".join(suffixes)
-        message = f"{shown_path(own)!r} ends in {own.suffix!r}: the name must end in {known}"
+        message = (
+            f"{shown_path(checked)!r} ends in {checked.suffix!r}: the name must end in {known}"
+        )
         raise InputError(message)
-    return own
+    return checked
 
 
 def shown_path(path: Any) -> str:
-    """Return a path as messages show it: one that is no Unicode text can be printed, too."""
+    """Return a path as messages show it: even one that is not Unicode text can be printed."""
     return str(path).encode("utf-8", "backslashreplace").decode("utf-8")
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def bisected(
     is_like_low: Callable[[Any], Any], low: npt.ArrayLike, high: npt.ArrayLike, halvings: int
 ) -> tuple[Float, Float]:
-    """Return intervals after so many halvings, each about a change of the condition.
+    """Return intervals after this many halvings, each about a change of the condition.
 
     The condition says of places in the middle whether they are as the low end is.
     """

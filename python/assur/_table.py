@@ -84,10 +84,10 @@ def _workbook(book: Any, listed: list[Column]) -> Any:
     names: set[str] = set()
     quantities = dict.fromkeys(column.quantity for column in listed if column.quantity is not None)
     for quantity in quantities or {"table": None}:
-        own = [column for column in listed if column.quantity == quantity]
+        of_quantity = [column for column in listed if column.quantity == quantity]
         sheet = book.create_sheet(_sheet_name(quantity, names))
         sheet.freeze_panes = "A3"
-        shown = [*common, *own]
+        shown = [*common, *of_quantity]
         for texts in ([column.name for column in shown], [column.unit for column in shown]):
             sheet.append([_text(sheet, text) for text in texts])
         for row in zip(*(column.values.tolist() for column in shown), strict=True):
@@ -259,11 +259,15 @@ class Tabular:
             raise ImportError(message) from error
         columns = self._columns(flag(degrees, "degrees"))
         return xr.Dataset(
-            {one.name: ("row", one.values, {"units": one.unit}) for one in columns if one.quantity},
             {
-                one.name: ("row", one.values, {"units": one.unit})
-                for one in columns
-                if not one.quantity
+                column.name: ("row", column.values, {"units": column.unit})
+                for column in columns
+                if column.quantity
+            },
+            {
+                column.name: ("row", column.values, {"units": column.unit})
+                for column in columns
+                if not column.quantity
             },
         )
 
@@ -292,8 +296,8 @@ def design_columns(
     columns = []
     for axis in range(designs):
         name = "design" if designs == 1 else f"design{axis}"
-        own = np.arange(shape[axis]) if kept is None else kept
-        index = own.reshape((-1,) + (1,) * (len(shape) - axis - 1))
+        designs_of_axis = np.arange(shape[axis]) if kept is None else kept
+        index = designs_of_axis.reshape((-1,) + (1,) * (len(shape) - axis - 1))
         columns.append(Column(name, np.broadcast_to(index, shape).reshape(-1), "", None))
     return columns
 
@@ -301,12 +305,12 @@ def design_columns(
 def coordinate_columns(
     q: npt.NDArray[Any], angles: Sequence[bool], shape: tuple[int, ...], degrees: bool
 ) -> list[Column]:
-    """Return coordinates for each row; of several drivers q has a last axis."""
+    """Return coordinates for each row; with several drivers q has a last axis."""
     columns = []
     for k, is_angle in enumerate(angles):
         name = "q" if len(angles) == 1 else f"q{k}"
-        own = q if len(angles) == 1 else q[..., k]
-        values = np.broadcast_to(own, shape).reshape(-1)
+        coordinates = q if len(angles) == 1 else q[..., k]
+        values = np.broadcast_to(coordinates, shape).reshape(-1)
         is_length = Column(name, values, "m", None)
         columns.append(angle_column(name, values, degrees) if is_angle else is_length)
     return columns

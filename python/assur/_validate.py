@@ -53,8 +53,8 @@ def checked_entries(value: Any, what: str, most: int) -> list[Any]:
     except TypeError:
         entries = [value]
     if not 1 <= len(entries) <= most:
-        found = f"has more than {most} entries" if entries else "is empty"
-        message = f"{what} {found}: from 1 to {most} are needed"
+        problem = f"has more than {most} entries" if entries else "is empty"
+        message = f"{what} {problem}: from 1 to {most} are needed"
         raise InputError(message)
     return entries
 
@@ -146,12 +146,12 @@ def checked_order(order: Any) -> int:
 
 def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, ...]:
     """Return a full index into a shape; negative entries count from the end."""
-    given = index if isinstance(index, tuple) else (index,)
+    listed = index if isinstance(index, tuple) else (index,)
     try:
-        entries = tuple(operator.index(i) for i in given if not isinstance(i, bool))
+        entries = tuple(operator.index(i) for i in listed if not isinstance(i, bool))
     except TypeError:
         entries = ()
-    if len(entries) != len(shape) or len(entries) != len(given):
+    if len(entries) != len(shape) or len(entries) != len(listed):
         message = f"{what} {short(index)}: one index into the shape {shape} is needed"
         raise InputError(message)
     for i, size in zip(entries, shape, strict=True):
@@ -167,7 +167,7 @@ def checked_threads(threads: Any) -> int | None:
 
 
 def require_one_driver(drivers: int, what: str) -> None:
-    """Refuse what is defined for one driver alone."""
+    """Refuse several drivers where only one is defined."""
     if drivers > 1:
         message = f"{what} is defined for one driver; this mechanism has {drivers}"
         raise InputError(message)

@@ -59,6 +59,9 @@ class AssurError(Exception):
     not_closed C 0.5
     """
 
+    # The load, body or motor that has no value, as messages name it: see `subject_of`.
+    _subject: str | None = None
+
     def __init__(
         self,
         message: str = "",
@@ -109,8 +112,8 @@ class AssurError(Exception):
         ...     print(error.names)
         ('crank', 'rod')
         """
-        own = (self.joint, self.link, self.slide, self.driver, self.dimension)
-        return tuple(dict.fromkeys(self._names or (name for name in own if name is not None)))
+        fields = (self.joint, self.link, self.slide, self.driver, self.dimension)
+        return tuple(dict.fromkeys(self._names or (name for name in fields if name is not None)))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (type(self), self.args, self.__dict__)
@@ -119,7 +122,7 @@ class AssurError(Exception):
 class StructureError(AssurError, ValueError):
     """An invalid linkage, or one whose mobility differs from its number of drivers.
 
-    `remedies` has what would make a mechanism of it.
+    `remedies` has changes that make it a mechanism.
 
     Examples
     --------
@@ -142,8 +145,8 @@ class StructureError(AssurError, ValueError):
     def remedies(self) -> tuple[Remedy, ...]:
         """Up to three changes that make a mechanism of the linkage, the likeliest first.
 
-        Each was built before it is offered. Empty where none was found, and where what is wrong is
-        no matter of structure: a name, a number.
+        Each was built before it is offered. Empty if there are none, or if the error is not about
+        the structure but about a name or a number.
 
         Examples
         --------
@@ -250,3 +253,14 @@ class AssurWarning(UserWarning):
 def offer_remedies(error: StructureError, find: Callable[[], tuple[Remedy, ...]]) -> None:
     """Let an error find remedies, when they are first asked for."""
     error._find_remedies = find
+
+
+def with_subject(error: AssurError, subject: str) -> AssurError:
+    """Return an error that knows which load, body or motor it is about."""
+    error._subject = subject
+    return error
+
+
+def subject_of(error: AssurError) -> str | None:
+    """Return the load, body or motor that an error is about, as messages name it."""
+    return error._subject

@@ -257,7 +257,7 @@ def _obstacle(event: Obstacle, mechanism: Mechanism | None, drivers: int) -> Obs
         raise InputError(message)
     at: Any = event.at
     if not isinstance(at, Position | TransmissionAngle | Crossing):
-        message = f"Obstacle at: {short(at)} is no Position, TransmissionAngle or Crossing"
+        message = f"Obstacle at: {short(at)} is not a Position, TransmissionAngle or Crossing"
         raise InputError(message)
     if at.direction == "either":
         message = f"{event!r}: direction= says from which side, 'rising' or 'falling'"
@@ -266,8 +266,8 @@ def _obstacle(event: Obstacle, mechanism: Mechanism | None, drivers: int) -> Obs
     if not 0.0 <= restitution <= 1.0:
         message = f"Obstacle restitution is {restitution:g}: from 0 (it stays) to 1 is needed"
         raise InputError(message, value=restitution)
-    found: Any = checked(at, mechanism, drivers)
-    return Obstacle(found, restitution)
+    event_at: Any = checked(at, mechanism, drivers)
+    return Obstacle(event_at, restitution)
 
 
 def _direction(event: Any, direction: Any) -> Direction:
@@ -279,8 +279,8 @@ def _function(event: Any, function: Any) -> Function:
     if not callable(function):
         message = f"{event!r}: a function of (t, q, speed) is needed"
         raise InputError(message)
-    own: Function = function
-    return own
+    checked_function: Function = function
+    return checked_function
 
 
 def _driver(event: Any, driver: Any, drivers: int) -> int:

@@ -154,10 +154,10 @@ class Rise(Law):
         moves = (part >= 0.0) & (part <= 1.0)
         way = self.end - self.start
         s, *rates = self._jet(x)
-        found = [self.start + way * s]
+        derivatives = [self.start + way * s]
         for order, rate in enumerate(rates, start=1):
-            found.append(np.where(moves, way / self.duration**order * rate, 0.0))
-        return found[0], found[1], found[2], found[3]
+            derivatives.append(np.where(moves, way / self.duration**order * rate, 0.0))
+        return derivatives[0], derivatives[1], derivatives[2], derivatives[3]
 
     @abstractmethod
     def _jet(self, x: Float) -> Jet: ...
@@ -252,15 +252,15 @@ class _Polynomial(Rise):
     _coefficients: tuple[float, ...] = ()
 
     def _jet(self, x: Float) -> Jet:
-        own = np.array(self._coefficients)
-        found = []
+        coefficients = np.array(self._coefficients)
+        derivatives = []
         for _ in range(4):
             value = np.zeros_like(x)
-            for coefficient in own:
+            for coefficient in coefficients:
                 value = value * x + coefficient
-            found.append(value)
-            own = own[:-1] * np.arange(len(own) - 1, 0, -1)
-        return found[0], found[1], found[2], found[3]
+            derivatives.append(value)
+            coefficients = coefficients[:-1] * np.arange(len(coefficients) - 1, 0, -1)
+        return derivatives[0], derivatives[1], derivatives[2], derivatives[3]
 
 
 class Polynomial345(_Polynomial):
@@ -350,7 +350,7 @@ class Trapezoidal(Rise):
 
 
 class ModifiedSine(Rise):
-    """Sines of the acceleration of two frequencies, joined at an eighth of the time from both ends.
+    """An acceleration of sines of two frequencies, joined at an eighth of the time from both ends.
 
     The greatest acceleration is 4π²/(4 + π) = 5.528, the greatest speed 4π/(4 + π) = 1.760.
 
@@ -436,9 +436,9 @@ class Tabulated(ByValue, Law):
             raise InputError(message)
         for column in (t, value, pieces):
             column.flags.writeable = False
-        own = {"t": t, "value": value, "spline": spline, "_pieces": pieces}
-        for name, one in own.items():
-            object.__setattr__(self, name, one)
+        fields = {"t": t, "value": value, "spline": spline, "_pieces": pieces}
+        for name, part in fields.items():
+            object.__setattr__(self, name, part)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.t, self.value, self.spline)
@@ -481,7 +481,7 @@ class Sequence(Law):
     Parameters
     ----------
     laws : tuple of Law
-        Ascending in time; each begins where the one before ends.
+        Ascending in time; each begins where the previous one ends.
 
     Examples
     --------
@@ -497,18 +497,20 @@ class Sequence(Law):
     laws: tuple[Law, ...]
 
     def __post_init__(self) -> None:
-        given: Any = self.laws
-        laws = tuple(given) if isinstance(given, list | tuple) else ()
-        if not laws or not all(isinstance(one, Law) for one in laws):
-            message = f"Sequence: {short(given)}: one law or more are needed, in a list"
+        listed: Any = self.laws
+        laws = tuple(listed) if isinstance(listed, list | tuple) else ()
+        if not laws or not all(isinstance(law, Law) for law in laws):
+            message = f"Sequence: {short(listed)}: one law or more are needed, in a list"
             raise InputError(message)
-        for one, other in itertools.pairwise(laws):
-            if other.span[0] < one.span[1]:
-                message = f"Sequence: a law begins at {other.span[0]:g} s, before {one.span[1]:g} s"
+        for law, following in itertools.pairwise(laws):
+            if following.span[0] < law.span[1]:
+                message = (
+                    f"Sequence: a law begins at {following.span[0]:g} s, before {law.span[1]:g} s"
+                )
                 raise InputError(message)
-            gap = float(other.at(other.span[0])[0] - one.at(one.span[1])[0])
-            if abs(gap) > 1e-12 * (1.0 + abs(float(one.at(one.span[1])[0]))):
-                message = f"Sequence: the coordinate jumps by {gap:g} at {other.span[0]:g} s"
+            gap = float(following.at(following.span[0])[0] - law.at(law.span[1])[0])
+            if abs(gap) > 1e-12 * (1.0 + abs(float(law.at(law.span[1])[0]))):
+                message = f"Sequence: the coordinate jumps by {gap:g} at {following.span[0]:g} s"
                 raise InputError(message, value=gap)
         object.__setattr__(self, "laws", laws)
 
@@ -531,9 +533,9 @@ class Sequence(Law):
             Each of the shape of t: rad or m, and so on per s.
         """
         times = _times(t)
-        found = [np.array(one) for one in self.laws[0].at(times)]
+        derivatives = [np.array(array) for array in self.laws[0].at(times)]
         for law in self.laws[1:]:
             here = times >= law.span[0]
-            for own, later in zip(found, law.at(times), strict=True):
-                own[here] = later[here]
-        return found[0], found[1], found[2], found[3]
+            for earlier, later in zip(derivatives, law.at(times), strict=True):
+                earlier[here] = later[here]
+        return derivatives[0], derivatives[1], derivatives[2], derivatives[3]

@@ -2,9 +2,10 @@
 
 A coordinate is named ``"B.x"`` or ``"B.y"`` (a joint, m), ``"rocker"`` (a link's angle, rad) or
 ``"bore"`` (a slide's value, m); ``order=1`` means its derivative by the driver's coordinate. A
-metric is made of the positions of q alone, nothing is interpolated: a value of an extreme is off
-by up to the square of a step, its place by up to half a step. `Mechanism.extremes` gives both
-exactly, of one design.
+metric uses the positions of q alone, nothing is interpolated: the value of an extreme is off by up
+to the square of a step, its place by up to half a step. `Mechanism.extremes` gives both exactly,
+for one design.
+
 Metrics add, multiply and compare, with numbers and with each other:
 
 >>> from assur import metric
@@ -98,7 +99,7 @@ def span(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -134,7 +135,7 @@ def least(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -170,7 +171,7 @@ def greatest(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -191,10 +192,10 @@ def greatest(of: str, order: int = 0, over: Part = None) -> Metric:
 
 
 def place_of_least(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The position of q where a coordinate is least; of several such the first.
+    """The position of q where a coordinate is least; the first of several.
 
     It is one of the positions, not interpolated: off by up to half a step.
-    `Mechanism.extremes` gives the exact place, of one design.
+    `Mechanism.extremes` gives the exact place, for one design.
 
     Parameters
     ----------
@@ -231,10 +232,10 @@ def place_of_least(of: str, order: int = 0, over: Part = None) -> Metric:
 
 
 def place_of_greatest(of: str, order: int = 0, over: Part = None) -> Metric:
-    """The position of q where a coordinate is greatest; of several such the first.
+    """The position of q where a coordinate is greatest; the first of several.
 
     It is one of the positions, not interpolated: off by up to half a step.
-    `Mechanism.extremes` gives the exact place, of one design.
+    `Mechanism.extremes` gives the exact place, for one design.
 
     Parameters
     ----------
@@ -286,7 +287,7 @@ def mean(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver; over one turn in even steps it is the
+        m or rad; a derivative per rad or m of the driver; over one turn in even steps it is the
         mean of the turn.
 
     Raises
@@ -323,7 +324,7 @@ def rms(of: str, order: int = 0, over: Part = None) -> Metric:
     Returns
     -------
     Metric
-        m or rad, of a derivative per rad or m of the driver.
+        m or rad; a derivative per rad or m of the driver.
 
     Raises
     ------
@@ -344,14 +345,14 @@ def rms(of: str, order: int = 0, over: Part = None) -> Metric:
 
 
 def time_ratio(of: str) -> Metric:
-    """The time of the slower stroke of a coordinate, per that of the quicker.
+    """The time of a coordinate's slower stroke over that of its quicker one.
 
     The driver turns at a constant speed, and q goes over one turn in even steps:
     ``np.linspace(0, 2 * np.pi, n, endpoint=False)`` (Uicker, Pennock and Shigley, *Theory of
     Machines and Mechanisms*: advance-to-return ratio). Strokes begin and end at positions of q,
     nothing is interpolated: with N positions a turn a ratio near 1 is off by up to about 4/N (0.06
     of 72 positions), a greater one by (1 + ratio)²/N. `Mechanism.extremes` gives the exact ratio,
-    of one design.
+    for one design.
 
     Parameters
     ----------
@@ -361,8 +362,8 @@ def time_ratio(of: str) -> Metric:
     Returns
     -------
     Metric
-        At least 1. NaN for a coordinate that is not at the end of the turn what it was at its
-        start: of a link that turns, or of a motion that takes two turns.
+        At least 1. NaN for a coordinate that does not return to its first value after the turn: the
+        angle of a link that turns, or a motion that takes two turns.
 
     Raises
     ------
@@ -392,7 +393,7 @@ def least_transmission(
     at : str
         A joint at which two links meet, or a slide.
     between : (str, str), optional
-        Two other joints: the lines to these are meant.
+        Two other joints, which end the two lines.
     over : (float, float), optional
         As of `span`.
 
@@ -444,10 +445,10 @@ def deviation(
         Fitted by least squares to each stretch of the path (a circle by Kåsa's method; that of
         points on a line is infinitely large).
     part : float
-        The part of the positions that counts, those of `over` if it is given: of all stretches
-        of so many that with the least of the greatest distances. Where q goes once round in even
-        steps, without its end, stretches pass the end of the turn of every design whose path is
-        closed then; others take two turns.
+        The fraction of the positions that counts, of those of `over` if given: the stretch of this
+        length with the least greatest distance. Where q goes once round in even steps, without its
+        end, stretches pass the end of the turn of every design whose path is closed then; others
+        take two turns.
     relative : bool
         Divide by the length along the line, or by the radius.
     over : (float, float), optional
@@ -515,9 +516,9 @@ def function(
     outputs: Iterable[str] | None = None,
     order: int = 0,
 ) -> Metric:
-    """A metric of one's own, in NumPy.
+    """Your own metric, in NumPy.
 
-    Its conditions are asked last: a design is dropped by them after all of its positions.
+    Its conditions come last: they drop a design after all of its positions are solved.
 
     Parameters
     ----------

@@ -72,9 +72,9 @@ def alone(run: Callable[[], Any], designs: int = 1, units: int = 1) -> Subject:
 
 
 def assemblies(make: Callable[[], assur.Mechanism]) -> Subject:
-    one = make()
+    mechanism = make()
     q = np.linspace(-3.0, 3.0, POSITIONS)
-    return alone(lambda: one.assemblies(q, threads=1), units=POSITIONS)
+    return alone(lambda: mechanism.assemblies(q, threads=1), units=POSITIONS)
 
 
 def limits(designs: int) -> Subject:
@@ -84,13 +84,13 @@ def limits(designs: int) -> Subject:
         dict(zip(names, lengths, strict=True))
     )
 
-    def answer(found: assur.Limits) -> Sequence[Any]:
-        return [found.full_rotation.astype(float)]
+    def answer(limits: assur.Limits) -> Sequence[Any]:
+        return [limits.full_rotation.astype(float)]
 
     contenders = {
         OURS: Contender(batch.limits, answer, every_level=False),
         "NumPy, four-bars only": Contender(
-            lambda: closed_form(*lengths), lambda found: [found[0].astype(float)]
+            lambda: closed_form(*lengths), lambda turns: [turns[0].astype(float)]
         ),
     }
     return Subject(designs, 1, contenders)
@@ -109,11 +109,13 @@ def curve(make: Callable[[], assur.Mechanism]) -> Subject:
 
 
 def workspace(grid: int) -> Subject:
-    one = five_bar()
-    return alone(lambda: one.workspace("P", positions=grid))
+    mechanism = five_bar()
+    return alone(lambda: mechanism.workspace("P", positions=grid))
 
 
 def rotation(grid: int) -> Subject:
     axis = np.linspace(0.6, 5.0, grid)
-    one = assur.FourBar(1.0, 3.0, 2.5, 3.2)
-    return alone(lambda: one.map("full_rotation", {"rocker.length": axis, "ground.D.x": axis}))
+    mechanism = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    return alone(
+        lambda: mechanism.map("full_rotation", {"rocker.length": axis, "ground.D.x": axis})
+    )

@@ -42,10 +42,10 @@ def subject(dyads: int, designs: int, positions: int) -> Subject:
 def by_numba(space: spaces.Space, dyads: int, q: Float) -> Contender:
     from rivals import specialist
 
-    one, (crank,) = space.mechanism, space.values
-    feet, lengths = spaces.chain_lengths(one, dyads)
+    mechanism, (crank,) = space.mechanism, space.values
+    feet, lengths = spaces.chain_lengths(mechanism, dyads)
     # The crank's pin is above its pivot in the drawing, where its angle is that of the link.
-    start = np.array(one.joints["O"], dtype=float)
+    start = np.array(mechanism.joints["O"], dtype=float)
     cos, sin = np.cos(q), np.sin(q)
     out = np.zeros((crank.size, q.size, 2))
 
@@ -53,4 +53,4 @@ def by_numba(space: spaces.Space, dyads: int, q: Float) -> Contender:
         specialist.chain_tip(crank, start, feet, lengths, cos, sin, out)
         return out
 
-    return Contender(run, lambda found: [found])
+    return Contender(run, lambda tips: [tips])

@@ -50,14 +50,14 @@ def dyad(designs: int, positions: int, order: int) -> Subject:
 
 
 def group(
-    one: assur.Mechanism,
+    mechanism: assur.Mechanism,
     names: Sequence[str],
     outputs: Sequence[str],
     designs: int,
     positions: int,
     order: int,
 ) -> Subject:
-    space, q = spaces.near(one, designs, names), turn(positions) + one.q0
+    space, q = spaces.near(mechanism, designs, names), turn(positions) + mechanism.q0
     contenders = ours.sweeps(space, q, tuple(outputs), order)
     if installed("numba"):
         contenders["numba, Newton"] = by_numba(space, q, len(outputs), order)
@@ -67,10 +67,10 @@ def group(
 def by_numba(space: spaces.Space, q: Float, joints: int, order: int) -> Contender:
     from rivals import newton, triad_newton
 
-    one = space.mechanism
-    is_loom = "107" in "".join(one.links)
+    mechanism = space.mechanism
+    is_loom = "107" in "".join(mechanism.links)
     ends = [("2", "3"), ("3", "6"), ("4", "8"), ("8", "7")] if is_loom else [("A", "B"), ("B", "C")]
-    chords = [np.subtract(one.joints[b], one.joints[a]) for a, b in ends]
+    chords = [np.subtract(mechanism.joints[b], mechanism.joints[a]) for a, b in ends]
     start = np.array([np.arctan2(y, x) for x, y in chords])
     dimensions = np.ascontiguousarray(space.values.T)
     out = np.zeros((len(dimensions), q.size, joints * (order + 1), 2))
@@ -80,8 +80,8 @@ def by_numba(space: spaces.Space, q: Float, joints: int, order: int) -> Contende
         sweep(dimensions, start, q, order, out)
         return out
 
-    def answer(found: Float) -> list[Float]:
+    def answer(solved: Float) -> list[Float]:
         places = [(k, j) for j in range(joints) for k in range(order + 1)]
-        return [found[:, :, joints * k + j] for k, j in places]
+        return [solved[:, :, joints * k + j] for k, j in places]
 
     return Contender(run, answer)

@@ -50,7 +50,7 @@ def tables(count: int) -> Subject:
         return flywheel.from_table(PHI, moments, INERTIA, DELTA, MEAN, mean=mean).inertia
 
     contenders = {
-        OURS: Contender(partial(run, "extremes"), lambda found: [found]),
+        OURS: Contender(partial(run, "extremes"), lambda inertias: [inertias]),
         f"{OURS}, mean of the period": Contender(partial(run, "period"), None),
     }
     return Subject(count, 1, contenders, count)

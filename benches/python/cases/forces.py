@@ -34,10 +34,10 @@ def subject(designs: int, positions: int) -> Subject:
     loads = [assur.Gravity(), assur.Force("C", FORCE, on="rocker")]
     batch = space.batch()
     machine = assur.Machine(batch, bodies, loads)
-    one = assur.Machine(space.mechanism, bodies, loads)
+    drawn = assur.Machine(space.mechanism, bodies, loads)
     asked = {joint: metric.peak_reaction(joint, on, speed=SPEED) for joint, on in PINS}
     asked["effort"] = metric.peak_effort(speed=SPEED)
-    found = np.empty((designs, positions, 9))
+    solved_forces = np.empty((designs, positions, 9))
     few = min(designs, 100)
 
     def answer(reactions: assur.Reactions) -> list[Float]:
@@ -49,7 +49,9 @@ def subject(designs: int, positions: int) -> Subject:
 
     contenders: dict[str, Contender] = {
         OURS: Contender(lambda: machine.reactions(q, SPEED), answer),
-        f"{OURS}, five peaks": Contender(lambda: assur.sweep(one, space.columns, q, metrics=asked)),
+        f"{OURS}, five peaks": Contender(
+            lambda: assur.sweep(drawn, space.columns, q, metrics=asked)
+        ),
         f"{OURS}, positions and two analogues": Contender(lambda: batch.solve(q, order=2)),
         "NumPy, nine equations": Contender(
             lambda: newton_euler.solve(space.values[:, :few], q), columns, few
@@ -59,8 +61,8 @@ def subject(designs: int, positions: int) -> Subject:
         from rivals import newton_euler_numba
 
         def by_numba() -> Any:
-            newton_euler_numba.solve(space.values, q, found)
-            return found
+            newton_euler_numba.solve(space.values, q, solved_forces)
+            return solved_forces
 
         contenders["numba, nine equations"] = Contender(by_numba, columns)
     return Subject(designs, positions, contenders, designs * positions, tolerance=TOLERANCE)

@@ -35,19 +35,19 @@ def subject(values: int) -> Subject:
             "ground.D.x": np.linspace(1.0, 4.0, values),
         }
     )
-    one = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    mechanism = assur.FourBar(1.0, 3.0, 2.5, 3.2)
 
     def measured() -> assur.Measures:
-        return assur.sweep(one, grid, Q, metrics=METRICS)
+        return assur.sweep(mechanism, grid, Q, metrics=METRICS)
 
-    def answer(found: assur.Measures) -> list[Float]:
-        return [found["angle"], found["span"]]
+    def answer(measures: assur.Measures) -> list[Float]:
+        return [measures["angle"], measures["span"]]
 
     before = greatest_memory()
-    found = measured()
+    measures = measured()
     more = greatest_memory() - before
-    kept = sum(a.nbytes for a in (*answer(found), found.status, found.kept))
-    turns = len(found.kept) / values**3
+    kept = sum(a.nbytes for a in (*answer(measures), measures.status, measures.kept))
+    turns = len(measures.kept) / values**3
     note = f"{turns:.0%} turn fully; memory grows by {more / 1e6:.0f} MB, "
     note += f"of which {kept / 1e6:.0f} are the result"
     contenders = {f"{OURS}, metrics": Contender(measured, answer)}

@@ -41,7 +41,7 @@ def subject(designs: int, positions: int, units: int) -> Subject:
     def by_numpy() -> Float:
         return closed_form.rocker(*columns, q)
 
-    contenders["NumPy"] = Contender(by_numpy, lambda found: [found])
+    contenders["NumPy"] = Contender(by_numpy, lambda angles: [angles])
     if installed("numba"):
         from rivals import specialist
 
@@ -51,5 +51,5 @@ def subject(designs: int, positions: int, units: int) -> Subject:
             specialist.rocker(space.values, cos, sin, out)
             return out
 
-        contenders["numba, by an expert"] = Contender(expert, lambda found: [found])
+        contenders["numba, by an expert"] = Contender(expert, lambda angles: [angles])
     return Subject(designs, positions, contenders, units, angles=(0,))

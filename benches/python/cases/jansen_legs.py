@@ -33,8 +33,8 @@ def subject(designs: int, positions: int) -> Subject:
     def blocked() -> Any:
         return closed_form.blocked(closed_form.jansen, columns, q, out, memory.cores())
 
-    def answer(found: Any) -> list[Any]:
-        return [np.stack(found[i : i + 2], axis=-1) for i in range(0, 12, 2)]
+    def answer(columns: Any) -> list[Any]:
+        return [np.stack(columns[i : i + 2], axis=-1) for i in range(0, 12, 2)]
 
     contenders["NumPy, whole arrays"] = Contender(whole, answer)
     contenders["NumPy, in blocks, 2 threads"] = Contender(blocked, answer)

@@ -37,7 +37,7 @@ def four_bar() -> assur.Mechanism:
 
 
 def space(count: int) -> dict[str, Float]:
-    """Random four-bars, of which most do not turn fully."""
+    """Random four-bars, most of which do not turn fully."""
     draw = np.random.default_rng(1).uniform
     return {
         "crank.length": draw(0.5, 2.0, count),
@@ -58,17 +58,17 @@ LENGTHS = ("crank.length", "coupler.length", "rocker.length", "ground.D.x")
 
 
 def straightest(count: int) -> Subject:
-    dimensions, one = space(count), four_bar()
+    dimensions, mechanism = space(count), four_bar()
 
     def search() -> Float:
-        found = assur.sweep(
-            one,
+        measures = assur.sweep(
+            mechanism,
             dimensions,
             Q,
             metrics={"off": metric.deviation("P", "line")},
             where=[metric.least_transmission("C") > ANGLE],
         )
-        return found["off"]
+        return measures["off"]
 
     def winners(off: Float) -> list[Float]:
         best = np.argsort(off)[:BEST]
@@ -91,20 +91,20 @@ def straightest(count: int) -> Subject:
 
 
 def transmission(count: int) -> Subject:
-    dimensions, one = space(count), four_bar()
+    dimensions, mechanism = space(count), four_bar()
     asked = {"angle": metric.least_transmission("C"), "span": metric.span("rocker")}
 
     def measured() -> assur.Measures:
-        return assur.sweep(one, dimensions, Q, metrics=asked)
+        return assur.sweep(mechanism, dimensions, Q, metrics=asked)
 
-    def both(found: Any) -> list[Float]:
-        return [found["angle"], found["span"]]
+    def both(measures: Any) -> list[Float]:
+        return [measures["angle"], measures["span"]]
 
     few = min(count, 20_000)
     part = {name: values[:few] for name, values in dimensions.items()}
 
     def stored() -> dict[str, Float]:
-        motion = assur.sweep(one, part, Q, ["B", "C", "D", "rocker"], 0)
+        motion = assur.sweep(mechanism, part, Q, ["B", "C", "D", "rocker"], 0)
         angles = motion.transmission_angle("C").min(axis=-1)
         return {"angle": angles, "span": np.ptp(motion.link("rocker").value, axis=-1)}
 

@@ -37,13 +37,13 @@ def four_bar() -> assur.Mechanism:
 
 
 def angles(positions: int) -> Subject:
-    one, q, outputs = four_bar(), turn(positions), ["coupler", "rocker"]
+    mechanism, q, outputs = four_bar(), turn(positions), ["coupler", "rocker"]
 
     def answer(motion: assur.Motion) -> list[Float]:
         return ours.arrays(motion, outputs, 2)
 
     contenders = {
-        OURS: Contender(lambda: one.solve(q, 2, outputs), answer),
+        OURS: Contender(lambda: mechanism.solve(q, 2, outputs), answer),
         "NumPy": Contender(lambda: closed_form.angles(*LENGTHS, q), tuple),
     }
     if installed("numba"):
@@ -70,10 +70,10 @@ def path(positions: int) -> Subject:
     links = {"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"}
     lengths = dict(zip(("crank.length", "coupler.length", "rocker.length"), LENGTHS, strict=False))
     point = {"coupler.P.x": POINT[0], "coupler.P.y": POINT[1]}
-    one = assur.Mechanism(joints, links, "crank").with_dimensions({**lengths, **point})
+    mechanism = assur.Mechanism(joints, links, "crank").with_dimensions({**lengths, **point})
     q = turn(positions)
     contenders = {
-        OURS: Contender(lambda: one.solve(q, 0, ["P"]), lambda m: [m.joint("P").value]),
+        OURS: Contender(lambda: mechanism.solve(q, 0, ["P"]), lambda m: [m.joint("P").value]),
         "NumPy": Contender(
             lambda: closed_form.four_bar_point(*LENGTHS, *POINT, q),
             lambda xy: [np.stack(xy, axis=-1)],
@@ -95,31 +95,31 @@ def path(positions: int) -> Subject:
 
 
 def one_joint() -> Subject:
-    one = four_bar()
+    mechanism = four_bar()
     contenders = {
-        OURS: Contender(lambda: one.solve(1.0, 0, ["C"]), lambda m: [m.joint("C").value]),
+        OURS: Contender(lambda: mechanism.solve(1.0, 0, ["C"]), lambda m: [m.joint("C").value]),
         "NumPy": Contender(lambda: place(LENGTHS, 1.0), lambda c: [np.array(c)]),
     }
     return Subject(1, 1, contenders)
 
 
 def default_call() -> Subject:
-    one = four_bar()
+    mechanism = four_bar()
     contenders = {
-        OURS: Contender(lambda: one.solve(1.0), lambda m: [m.link("rocker").d2]),
+        OURS: Contender(lambda: mechanism.solve(1.0), lambda m: [m.link("rocker").d2]),
         "NumPy": Contender(
-            lambda: closed_form.vectors(*LENGTHS, 1.0), lambda found: [found.rocker2]
+            lambda: closed_form.vectors(*LENGTHS, 1.0), lambda vectors: [vectors.rocker2]
         ),
     }
     return Subject(1, 1, contenders)
 
 
 def new_lengths() -> Subject:
-    one = four_bar()
+    mechanism = four_bar()
     lengths = dict(zip(("crank.length", "coupler.length"), (1.01, 3.01), strict=True))
 
     def run() -> assur.Motion:
-        return one.with_dimensions(lengths).solve(1.0, 0, ["C"])
+        return mechanism.with_dimensions(lengths).solve(1.0, 0, ["C"])
 
     values = np.array([1.01, 3.01, *LENGTHS[2:]])
     contenders = {
@@ -139,8 +139,8 @@ def by_jax(q: Float) -> Contender:
 
     lengths = LENGTHS[:, None]
 
-    def answer(found: Any) -> list[Float]:
-        return [np.asarray(found[k][0, :, i]) for i in range(2) for k in range(3)]
+    def answer(orders: Any) -> list[Float]:
+        return [np.asarray(orders[k][0, :, i]) for i in range(2) for k in range(3)]
 
     return Contender(lambda: with_jax.run(with_jax.four_bar, lengths, q), answer)
 
@@ -150,7 +150,7 @@ def by_casadi(q: Float) -> Contender:
 
     function, lengths = with_casadi.four_bar(), LENGTHS[:, None]
 
-    def answer(found: Any) -> list[Float]:
-        return [found[k][i] for i in range(2) for k in range(3)]
+    def answer(orders: Any) -> list[Float]:
+        return [orders[k][i] for i in range(2) for k in range(3)]
 
     return Contender(lambda: with_casadi.solve(function, lengths, q), answer)

@@ -1,4 +1,4 @@
-"""A design space as users have it: random four-bars, of which most do not turn; a coupler point."""
+"""A design space as users have it: random four-bars, most of which do not turn; a coupler point."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ def by_numba(lengths: Float, point: Float, q: Float, out: Float) -> dict[str, Co
         specialist.four_bar_point(lengths, point, cos, sin, out)
         return out
 
-    def answer(found: Float) -> list[Float]:
-        return [found]
+    def answer(points: Float) -> list[Float]:
+        return [points]
 
     return {"numba": Contender(plain, answer), "numba, by an expert": Contender(expert, answer)}
 
@@ -79,7 +79,7 @@ def by_jax(lengths: Float, point: Float, q: Float) -> Contender:
 
     return Contender(
         lambda: with_jax.run(with_jax.four_bar_point, lengths, point, q),
-        lambda found: [np.asarray(found)],
+        lambda points: [np.asarray(points)],
     )
 
 
@@ -95,7 +95,7 @@ def by_pylinkage(space: spaces.Space, q: Float) -> Contender:
         clear = condition.max(axis=-1) < CLEAR
     return Contender(
         lambda: made.simulate(q.size, store=False),
-        lambda found: [found[:, :, -1]],
+        lambda points: [points[:, :, -1]],
         len(clear),
         where=np.broadcast_to(clear[:, None], condition.shape),
     )

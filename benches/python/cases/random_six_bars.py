@@ -61,7 +61,7 @@ def by_numba(values: Float, q: Float, out: Float) -> dict[str, Contender]:
         specialist.stephenson_point(*rows, cos, sin, out)
         return out
 
-    def answer(found: Float) -> list[Float]:
-        return [found]
+    def answer(points: Float) -> list[Float]:
+        return [points]
 
     return {"numba": Contender(plain, answer), "numba, by an expert": Contender(expert, answer)}

@@ -56,7 +56,7 @@ def press(turns: int) -> Subject:
 
         contenders["numba, fixed steps between knots"] = Contender(
             lambda: press_numba.run(evened, turns),
-            lambda found: [np.array([found[0] / speed0, found[1] / time])],
+            lambda reached: [np.array([reached[0] / speed0, reached[1] / time])],
         )
     # Its steps do not know of the knots: an error of 1e-6.
     contenders["SciPy, DOP853"] = Contender(lambda: press_table.dop853(evened, time), None)
@@ -82,9 +82,9 @@ def slider_crank(seconds: float) -> Subject:
 
     contenders = {
         f"{OURS}, over the time": Contender(
-            run, lambda found: [np.array([found.q[-1], found.speed[-1]])]
+            run, lambda motion: [np.array([motion.q[-1], motion.speed[-1]])]
         ),
-        "SciPy, DOP853": Contender(by_scipy, lambda found: [found]),
+        "SciPy, DOP853": Contender(by_scipy, lambda end: [end]),
     }
     # Both keep 1e-10 a step, over some thousand steps.
     return Subject(1, 1, contenders, tolerance=1e-5)

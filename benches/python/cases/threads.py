@@ -75,8 +75,8 @@ def metrics(designs: int) -> Subject:
         asked = {"angle": metric.least_transmission("C")}
         return assur.sweep(space.mechanism, space.columns, q, metrics=asked, threads=threads)
 
-    def answer(found: assur.Measures) -> list[Float]:
-        return [found["angle"]]
+    def answer(measures: assur.Measures) -> list[Float]:
+        return [measures["angle"]]
 
     contenders = {
         name: Contender(partial(run, threads), answer) for name, threads in ((ONE, 1), (TWO, 2))

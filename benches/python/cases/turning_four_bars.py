@@ -68,8 +68,8 @@ def by_numba(lengths: Float, q: Float, out: list[Float]) -> dict[str, Contender]
 def by_jax(lengths: Float, q: Float) -> Contender:
     from rivals import with_jax
 
-    def answer(found: Any) -> list[Float]:
-        return [np.asarray(found[k][..., i]) for i in range(2) for k in range(3)]
+    def answer(orders: Any) -> list[Float]:
+        return [np.asarray(orders[k][..., i]) for i in range(2) for k in range(3)]
 
     return Contender(lambda: with_jax.run(with_jax.four_bar, lengths, q), answer)
 
@@ -79,7 +79,7 @@ def by_casadi(lengths: Float, q: Float, designs: int) -> Contender:
 
     function = with_casadi.four_bar()
 
-    def answer(found: Any) -> list[Float]:
-        return [found[k][i].reshape(designs, -1) for i in range(2) for k in range(3)]
+    def answer(orders: Any) -> list[Float]:
+        return [orders[k][i].reshape(designs, -1) for i in range(2) for k in range(3)]
 
     return Contender(lambda: with_casadi.solve(function, lengths, q), answer, designs)

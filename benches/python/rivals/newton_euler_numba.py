@@ -47,7 +47,7 @@ def balance(
 
 
 @numba.njit(parallel=True, cache=True)
-def solve(lengths: Float, q: Float, found: Float) -> None:
+def solve(lengths: Float, q: Float, forces: Float) -> None:
     """Forces and torque, (designs, positions, 9), of four-bars (open) at constant speed."""
     w = SPEED
     for k in numba.prange(lengths.shape[1]):
@@ -81,4 +81,4 @@ def solve(lengths: Float, q: Float, found: Float) -> None:
             right[6] -= FORCE[0]
             right[7] -= FORCE[1]
             right[8] -= (cx - gx) * FORCE[1] - (cy - gy) * FORCE[0]
-            found[k, i] = np.linalg.solve(matrix, right)
+            forces[k, i] = np.linalg.solve(matrix, right)

@@ -80,7 +80,7 @@ def four_bar_point(lengths: Float, point: Float, q: Float, out: Float) -> None:
 def six_bar_point(
     lengths: Float, point: Float, second: Float, tip: Float, q: Float, out: Float
 ) -> None:
-    """A point of the fifth link of Stephenson III six-bars, NaN where there is none."""
+    """A point of the fifth link of Stephenson III six-bars, NaN where it does not exist."""
     for d in numba.prange(lengths.shape[1]):
         a, b, c, g = lengths[0, d], lengths[1, d], lengths[2, d], lengths[3, d]
         e, f, ex, ey = second[0, d], second[1, d], second[2, d], second[3, d]

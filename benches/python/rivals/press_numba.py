@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.flywheel import Flywheel
 
 WIDTH = float(PHI[1])
-# Steps of the fourth order between two knots, so many that the error is below 1e-9.
+# Steps of the fourth order between two knots, enough for an error below 1e-9.
 STEPS = 24
 # Places of a turn among which extremes are looked for.
 GRID = 181
@@ -86,7 +86,7 @@ def extremes(moment: Any, inertia: Any, motor: float, wheel: float, speed0: floa
         x, c = phi - k * WIDTH, moment[k]
         area = (((c[0] / 4 * x + c[1] / 3) * x + c[2] / 2) * x + c[3]) * x + motor * x
         values[g] = math.sqrt((2 * (ends[k] + area) + start) / (horner(inertia[k], x) + wheel))
-    found = np.empty(2)
+    speeds = np.empty(2)
     for which in range(2):
         g = values.argmin() if which == 0 else values.argmax()
         a, b, c = (
@@ -94,8 +94,8 @@ def extremes(moment: Any, inertia: Any, motor: float, wheel: float, speed0: floa
             values[g],
             values[g + 1 if g < GRID - 1 else 1],
         )
-        found[which] = b - (c - a) ** 2 / (8 * (a - 2 * b + c))
-    return found
+        speeds[which] = b - (c - a) ** 2 / (8 * (a - 2 * b + c))
+    return speeds
 
 
 @njit(cache=True)

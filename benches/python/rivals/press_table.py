@@ -67,8 +67,8 @@ def by_scipy() -> float:
         ends = []
         for sign, place in ((-1.0, rough.argmax()), (1.0, rough.argmin())):
             around = grid[max(place - 1, 0)], grid[min(place + 1, 180)]
-            found = minimize_scalar(speed, bounds=around, args=(sign,), method="bounded")
-            ends.append(sign * found.fun)
+            extreme = minimize_scalar(speed, bounds=around, args=(sign,), method="bounded")
+            ends.append(sign * extreme.fun)
         return [ends[0] - MEAN * (1 + DELTA / 2), ends[1] - MEAN * (1 - DELTA / 2)]
 
     return float(fsolve(lacks, (20.0, MEAN))[0])

@@ -31,5 +31,5 @@ def solve(function: Any, lengths: Float, q: Float) -> list[Any]:
     """Evaluate it: (2, designs · positions) for each order."""
     # A column is a position.
     columns = np.repeat(lengths, q.size, axis=1)
-    found = function(columns, np.tile(q, lengths.shape[1])[None, :])
-    return [np.asarray(one) for one in found]
+    results = function(columns, np.tile(q, lengths.shape[1])[None, :])
+    return [np.asarray(array) for array in results]

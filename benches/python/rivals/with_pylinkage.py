@@ -35,7 +35,7 @@ def step(linkage: Linkage, positions: int) -> Any:
 
 def ensemble(lengths: Float, point: Float, positions: int) -> Ensemble:
     """Variants with these dimensions, one step before q = 0."""
-    one = four_bar(lengths[:, 0], point[:, 0], positions)
+    linkage = four_bar(lengths[:, 0], point[:, 0], positions)
     before = -2 * np.pi / positions
     a, b, c, g = lengths
     reach, angle = np.hypot(*point), np.arctan2(point[1], point[0])
@@ -46,7 +46,7 @@ def ensemble(lengths: Float, point: Float, positions: int) -> Ensemble:
     traced = crank + np.stack([ux * point[0] - uy * point[1], uy * point[0] + ux * point[1]])
     places = np.stack([[zero, zero], [g, zero], crank, tip, traced], axis=1)
     dimensions = np.stack([a, b, c, reach, angle], axis=1)
-    return Ensemble(one, dimensions, np.ascontiguousarray(places.T))
+    return Ensemble(linkage, dimensions, np.ascontiguousarray(places.T))
 
 
 def _start(lengths: Float, q: float) -> Float:

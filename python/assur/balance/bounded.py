@@ -15,9 +15,10 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from assur._arrays import Float
 
-# A column counts as a sum of others where less than this part of it is left: some rounding errors.
+# A column counts as a sum of others where less than this fraction of it is left: some rounding
+# errors.
 DEPENDENT = 1e-13
-# A bounded variable is freed where its gradient exceeds this part of the right side.
+# A bounded variable is freed where its gradient exceeds this fraction of the right side.
 GRADIENT = 1e-14
 _Mask = npt.NDArray[np.bool_]
 
@@ -55,8 +56,8 @@ def bounded_least_squares(matrix: Float, right: Float, lower: Float, upper: Floa
         chosen = int(np.argmax(gain)) if n else 0
         if not n or gain[chosen] <= tolerance:
             with np.errstate(over="ignore", under="ignore"):
-                found: Float = np.clip(np.ldexp(x, -shift), lower, upper)
-            return found
+                solution: Float = np.clip(np.ldexp(x, -shift), lower, upper)
+            return solution
         tried = free.copy()
         tried[chosen] = True
         y, kept = _solve_free(a, b, x, tried, low, high)
@@ -74,13 +75,13 @@ def _solve_free(
     x, free = x.copy(), free.copy()
     while free.any():
         step = _least_squares(a[:, free], b - (a * x).sum(axis=1))
-        wanted = x[free] + step
+        target = x[free] + step
         low_free, high_free = low[free], high[free]
-        beyond = (wanted < low_free) | (wanted > high_free)
+        beyond = (target < low_free) | (target > high_free)
         if not beyond.any():
-            x[free] = wanted
+            x[free] = target
             break
-        bound = np.where(wanted < low_free, low_free, high_free)
+        bound = np.where(target < low_free, low_free, high_free)
         part = np.ones(step.shape)
         part[beyond] = (bound[beyond] - x[free][beyond]) / step[beyond]
         least = part.min()

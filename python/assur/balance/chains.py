@@ -46,7 +46,7 @@ def find_four_bar(mechanism: Mechanism) -> FourBarChain:
         raise _refusal(mechanism, "four-bar", "2 links pivoted on the ground")
     coupler = next(link for link in moving if link not in pivoted)
     drivers = mechanism.description.drivers
-    driven = {one.link if isinstance(one, Drive) else one for one in drivers}
+    driven = {driver.link if isinstance(driver, Drive) else driver for driver in drivers}
     crank, rocker = sorted(pivoted, key=lambda link: link not in driven)
     around = ((GROUND, crank), (crank, coupler), (coupler, rocker), (rocker, GROUND))
     if not all(frozenset(pair) in pins for pair in around):
@@ -60,8 +60,8 @@ def find_slider_crank(mechanism: Mechanism) -> SliderCrankChain:
     slides = list(mechanism.slides.values())
     sliding = [{slide.link, slide.on} - {GROUND} for slide in slides]
     if len(moving) != 3 or len(pins) != 3 or len(sliding) != 1 or len(sliding[0]) != 1:
-        wanted = "3 moving links, 3 pins and a slide on the ground"
-        raise _refusal(mechanism, "slider-crank", wanted)
+        needed = "3 moving links, 3 pins and a slide on the ground"
+        raise _refusal(mechanism, "slider-crank", needed)
     (piston,) = sliding[0]
     cranks = [link for link in moving if frozenset((GROUND, link)) in pins and link != piston]
     rods = [link for link in moving if link not in cranks and link != piston]
@@ -78,7 +78,7 @@ def _moving(mechanism: Mechanism) -> list[str]:
 
 
 def _pins(mechanism: Mechanism, kind: str) -> dict[frozenset[str], str]:
-    """Return the joint of every two links that share one; points of one link are no pins."""
+    """Return the joint of every two links that share one; points of one link are not pins."""
     pins: dict[frozenset[str], str] = {}
     for joint in mechanism.joint_names:
         links = [link for link, joints in mechanism.links.items() if joint in joints]
@@ -93,11 +93,11 @@ def _pins(mechanism: Mechanism, kind: str) -> dict[frozenset[str], str]:
     return pins
 
 
-def _refusal(mechanism: Mechanism, kind: str, wanted: str) -> InputError:
+def _refusal(mechanism: Mechanism, kind: str, needed: str) -> InputError:
     links, slides = _moving(mechanism), list(mechanism.slides)
     has = f"links {', '.join(links)}; slides {', '.join(slides) or 'none'}"
     message = (
-        f"not a {kind}, which has {wanted}: this mechanism has the {has} "
+        f"not a {kind}, which has {needed}: this mechanism has the {has} "
         "(assur.balance.fit takes any linkage)"
     )
     return InputError(message)

@@ -91,11 +91,11 @@ def fit(
         The motion over which to balance, as in `Machine.reactions`.
     places : mapping of str to a place
         By link: a joint or (x, y) in the link's frame, m, where a weight goes; or a list of them,
-        each for a weight (corners of a region: together they have any centre within it). Or, for a
-        link whose first joint rests, `MomentBounds`: a weight anywhere, of a mass moment within
-        bounds.
+        one for each weight (at the corners of a region they have any centre within it together).
+        Or, for a link whose first joint rests, `MomentBounds`: a weight anywhere, its mass moment
+        within bounds.
     most : float or mapping of str to float
-        Greatest mass of each weight, kg, of all or by link. Does not hold for `MomentBounds`.
+        Greatest mass of each weight, kg: one for all, or by link. Does not hold for `MomentBounds`.
     moment_weight : float
         How many newtons a newton metre of shaking moment (about the origin) counts as, 1/m, not
         negative. More than 0 needs places: a weight's moment of inertia depends on them.
@@ -109,7 +109,7 @@ def fit(
     Raises
     ------
     InputError
-        Unknown links, places that are none, bounds for a link whose first joint moves, a batch, a
+        Unknown links, invalid places, bounds for a link whose first joint moves, a batch, a
         machine of a table, wrong numbers.
     PositionError
         No position at some q.
@@ -146,18 +146,20 @@ def fit(
     [14.53, 1.94]
     """
     mechanism = checked_mechanism(machine, "balance.fit")
-    given: Any = places
-    if not isinstance(given, Mapping) or not given:
-        message = f"places is {short(given)}: a mapping of links to places is needed"
+    mapping: Any = places
+    if not isinstance(mapping, Mapping) or not mapping:
+        message = f"places is {short(mapping)}: a mapping of links to places is needed"
         raise InputError(message)
-    unplaced = [link for link in most if link not in given] if isinstance(most, Mapping) else []
+    unplaced = [link for link in most if link not in mapping] if isinstance(most, Mapping) else []
     if unplaced:
         message = (
-            f"most has {short(unplaced[0])}, which has no place: {', '.join(map(repr, given))}"
+            f"most has {short(unplaced[0])}, which has no place: {', '.join(map(repr, mapping))}"
         )
         raise InputError(message)
     weight = not_negative(moment_weight, "moment_weight")
-    unknowns = [one for link in given for one in _unknowns(mechanism, link, given[link], most)]
+    unknowns = [
+        unknown for link in mapping for unknown in _unknowns(mechanism, link, mapping[link], most)
+    ]
     motion = q, speed, acceleration
     right = _shaking(machine, motion, weight)
     if not right.size:
@@ -165,23 +167,25 @@ def fit(
         raise InputError(message)
     matrix = np.empty((right.size, len(unknowns)))
     resting: set[str] = set()
-    for k, one in enumerate(unknowns):
-        if one.axis is not None and one.link not in resting:
-            _require_rest(mechanism, one.link, motion, weight)
-            resting.add(one.link)
-        alone = Machine(mechanism, {one.link: Body(1.0, 0.0, one.place)})
+    for k, unknown in enumerate(unknowns):
+        if unknown.axis is not None and unknown.link not in resting:
+            _require_rest(mechanism, unknown.link, motion, weight)
+            resting.add(unknown.link)
+        alone = Machine(mechanism, {unknown.link: Body(1.0, 0.0, unknown.place)})
         matrix[:, k] = _shaking(alone, motion, weight)
-    lower, upper = (np.array([getattr(one, at) for one in unknowns]) for at in ("lower", "upper"))
-    found = bounded_least_squares(matrix, -right, lower, upper)
-    return tuple(_weights(unknowns, found.tolist()))
+    lower, upper = (
+        np.array([getattr(unknown, at) for unknown in unknowns]) for at in ("lower", "upper")
+    )
+    masses = bounded_least_squares(matrix, -right, lower, upper)
+    return tuple(_weights(unknowns, masses.tolist()))
 
 
 def _shaking(machine: Machine, motion: tuple[Any, ...], weight: float) -> Float:
     """Return the components of the shaking force, and the moment as it counts, in one row."""
-    found = machine.reactions(*motion)
-    parts = [found.shaking_force.reshape(-1)]
+    reactions = machine.reactions(*motion)
+    parts = [reactions.shaking_force.reshape(-1)]
     if weight > 0.0:
-        parts.append(weight * np.reshape(found.shaking_moment, -1))
+        parts.append(weight * np.reshape(reactions.shaking_moment, -1))
     row: Float = np.concatenate(parts)
     if not np.isfinite(row).all():
         message = "the shaking force is not finite: a speed or a mass is too great"
@@ -218,7 +222,7 @@ def _points(place: Any) -> list[Any]:
             f"{short(place)} is not a place: give a joint, (x, y), a list of them, or MomentBounds"
         )
         raise InputError(message)
-    several = any(isinstance(one, str | list | tuple) or np.shape(one) for one in place)
+    several = any(isinstance(entry, str | list | tuple) or np.shape(entry) for entry in place)
     return list(place) if several else [place]
 
 
@@ -248,14 +252,14 @@ def _require_rest(mechanism: Mechanism, link: str, motion: tuple[Any, ...], weig
         raise InputError(message, link=link)
 
 
-def _weights(unknowns: list[_Unknown], found: list[float]) -> Iterator[Counterweight]:
-    for k, (one, value) in enumerate(zip(unknowns, found, strict=True)):
-        if one.axis == 1:
-            yield counterweight(one.link, None, complex(found[k - 1], value))
-        elif one.axis is None:
-            x, y = one.place
-            placed = counterweight(one.link, None, complex(value * x, value * y))
-            yield Counterweight(one.link, placed.moment, placed.angle, None, value)
+def _weights(unknowns: list[_Unknown], numbers: list[float]) -> Iterator[Counterweight]:
+    for k, (unknown, value) in enumerate(zip(unknowns, numbers, strict=True)):
+        if unknown.axis == 1:
+            yield counterweight(unknown.link, None, complex(numbers[k - 1], value))
+        elif unknown.axis is None:
+            x, y = unknown.place
+            placed = counterweight(unknown.link, None, complex(value * x, value * y))
+            yield Counterweight(unknown.link, placed.moment, placed.angle, None, value)
 
 
 def _bounds(value: Any, what: str) -> tuple[float, float]:

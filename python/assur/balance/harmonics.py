@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Harmonics", "RotatingParts", "harmonics", "rotating_parts"]
 
-# Steps of q may differ by this part: coordinates of a turn are rounded, and typed to ten digits.
+# Steps of q may differ by this fraction: coordinates of a turn are rounded, or typed to ten digits.
 EVEN = 1e-9
 
 
@@ -48,7 +48,7 @@ class Harmonics:
 
     @property
     def amplitude(self) -> Float:
-        """Greatest value of each harmonic, 0 or more; of n = 0 the mean without its sign."""
+        """Greatest value of each harmonic, 0 or more; for n = 0 the mean without its sign."""
         return _size(self.cosine, self.sine)
 
     @property
@@ -71,7 +71,7 @@ class RotatingParts:
 
     Examples
     --------
-    A force that rotates with the driver, as of a weight on the crank:
+    A force that rotates with the driver, like that of a weight on the crank:
 
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 36, endpoint=False)
@@ -95,10 +95,10 @@ def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, count: int = 6) -> Harmon
     q : array_like
         One turn of the driver in N even steps, without its end, rad, (N,).
     values : array_like
-        The quantity there, (..., N): one, or one for each design. Of constant speed, if its
+        The quantity there, (..., N): one, or one for each design. At constant speed, if its
         harmonics are to be those in time.
     count : int
-        Highest harmonic; N must be more than twice as many.
+        Highest harmonic; N must be more than twice this.
 
     Returns
     -------
@@ -118,7 +118,7 @@ def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, count: int = 6) -> Harmon
 
     Examples
     --------
-    The force of a piston of 1 kg at 1 rad/s, a rod of three cranks:
+    The force of a piston of 1 kg at 1 rad/s, a rod three cranks long:
 
     >>> import assur
     >>> import numpy as np
@@ -147,7 +147,7 @@ def rotating_parts(q: npt.ArrayLike, force: npt.ArrayLike, count: int = 6) -> Ro
     force : array_like
         Such as `Reactions.shaking_force` at constant speed, N, (..., N, 2).
     count : int
-        Highest harmonic; N must be more than twice as many.
+        Highest harmonic; N must be more than twice this.
 
     Returns
     -------

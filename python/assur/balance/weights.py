@@ -63,7 +63,7 @@ def four_bar(machine: Machine) -> tuple[Counterweight, Counterweight]:
     Parameters
     ----------
     machine : Machine
-        Of one design. Links and joints may have any names, and centres of mass be anywhere.
+        Of one design. Links and joints may have any names, and centres of mass may be anywhere.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def slider_crank(
     Parameters
     ----------
     machine : Machine
-        Of one design. Links and joints may have any names, and centres of mass be anywhere.
+        Of one design. Links and joints may have any names, and centres of mass may be anywhere.
     fraction : float
         Part of the reciprocating mass that the crank's counterweight balances, 0 or more. One half
         leaves the least mean square of force, whatever the length of the rod (guide through the
@@ -142,8 +142,8 @@ def slider_crank(
     -----
     A rod of mass m acts as m (1 − p) at the crankpin, which rotates, and m p at the piston, which
     reciprocates (complex where its centre is off its line: p = (s − a)/(b − a)). A weight on the
-    crank can balance the rotating mass wholly. Of the reciprocating one it takes the fraction c of
-    the first harmonic along the guide and adds as much across it. See `docs/reactions.md`.
+    crank can balance the rotating mass wholly. It takes the fraction c of the reciprocating mass's
+    first harmonic along the guide and adds as much across it. See `docs/reactions.md`.
 
     References
     ----------
@@ -153,7 +153,7 @@ def slider_crank(
 
     Examples
     --------
-    An engine of 50 kg reciprocating and 37 kg rotating, two thirds balanced at 0.4 m:
+    An engine with 50 kg reciprocating and 37 kg rotating, two thirds balanced at 0.4 m:
 
     >>> import assur
     >>> engine = assur.Machine(
@@ -171,11 +171,11 @@ def slider_crank(
         raise InputError(message, value=c)
     crank, rod, piston, o, a, b = find_slider_crank(masses.mechanism)
     sliding = masses.mass(piston)
-    own, throw = masses.moment(crank, o), masses.arm(crank, o, a)
+    crank_moment, throw = masses.moment(crank, o), masses.arm(crank, o, a)
     if rod_radius is None:
         at_b = masses.moment(rod, a) / masses.arm(rod, a, b)
         at_a = masses.mass(rod) - at_b
-        return (counterweight(crank, o, -own - (at_a + c * (at_b + sliding)) * throw),)
+        return (counterweight(crank, o, -crank_moment - (at_a + c * (at_b + sliding)) * throw),)
     if c != 1.0:
         message = f"fraction is {c:g}: with rod_radius the whole force is balanced, leave it out"
         raise InputError(message, value=c)
@@ -184,4 +184,4 @@ def slider_crank(
     radius = real_number(positive_number(rod_radius, "rod_radius"), "rod_radius")
     second = counterweight(rod, a, beyond).with_radius(radius)
     carried = masses.mass(rod) + sliding + (second.mass or 0.0)
-    return counterweight(crank, o, -own - carried * throw), second
+    return counterweight(crank, o, -crank_moment - carried * throw), second

@@ -34,30 +34,30 @@ def add_coordinates(parser: argparse.ArgumentParser) -> None:
 
 
 def coordinates(
-    mechanism: Mechanism, given: list[Numbers] | None, wanted: Mapping[str, Any]
+    mechanism: Mechanism, flags: list[Numbers] | None, in_file: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Return the argument ``q`` of a method, or ``deg``: of flags, or what a file asks for."""
+    """Return the argument ``q`` of a method, or ``deg``: from flags, or from the file."""
     from assur.kinematics.table import driven_angles
 
     angles = driven_angles(mechanism)
-    if given is None:
-        own = {name: wanted[name] for name in ("q", "deg") if name in wanted}
-        if own:
-            return own
+    if flags is None:
+        asked = {name: in_file[name] for name in ("q", "deg") if name in in_file}
+        if asked:
+            return asked
         if angles != [True]:
             message = "nothing says where the drivers go: give --q for each, such as --q 0:0.1:0.01"
             raise InputError(message)
-        given = [numbers(TURN)]
-    if len(given) != len(angles):
-        message = f"--q is given {len(given)} times: the mechanism has {len(angles)} drivers"
+        flags = [numbers(TURN)]
+    if len(flags) != len(angles):
+        message = f"--q is given {len(flags)} times: the mechanism has {len(angles)} drivers"
         if len(angles) == 1:
-            message = f"--q is given {len(given)} times: the mechanism has one driver"
+            message = f"--q is given {len(flags)} times: the mechanism has one driver"
         raise InputError(message)
-    for one, is_angle in zip(given, angles, strict=True):
-        one.require(ANGLE if is_angle else LENGTH, "--q")
-    if len(given) == 1:
-        return {"q": given[0].values}
-    return {"q": _together([one.values for one in given])}
+    for values, is_angle in zip(flags, angles, strict=True):
+        values.require(ANGLE if is_angle else LENGTH, "--q")
+    if len(flags) == 1:
+        return {"q": flags[0].values}
+    return {"q": _together([values.values for values in flags])}
 
 
 def _together(columns: list[Float]) -> Float:
@@ -70,26 +70,26 @@ def _together(columns: list[Float]) -> Float:
     return np.stack(np.broadcast_arrays(*columns), axis=-1)
 
 
-def speeds(mechanism: Mechanism, given: Numbers | None, what: str) -> Any:
-    """Return a speed, of several drivers one each; None if none is given."""
+def speeds(mechanism: Mechanism, flag: Numbers | None, what: str) -> Any:
+    """Return a speed, one for each of several drivers; None if none is given."""
     from assur.kinematics.table import driven_angles
 
-    if given is None:
+    if flag is None:
         return None
     angles = driven_angles(mechanism)
-    if given.values.size != len(angles) or given.values.ndim > 1:
+    if flag.values.size != len(angles) or flag.values.ndim > 1:
         drivers = "one number is" if len(angles) == 1 else f"{len(angles)} numbers, 1,2, are"
-        message = f"{what} has {given.values.size} numbers: {drivers} needed"
+        message = f"{what} has {flag.values.size} numbers: {drivers} needed"
         raise InputError(message)
-    if given.unit is not None:
+    if flag.unit is not None:
         for is_angle in angles:
-            given.require(ROTARY if is_angle else LINEAR, what)
-    return float(given.values.ravel()[0]) if len(angles) == 1 else given.values
+            flag.require(ROTARY if is_angle else LINEAR, what)
+    return float(flag.values.ravel()[0]) if len(angles) == 1 else flag.values
 
 
-def plain(given: Numbers | None, mechanism: Mechanism, what: str) -> Any:
-    """Return an acceleration, of several drivers one each: always in SI units."""
-    if given is not None and given.unit is not None:
+def plain(flag: Numbers | None, mechanism: Mechanism, what: str) -> Any:
+    """Return an acceleration, one for each of several drivers: always in SI units."""
+    if flag is not None and flag.unit is not None:
         message = f"{what} is in rad/s² or m/s²: write no unit"
         raise InputError(message)
-    return speeds(mechanism, given, what)
+    return speeds(mechanism, flag, what)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def read_designs(path: str, known: Iterable[str]) -> dict[str, Float]:
     """Return the dimensions of a table, a column each: the header has their names.
 
-    Of a table that ``assur sweep`` wrote, the columns of results are left out.
+    The columns of results in a table that ``assur sweep`` wrote are left out.
     """
     try:
         with Path(path).open(encoding="utf-8-sig", newline="") as file:
@@ -38,21 +38,21 @@ def read_designs(path: str, known: Iterable[str]) -> dict[str, Float]:
     if len(set(names)) < len(names):
         message = f"{path}: the header has a name twice: {', '.join(names)[:200]}"
         raise InputError(message)
-    wanted = columns_of_designs(names, known)
-    if not wanted:
+    columns = columns_of_designs(names, known)
+    if not columns:
         message = f"{path}: no column is a dimension: {', '.join(names)[:200]}"
         raise InputError(message)
-    places = [names.index(name) for name in wanted]
+    places = [names.index(name) for name in columns]
     values = np.array([_numbers(path, line, row, len(names), places) for line, row in lines[1:]])
-    return dict(zip(wanted, values.T, strict=True))
+    return dict(zip(columns, values.T, strict=True))
 
 
 def _numbers(path: str, line: int, row: list[str], count: int, places: list[int]) -> list[float]:
     try:
-        found = [float(row[place]) for place in places] if len(row) == count else []
+        numbers = [float(row[place]) for place in places] if len(row) == count else []
     except ValueError:
-        found = []
-    if not found or not all(map(math.isfinite, found)):
+        numbers = []
+    if not numbers or not all(map(math.isfinite, numbers)):
         message = f"{path}, line {line}: {','.join(row)[:80]!r} is not {counted(count, 'number')}"
         raise InputError(message)
-    return found
+    return numbers

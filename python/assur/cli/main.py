@@ -43,10 +43,10 @@ exit status:
   0    done
   1    the input is wrong, or has no answer: a line on the standard error says why
   2    the command line is wrong
-  3    done, but some positions could not be solved; of a sweep no design is left
+  3    done, but some positions could not be solved, or a sweep has no design left
   130  interrupted
 """
-# A value that begins like a number is no option.
+# A value that begins like a number is not an option.
 NEGATIVE = re.compile(r"-\.?\d")
 
 
@@ -101,7 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except (AssurError, AssurWarning, ImportError) as error:
             note(reworded(error))
         except MemoryError:
-            note("there is not enough memory for so many results: ask for fewer")
+            note("there is not enough memory for these results: ask for fewer")
         except OSError as error:
             cannot_write(error)
         except KeyboardInterrupt:
@@ -116,8 +116,8 @@ def _run(words: list[str]) -> int:
         if any(word == "--" or (word[:2] == "--" and word.endswith("=--")) for word in words):
             # argparse drops it, also where it is a value.
             parser.error("-- is not understood; a file's name can be written ./-name")
-        given = parser.parse_args(_joined(words))
-        return int(given.run(given) or OK)
+        arguments = parser.parse_args(_joined(words))
+        return int(arguments.run(arguments) or OK)
     except SystemExit as end:  # argparse's, after help and errors
         return int(end.code or OK)
 
@@ -130,11 +130,11 @@ def _parser(words: list[str]) -> Parser:
     # The options above take no values: the first other word is the command.
     called = next((word for word in words if not word.startswith("-")), None)
     for name, does in COMMANDS.items():
-        own = commands.add_parser(name, help=does)
+        subparser = commands.add_parser(name, help=does)
         if name == called:
             command = import_module(f"assur.cli.commands.{name}")
-            command.add_arguments(own)
-            own.set_defaults(run=command.run, parser=own)
+            command.add_arguments(subparser)
+            subparser.set_defaults(run=command.run, parser=subparser)
     return parser
 
 

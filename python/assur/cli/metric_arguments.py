@@ -52,11 +52,11 @@ def _inside(text: str) -> str:
 
 
 def _numbers(name: str, text: str) -> Any:
-    found = numbers(text)
-    if found.unit is not None and UNITS[found.unit][0] not in NUMBERS[name]:
-        message = f"{name}={text}: its unit cannot be {found.unit}"
+    parsed = numbers(text)
+    if parsed.unit is not None and UNITS[parsed.unit][0] not in NUMBERS[name]:
+        message = f"{name}={text}: its unit cannot be {parsed.unit}"
         raise InputError(message)
-    values = np.atleast_1d(found.values) if name == "over" else found.values
+    values = np.atleast_1d(parsed.values) if name == "over" else parsed.values
     return values.tolist()
 
 

@@ -42,22 +42,22 @@ class _Token(NamedTuple):
 
 def named_metric(text: str) -> tuple[str, Metric]:
     """Return ``gamma=least_transmission(C)`` as a name and a metric; the text itself is a name."""
-    found = NAMED.fullmatch(text)
-    name, body = (found[1], found[2]) if found else (text.strip(), text)
+    match = NAMED.fullmatch(text)
+    name, body = (match[1], match[2]) if match else (text.strip(), text)
     what = _Reader(body).whole()
     if not isinstance(what, Metric):
-        message = f"{text!r} is no metric: write a function, such as {name[:20]}=span(B.x)"
+        message = f"{text!r} is not a metric: write a function, such as {name[:20]}=span(B.x)"
         raise InputError(message)
     return name, what
 
 
 def condition(text: str) -> Condition:
     """Return ``least_transmission(C) > 40deg``."""
-    found = _Reader(text).whole()
-    if not isinstance(found, Condition):
-        message = f"{text!r} is no condition, such as least_transmission(C) > 40deg"
+    parsed = _Reader(text).whole()
+    if not isinstance(parsed, Condition):
+        message = f"{text!r} is not a condition, such as least_transmission(C) > 40deg"
         raise InputError(message)
-    return found
+    return parsed
 
 
 class _Reader:
@@ -75,15 +75,15 @@ class _Reader:
 
     def peek(self) -> _Token | None:
         """Return the next token, None at the end."""
-        found = TOKEN.match(self.text, self.at)
-        if found is None:
+        match = TOKEN.match(self.text, self.at)
+        if match is None:
             rest = self.text[self.at :].strip()
             if rest:
                 raise self.error(f"{rest[:20]!r} is not understood")
             return None
-        kind = "number" if found["number"] else "name" if found["name"] else "sign"
-        start = found.start(kind)
-        return _Token(kind, self.text[start : found.end()], start, found.end())
+        kind = "number" if match["number"] else "name" if match["name"] else "sign"
+        start = match.start(kind)
+        return _Token(kind, self.text[start : match.end()], start, match.end())
 
     def take(self, *signs: str) -> str | None:
         """Take the next token if it is one of these signs."""

@@ -33,7 +33,7 @@ def add_output(parser: argparse.ArgumentParser) -> None:
 
 
 class Output:
-    """Where a table goes. What cannot be written is refused here, before the work.
+    """Where a table goes. A file that cannot be written is refused here, before the work.
 
     Parameters
     ----------

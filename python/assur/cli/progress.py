@@ -22,9 +22,9 @@ def add_progress(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quiet", action="store_true", help="no progress on the standard error")
 
 
-def progress(given: argparse.Namespace) -> Progress:
-    """Return what `assur.sweep` reports to: tqdm's bar in a terminal, if it is installed."""
-    if given.quiet or sys.stderr is None:
+def progress(arguments: argparse.Namespace) -> Progress:
+    """Return the progress for `assur.sweep`: tqdm's bar in a terminal, if it is installed."""
+    if arguments.quiet or sys.stderr is None:
         return False
     if sys.stderr.isatty() and find_spec("tqdm") is not None:
         return True

@@ -24,41 +24,41 @@ if TYPE_CHECKING:
 STDIN, STDIN_NAME = "-", "the standard input"
 
 
-def read(given: argparse.Namespace) -> Contents:
-    """Return what FILE holds; what does not carry over is said on the standard error."""
-    contents = _changed(_found(given), given.set)
-    if given.design is None:
+def read(arguments: argparse.Namespace) -> Contents:
+    """Return the contents of FILE; report on the standard error what does not carry over."""
+    contents = _changed(_found(arguments), arguments.set)
+    if arguments.design is None:
         return contents
     if not contents.mechanism.shape:
-        message = f"--design {given.design}: {given.file} has one design"
+        message = f"--design {arguments.design}: {arguments.file} has one design"
         raise InputError(message)
-    return _with_mechanism(contents, contents.mechanism.design(given.design))
+    return _with_mechanism(contents, contents.mechanism.design(arguments.design))
 
 
-def _found(given: argparse.Namespace) -> Contents:
+def _found(arguments: argparse.Namespace) -> Contents:
     from assur.files.contents import contents_of, read
     from assur.files.source import Source
     from assur.importers import detect
     from assur.importers.source import LARGEST_FILE
 
-    word = given.file
+    word = arguments.file
     if word.startswith(EXAMPLE):
-        _refuse_import(given)
+        _refuse_import(arguments)
         return example(word.removeprefix(EXAMPLE))
     if "://" in word:
-        return _imported(given, word)
+        return _imported(arguments, word)
     is_toml = PurePath(word).suffix.lower() == ".toml"
-    if is_toml and given.format is None:
-        _refuse_import(given)
+    if is_toml and arguments.format is None:
+        _refuse_import(arguments)
         return read(word)
     raw, name = (standard_input(), STDIN_NAME) if word == STDIN else (_bytes(word), word)
     text = _text(raw, name)
-    if given.format is None and detect(text.name, text.text) is None:
-        _refuse_import(given)
+    if arguments.format is None and detect(text.name, text.text) is None:
+        _refuse_import(arguments)
         return contents_of(Source(name, raw))
     if len(text.text) > LARGEST_FILE:
         raise text.error("", f"more than {LARGEST_FILE} letters: this is not the file of a linkage")
-    return _imported(given, text)
+    return _imported(arguments, text)
 
 
 def _bytes(word: str) -> bytes:
@@ -84,23 +84,27 @@ def _text(raw: bytes, name: str) -> Text:
     return Text(text.removeprefix("\ufeff"), PurePath(name).name)
 
 
-def _refuse_import(given: argparse.Namespace) -> None:
+def _refuse_import(arguments: argparse.Namespace) -> None:
     for name in ("format", "scale", "drivers"):
-        if getattr(given, name) is not None:
-            message = f"--{name} is for files of other programs; {given.file} is a file of assur"
+        if getattr(arguments, name) is not None:
+            message = (
+                f"--{name} is for files of other programs; {arguments.file} is a file of assur"
+            )
             raise InputError(message)
 
 
-def _imported(given: argparse.Namespace, source: Any) -> Contents:
+def _imported(arguments: argparse.Namespace, source: Any) -> Contents:
     from assur import importers
     from assur.files import Contents
     from assur.files.contents import known_speed
 
-    scale = None if given.scale is None else given.scale.one(LENGTH, "--scale")
-    found: Imported = importers.read(source, given.format, scale=scale, drivers=given.drivers)
-    for sentence in found.omitted:
+    scale = None if arguments.scale is None else arguments.scale.one(LENGTH, "--scale")
+    imported: Imported = importers.read(
+        source, arguments.format, scale=scale, drivers=arguments.drivers
+    )
+    for sentence in imported.omitted:
         note(f"note: {sentence}")
-    return Contents(found.mechanism, input_speed=known_speed(found.input_speed))
+    return Contents(imported.mechanism, input_speed=known_speed(imported.input_speed))
 
 
 def standard_input() -> bytes:
@@ -136,7 +140,7 @@ def require_one(mechanism: Mechanism, file: str) -> None:
 def _changed(contents: Contents, settings: list[tuple[str, Numbers]]) -> Contents:
     if not settings:
         return contents
-    values = {name: given.one(kind_of(name), f"--set {name}") for name, given in settings}
+    values = {name: value.one(kind_of(name), f"--set {name}") for name, value in settings}
     return _with_mechanism(contents, contents.mechanism.with_dimensions(values))
 
 

@@ -1,4 +1,4 @@
-"""The arguments that say what is read: FILE, changes of it, how to read it."""
+"""The arguments that say what to read: FILE, changes of it, how to read it."""
 
 from __future__ import annotations
 
@@ -37,21 +37,21 @@ def add_source(parser: argparse.ArgumentParser, others: bool = True) -> None:
     if not others:
         parser.set_defaults(format=None, scale=None, drivers=None)
         return
-    other = parser.add_argument_group("files of other programs")
-    other.add_argument(
+    group = parser.add_argument_group("files of other programs")
+    group.add_argument(
         "--format", metavar="NAME", help="pmks, pmks_plus, pylinkage, pyslvs or linkage2"
     )
-    other.add_argument(
+    group.add_argument(
         "--scale",
         metavar="LENGTH",
         type=argument(numbers),
         help="the file's unit of length, such as 1mm; by default 1m, and 1/96 inch in Linkage",
     )
-    other.add_argument(
+    group.add_argument(
         "--drivers",
         metavar="I-J",
         type=argument(_pairs),
-        help="of a pyslvs expression: the drivers, each by its two points, 0-1",
+        help="drivers of a pyslvs expression, each by its two points, 0-1",
     )
 
 

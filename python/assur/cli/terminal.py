@@ -1,4 +1,4 @@
-"""What the terminal, the pipe or the disk does: letters it lacks, warnings, a closed pipe."""
+"""Trouble of the terminal, the pipe or the disk: letters it lacks, warnings, a closed pipe."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def _show_warning(
 
 
 def cannot_write(error: OSError) -> None:
-    """Report an error of the standard output; that its reader has closed the pipe is none."""
+    """Report an error of the standard output; a pipe closed by its reader is not an error."""
     # Otherwise Python flushes again at exit and shows a traceback.
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from assur._arrays import short
+from assur.description.dotted_names import is_angle
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 LENGTH, ANGLE, LINEAR, ROTARY = "a length", "an angle", "a speed", "an angular speed"
-# What a unit is of, and what it is in SI units: a factor, or (int) a power of ten.
+# The kind of a unit, and its value in SI units: a factor, or (int) a power of ten.
 UNITS: dict[str, tuple[str, float | int]] = {
     "m": (LENGTH, 0),
     "cm": (LENGTH, -2),
@@ -48,7 +49,7 @@ class Numbers(NamedTuple):
     unit: str | None
 
     def require(self, kind: str, what: str) -> None:
-        """Refuse a unit of another kind; what has no kind ("") has no unit."""
+        """Refuse a unit of another kind; no kind ("") means no unit."""
         if self.unit is None or UNITS[self.unit][0] == kind:
             return
         known = ", ".join(name for name, (of, _) in UNITS.items() if of == kind)
@@ -83,14 +84,14 @@ class Number(NamedTuple):
 
 def split_number(text: str) -> Number:
     """Return a number and its unit."""
-    found = NUMBER.fullmatch(text) if len(text) < MOST_LETTERS else None
-    if found is None or not math.isfinite(float(found[1])):
+    match = NUMBER.fullmatch(text) if len(text) < MOST_LETTERS else None
+    if match is None or not math.isfinite(float(match[1])):
         message = f"{short(text)} is not a number, such as 0.12, 120mm or 30deg"
         raise InputError(message)
-    if found[2] is not None and found[2] not in UNITS:
-        message = f"{short(text)}: the unit {short(found[2])} is unknown; known: {', '.join(UNITS)}"
+    if match[2] is not None and match[2] not in UNITS:
+        message = f"{short(text)}: the unit {short(match[2])} is unknown; known: {', '.join(UNITS)}"
         raise InputError(message)
-    return Number(found[1], found[2])
+    return Number(match[1], match[2])
 
 
 def numbers(text: str) -> Numbers:
@@ -124,8 +125,8 @@ def evenly(text: str) -> Numbers:
         if ":" in text:
             message = f"{short(text)}: from:to:count is needed, such as 0.1:0.2:50"
             raise InputError(message)
-        found = numbers(text)
-        return Numbers(np.atleast_1d(found.values), found.unit)
+        parsed = numbers(text)
+        return Numbers(np.atleast_1d(parsed.values), parsed.unit)
     first, last, count = text.split(":")
     ends, unit = _same_unit(text, [first, last])
     if not re.fullmatch(r"\s*\d{1,8}\s*", count, re.ASCII) or int(count) < 1:
@@ -138,12 +139,12 @@ def evenly(text: str) -> Numbers:
 
 
 def _same_unit(text: str, parts: list[str]) -> tuple[list[Number], str | None]:
-    found = [split_number(part) for part in parts]
-    unit = found[-1].unit
-    if any(other.unit not in (None, unit) for other in found):
+    parsed = [split_number(part) for part in parts]
+    unit = parsed[-1].unit
+    if any(number.unit not in (None, unit) for number in parsed):
         message = f"{short(text)}: write one unit, after the last number"
         raise InputError(message)
-    return found, unit
+    return parsed, unit
 
 
 def _steps(text: str, parts: list[Number], unit: str | None) -> Float:
@@ -168,7 +169,7 @@ def _steps(text: str, parts: list[Number], unit: str | None) -> Float:
 
 def kind_of(dimension: str) -> str:
     """Return whether a dimension is a length or an angle."""
-    return ANGLE if dimension.endswith(".angle") else LENGTH
+    return ANGLE if is_angle(dimension) else LENGTH
 
 
 def argument(parse: Callable[[str], T]) -> Callable[[str], T]:

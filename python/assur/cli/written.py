@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def replacing(path: str) -> Iterator[Path]:
-    """Give a file beside `path` that takes its place at the end, or nothing does."""
+    """Yield a file beside `path` that replaces it at the end, or not at all."""
     target = Path(os.path.realpath(path))
     if target.exists() and not target.is_file():
         # A device or a named pipe.
@@ -57,7 +57,7 @@ def require_writable(path: str) -> None:
 
 
 def refuse_same(path: str, source: str) -> None:
-    """Refuse to overwrite what is read."""
+    """Refuse to overwrite the input."""
     is_same = False
     with suppress(OSError, ValueError):
         is_same = Path(path).samefile(source)

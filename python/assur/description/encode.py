@@ -21,12 +21,12 @@ from assur.errors import AssurWarning, InputError, StructureError, offer_remedie
 
 T = TypeVar("T")
 
-# Guides beyond two turns are in degrees, as far as anyone meant them.
+# Guides beyond two turns are probably in degrees.
 LIKE_DEGREES = 4.0 * np.pi
 
 
 class Description(NamedTuple):
-    """A description that is checked: names with coordinates, members, slides; drivers; signs."""
+    """A checked description: names with coordinates, members, slides; drivers; signs."""
 
     joints: tuple[tuple[str, float, float], ...]
     links: tuple[tuple[str, tuple[str, ...]], ...]
@@ -36,7 +36,7 @@ class Description(NamedTuple):
 
 
 def core_of(description: Description) -> Core:
-    """Compile a description. What refuses it can find remedies of it."""
+    """Compile a description. The error that refuses it can find remedies."""
     return _with_remedies(Core, _parts(description))
 
 
@@ -50,8 +50,8 @@ def fitted(description: Description, tolerance: Any) -> tuple[Description, float
         (name, x, y) for (name, *_), (x, y) in zip(description.joints, places, strict=True)
     )
     slides = tuple(
-        (name, replace(slide, angle=own))
-        for (name, slide), own in zip(description.slides, angles, strict=True)
+        (name, replace(slide, angle=direction))
+        for (name, slide), direction in zip(description.slides, angles, strict=True)
     )
     return description._replace(joints=joints, slides=slides), moved
 
@@ -59,18 +59,18 @@ def fitted(description: Description, tolerance: Any) -> tuple[Description, float
 def _known_to(tolerance: Any) -> tuple[float, float | None]:
     """Return the length, and perhaps the angle, to which a drawing is known."""
     try:
-        given = real_array(tolerance, "tolerance")
+        known = real_array(tolerance, "tolerance")
     except InputError:
-        given = np.empty(0)
-    if given.shape not in ((), (2,)) or not bool(((given > 0.0) & np.isfinite(given)).all()):
+        known = np.empty(0)
+    if known.shape not in ((), (2,)) or not bool(((known > 0.0) & np.isfinite(known)).all()):
         message = (
             f"tolerance is {short(tolerance)}: a positive length (m) is needed, or a length and "
             "an angle (rad)"
         )
         raise InputError(message)
-    if given.ndim:
-        return float(given[0]), float(given[1])
-    return float(given), None
+    if known.ndim:
+        return float(known[0]), float(known[1])
+    return float(known), None
 
 
 def _parts(description: Description) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def _parts(description: Description) -> dict[str, Any]:
 
 
 def _with_remedies(make: Callable[..., T], parts: dict[str, Any]) -> T:
-    """Make something of the parts; the error of a structure can find remedies of them."""
+    """Make something of the parts; a StructureError can find remedies."""
     try:
         return make(**parts)
     except StructureError as error:
@@ -121,10 +121,10 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
         raise InputError(message, slide=name)
     words = {"link": slide.link, "on": slide.on}
     words |= {} if slide.origin is None else {"origin": slide.origin}
-    own = {
+    names = {
         what: _checked(word, f"slide {name!r}, {what}", slide=name) for what, word in words.items()
     }
-    link, on, origin = own["link"], own["on"], own.get("origin")
+    link, on, origin = names["link"], names["on"], names.get("origin")
     length: Any = slide.length
     if not isinstance(length, bool | np.bool_):
         message = f"slide {name!r} has length {short(length)}: True or False is needed"
@@ -179,14 +179,14 @@ def cylinder(
         "barrel": f"{name}_barrel" if cylinder.barrel is None else cylinder.barrel,
         "rod": f"{name}_rod" if cylinder.rod is None else cylinder.rod,
     }
-    own = {
+    names = {
         what: _checked(word, f"cylinder {name!r}, {what}", slide=name)
         for what, word in words.items()
     }
-    base, end, barrel, rod = own.values()
+    base, end, barrel, rod = names.values()
     for what in ("base", "end"):
-        if own[what] not in at:
-            message = f"cylinder {name!r}: its {what} {own[what]!r} is not a joint"
+        if names[what] not in at:
+            message = f"cylinder {name!r}: its {what} {names[what]!r} is not a joint"
             raise InputError(message, slide=name)
     (x, y), (u, v) = at[base], at[end]
     if (x, y) == (u, v):
@@ -206,9 +206,9 @@ def _checked(word: Any, what: str, **field: str) -> str:
 
 def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]:
     """Return the drivers as a tuple."""
-    given: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
-    found: list[DriverLike] = []
-    for d in given:
+    listed: tuple[Any, ...] = tuple(driver) if isinstance(driver, list | tuple) else (driver,)
+    checked: list[DriverLike] = []
+    for d in listed:
         words: tuple[Any, ...] = (d.link, d.relative_to) if isinstance(d, Drive) else (d,)
         if not all(isinstance(word, str) for word in words):
             message = (
@@ -216,8 +216,8 @@ def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]
             )
             raise InputError(message)
         names = [checked_name(word, "driver") for word in words]
-        found.append(Drive(*names) if isinstance(d, Drive) else names[0])
-    return tuple(found)
+        checked.append(Drive(*names) if isinstance(d, Drive) else names[0])
+    return tuple(checked)
 
 
 def members(name: str, joints: Any) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Finding what would make a mechanism of a description that is refused."""
+"""Finding changes that make a mechanism of a refused description."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ __all__ = ["find"]
 
 
 def find(description: dict[str, Any]) -> tuple[Remedy, ...]:
-    """Return up to three remedies of a description, as the core takes it, that is refused."""
+    """Return up to three remedies of a refused description, as the core takes it."""
     return tuple(
         Remedy(
-            text=own["text"],
-            detail=own["detail"],
-            kind=own["kind"],
-            names=tuple(own["names"]),
-            _joints=tuple(own["joints"]),
-            _links=tuple((name, tuple(on)) for name, on in own["links"]),
-            _slides=tuple((name, Slide(**fields)) for name, fields in own["slides"]),
+            text=parts["text"],
+            detail=parts["detail"],
+            kind=parts["kind"],
+            names=tuple(parts["names"]),
+            _joints=tuple(parts["joints"]),
+            _links=tuple((name, tuple(on)) for name, on in parts["links"]),
+            _slides=tuple((name, Slide(**fields)) for name, fields in parts["slides"]),
             _drivers=tuple(
-                name if other is None else Drive(name, other) for name, other in own["drivers"]
+                name if base is None else Drive(name, base) for name, base in parts["drivers"]
             ),
-            _assembly=tuple(own["assembly"]),
+            _assembly=tuple(parts["assembly"]),
         )
-        for own in remedies(**description)
+        for parts in remedies(**description)
     )

@@ -66,11 +66,11 @@ class Structure:
         Links and slides without which it moves the same; their closure is
         checked at every position.
     moving_links, turning_pairs, sliding_pairs : int
-        What that formula counts: n, and p = turning + sliding. A joint of k links counts as k − 1
+        The counts in that formula: n, and p = turning + sliding. A joint of k links counts as k − 1
         turning pairs.
     adjustment : float
-        By how much a coordinate of a joint in the drawing was moved, at most, to make the
-        redundant links fit, m; 0 if they fit as drawn.
+        The most by which a coordinate of a joint in the drawing was moved to make the redundant
+        links fit, m; 0 if they fit as drawn.
 
     Examples
     --------

@@ -57,7 +57,7 @@ class Status(IntEnum):
     BAD_INPUT = 7
     """The coordinate is not finite, or several drivers are too far from the drawing (NaN)."""
     NO_VALUE = 8
-    """The position is solved, but what is asked for has no finite value there (NaN).
+    """The position is solved, but the quantity asked for has no finite value there (NaN).
 
     Of reactions: a load has none, as where its table ends. Of a design in a sweep: one of the
     metrics; `Measures.explain` says which and why.
@@ -74,7 +74,7 @@ def is_reached(status: npt.ArrayLike) -> Flags:
 
 
 def has_analogues(status: npt.ArrayLike) -> Flags:
-    """Return whether positions have analogues, and what is made of them."""
+    """Return whether positions have analogues, and so results derived from them."""
     return np.asarray(status) < _SINGULAR
 
 
@@ -141,8 +141,7 @@ class Cylinder:
     -----
     Where both joints coincide the direction of the cylinder is not determined: the position is
     `Status.SINGULAR`. A motion through that point goes on with a length that grows again; the
-    cylinder has then turned by half a turn at once, counter-clockwise as q grows (either way would
-    be as good).
+    cylinder has then turned by half a turn at once, counter-clockwise as q grows (by convention).
 
     Examples
     --------

@@ -36,10 +36,10 @@ def motors(motor: Any, drivers: int) -> list[Motor | None]:
         return [None] * drivers
     many = [motor] if drivers == 1 and not isinstance(motor, list | tuple) else motor
     if not isinstance(many, list | tuple) or len(many) != drivers:
-        wanted = f"{drivers} drivers need a sequence of as many (None: none)"
-        message = f"motor is {short(motor)}: {wanted}"
+        needed = f"{drivers} drivers need a sequence of {drivers} motors (None: no motor)"
+        message = f"motor is {short(motor)}: {needed}"
         raise InputError(message)
-    return [None if one is None else checked_motor(one) for one in many]
+    return [None if item is None else checked_motor(item) for item in many]
 
 
 def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
@@ -140,6 +140,6 @@ def as_list(value: Any, name: str) -> list[Any]:
         raise InputError(message)
     try:
         return list(value)
-    except TypeError as error:  # A single mechanism is no batch of designs.
+    except TypeError as error:  # A single mechanism is not a batch of designs.
         message = f"{name} must be a sequence, got {short(value)}"
         raise InputError(message) from error

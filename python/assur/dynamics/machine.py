@@ -1,4 +1,4 @@
-"""Machines and their motions in time: the face of what is solved in the core."""
+"""Machines and their motions in time: the face of the core's solvers."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Machine(MachineModel):
     Warns
     -----
     AssurWarning
-        A load at a joint with friction names no link, and none is meant: see `Force`.
+        A load at a joint with friction names no link, and the default is a guess: see `Force`.
 
     Examples
     --------
@@ -233,11 +233,11 @@ class Machine(MachineModel):
         t : array_like
             Times for functions among the loads, s, broadcast to the positions.
         sense : int, optional
-            +1 or −1 (one for each driver): in which way the drive is about to move where the speed
-            is 0. Friction needs it. A run or state has its own: at the start, and where it leaves
-            its rest, that of the motion that follows; where it comes to rest or turns back, that
-            of the motion before, as its acceleration there is. Where it stays at rest all forces
-            are NaN (`Reactions.at_rest`).
+            +1 or −1 (one for each driver): the direction in which the drive is about to move where
+            the speed is 0. Friction needs it. A run or state has its own: at the start, and where
+            it leaves its rest, that of the motion that follows; where it comes to rest or turns
+            back, that of the motion before, like its acceleration there. Where it stays at rest all
+            forces are NaN (`Reactions.at_rest`).
         threads : int, optional
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
@@ -346,14 +346,14 @@ class Machine(MachineModel):
         link : str
             A moving link of two joints or more, a straight rod between two of them.
         q, speed, acceleration, t
-            The motion, as in `reactions`; of one design.
+            The motion, as in `reactions`, for one design.
         along : (str, str), optional
             The joints at the ends of the rod; the link's first two by default.
         density : (x, kg/m), optional
             Mass per length at distances from the first of these joints, (K,) each, linear between
             them; the first distance is 0, the last the rod's length, and one given twice makes a
-            step. By default the mass of the link's body, uniform. The body must be what this mass
-            makes it: its centre, and its moment of inertia as of a thin rod.
+            step. By default the mass of the link's body, uniform. The body must agree with this
+            mass: its centre, and its moment of inertia as a thin rod.
         n : int
             Places along the rod at which the loads are given, ends included.
         on_error : {"raise", "nan"}
@@ -486,7 +486,7 @@ class Machine(MachineModel):
 
         Examples
         --------
-        A weight of 10 N on a crank of 0.5 m: what is lifted comes back.
+        A weight of 10 N on a crank of 0.5 m: the work of lifting it comes back.
 
         >>> import assur
         >>> import numpy as np
@@ -545,10 +545,10 @@ class Machine(MachineModel):
         interval is halved until the cubic shows, by more than its error in the middle, that it has
         no root or one (J. M. Lane and R. F. Riesenfeld, *Bounds on a polynomial*, BIT 21 (1981)
         112). Each root is then bracketed to rounding (I. F. D. Oliveira and R. H. C. Takahashi, ACM
-        TOMS 47 (2020)). Missed are pairs of roots between two samples (1/512 of a turn) of which
-        values and slopes show nothing, and roots within 1e-6 of a dead point; three within 1e-7 rad
-        count as one. Gaps, also those of tables, are left out; what the drawing's branch reaches
-        beyond them is searched, if it is wider than 1/4096 of a turn.
+        TOMS 47 (2020)). The search misses pairs of roots between two samples (1/512 of a turn) of
+        which values and slopes show nothing, and roots within 1e-6 of a dead point; three within
+        1e-7 rad count as one. Gaps, also those of tables, are left out; what the drawing's branch
+        reaches beyond them is searched, if it is wider than 1/4096 of a turn.
 
         Examples
         --------
@@ -582,7 +582,7 @@ class Machine(MachineModel):
         Parameters
         ----------
         sense : int
-            +1 or −1: the way in which the drive moves, or is about to move.
+            +1 or −1: the direction in which the drive moves, or is about to move.
         speed, acceleration : float
             Of the driver, rad/s and rad/s² (slides: m/s and m/s²); at rest by default.
         between : (float, float), optional
@@ -639,7 +639,7 @@ class Machine(MachineModel):
         speed : array_like
             Speeds of the drivers before it, rad/s or m/s, broadcast to q.
         restitution : array_like
-            Of the obstacle: 0, the point stays with it, to 1, it leaves as fast as it came.
+            Of the obstacle: from 0, the point stays with it, to 1, it leaves as fast as it came.
         impulse : array_like, optional
             A given impulse along `load` instead of an obstacle, N·s.
         on_error : {"raise", "nan"}
@@ -659,12 +659,12 @@ class Machine(MachineModel):
 
         Notes
         -----
-        With H the reduced inertia and g the derivatives of the point's way along the force, H Δq̇ =
-        gᵀ P. An obstacle asks for g q̇⁺ = −e g q̇⁻, so P = −(1 + e) g q̇⁻ / (g H⁻¹ gᵀ), and the energy
-        ½ (1 − e²) (g q̇⁻)² / (g H⁻¹ gᵀ) is lost; with one driver all speeds are multiplied by −e.
-        Where the point moves away nothing happens. Loads, springs and friction are finite forces
-        and have no impulse; the drives are free (J. Wittenburg, *Dynamics of Multibody Systems*,
-        2008, ch. 8).
+        With H the reduced inertia and g the derivatives of the point's displacement along the
+        force, H Δq̇ = gᵀ P. An obstacle asks for g q̇⁺ = −e g q̇⁻, so P = −(1 + e) g q̇⁻ / (g H⁻¹
+        gᵀ), and the energy ½ (1 − e²) (g q̇⁻)² / (g H⁻¹ gᵀ) is lost; with one driver all speeds are
+        multiplied by −e. Nothing happens where the point moves away. Loads, springs and friction
+        are finite forces and have no impulse; the drives are free (J. Wittenburg, *Dynamics of
+        Multibody Systems*, 2008, ch. 8).
 
         Examples
         --------
@@ -706,7 +706,7 @@ class Machine(MachineModel):
         on_error : {"raise", "nan"}
             For a design of a batch without a flywheel: raise an error, or return NaN.
         turns : int
-            Turns of the driver after which the loads repeat: 2 for an engine of four strokes.
+            Turns of the driver after which the loads repeat: 2 for a four-stroke engine.
 
         Returns
         -------
@@ -921,8 +921,8 @@ class Machine(MachineModel):
         Notes
         -----
         Shooting integrates the square of the speed over a period, with its derivative by the
-        initial value, and corrects that value by Newton steps. Of several periodic motions it
-        finds the one with the highest speed below the first guess, which is stable.
+        initial value, and corrects that value by Newton steps. If there are several periodic
+        motions, it finds the one with the highest speed below the first guess, which is stable.
 
         Examples
         --------

@@ -54,7 +54,7 @@ class MachineModel:
         friction: Mapping[str, PairFriction] = MappingProxyType({}),
     ) -> None:
         self._make(mechanism, bodies, loads, motor, friction)
-        # Not of machines that are made from this one.
+        # Not for machines derived from this one.
         warn_of_open_takers(mechanism, self.loads, self.friction)
 
     def _make(
@@ -68,7 +68,7 @@ class MachineModel:
         components.check_types(mechanism, bodies)
         self.mechanism = mechanism
         self.bodies = MappingProxyType(
-            dict(components.body(mechanism, link, one) for link, one in bodies.items())
+            dict(components.body(mechanism, link, body) for link, body in bodies.items())
         )
         self.loads = tuple(components.as_list(loads, "loads"))
         self.driver_count = int(np.size(mechanism.q0))
@@ -99,13 +99,13 @@ class MachineModel:
 
     @classmethod
     def _made(cls, *parts_of_one: Any) -> Self:
-        """Return a machine of the parts of another one: of those the user has been warned."""
+        """Return a machine made of another's parts, of which the user has been warned already."""
         self = cls.__new__(cls)
         self._make(*parts_of_one)
         return self
 
     def of(self, mechanism: Mechanism) -> Self:
-        """Return a machine with the same parts of other designs of its mechanism.
+        """Return a machine with the same parts for other designs of its mechanism.
 
         Parameters
         ----------
@@ -219,13 +219,13 @@ class MachineModel:
     def explore(self, height: int = 640) -> Any:
         """Show the studio's view in a notebook: play, drag and change it there.
 
-        Both ways: what is changed there is in ``view.machine``, assigning ``view.machine`` redraws.
+        Both ways: changes there reach ``view.machine``, assigning ``view.machine`` redraws.
         Needs anywidget: ``pip install assur[notebook]``.
 
         Parameters
         ----------
         height : int
-            Of the cell, px.
+            Height of the cell, px.
 
         Returns
         -------
@@ -261,7 +261,7 @@ class MachineModel:
         return self._rebuild_with
 
     def _key(self) -> tuple[Any, ...]:
-        """All that it was made of."""
+        """All that the machine was made of."""
         if self.mechanism is None:
             return tuple(map(key_of, self._rebuild_with[1]))
         pairs = (frozenset(of.items()) for of in (self.bodies, self.friction))

@@ -96,8 +96,8 @@ def tolerance_pair(atol: Any) -> list[float] | None:
         return None
     array = finite_array(atol, "atol")
     if array.shape not in ((), (2,)):
-        wanted = "a number, or one for the coordinate and one for the speed"
-        message = f"atol is {short(atol)}: {wanted}"
+        needed = "a number, or one for the coordinate and one for the speed"
+        message = f"atol is {short(atol)}: {needed}"
         raise InputError(message)
     if (array <= 0.0).any():
         message = f"atol is {short(atol)}: positive numbers are needed"

@@ -16,7 +16,7 @@ def triad() -> Mechanism:
     """Class III at its simplest: a plate on a rod and two rockers.
 
     Crank 0.36 m, plate B, C, D of some 1.6 m, rockers CE and DF of 2.1 m and 2.2 m. The crank turns
-    fully. Look at ``assemblies``: up to six for one crank angle, as of every triad of turning
+    fully. Look at ``assemblies``: up to six for one crank angle, as for every triad of turning
     pairs.
 
     Returns

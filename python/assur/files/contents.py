@@ -51,8 +51,8 @@ class Contents:
         Results that the file asks for, by the name of the method (``"solve"``, ``"reactions"``,
         ``"run"``, ``"steady_state"``, ``"flywheel"``): its arguments.
     input_speed : float or tuple of float or None
-        The driver's speed, counter-clockwise in rad/s, or m/s of a slide; of several drivers one
-        each. No result depends on it: the studio plays at it.
+        The driver's speed, counter-clockwise in rad/s, or m/s for a slide; one each for several
+        drivers. No result depends on it: the studio plays at this speed.
 
     Examples
     --------
@@ -113,7 +113,7 @@ class Contents:
         FileError
             Arguments that the method refuses, at their section.
         PositionError, MotionError
-            As the method does.
+            As raised by the method.
         InputError
             A result that the file does not ask for.
 
@@ -125,8 +125,8 @@ class Contents:
         >>> float(contents.result("solve").slide("bore").value)              # m
         4.0
         """
-        given: object = name
-        if not isinstance(given, str) or given not in self.wanted:
+        asked: object = name
+        if not isinstance(asked, str) or asked not in self.wanted:
             known = ", ".join(self.wanted) or "none"
             message = f"the file does not ask for {short(name)}; it asks for: {known}"
             raise InputError(message)
@@ -153,7 +153,7 @@ def read(path: str | PathLike[str]) -> Contents:
     Returns
     -------
     Contents
-        The mechanism, the machine if there is one, and the results wanted.
+        The mechanism, the machine if there is one, and the requested results.
 
     Raises
     ------
@@ -185,13 +185,13 @@ def contents_of(source: Tree) -> Contents:
         raise entries["format"].error(message)
     mechanism = read_mechanism(root)
     machine = read_machine(root, mechanism)
-    found: Mapping[str, Result] = read_wanted(root, mechanism, machine is not None)
+    results: Mapping[str, Result] = read_wanted(root, mechanism, machine is not None)
     return Contents(
         mechanism,
         machine,
-        MappingProxyType({name: one.arguments for name, one in found.items()}),
+        MappingProxyType({name: result.arguments for name, result in results.items()}),
         read_input_speed(root, mechanism),
-        MappingProxyType({name: one.node for name, one in found.items()}),
+        MappingProxyType({name: result.node for name, result in results.items()}),
     )
 
 
@@ -201,20 +201,20 @@ def known_speed(input_speed: Any) -> InputSpeed:
     return None if several and None in input_speed else input_speed
 
 
-def _checked_speed(given: Any, mechanism: Mechanism) -> InputSpeed:
+def _checked_speed(speed: Any, mechanism: Mechanism) -> InputSpeed:
     count = mechanism.driver_count
     if count == 1:
-        return real_number(given, "input_speed")
-    if not isinstance(given, list | tuple) or len(given) != count:
+        return real_number(speed, "input_speed")
+    if not isinstance(speed, list | tuple) or len(speed) != count:
         message = (
-            f"input_speed is {short(given)}: a number for each of the {count} drivers is needed"
+            f"input_speed is {short(speed)}: a number for each of the {count} drivers is needed"
         )
         raise InputError(message)
-    return tuple(real_number(one, "input_speed") for one in given)
+    return tuple(real_number(number, "input_speed") for number in speed)
 
 
 def load(path: str | PathLike[str]) -> Any:
-    """Return the mechanism of a file, or its machine if it has one.
+    """Return the mechanism in a file, or its machine if it has one.
 
     Parameters
     ----------

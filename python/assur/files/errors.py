@@ -1,4 +1,4 @@
-"""The error of a file: where it is, and what is wrong there."""
+"""The error of a file: its place and its cause."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class FileError(InputError):
     path : str or None
         The file, as it was given.
     line, column : int or None
-        Where, from 1; None if the file cannot be opened at all.
+        The place, counted from 1; None if the file cannot be opened at all.
     key : str or None
         The key, such as ``"links.crank"`` or ``"loads[0].at"``; None if the text is not TOML.
 

@@ -1,4 +1,4 @@
-"""Tokens of TOML: enough to bound a text before it is parsed, and to find its keys after."""
+"""Tokens of TOML: enough to limit a text before it is parsed, and to find its keys afterwards."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TOKEN = re.compile(
     |(?P<quote>\"""|'''|"|')""",
     re.VERBOSE,
 )
-# A run of numbers in a list, of which there may be very many: each with at most one dot.
+# A run of numbers in a list, perhaps a very long one: each with at most one dot.
 NUMBERS = re.compile(
     r"(?:[+-]?[0-9][0-9_]{0,40}(?:\.[0-9]{1,40})?(?:[eE][+-]?[0-9]{1,9})?[ \t]*,\s*){1,500}"
 )
@@ -41,7 +41,7 @@ class Token(NamedTuple):
 def tokens(text: str, skip_numbers: bool = False) -> Iterator[Token]:
     """Yield the tokens without blanks, up to a string that does not end.
 
-    Linear in the length whatever the text. With `skip_numbers`, runs of numbers are left out.
+    Always linear in the length. With `skip_numbers`, runs of numbers are left out.
     """
     at = 0
     while at < len(text):
@@ -64,12 +64,12 @@ def tokens(text: str, skip_numbers: bool = False) -> Iterator[Token]:
 
 def _end_of_string(text: str, quote: str, at: int) -> int:
     """Return where a string ends whose content begins at a place; -1 if it does not."""
-    while found := ENDS[quote].search(text, at):
-        if found.group()[0] == quote[0]:
-            return found.end()
-        if found.group() == "\n":
+    while match := ENDS[quote].search(text, at):
+        if match.group()[0] == quote[0]:
+            return match.end()
+        if match.group() == "\n":
             return -1
-        at = found.end()
+        at = match.end()
     return -1
 
 

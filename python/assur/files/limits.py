@@ -1,4 +1,4 @@
-"""Limits of files: none of them is near what a mechanism needs, each spares memory and time."""
+"""Limits of files: all are far above what a mechanism needs, and save memory and time."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ MOST_BRACKETS = 16
 MOST_PARTS = 16
 # Letters of a name, a key or a number; messages quote them.
 MOST_LETTERS = 200
-# Joints, links or slides: a third of a second to read. One group of so many would take hours, for
-# its contours take time by the fourth power of its links (Ctrl-C stops that).
+# Joints, links or slides: a third of a second to read. A single group this large would take hours:
+# the time for its contours grows with the fourth power of its links (Ctrl-C stops it).
 MOST_ITEMS = 4000
 # Positions of a range.
 MOST_POSITIONS = 10_000_000

@@ -31,24 +31,26 @@ def key_of(error: AssurError, data: dict[str, Any]) -> KeyPath:
     data : dict
         The file, each value of the right type.
     """
-    given: dict[str, dict[str, Any]] = {what: data.get(what, {}) for what in SECTIONS}
-    made = {link: name for name, slide in given["slides"].items() for link in _made(name, slide)}
+    sections_of: dict[str, dict[str, Any]] = {what: data.get(what, {}) for what in SECTIONS}
+    made = {
+        link: name for name, slide in sections_of["slides"].items() for link in _made(name, slide)
+    }
     if error.kind == "bad_sign":
         return ("assembly", str(error.joint or error.slide))
     names = [n for n in (error.slide, error.link, error.joint, error.driver) if n is not None]
     for path, name, sections in _references(data):
-        is_known = name in made or any(name in given[section] for section in sections)
+        is_known = name in made or any(name in sections_of[section] for section in sections)
         if name in names and not is_known:
             return path
     if error.kind == "unknown" and names and names[0] in data.get("assembly", {}):
         return ("assembly", names[0])  # a joint, but not an inner one
     if error.driver is not None:
         return ("driver",)
-    own = (("slides", error.slide), ("links", error.link), ("joints", error.joint))
+    named_fields = (("slides", error.slide), ("links", error.link), ("joints", error.joint))
     # A name that is used twice is in another section than its field says.
-    other = ((section, name) for name in names for section in SECTIONS)
-    for section, named in (*own, *other):
-        if named in given[section]:
+    elsewhere = ((section, name) for name in names for section in SECTIONS)
+    for section, named in (*named_fields, *elsewhere):
+        if named in sections_of[section]:
             return (section, str(named))
     return next((("slides", made[name]) for name in names if name in made), ("links",))
 
@@ -72,10 +74,10 @@ def _references(data: dict[str, Any]) -> Iterator[tuple[KeyPath, str, tuple[str,
     for name in data.get("assembly", {}):
         yield ("assembly", name), name, ("joints", "slides")
     driver = data["driver"]
-    for i, one in enumerate(driver if isinstance(driver, list) else [driver]):
+    for i, drive in enumerate(driver if isinstance(driver, list) else [driver]):
         path: KeyPath = ("driver", i) if isinstance(driver, list) else ("driver",)
-        if isinstance(one, str):
-            yield path, one, ("links", "slides")
+        if isinstance(drive, str):
+            yield path, drive, ("links", "slides")
         else:
-            for key, link in one.items():
+            for key, link in drive.items():
                 yield (*path, key), link, ("links",)

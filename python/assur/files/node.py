@@ -1,4 +1,4 @@
-"""A value of a file with its key: read as what is expected there, or refused with its place."""
+"""A value of a file with its key, read as the expected type or refused with its place."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Node:
 
     @contextmanager
     def refusing(self, locate: Callable[[AssurError], KeyPath] | None = None) -> Iterator[None]:
-        """Raise what Python refuses as an error of this key, or of that which `locate` gives."""
+        """Raise what Python refuses as an error of this key, or of the key that `locate` gives."""
         try:
             yield
         except FileError:
@@ -158,13 +158,13 @@ def all_finite(values: list[float]) -> bool:
 
 def near(word: str, known: Iterable[str]) -> str:
     """Return a question that suggests what was meant, or nothing."""
-    plain = {one.lower(): one for one in known}
-    found = difflib.get_close_matches(word.lower(), plain, n=1)
-    return f"; did you mean {plain[found[0]]}?" if found else ""
+    plain = {candidate.lower(): candidate for candidate in known}
+    matches = difflib.get_close_matches(word.lower(), plain, n=1)
+    return f"; did you mean {plain[matches[0]]}?" if matches else ""
 
 
 def described(value: Any) -> str:
-    """Return what a value of TOML is, for a message."""
+    """Return the type of a TOML value, for a message."""
     if isinstance(value, dict):
         return "a table"
     if isinstance(value, list):

@@ -33,9 +33,9 @@ def build(cls: type, words: Words, node: Node, besides: Iterable[str] = ()) -> A
     parameters = inspect.signature(cls).parameters
     required = [name for name in words if parameters[name].default is inspect.Parameter.empty]
     entries = node.keys((*besides, *words), required=required)
-    given = {name: read(entries[name]) for name, read in words.items() if name in entries}
+    arguments = {name: read(entries[name]) for name, read in words.items() if name in entries}
     with node.refusing():
-        return cls(**given)
+        return cls(**arguments)
 
 
 def pair_of_values(node: Node) -> tuple[Any, Any]:

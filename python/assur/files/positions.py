@@ -1,4 +1,4 @@
-"""Where the keys of a TOML text are. Well-kept parsers do not say."""
+"""Where the keys of a TOML text are: maintained parsers do not say."""
 
 from __future__ import annotations
 

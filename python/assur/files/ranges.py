@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Range"]
 
-# A last step of a range that misses its end by so much of a step is not left out.
+# A last step of a range that misses its end by this fraction of a step is not left out.
 ROUNDING = 1e-9
 
 
@@ -34,7 +34,7 @@ class Range:
     step : float, optional
         The distance of two coordinates (one driver). Give either this or:
     count : int, optional
-        How many they are.
+        Number of coordinates.
     endpoint : bool
         With `count`: whether `stop` is one of them.
 
@@ -69,7 +69,7 @@ class Range:
             message = "a range needs either step or count"
             raise InputError(message)
         if np.shape(self.start) != np.shape(self.stop):
-            message = "a range needs as many numbers for start as for stop"
+            message = "a range needs the same number of numbers for start and stop"
             raise InputError(message)
         if self.step is not None and (np.shape(self.start) or not self.endpoint):
             message = "a range with several drivers, or without its end, needs count, not step"

@@ -36,11 +36,11 @@ def drawn_at(mechanism: Mechanism, section: Node, sized: Callable[[Node], Mechan
         Gives the mechanism with the dimensions of a section.
     """
     place = _place(mechanism, section, sized)
-    own = place.mechanism
+    base = place.mechanism
     with section.refusing():
-        core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
+        core = base.core.drawn_in(base.values.tolist(), list(place.q), place.numbers)
     drawn = at_place(mechanism, place, core)
-    _check(at_place(own, place, core), place, section)
+    _check(at_place(base, place, core), place, section)
     return drawn
 
 
@@ -103,10 +103,10 @@ def _named(section: Node, key: str, names: Iterable[str], read: Callable[[Node],
 def _check(drawn: MechanismModel, place: Place, section: Node) -> None:
     """Refuse a place in which the mechanism does not fit together."""
     motion = solve(drawn, drawn.q0, order=0, on_error="nan")
-    wanted: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
+    targets: Float = np.array(place.numbers["joints"]).reshape(-1, 2)
     there = np.array([motion.joint(name).value for name in drawn.joint_names]).reshape(-1, 2)
-    # The comparison is false of NaN.
-    if not bool((np.abs(there - wanted) <= SAME * size_of(drawn)).all()):
+    # The comparison is false for NaN.
+    if not bool((np.abs(there - targets) <= SAME * size_of(drawn)).all()):
         message = (
             "does not fit the dimensions: leave it to save(), or leave it out, and draw the "
             "mechanism in [joints]"

@@ -25,7 +25,7 @@ NO_MOTOR = "None"
 
 
 def read_machine(root: Node, mechanism: Mechanism) -> Machine | None:
-    """Return the machine of a file, if it has a section of one."""
+    """Return the machine of a file, if it has any of a machine's sections."""
     sections = {key: node for key, node in root.table().items() if key in SECTIONS}
     if not sections:
         return None
@@ -63,7 +63,8 @@ def _motors(node: Node) -> Any:
     if not isinstance(node.value, list):
         return _typed(node, MOTORS)
     return [
-        None if one.value == {"type": NO_MOTOR} else _typed(one, MOTORS) for one in node.entries()
+        None if entry.value == {"type": NO_MOTOR} else _typed(entry, MOTORS)
+        for entry in node.entries()
     ]
 
 

@@ -74,20 +74,20 @@ def read_slide(node: Node) -> Slide | Cylinder:
     if "angle" in entries and "along" in entries:
         raise node.error("has both angle and along: give one")
     texts = ("link", "on", "origin")
-    given: dict[str, Any] = {key: entries[key].text() for key in texts if key in entries}
+    arguments: dict[str, Any] = {key: entries[key].text() for key in texts if key in entries}
     if "length" in entries:
-        given["length"] = entries["length"].flag()
+        arguments["length"] = entries["length"].flag()
     if "angle" in entries:
-        return Slide(angle=entries["angle"].number(), **given)
+        return Slide(angle=entries["angle"].number(), **arguments)
     ends = entries["along"].names()
     if len(ends) != 2:
         raise entries["along"].error('needs two joints, ["A", "B"]')
-    return Slide(along=(ends[0], ends[1]), **given)
+    return Slide(along=(ends[0], ends[1]), **arguments)
 
 
 def read_driver(node: Node) -> DriverLike | list[DriverLike]:
     """Return the driver, or several."""
-    return [_one_driver(one) for one in node.entries()] if _is_list(node) else _one_driver(node)
+    return [_one_driver(entry) for entry in node.entries()] if _is_list(node) else _one_driver(node)
 
 
 def _one_driver(node: Node) -> DriverLike:
@@ -107,7 +107,7 @@ def read_input_speed(root: Node, mechanism: Mechanism) -> InputSpeed:
     count = mechanism.driver_count
     if count == 1:
         return node.number()
-    speeds = tuple(one.number() for one in node.entries(f"a list of {count} numbers"))
+    speeds = tuple(entry.number() for entry in node.entries(f"a list of {count} numbers"))
     if len(speeds) != count:
         message = f"has {len(speeds)} entries: a number for each of the {count} drivers is needed"
         raise node.error(message)
@@ -133,11 +133,11 @@ def with_dimensions(mechanism: Mechanism, section: Node) -> Mechanism:
 
 def _flatten(prefix: str, node: Node, into: dict[str, Node]) -> None:
     """Collect dimensions: coupler.length is a table within a table."""
-    for key, one in node.table().items():
+    for key, child in node.table().items():
         name = f"{prefix}.{key}" if prefix else key
-        if isinstance(one.value, dict):
-            _flatten(name, one, into)
+        if isinstance(child.value, dict):
+            _flatten(name, child, into)
         elif name in into:
-            raise one.error(f"dimension {name!r} is given twice")
+            raise child.error(f"dimension {name!r} is given twice")
         else:
-            into[name] = one
+            into[name] = child

@@ -43,9 +43,9 @@ class Source(Tree):
         self.path = file_name(path)
         self.text = self._decoded(self._bytes() if raw is None else self._few(raw))
         self._positions: dict[KeyPath, int] | None = None
-        found = beyond_limits(self.text)
-        if found is not None:
-            at, message = found
+        excess = beyond_limits(self.text)
+        if excess is not None:
+            at, message = excess
             raise self._at(*line_and_column(self.text, at), message)
         super().__init__(self._parsed())
 
@@ -69,7 +69,8 @@ class Source(Tree):
     def _decoded(self, raw: bytes) -> str:
         raw = raw.removeprefix(b"\xef\xbb\xbf")  # which some editors write first
         try:
-            # The parser takes a line end of Windows for one; a key is where it is in either.
+            # The parser counts Windows' line end as one character; keys are at the same line and
+            # column.
             return raw.decode("utf-8").replace("\r\n", "\n")
         except UnicodeDecodeError as error:
             before = raw[: error.start].decode("utf-8")
@@ -92,13 +93,13 @@ class Source(Tree):
     def _hint(self, line: int) -> str:
         """Return what may be meant by a line that is not TOML."""
         lines = self.text.split("\n")
-        found = ASSIGNED.match(lines[line - 1]) if line <= len(lines) else None
-        if found is None:
+        assigned = ASSIGNED.match(lines[line - 1]) if line <= len(lines) else None
+        if assigned is None:
             known = "assur.importers.read reads files of other programs"
             return "" if "=" in self.text else f"; {known}"
-        if found[1].startswith("("):
+        if assigned[1].startswith("("):
             return "; a place is written [0, 0]"
-        return '; a text is written in quotes, "…"' if found[1][:1].isalpha() else ""
+        return '; a text is written in quotes, "…"' if assigned[1][:1].isalpha() else ""
 
     def _at(self, line: int, column: int, message: str, key: str | None = None) -> FileError:
         named = f"{key}: " if key else ""

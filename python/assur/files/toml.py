@@ -1,4 +1,4 @@
-"""A tree as TOML that reads back with the same bits, written as one would by hand."""
+"""A tree as TOML that reads back with the same bits, written as by hand."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A description as a tree of tables, lists and values, wherever it is from.
+"""A description as a tree of tables, lists and values, from a file or elsewhere.
 
 A file adds where each key is (`Source`); what arrives otherwise, as JSON, has keys alone.
 """
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 __all__ = ["Tree", "shown"]
 
-# What messages of the package begin with; in a file the key says it.
+# How messages of the package begin; in a file the key says it.
 SUBJECTS = ("joint", "link", "slide", "cylinder", "driver", "dimension")
 
 
 class Tree:
-    """The data of a description, which raises what is wrong with it at its key.
+    """The data of a description; errors name the key.
 
     Parameters
     ----------

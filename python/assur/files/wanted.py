@@ -27,15 +27,15 @@ def _positions(node: Node) -> Any:
     if not isinstance(node.value, dict):
         return node.array()
     entries = node.keys(RANGE, required=("start", "stop"))
-    given: dict[str, Any] = {name: RANGE[name](one) for name, one in entries.items()}
+    arguments: dict[str, Any] = {name: RANGE[name](entry) for name, entry in entries.items()}
     with node.refusing():
-        return Range(**given)
+        return Range(**arguments)
 
 
 def _end(node: Node) -> float | tuple[float, ...]:
     if not isinstance(node.value, list):
         return node.number()
-    return tuple(one.number() for one in node.entries())
+    return tuple(entry.number() for entry in node.entries())
 
 
 def _order(node: Node) -> int:
@@ -113,13 +113,13 @@ WANTED: dict[str, dict[str, Callable[[Node], Any]]] = {
     },
 }
 NEEDED = {"flywheel": ("fluctuation",)}
-# Which of two is given: exactly one.
+# Pairs of keys, exactly one of which is given.
 EITHER = {"solve": ("q", "deg"), "reactions": ("q", "deg"), "run": ("t_end", "q_end")}
 
 
 def read_wanted(root: Node, mechanism: Mechanism, has_machine: bool) -> Mapping[str, Result]:
     """Return the results that a file asks for, by the name of the method."""
-    found: dict[str, Result] = {}
+    results: dict[str, Result] = {}
     for name, node in root.table().items():
         if name not in WANTED:
             continue
@@ -131,12 +131,12 @@ def read_wanted(root: Node, mechanism: Mechanism, has_machine: bool) -> Mapping[
             raise node.error(f"needs either {' or '.join(either)}")
         if "outputs" in entries:
             _check_outputs(entries["outputs"], mechanism)
-        given = {key: WANTED[name][key](one) for key, one in entries.items()}
-        found[name] = Result(MappingProxyType(given), node)
-    return MappingProxyType(found)
+        arguments = {key: WANTED[name][key](entry) for key, entry in entries.items()}
+        results[name] = Result(MappingProxyType(arguments), node)
+    return MappingProxyType(results)
 
 
 def _check_outputs(node: Node, mechanism: Mechanism) -> None:
     known = (*mechanism.joint_names, *mechanism.links, *mechanism.slides)
-    for one in node.entries("a list of names"):
-        one.word(known)
+    for entry in node.entries("a list of names"):
+        entry.word(known)

@@ -28,7 +28,7 @@ HEAD = ("format", "driver", "input_speed")
 
 
 def save(what: Mechanism | MachineModel | Contents, path: str | PathLike[str]) -> None:
-    """Write a mechanism, a machine, or both with the results wanted, to a TOML file.
+    """Write a mechanism, a machine, or both with the requested results, to a TOML file.
 
     Parameters
     ----------
@@ -92,8 +92,8 @@ def tree_of(what: Any) -> dict[str, Any]:
             raise InputError(message)
         machine = machine_tree(what)
         what = what.mechanism
-    own = what.description
-    for name, count in zip(("joints", "links", "slides"), map(len, own[:3]), strict=True):
+    description = what.description
+    for name, count in zip(("joints", "links", "slides"), map(len, description[:3]), strict=True):
         if count > MOST_ITEMS:
             message = f"the mechanism has {count} {name}: a file may have {MOST_ITEMS}"
             raise InputError(message)

@@ -39,7 +39,7 @@ def machine_tree(machine: MachineModel) -> dict[str, Any]:
         tree["motor"] = _motor(machine.motor, "motor")
     if machine.friction:
         pairs = machine.friction.items()
-        tree["friction"] = {name: part(one, f"friction[{name!r}]") for name, one in pairs}
+        tree["friction"] = {name: part(friction, f"friction[{name!r}]") for name, friction in pairs}
     return tree
 
 
@@ -53,20 +53,20 @@ def _typed(thing: Any, what: str) -> dict[str, Any]:
 
 
 def part(thing: Any, what: str) -> dict[str, Any]:
-    """Return what a part was given, without what it has by default."""
+    """Return the arguments of a part that differ from their defaults."""
     if type(thing) not in PARTS:
         message = f"{what} is of a class that a file cannot hold"
         raise InputError(message)
     parameters = inspect.signature(type(thing)).parameters
-    given = {}
+    arguments = {}
     for name in PARTS[type(thing)]:
         value = getattr(thing, name)
         if isinstance(thing, Table) and name == "periodic" and value == (thing.over is None):
             continue
         # By its repr: -0.0 is not 0.0.
         if repr(value) != repr(parameters[name].default):
-            given[name] = _value(value, f"{what}: {name}")
-    return given
+            arguments[name] = _value(value, f"{what}: {name}")
+    return arguments
 
 
 def _value(value: Any, what: str) -> Any:
@@ -74,13 +74,13 @@ def _value(value: Any, what: str) -> Any:
         rows = part(value, what)
         if value.over is not None:
             rows["over"] = value.over
-        return {name: one for name, one in rows.items() if name in ROWS}
+        return {name: column for name, column in rows.items() if name in ROWS}
     if isinstance(value, Gas):
         return part(value, what)
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, tuple):
-        return [_value(one, what) for one in value]
+        return [_value(item, what) for item in value]
     if callable(value):
         message = f"{what} is a function, which a file cannot hold: give a number or a Table"
         raise InputError(message)
@@ -95,19 +95,21 @@ def wanted_tree(wanted: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
         if unknown:
             message = f"wanted: a file has no {unknown[0]!r} of {name!r}"
             raise InputError(message)
-        tree[name] = {key: _argument(one, f"{name}: {key}") for key, one in arguments.items()}
+        tree[name] = {key: _argument(value, f"{name}: {key}") for key, value in arguments.items()}
     return tree
 
 
 def _argument(value: Any, what: str) -> Any:
     if isinstance(value, Range):
-        given = {name: getattr(value, name) for name in RANGE}
+        fields = {name: getattr(value, name) for name in RANGE}
         if value.endpoint:
-            given["endpoint"] = None
-        return {k: _argument(one, f"{what}.{k}") for k, one in given.items() if one is not None}
+            fields["endpoint"] = None
+        return {
+            k: _argument(field, f"{what}.{k}") for k, field in fields.items() if field is not None
+        }
     if isinstance(value, str | bool):
         return value
-    if isinstance(value, list | tuple) and all(isinstance(one, str) for one in value):
+    if isinstance(value, list | tuple) and all(isinstance(item, str) for item in value):
         return value
     plain = finite_array(value, what).tolist()
     # Whole numbers stay whole: max_steps.

@@ -25,7 +25,7 @@ def driver_value(mechanism: Mechanism) -> Any:
     """Return the driver as a value of a file."""
     driver = mechanism.driver
     if isinstance(driver, tuple):
-        return [_one_driver(one) for one in driver]
+        return [_one_driver(drive) for drive in driver]
     return _one_driver(driver)
 
 
@@ -37,18 +37,18 @@ def _one_driver(driver: DriverLike) -> Any:
 
 def mechanism_tree(mechanism: Mechanism) -> dict[str, Any]:
     """Return the tables of a mechanism."""
-    own = mechanism.description
-    links, slides = with_cylinders(own)
+    description = mechanism.description
+    links, slides = with_cylinders(description)
     tree: dict[str, Any] = {
-        "joints": {name: [x, y] for name, x, y in own.joints},
+        "joints": {name: [x, y] for name, x, y in description.joints},
         "links": {name: list(on) for name, on in links},
     }
     if slides:
         tree["slides"] = dict(slides)
-    if own.assembly:
-        tree["assembly"] = dict(own.assembly)
+    if description.assembly:
+        tree["assembly"] = dict(description.assembly)
     # The core of a mechanism that is drawn elsewhere has the drawing of that place.
-    core = mechanism.core if mechanism.place is None else encode.core_of(own)
+    core = mechanism.core if mechanism.place is None else encode.core_of(description)
     drawing = np.array(core.drawing)
     if mechanism.shape or mechanism.values.tobytes() != drawing.tobytes():
         tree["dimensions"] = _dimensions(mechanism)
@@ -58,32 +58,32 @@ def mechanism_tree(mechanism: Mechanism) -> dict[str, Any]:
 
 
 def with_cylinders(
-    own: Description,
+    description: Description,
 ) -> tuple[list[tuple[str, tuple[str, ...]]], list[tuple[str, dict[str, Any]]]]:
     """Return links and slides, each slide between two links of its own as a cylinder."""
-    links, slides = dict(own.links), []
+    links, slides = dict(description.links), []
     cylinders: list[tuple[str, tuple[str, ...]]] = []
-    for name, slide in own.slides:
+    for name, slide in description.slides:
         barrel, rod = links.get(slide.on, ()), links.get(slide.link, ())
         short_form: dict[str, Any] | None = None
         if len(barrel) == len(rod) == 1 and slide.origin == barrel[0] and barrel != rod:
             names = (slide.on, slide.link)
-            given = [
+            ends = [
                 None if link == f"{name}_{part}" else link
                 for link, part in zip(names, ("barrel", "rod"), strict=True)
             ]
-            one = Cylinder(barrel[0], rod[0], *given)
-            short_form = _same_cylinder(name, one, own, slide)
+            cylinder = Cylinder(barrel[0], rod[0], *ends)
+            short_form = _same_cylinder(name, cylinder, description, slide)
         if short_form is None:
             slides.append((name, _slide(slide)))
         else:
             slides.append((name, short_form))
             cylinders += [(slide.on, barrel), (slide.link, rod)]
     # A cylinder adds its links at the end; elsewhere they are written as links.
-    rest = own.links[: len(own.links) - len(cylinders)]
-    if (*rest, *cylinders) == own.links:
+    rest = description.links[: len(description.links) - len(cylinders)]
+    if (*rest, *cylinders) == description.links:
         return list(rest), slides
-    return list(own.links), [(name, _slide(slide)) for name, slide in own.slides]
+    return list(description.links), [(name, _slide(slide)) for name, slide in description.slides]
 
 
 def _slide(slide: Any) -> dict[str, Any]:
@@ -92,32 +92,34 @@ def _slide(slide: Any) -> dict[str, Any]:
     return _present(slide, ("link", "on", "angle", "origin")) | length
 
 
-def _same_cylinder(name: str, one: Cylinder, own: Description, slide: Any) -> dict[str, Any] | None:
+def _same_cylinder(
+    name: str, cylinder: Cylinder, description: Description, slide: Any
+) -> dict[str, Any] | None:
     """Return a cylinder as a table, if it makes the same slide to the last bit."""
     try:
-        made, _ = encode.cylinder(name, one, own.joints)
+        made, _ = encode.cylinder(name, cylinder, description.joints)
     except InputError:
         return None
     same = made == slide and repr(made.angle) == repr(slide.angle)
-    return _present(one, ("base", "end", "barrel", "rod")) if same else None
+    return _present(cylinder, ("base", "end", "barrel", "rod")) if same else None
 
 
 def _present(thing: Any, names: tuple[str, ...]) -> dict[str, Any]:
     """Return the attributes that are not None."""
-    given = {name: getattr(thing, name) for name in names}
-    return {name: value for name, value in given.items() if value is not None}
+    values = {name: getattr(thing, name) for name in names}
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def _dimensions(mechanism: MechanismModel) -> dict[str, Any]:
-    """Return all dimensions; of a batch, lists of those that differ."""
+    """Return all dimensions; for a batch, lists of those that differ."""
     names, values = mechanism.core.dimension_names, mechanism.values
     if values.size == 0 and names:
         message = f"a batch {mechanism.shape} without designs cannot be saved"
         raise InputError(message)
-    own = [_same_or_all(one) for one in values]
-    if mechanism.shape and not any(isinstance(one, list) for one in own):
-        own = values.tolist()
-    return dict(zip(names, own, strict=True))
+    entries = [_same_or_all(column) for column in values]
+    if mechanism.shape and not any(isinstance(entry, list) for entry in entries):
+        entries = values.tolist()
+    return dict(zip(names, entries, strict=True))
 
 
 def _same_or_all(values: Float) -> Any:
@@ -133,27 +135,27 @@ def _drawn(mechanism: MechanismModel, place: Place, depth: int = 1) -> dict[str,
         message = "too many assemblies, each found from the one before: with_assembly() once, of "
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
-    own, numbers = place.mechanism, place.numbers
-    if not np.isfinite([*at_place(own, place, mechanism.core).joints.values()]).all():
+    base, numbers = place.mechanism, place.numbers
+    if not np.isfinite([*at_place(base, place, mechanism.core).joints.values()]).all():
         at = ", ".join(f"{q:.6g}" for q in place.q)
         message = (
             f"{short(mechanism)} cannot be saved: with its signs it does not exist at q = {at}, "
             "where its assembly was found: with_assembly() of one that assemblies() finds"
         )
         raise InputError(message)
-    signs = dict(zip((n for n, _ in own.core.assembly), numbers["signs"], strict=True))
+    signs = dict(zip((n for n, _ in base.core.assembly), numbers["signs"], strict=True))
     entries: dict[str, Any] = {
         "q": list(place.q),
         "is_double": numbers["is_double"],
         "signs": signs,
         "class_angles": numbers["class_angles"],
-        "slides": dict(zip(own.slides, numbers["slides"], strict=True)),
-        "joints": dict(zip(own.joint_names, map(list, numbers["joints"]), strict=True)),
-        "angles": dict(zip(own.links, numbers["angles"], strict=True)),
+        "slides": dict(zip(base.slides, numbers["slides"], strict=True)),
+        "joints": dict(zip(base.joint_names, map(list, numbers["joints"]), strict=True)),
+        "angles": dict(zip(base.links, numbers["angles"], strict=True)),
     }
     tree = {k: v for k, v in entries.items() if v or k in ("q", "joints", "angles")}
-    if own.values.tobytes() != mechanism.values.tobytes():
-        tree["dimensions"] = _dimensions(own)
-    if own.place is not None:
-        tree["drawn"] = _drawn(own, own.place, depth + 1)
+    if base.values.tobytes() != mechanism.values.tobytes():
+        tree["dimensions"] = _dimensions(base)
+    if base.place is not None:
+        tree["drawn"] = _drawn(base, base.place, depth + 1)
     return tree

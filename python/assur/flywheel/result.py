@@ -1,4 +1,4 @@
-"""What is known of a machine with a flywheel in steady motion, whatever its motor."""
+"""A machine with its flywheel in steady motion, with any motor."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLOT_POINTS = 721
 
 
 class Flywheel(Tabular, ABC):
-    """A machine with its flywheel in steady motion, whatever its motor.
+    """A machine with its flywheel in steady motion, with any motor.
 
     Made by `from_table` and `evaluate` (with a constant motor) and by `Machine.flywheel`. Numbers
     and curves have the shape of the batch.
@@ -211,7 +211,7 @@ class Flywheel(Tabular, ABC):
     def reduced_moment(self, q: npt.ArrayLike) -> Any:
         """Return the reduced moment of the loads at coordinates, N·m, without the motor.
 
-        Of a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
+        For a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
 
         Parameters
         ----------

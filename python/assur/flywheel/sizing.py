@@ -185,9 +185,9 @@ def from_table(
         missing = "fluctuation" if fluctuation is None else "mean_speed"
         message = f"{missing} is missing: both fluctuation and mean_speed are needed"
         raise InputError(message)
-    wanted = (fluctuation, "fluctuation"), (mean_speed, "mean_speed")
+    asked = (fluctuation, "fluctuation"), (mean_speed, "mean_speed")
     return tabulated_flywheel(
-        phi, moment, inertia, spline, "fluctuation", wanted, mean, on_error, threads
+        phi, moment, inertia, spline, "fluctuation", asked, mean, on_error, threads
     )
 
 
@@ -245,8 +245,8 @@ def evaluate(
         raise InputError(message)
     task: Task = "initial speed" if mean_speed is None else "mean speed"
     second = (speed0, "speed0") if mean_speed is None else (mean_speed, "mean_speed")
-    wanted = (flywheel, "flywheel"), second
-    return tabulated_flywheel(phi, moment, inertia, spline, task, wanted, mean, on_error, threads)
+    asked = (flywheel, "flywheel"), second
+    return tabulated_flywheel(phi, moment, inertia, spline, task, asked, mean, on_error, threads)
 
 
 def tabulated_flywheel(
@@ -255,7 +255,7 @@ def tabulated_flywheel(
     inertia: npt.ArrayLike,
     spline: Spline,
     task: Task,
-    wanted: tuple[tuple[Any, str], tuple[Any, str]],
+    asked: tuple[tuple[Any, str], tuple[Any, str]],
     mean: Mean,
     on_error: str,
     threads: int | None,
@@ -279,7 +279,7 @@ def tabulated_flywheel(
                 f"{name} has the shape {column.shape}: its last axis must have the {x.size} of phi"
             )
             raise InputError(message)
-    numbers = [real_array(value, name) for value, name in wanted]
+    numbers = [real_array(value, name) for value, name in asked]
     try:
         shape = np.broadcast_shapes(m.shape[:-1], i.shape[:-1], *(n.shape for n in numbers))
     except ValueError as error:

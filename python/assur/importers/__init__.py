@@ -101,25 +101,25 @@ def read(
     ('pyslvs', 'crank')
     """
     opened = open_source(source)
-    found = detect(opened.name, opened.text) if format is None else format
-    if found is None:
+    kind = detect(opened.name, opened.text) if format is None else format
+    if kind is None:
         known = ", ".join(FORMATS)
         raise opened.error("", f"the text is of no known format: {known} are read")
-    one_of(found, FORMATS, "format")
-    if found == "linkage2" and drivers is None:
+    one_of(kind, FORMATS, "format")
+    if kind == "linkage2" and drivers is None:
         return linkage2.read(opened, scale=scale, assembly=assembly)
     unit = 1.0 if scale is None else scale
-    if found == "pyslvs":
+    if kind == "pyslvs":
         pairs = () if drivers is None else drivers
         return pyslvs.read(opened, pairs, scale=unit, assembly=assembly)
     if drivers is not None:
-        raise opened.error("", f"drivers are for pyslvs: a file of {found} names its own")
+        raise opened.error("", f"drivers are for pyslvs: a file of {kind} names its own")
     readers = {
         "pmks": pmks.read,
         "pmks_plus": pmks_plus.read,
         "pylinkage": pylinkage.read,
     }
-    return readers[found](opened, scale=unit, assembly=assembly)
+    return readers[kind](opened, scale=unit, assembly=assembly)
 
 
 def detect(path: Any, text: str) -> str | None:
@@ -144,8 +144,8 @@ def detect(path: Any, text: str) -> str | None:
     ('linkage2', None)
     """
     ending = "" if path is None else checked_path(path).suffix.lower()
-    given: object = text
-    if not isinstance(given, str):
+    content: object = text
+    if not isinstance(content, str):
         message = f"text is {short(text)}: the text of a file is needed"
         raise InputError(message)
     if ENDINGS.get(ending):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from assur.importers.sketch import Input, Sketch
     from assur.importers.source import Source
 
-# Part of the file's resolution from which on a move of joints is said.
+# Fraction of the file's resolution from which moves of joints are reported.
 LEAST_SAID = 1e-6
 
 
@@ -76,10 +76,12 @@ def finish(
     source.require_few(len(sketch.joints))
     source.require_few(len(sketch.links) + len(sketch.slots) + len(sketch.cylinders), "links")
     source.require_few(sum(map(len, sketch.links.values())) // 4, "joints of links")
-    given = bool(sketch.inputs)
+    had_inputs = bool(sketch.inputs)
     tidy(source, sketch)
     if not sketch.inputs:
-        why = "what its input drives is left out" if given else "no joint is marked as its input"
+        why = (
+            "what its input drives is left out" if had_inputs else "no joint is marked as its input"
+        )
         left = " ".join(sketch.omitted)
         raise source.error("", f"the linkage has no driver: {why}. {left}".rstrip())
     return _build(source, sketch, source_format, scale, assembly)
@@ -184,8 +186,8 @@ class _Mapping:
         }
 
     def _all(self, kind: str, keys: Iterable[Any]) -> dict[str, str]:
-        found = {key: self._names.add(key) for key in keys}
-        for key, name in found.items():
+        names = {key: self._names.add(key) for key in keys}
+        for key, name in names.items():
             if name != key:
                 self.changed.append(f"{kind} {key[:60]!r} is called {name}.")
-        return found
+        return names

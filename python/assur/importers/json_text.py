@@ -30,7 +30,7 @@ def parse_json(source: Source) -> dict[str, Any]:
 
 
 def has_numbers_as_ids(text: str) -> bool:
-    """Whether the joints of a JSON text are numbered: none of the formats does so."""
+    """Whether the joints of a JSON text are numbered, as in none of the formats."""
     try:
         data = json.loads(text)
     except (ValueError, RecursionError):
@@ -39,40 +39,40 @@ def has_numbers_as_ids(text: str) -> bool:
     if not isinstance(joints, list):
         return False
     ids = [joint.get("id") for joint in joints if isinstance(joint, dict)]
-    return bool(ids) and all(isinstance(one, int | float) for one in ids)
+    return bool(ids) and all(isinstance(identifier, int | float) for identifier in ids)
 
 
 def items_of(source: Source, data: dict[str, Any], key: str) -> list[dict[str, Any]]:
     """Return a list of objects."""
-    found = data.get(key)
-    if not isinstance(found, list) or not found:
-        raise source.wrong("", repr(key), found, "a list of objects")
-    for index, item in enumerate(found):
+    items = data.get(key)
+    if not isinstance(items, list) or not items:
+        raise source.wrong("", repr(key), items, "a list of objects")
+    for index, item in enumerate(items):
         if not isinstance(item, dict):
             raise source.error(f"{key}[{index}]", f"an object is needed, not {short(item)}")
-    return found
+    return items
 
 
 def words_of(source: Source, item: dict[str, Any], key: str, place: str) -> list[str]:
     """Return a list of names that is not empty."""
-    found = item.get(key)
-    if not isinstance(found, list) or not found or not all(isinstance(w, str) for w in found):
-        raise source.wrong(place, repr(key), found, "a list of names")
-    return found
+    words = item.get(key)
+    if not isinstance(words, list) or not words or not all(isinstance(w, str) for w in words):
+        raise source.wrong(place, repr(key), words, "a list of names")
+    return words
 
 
 def word_of(source: Source, item: dict[str, Any], key: str, place: str) -> str:
     """Return a name."""
-    found = item.get(key)
-    if not isinstance(found, str):
-        raise source.wrong(place, repr(key), found, "a name")
-    return found
+    word = item.get(key)
+    if not isinstance(word, str):
+        raise source.wrong(place, repr(key), word, "a name")
+    return word
 
 
 def point_of(source: Source, item: dict[str, Any], key: str, place: str) -> tuple[float, float]:
     """Return two numbers."""
-    found = item.get(key)
-    if not isinstance(found, list) or len(found) != 2:
-        raise source.wrong(place, repr(key), found, "a list of two numbers")
-    x, y = (source.number(number, place, key) for number in found)
+    numbers = item.get(key)
+    if not isinstance(numbers, list) or len(numbers) != 2:
+        raise source.wrong(place, repr(key), numbers, "a list of two numbers")
+    x, y = (source.number(number, place, key) for number in numbers)
     return x, y

@@ -29,18 +29,18 @@ def on_circle(centre: Point, radius: float, hint: Point) -> Point:
 
 
 def on_two_circles(
-    one: Point, other: Point, radii: tuple[float, float], hint: Point
+    first: Point, second: Point, radii: tuple[float, float], hint: Point
 ) -> Point | float:
     """Return the crossing of two circles that is nearest to a place, or by how much they miss."""
     r, s = radii
-    u, v = other[0] - one[0], other[1] - one[1]
+    u, v = second[0] - first[0], second[1] - first[1]
     d = math.sqrt(u * u + v * v)
     miss = max(d - (r + s), abs(r - s) - d)
     if d == 0.0 or miss > TOUCH * max(r, s):
         return max(miss, 0.0)
     along = ((r - s) * (r + s) + d * d) / (2.0 * d)
     across = math.sqrt(max((r - along) * (r + along), 0.0))
-    return _nearest(one, (u / d, v / d), along, across, hint)
+    return _nearest(first, (u / d, v / d), along, across, hint)
 
 
 def on_line(centre: Point, radius: float, line: tuple[Point, Point], hint: Point) -> Point | float:

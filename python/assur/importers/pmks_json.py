@@ -33,8 +33,8 @@ def read_json(source: Source, sketch: Sketch) -> None:
     if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(kinds):
         needed = f"the index of one of the {len(kinds)} joints is needed"
         raise source.error("", f"DrivingIndex is {short(index)}: {needed}")
-    given = data.get("InputSpeed")
-    speed = None if given is None else source.number(given, "", "InputSpeed")
+    input_speed = data.get("InputSpeed")
+    speed = None if input_speed is None else source.number(input_speed, "", "InputSpeed")
     add_input(source, sketch, f"J{index + 1}", kinds[index], f"Joints[{index}]", speed, unit=1.0)
 
 

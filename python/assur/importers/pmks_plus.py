@@ -136,7 +136,7 @@ def _drive(
     links: list[Link],
     speeds: tuple[float, float | None],
 ) -> None:
-    """Inputs: of a block either joint may be marked."""
+    """Inputs: either joint of a block may be marked."""
     blocks = {name: link.joints for link in links if link.block for name in link.joints}
     driven: set[str] = set()
     for joint in joints:

@@ -45,8 +45,8 @@ class Joint:
 
 def is_text(text: str) -> bool:
     """Whether a text has the fields j= and l= of an address."""
-    found = _fields(text[:100_000])
-    return "j" in found and "l" in found
+    fields = _fields(text[:100_000])
+    return "j" in fields and "l" in fields
 
 
 def read_fields(source: Source, sketch: Sketch, scale: float) -> None:
@@ -101,8 +101,8 @@ def _joint(source: Source, sketch: Sketch, place: str, row: list[str]) -> Joint:
     if kind not in ("R", "P"):
         raise source.wrong(place, f"the type of joint {short(name)}", kind, "R or P", joint=name)
     x, y = (source.number(word, place, what) for word, what in zip(row[1:3], "xy", strict=True))
-    given = row[6] if row[6:] and row[6] else "0"
-    angle = source.number(given, place, "the angle") if kind == "P" else 0.0
+    angle_text = row[6] if row[6:] and row[6] else "0"
+    angle = source.number(angle_text, place, "the angle") if kind == "P" else 0.0
     fixed = _flag(source, place, row[5], "on the frame")
     is_input = _flag(source, place, row[8] if row[8:] else "f", "the input")
     sketch.joints[name] = (x, y)
@@ -121,8 +121,8 @@ def _add_link(source: Source, sketch: Sketch, place: str, row: list[str]) -> Non
     members = [word for word in row[5].split("|") if word] if row[5:] else []
     if not name or not members:
         needed = "id, mass, inertia, centre of mass and joints are needed"
-        raise source.error(place, f"{short(','.join(row))} is no link: {needed}")
-    # A link that is called as the frame is not the frame.
+        raise source.error(place, f"{short(','.join(row))} is not a link: {needed}")
+    # A link with the frame's name is not the frame.
     key = f"{name} " if name == GROUND else name
     if key in sketch.links:
         raise source.error(place, f"a second link {short(name)}", link=name)
@@ -135,8 +135,8 @@ def _add_link(source: Source, sketch: Sketch, place: str, row: list[str]) -> Non
 
 def _connect(source: Source, sketch: Sketch, joint: Joint) -> None:
     """Fix a joint to the frame, or let it slide there."""
-    own = {f"{name} " if name == GROUND else name for name in joint.links}
-    missing = sorted(own - set(sketch.links_at(joint.id)))
+    links = {f"{name} " if name == GROUND else name for name in joint.links}
+    missing = sorted(links - set(sketch.links_at(joint.id)))
     if missing:
         problem = f"joint {short(joint.id)} is on link {short(missing[0])}, which does not have it"
         raise source.error(joint.place, problem, joint=joint.id)

@@ -1,8 +1,9 @@
 """Records of PMKS+: what an address holds after its question mark.
 
-Parts are parted by dots: flags, decimals, whole numbers, units, then a record a joint, an empty
-part, a record a link, an empty part, a record a force, and the selection with a letter that checks
-the length. Newer addresses go on behind an asterisk, which the letter does not count.
+Parts are separated by dots: flags, decimals, whole numbers, units, then a record for each joint, an
+empty part, a record for each link, an empty part, a record for each force, and the selection with a
+letter that checks the length. Newer addresses go on behind an asterisk, which the letter does not
+count.
 
 joint
     a digit of flags (slides, input, frame, welded, path, cylinder), its id, name, x, y, angle in
@@ -84,11 +85,11 @@ def parts(source: Source, sketch: Sketch) -> list[str]:
     if not is_checked(held):
         problem = "the last letter does not agree with the length: the address was cut or changed"
         raise source.error("", problem)
-    found = held[:-1].split(".")
-    if len(found) < 6:
-        raise source.error("", f"{len(found)} parts: settings, joints and links are needed")
-    source.require_few(len(found) // 3, "records")
-    return found
+    records = held[:-1].split(".")
+    if len(records) < 6:
+        raise source.error("", f"{len(records)} parts: settings, joints and links are needed")
+    source.require_few(len(records) // 3, "records")
+    return records
 
 
 def settings(
@@ -109,17 +110,17 @@ def settings(
 
 def sections(source: Source, parts: list[str]) -> list[list[str]]:
     """Return the records of joints, links and forces, each ended by an empty part."""
-    found: list[list[str]] = []
+    records: list[list[str]] = []
     for what in ("joints", "links", "forces"):
         if "" not in parts:
             if what != "forces":
                 raise source.error("", f"the records of {what} have no end")
-            found.append(parts[:-1])
-            return found
+            records.append(parts[:-1])
+            return records
         end = parts.index("")
-        found.append(parts[:end])
+        records.append(parts[:end])
         parts = parts[end + 1 :]
-    return found
+    return records
 
 
 def joint_of(source: Source, place: str, text: str) -> Joint:
@@ -127,10 +128,10 @@ def joint_of(source: Source, place: str, text: str) -> Joint:
     words = text.split(",")
     if len(words) < 5 or not words[0][1:]:
         needed = "flags, id, name, x, y and angle are needed"
-        raise source.error(place, f"{short(text)} is no joint: {needed}")
+        raise source.error(place, f"{short(text)} is not a joint: {needed}")
     flags = DIGITS.find(words[0][0])
     if flags < 0:
-        raise source.error(place, f"the flags {words[0][0]!r} are no digit")
+        raise source.error(place, f"the flags {words[0][0]!r} are not a digit")
     x, y, angle = (
         decimal(source, word, place, what)
         for word, what in zip(words[2:5], ("x", "y", "the angle"), strict=True)
@@ -139,7 +140,7 @@ def joint_of(source: Source, place: str, text: str) -> Joint:
     if slot and (len(slot) != 3 or slot[1] == slot[2] or flags & 4 or not flags & 1):
         problem = "the slot needs a link and two of its joints, and no place on the frame"
         raise source.error(place, f"{problem}: {listed(slot)}", joint=words[0][1:])
-    own = decimal(source, words[8], place, "the speed") if words[8:9] not in ([], [""]) else 0.0
+    speed = decimal(source, words[8], place, "the speed") if words[8:9] not in ([], [""]) else 0.0
     return Joint(
         place=place,
         id=words[0][1:],
@@ -150,7 +151,7 @@ def joint_of(source: Source, place: str, text: str) -> Joint:
         fixed=bool(flags & 4),
         welded=bool(flags & 8),
         slot=slot,
-        speed=own or None,
+        speed=speed or None,
     )
 
 
@@ -159,7 +160,7 @@ def links_of(source: Source, place: str, text: str) -> list[Link]:
     words = text.split(",")
     if len(words) < 8 or len(words[0]) < 3 or words[0][0] not in ROOTS + PARTS:
         needed = "kind, id, name, mass, inertia, centre, colour and joints are needed"
-        raise source.error(place, f"{short(text)} is no link: {needed}")
+        raise source.error(place, f"{short(text)} is not a link: {needed}")
     if words[0][1] not in "RP":
         raise source.error(place, f"the kind {words[0][1]!r} is neither R nor P")
     if words[0][0] in PARTS:

@@ -1,4 +1,4 @@
-"""The text of PMKS: a line a joint, also in an address after ``mech=``, parted by ``|``.
+"""The text of PMKS: a line per joint; in an address after ``mech=``, separated by ``|``.
 
 A line has the names of the joint's links, its type (R, P, RP), x, y, for P and RP the direction of
 the guide in degrees, and four letters t or f, the last of which marks the input. The first link
@@ -97,7 +97,7 @@ def _record(
     words = [word for word in re.split(r"[,\s]+", text) if word]
     at = max((i for i, word in enumerate(words) if word.upper() in TYPES), default=0)
     if not at:
-        problem = f"{short(text.strip())} is no joint: its links, R, P or RP, x and y are needed"
+        problem = f"{short(text.strip())} is not a joint: its links, R, P or RP, x and y are needed"
         raise source.error(place, problem)
     links, kind, rest = words[:at], words[at].upper(), words[at + 1 :]
     flags = ""

@@ -51,7 +51,7 @@ def read(
     Returns
     -------
     Imported
-        Its speed is rad a step: pylinkage has no time.
+        Its speed is in rad per step: pylinkage has no time.
 
     Raises
     ------
@@ -156,8 +156,8 @@ def _add_link(
     if motor not in sketch.links.get(key, ()) or motor not in sketch.links[GROUND]:
         problem = f"motor joint {short(motor)} of link {short(name)} must be a ground joint of it"
         raise source.error(place, problem, link=name)
-    given = link.get("angular_velocity")
-    speed = None if given is None else source.number(given, place, "angular_velocity")
+    velocity = link.get("angular_velocity")
+    speed = None if velocity is None else source.number(velocity, place, "angular_velocity")
     sketch.inputs.append(Input(place, joint=motor, link=key, base=GROUND, speed=speed))
     if kind == "arc_driver":
         sketch.omitted.append(f"Driver {name} turns to and fro: its limits are left out.")

@@ -60,12 +60,12 @@ def read_dyads(source: Source, sketch: Sketch, joints: list[dict[str, Any]]) -> 
         left.append((place, name, kind, joint))
     while left:
         waiting = []
-        for one in left:
-            dyad = _Dyad(source, sketch, *one)
+        for item in left:
+            dyad = _Dyad(source, sketch, *item)
             if dyad.is_ready(names):
                 dyad.add()
             else:
-                waiting.append(one)
+                waiting.append(item)
         if len(waiting) == len(left):
             place, name, _, _ = waiting[0]
             problem = f"joint {short(name)} waits for parents that wait for it"
@@ -127,14 +127,14 @@ class _Dyad:
         self._sketch.inputs.append(driven)
 
     def _add_revolute(self) -> None:
-        one, other = self._parent("joint0"), self._parent("joint1")
+        first, second = self._parent("joint0"), self._parent("joint1")
         radii = self._length("distance0"), self._length("distance1")
-        at = on_two_circles(self._at(one), self._at(other), radii, self._hint(one))
+        at = on_two_circles(self._at(first), self._at(second), radii, self._hint(first))
         if isinstance(at, float):
             problem = f"the links of joint {short(self._name)} miss each other by {at:g}"
             raise self._error(problem, at)
-        self._bar(one, at)
-        self._bar(other, at)
+        self._bar(first, at)
+        self._bar(second, at)
 
     def _add_fixed(self) -> None:
         origin, toward = self._parent("joint0"), self._parent("joint1")
@@ -210,10 +210,10 @@ class _Dyad:
     def _hint(self, parent: str) -> Point:
         """Return x and y, or the parent's place where they are null."""
         x, y = self._at(parent)
-        given = (self._data.get("x"), self._data.get("y"))
+        written = (self._data.get("x"), self._data.get("y"))
         return (
-            x if given[0] is None else self._number("x"),
-            y if given[1] is None else self._number("y"),
+            x if written[0] is None else self._number("x"),
+            y if written[1] is None else self._number("y"),
         )
 
     def _number(self, key: str) -> float:
@@ -227,5 +227,5 @@ class _Dyad:
         return value
 
     def _error(self, problem: str, value: float | None = None) -> Exception:
-        found = None if value is None or not math.isfinite(value) else value
-        return self._source.error(self._place, problem, joint=self._name, value=found)
+        finite = None if value is None or not math.isfinite(value) else value
+        return self._source.error(self._place, problem, joint=self._name, value=finite)

@@ -51,7 +51,7 @@ def read(
     Raises
     ------
     InputError
-        What is no expression, with its line; drivers that turn nothing.
+        A text that is not an expression, with its line; drivers that turn nothing.
     StructureError
         A linkage that is not a mechanism.
 
@@ -131,7 +131,7 @@ def _input(source: Source, sketch: Sketch, driver: tuple[int, int]) -> Input:
         raise source.error(place, f"joint {joint} does not slide", joint=joint)
     both = set(sketch.links_at(base)) & set(sketch.links_at(joint)) - {GROUND}
     if len(both) != 1:
-        found = listed(sorted(both)) or "none"
-        problem = f"one moving link must have joints {base} and {joint}, not {found}"
+        names = listed(sorted(both)) or "none"
+        problem = f"one moving link must have joints {base} and {joint}, not {names}"
         raise source.error(place, problem, joint=joint)
     return Input(place, joint=base, link=both.pop())

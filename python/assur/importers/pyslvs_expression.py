@@ -127,9 +127,9 @@ class Expression:
             raise self._wrong(repr(token))
         self._next()
 
-    def _wrong(self, wanted: str) -> InputError:
-        found = short(self._token) if self._token else "the end"
-        return self._source.error(f"line {self.line}", f"{wanted} is needed here, not {found}")
+    def _wrong(self, needed: str) -> InputError:
+        token = short(self._token) if self._token else "the end"
+        return self._source.error(f"line {self.line}", f"{needed} is needed here, not {token}")
 
     def _next(self) -> None:
         text = self._text

@@ -12,7 +12,7 @@ Tolerance: TypeAlias = "float | tuple[float, float] | None"
 
 # Numbers that are exactly between two decimals, and their own rounding.
 MARGIN = 1.0 + 1e-6
-# Coordinates of so many decimals are not rounded by hand or by a program.
+# Coordinates with this many decimals have not been rounded by hand or by a program.
 MOST_DECIMALS = 9
 # A drawing in whole numbers, or with one decimal, is known better than that: part of its size.
 COARSEST = 1e-3

@@ -45,7 +45,7 @@ class Input:
         The part of the file that says so, for messages.
     joint : str or None
         The joint at which `link` turns against `base`; where they are None, the links at the joint
-        tell them.
+        say which.
     slide : str or None
         The slot or cylinder.
     speed : float or None

@@ -26,13 +26,13 @@ MOST_PARTS = 500
 LARGEST_NUMBER = 1e100
 # A float64 is written in 24 letters at most; reading a longer one could take long.
 LONGEST_NUMBER = 60
-# What may be before an address on its line: a label, brackets, a quote.
+# Text that may precede an address on its line: a label, brackets, a quote.
 LONGEST_LABEL = 300
 LABEL = r"[^{}|\n?=]*"
 CLOSING = {"(": ")", "[": "]", "<": ">", '"': '"', "'": "'", "`": "`"}
-# What is no part of an address at its end, unless it was opened there.
+# Characters that are not part of an address at its end, unless they were opened within it.
 ENDS = {")": "(", "]": "[", ">": "<"}
-# What only a text has, not a path.
+# Characters that only a text has, not a path.
 TEXT_LETTERS = frozenset("\n\r{[<|?")
 
 
@@ -50,11 +50,11 @@ class Source:
 
     def wrong(self, place: str, what: str, value: Any, needed: str, **fields: Any) -> InputError:
         """Return the error for a value that is missing (None) or of the wrong kind."""
-        found = "missing" if value is None else short(value)
-        return self.error(place, f"{what} is {found}: {needed} is needed", **fields)
+        shown = "missing" if value is None else short(value)
+        return self.error(place, f"{what} is {shown}: {needed} is needed", **fields)
 
     def require_few(self, count: int, what: str = "joints") -> None:
-        """Refuse what no linkage has so many of; the steps that follow may take their square."""
+        """Refuse more items than any linkage has; the next steps may take time by their square."""
         if count > MOST_PARTS:
             raise self.error("", f"more than {MOST_PARTS} {what}: they are too many to be read")
 
@@ -99,7 +99,7 @@ def open_source(source: Any) -> Source:
 
 
 def _unwrapped(text: str) -> str:
-    """Return an address without what a mail or a page in Markdown puts around it."""
+    """Return an address without the marks that a mail or a Markdown page puts around it."""
     start = re.search(r"https?://", text[:LONGEST_LABEL], re.IGNORECASE)
     line = text.strip()
     if start is None or "\n" in line or not re.fullmatch(LABEL, text[: start.start()]):

@@ -48,27 +48,27 @@ def _resolve(source: Source, sketch: Sketch, driven: Input) -> None:
         return
     links = sketch.links_at(joint)
     if driven.base is None:
-        others = [link for link in links if link != driven.link]
-        driven.base = GROUND if GROUND in others else next(iter(others), None)
+        candidates = [link for link in links if link != driven.link]
+        driven.base = GROUND if GROUND in candidates else next(iter(candidates), None)
     if driven.link is None:
-        others = [link for link in links if link != driven.base]
-        if len(others) > 1:
+        candidates = [link for link in links if link != driven.base]
+        if len(candidates) > 1:
             # Links of one joint only mark it.
-            others = [link for link in others if len(sketch.links[link]) > 1] or others
-        if len(others) > 1:
+            candidates = [link for link in candidates if len(sketch.links[link]) > 1] or candidates
+        if len(candidates) > 1:
             problem = (
-                f"input joint {joint!r} has several links, {listed(others)}: "
+                f"input joint {joint!r} has several links, {listed(candidates)}: "
                 "the file does not say which of them it turns"
             )
             raise source.error(driven.place, problem, joint=joint)
-        driven.link = next(iter(others), None)
+        driven.link = next(iter(candidates), None)
     if driven.link is None or driven.base is None or driven.link == driven.base:
         problem = f"input joint {joint!r} joins no two links: it turns nothing"
         raise source.error(driven.place, problem, joint=joint)
 
 
 def _merge_joints(sketch: Sketch) -> None:
-    """Joints of one link at one place are one joint."""
+    """Merge joints of one link at one place."""
     for link in list(sketch.links):
         first: dict[tuple[float, float], str] = {}
         for joint in list(sketch.links[link]):
@@ -104,22 +104,22 @@ def _fix(source: Source, sketch: Sketch) -> None:
 
 def _leave_out_unconnected(sketch: Sketch) -> None:
     """Leave out links that nothing connects with the frame: they decorate."""
-    found, joints = {GROUND}, set(sketch.links[GROUND])
+    connected, joints = {GROUND}, set(sketch.links[GROUND])
     size = 0
-    while size != len(found) + len(joints):
-        size = len(found) + len(joints)
+    while size != len(connected) + len(joints):
+        size = len(connected) + len(joints)
         for link, members in sketch.links.items():
-            if link in found or joints.intersection(members):
-                found.add(link)
+            if link in connected or joints.intersection(members):
+                connected.add(link)
                 joints.update(members)
         for slot in sketch.slots.values():
-            if slot.carrier in found or slot.joint in joints:
-                found.add(slot.carrier)
+            if slot.carrier in connected or slot.joint in joints:
+                connected.add(slot.carrier)
                 joints.add(slot.joint)
         for ends in sketch.cylinders.values():
             if joints.intersection(ends):
                 joints.update(ends)
-    loose = [link for link in sketch.links if link not in found]
+    loose = [link for link in sketch.links if link not in connected]
     _remove(sketch, loose, "not connected with the frame")
 
 
@@ -179,7 +179,7 @@ def _remove(sketch: Sketch, links: list[str], why: str) -> None:
 
 
 def _remove_inputs(sketch: Sketch) -> None:
-    """Remove the inputs of what is left out."""
+    """Remove the inputs of omitted parts."""
     for driven in list(sketch.inputs):
         slides = driven.slide in sketch.slots or driven.slide in sketch.cylinders
         turns = driven.link in sketch.links and driven.base in sketch.links

@@ -29,7 +29,7 @@ def assemblies(mechanism: MechanismModel, q: npt.ArrayLike, threads: int | None 
         message = f"q = {short(q)}: a finite coordinate is needed"
         raise InputError(message, value=float(array[~np.isfinite(array)][0]))
     drivers = mechanism.driver_count
-    found = mechanism.core.assemblies(
+    answers = mechanism.core.assemblies(
         mechanism.values.ravel(), array.ravel(), per_design, checked_threads(threads)
     )
     shape = (*mechanism.shape, *positions)
@@ -37,30 +37,32 @@ def assemblies(mechanism: MechanismModel, q: npt.ArrayLike, threads: int | None 
         -1, drivers
     )
     designs = np.moveaxis(mechanism.values, 0, -1).reshape(-1, len(mechanism.values))
-    each = max(len(found) // max(len(designs), 1), 1)
-    if not found and shape:
+    each = max(len(answers) // max(len(designs), 1), 1)
+    if not answers and shape:
         # No positions, or no designs.
         empty: Any = []
         for size in reversed(shape[:-1]):
             empty = [list(empty) for _ in range(size)]
         return empty
     lists: list[Any] = []
-    for index, (one, row) in enumerate(zip(found, rows.tolist(), strict=True)):
-        own = mechanism if not mechanism.shape else with_values(mechanism, designs[index // each])
-        lists.append(_named(own, tuple(row), one))
+    for index, (answer, row) in enumerate(zip(answers, rows.tolist(), strict=True)):
+        design = (
+            mechanism if not mechanism.shape else with_values(mechanism, designs[index // each])
+        )
+        lists.append(_named(design, tuple(row), answer))
     for size in reversed(shape[1:]):
         lists = [lists[i : i + size] for i in range(0, len(lists), size)]
     return lists if shape else lists[0]
 
 
-def _named(mechanism: MechanismModel, q: tuple[float, ...], found: FoundAssemblies) -> Assemblies:
-    count = found["complex_count"]
-    shown = joints_that_differ(mechanism.joint_names, found["assemblies"])
+def _named(mechanism: MechanismModel, q: tuple[float, ...], answer: FoundAssemblies) -> Assemblies:
+    count = answer["complex_count"]
+    shown = joints_that_differ(mechanism.joint_names, answer["assemblies"])
     named = [
         Assembly._found(Place(mechanism, q, numbers), count, shown)
-        for numbers in found["assemblies"]
+        for numbers in answer["assemblies"]
     ]
-    if not found["is_complete"]:
-        message = f"assemblies at q = {q}: the list may be incomplete: {found['failures'][0]}"
+    if not answer["is_complete"]:
+        message = f"assemblies at q = {q}: the list may be incomplete: {answer['failures'][0]}"
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
-    return Assemblies(named, count, found["failures"], found["is_complete"])
+    return Assemblies(named, count, answer["failures"], answer["is_complete"])

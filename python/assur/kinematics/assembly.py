@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Assemblies", "Assembly"]
 
-# How near (relative to the size) two positions of the same assembly are; others are farther.
+# Positions nearer than this (relative to the size) are those of one assembly.
 SAME = 1e-6
 # Joints in a repr.
 SHOWN = 2
@@ -52,7 +52,7 @@ class Assembly(Mapping[str, int]):
     Attributes
     ----------
     q : float or ndarray or None
-        Where it was found, rad or m; None if it was not found but named.
+        The coordinate at which it was found, rad or m; None if it was named instead.
     joints : mapping of str to tuple or None
         Positions of the joints there, m.
     is_double : bool
@@ -62,8 +62,8 @@ class Assembly(Mapping[str, int]):
 
     Notes
     -----
-    Assemblies of class II are equal if their signs are. Others are equal if following one of them
-    to the place of the other arrives there.
+    Assemblies of class II are equal if their signs are. Others are equal if one of them, followed
+    to the place of the other, arrives there.
 
     Examples
     --------
@@ -91,11 +91,11 @@ class Assembly(Mapping[str, int]):
         cls, place: Place, complex_count: Iterable[int], shown: tuple[str, ...] = ()
     ) -> Assembly:
         names = [name for name, _ in place.mechanism.core.assembly]
-        found = cls(dict(zip(names, place.numbers["signs"], strict=True)))
-        found.place = place
-        found._shown = shown
-        found._complex_count = tuple(complex_count)
-        return found
+        assembly = cls(dict(zip(names, place.numbers["signs"], strict=True)))
+        assembly.place = place
+        assembly._shown = shown
+        assembly._complex_count = tuple(complex_count)
+        return assembly
 
     @property
     def q(self) -> float | Float | None:
@@ -147,10 +147,10 @@ class Assembly(Mapping[str, int]):
         if own is None or theirs is None or not (own.is_traced and theirs.is_traced):
             # A named assembly says nothing about groups above class II.
             return not any(place is not None and place.is_traced for place in (own, theirs))
-        one, another = own.mechanism, theirs.mechanism
+        mechanism, another = own.mechanism, theirs.mechanism
         is_same = (
-            one.description == another.description
-            and one.values.tobytes() == another.values.tobytes()
+            mechanism.description == another.description
+            and mechanism.values.tobytes() == another.values.tobytes()
         )
         return is_same and self._leads_to(theirs)
 
@@ -159,11 +159,11 @@ class Assembly(Mapping[str, int]):
         assert self.place is not None
         drawn = drawn_in(place.mechanism, self)
         arrays, _ = at_position(drawn, place.q)
-        wanted = np.array(place.numbers["joints"])
+        joints = np.array(place.numbers["joints"])
         there = np.array([arrays.joints[name][0] for name in drawn.joint_names])
         slides = np.array([arrays.slides[name][0] for name in drawn.slides])
-        size = max(np.ptp(wanted, axis=0).max(), 1e-300)
-        errors = np.abs(np.concatenate([there - wanted], axis=None))
+        size = max(np.ptp(joints, axis=0).max(), 1e-300)
+        errors = np.abs(np.concatenate([there - joints], axis=None))
         gaps = np.abs(slides - np.array(place.numbers["slides"]))
         return bool((errors <= SAME * size).all() and (gaps <= SAME * size).all())
 
@@ -195,11 +195,11 @@ class Assembly(Mapping[str, int]):
         return f"<assur.Assembly {signs}q={q}{places}>"
 
 
-def joints_that_differ(names: Sequence[str], found: Sequence[AssemblyNumbers]) -> tuple[str, ...]:
+def joints_that_differ(names: Sequence[str], poses: Sequence[AssemblyNumbers]) -> tuple[str, ...]:
     """Return the first joints whose places differ among the assemblies of a position."""
-    if not found:
+    if not poses:
         return ()
-    at = np.array([one["joints"] for one in found])
+    at = np.array([pose["joints"] for pose in poses])
     spans = np.ptp(at, axis=0).max(axis=1, initial=0.0)
     size = max(np.ptp(at.reshape(-1, 2), axis=0).max(initial=0.0), 1e-300)
     differ = [name for name, span in zip(names, spans, strict=True) if span > SAME * size]
@@ -267,12 +267,12 @@ class Assemblies(list[Assembly]):
 
     def __init__(
         self,
-        found: Iterable[Assembly],
+        assemblies: Iterable[Assembly],
         complex_count: Iterable[int],
         failures: Iterable[str],
         is_complete: bool,
     ) -> None:
-        super().__init__(found)
+        super().__init__(assemblies)
         self.complex_count = tuple(complex_count)
         self.failures = tuple(failures)
         self.is_complete = is_complete
@@ -291,7 +291,7 @@ class Assemblies(list[Assembly]):
         Returns
         -------
         ndarray of matplotlib.axes.Axes
-            Those drawn on, one of each assembly; the title has its signs.
+            The axes drawn on, one for each assembly; titles have their signs.
 
         Raises
         ------
@@ -310,5 +310,5 @@ class Assemblies(list[Assembly]):
         return assemblies_picture(self, ax, dark)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        own = (list(self), self.complex_count, self.failures, self.is_complete)
-        return (Assemblies, own)
+        arguments = (list(self), self.complex_count, self.failures, self.is_complete)
+        return (Assemblies, arguments)

@@ -1,4 +1,4 @@
-"""Where everything of a mechanism is, as one vector in which assemblies can be compared."""
+"""The configuration of a mechanism as one vector, by which assemblies are compared."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur._trig import sin_cos
+from assur.description.dotted_names import is_angle, split_name
 
 if TYPE_CHECKING:
     from assur._arrays import Float
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 def place_vector(joints: Float, angles: Float, slides: Float, size: float) -> Float:
     """Return joints (…, J, 2), unit vectors of links (…, L) and slides (…, K), in sizes: (…, n).
 
-    Joints alone do not tell assemblies apart: a link of one joint may point either way.
+    Joints alone do not distinguish assemblies: a link of one joint may point either way.
     """
     sine, cosine = sin_cos(angles)
     flat = joints.reshape((*joints.shape[:-2], -1)) / size
@@ -32,24 +33,25 @@ def place_of(numbers: AssemblyNumbers, size: float) -> Float:
 
 def places_along(motion: MotionModel, size: float) -> Float:
     """Return the places of a motion of one design, shape (…, n)."""
-    own = motion.mechanism
+    mechanism = motion.mechanism
     shape = motion.shape
 
     def stacked(values: list[Float], axis: int, tail: tuple[int, ...] = ()) -> Float:
         return np.stack(values, axis=axis) if values else np.empty((*shape, 0, *tail))
 
     return place_vector(
-        stacked([motion.joint(name).value for name in own.joint_names], -2, (2,)),
-        stacked([motion.link(name).value for name in own.links], -1),
-        stacked([motion.slide(name).value for name in own.slides], -1),
+        stacked([motion.joint(name).value for name in mechanism.joint_names], -2, (2,)),
+        stacked([motion.link(name).value for name in mechanism.links], -1),
+        stacked([motion.slide(name).value for name in mechanism.slides], -1),
         size,
     )
 
 
 def nearest(places: Float, place: Float) -> float:
-    """Return how far the nearest of some places is, in sizes; infinite if there is none.
+    """Return the distance to the nearest of some places, in sizes; infinite without any.
 
-    What is farther away than a size, beside a joint at infinity, counts as a part of its distance.
+    What is farther away than a size, near a joint at infinity, is compared relative to its
+    distance.
     """
     if not len(places):
         return float("inf")
@@ -62,22 +64,24 @@ def lengths(mechanism: MechanismModel, drawn: bool = False) -> list[float]:
 
     Or those of the drawing.
     """
-    own = mechanism.description
-    free = {name for name, slide in own.slides if slide.on == "ground" and slide.origin is None}
-    found: list[float] = []
+    description = mechanism.description
+    free = {
+        name for name, slide in description.slides if slide.on == "ground" and slide.origin is None
+    }
+    sizes: list[float] = []
     fixed: dict[str, list[float]] = {"x": [], "y": []}
     values = mechanism.core.drawing if drawn else mechanism.values.tolist()
     for name, value in zip(mechanism.core.dimension_names, values, strict=True):
-        thing, _, what = name.rpartition(".")
-        if thing.startswith("ground."):
-            fixed[what].append(value)
-        elif what != "angle" and not (what == "offset" and thing in free):
-            found.append(abs(value))
-    return [*found, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
+        item, component = split_name(name)
+        if item.startswith("ground."):
+            fixed[component].append(value)
+        elif not is_angle(name) and not (component == "offset" and item in free):
+            sizes.append(abs(value))
+    return [*sizes, *(max(axis) - min(axis) for axis in fixed.values() if axis)]
 
 
 def size_of(mechanism: MechanismModel, drawn: bool = False) -> float:
-    """Return a length of one design, or of the drawing, that its size is of the order of, m."""
+    """Return the size of one design, or of its drawing, as an order of magnitude, m."""
     known = [length for length in lengths(mechanism, drawn) if np.isfinite(length)]
     at = np.array([point for _, *point in mechanism.description.joints])
     width = float(np.ptp(at, axis=0).max()) if len(at) else 0.0

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.description.dotted_names import unit_of
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -55,7 +57,8 @@ class Dimensions(Mapping[str, Any]):
         numbers = {name: _shown(value) for name, value in self._values.items()}
         width = max(map(len, numbers.values()), default=0)
         return "\n".join(
-            f"{name:<{names}}  {number:>{width}}  {_unit(name)}" for name, number in numbers.items()
+            f"{name:<{names}}  {number:>{width}}  {unit_of(name)}"
+            for name, number in numbers.items()
         )
 
     def to_dataframe(self) -> Any:
@@ -80,15 +83,11 @@ class Dimensions(Mapping[str, Any]):
         from assur._table import Column, design_columns, frame
 
         values = {name: np.asarray(value) for name, value in self._values.items()}
-        shape = np.broadcast_shapes(*(one.shape for one in values.values()))
+        shape = np.broadcast_shapes(*(array.shape for array in values.values()))
         columns = design_columns(shape, len(shape))
-        for name, one in values.items():
-            columns.append(Column(name, one.reshape(-1), _unit(name), "dimensions"))
+        for name, array in values.items():
+            columns.append(Column(name, array.reshape(-1), unit_of(name), "dimensions"))
         return frame(columns)
-
-
-def _unit(name: str) -> str:
-    return "rad" if name.endswith("angle") else "m"
 
 
 def _shown(value: Any) -> str:

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 __all__ = ["Extremes", "ValueAt"]
 
 
-# A coordinate stands that changes by less than this (rad, or sizes).
+# A coordinate that changes by less than this (rad, or sizes) stands still.
 STANDS = 1e-13
-# Least tolerance of a dwell, relative to the greatest value: the core's noise twice.
+# Least tolerance of a dwell, relative to the greatest value: twice the core's noise.
 FINEST = 2e-11
 
 
@@ -61,12 +61,12 @@ class Extremes:
         goes round. Turns of q and of angles count as in the intervals of `limits`: in the one that
         `q0` is in they are those of the motion from the drawing.
     time_ratio : float or None
-        Of the way from one extreme to the other and back at constant speed: the longer time over
-        the shorter; None if the driver does not go round.
+        Time from one extreme to the other over the time back at constant speed, the longer over the
+        shorter; None if the driver does not go round.
 
     Examples
     --------
-    The stroke of a slider-crank with an offset, and how much quicker its way back is:
+    The stroke of an offset slider-crank, and how much quicker it returns:
 
     >>> import assur
     >>> bore = assur.SliderCrank(1.0, 3.0, 0.5).extremes("bore")
@@ -135,14 +135,14 @@ class Extremes:
 
 
 def _near(stretches: list[list[float]], place: float, period: float | None) -> list[list[float]]:
-    """Return stretches in the turn about a place: one that has it, modulo a turn, contains it."""
+    """Shift stretches to the turn about a place: one that has it modulo a turn contains it."""
     if period is None:
         return stretches
-    found = []
+    shifted = []
     for low, high in stretches:
         turns = round((place - 0.5 * (low + high)) / period)
-        found.append([low + turns * period, high + turns * period] if turns else [low, high])
-    return sorted(found)
+        shifted.append([low + turns * period, high + turns * period] if turns else [low, high])
+    return sorted(shifted)
 
 
 def checked_coordinate(mechanism: MechanismModel, name: Any) -> str:
@@ -175,17 +175,17 @@ def extremes(
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
     values = mechanism.values.tolist()
-    found = mechanism.core.extremes(values, signs, name, order)
-    if found is None:
+    ends = mechanism.core.extremes(values, signs, name, order)
+    if ends is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
-    least, greatest = ValueAt(*found[0]), ValueAt(*found[1])
-    own = limits(mechanism, assembly)
+    least, greatest = ValueAt(*ends[0]), ValueAt(*ends[1])
+    own_limits = limits(mechanism, assembly)
     ratio = None
     unit = 1.0 if name in mechanism.links else size_of(mechanism)
     moves = greatest.value - least.value > STANDS * unit
-    if order == 0 and moves and own.period == 1 and math.isfinite(greatest.q - least.q):
+    if order == 0 and moves and own_limits.period == 1 and math.isfinite(greatest.q - least.q):
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, own.period))
+    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, own_limits.period))

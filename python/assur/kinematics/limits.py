@@ -109,7 +109,7 @@ class Limits:
     def dead_points(self) -> Any:
         """Where the assembly ends, by q: a list of `DeadPoint`, nested in the shape of a batch.
 
-        Where it ends because a cylinder has length 0 there is none: nothing folds.
+        None where it ends because a cylinder has length 0: nothing folds there.
         """
         shape = self.intervals.shape[:-2]
         if shape:
@@ -129,8 +129,8 @@ class Limits:
         rotation, period = self.full_rotation[entry], self.period[entry]
         intervals, folds = self.intervals[entry], self._folds[entry]
         if intervals.ndim == 2:
-            own = ~np.isnan(intervals[:, 0])
-            intervals, folds = intervals[own], folds[own]
+            is_row = ~np.isnan(intervals[:, 0])
+            intervals, folds = intervals[is_row], folds[is_row]
             rotation, period = bool(rotation), None if np.isnan(period) else int(period)
         return Limits(intervals, rotation, period, folds, self._names)
 
@@ -171,17 +171,17 @@ def limits(
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     signs = checked_assembly(mechanism, assembly)
     values = mechanism.values.ravel()
-    found = mechanism.core.limits(values, signs, checked_threads(threads))
-    shape = (*mechanism.shape, found["count"], 2)
-    period = found["period"].reshape(mechanism.shape)
+    answer = mechanism.core.limits(values, signs, checked_threads(threads))
+    shape = (*mechanism.shape, answer["count"], 2)
+    period = answer["period"].reshape(mechanism.shape)
     # Dyads in the order of their signs, then groups.
     inner = [name for name, _ in mechanism.core.assembly]
-    names = tuple(zip_longest(found["names"], inner))
+    names = tuple(zip_longest(answer["names"], inner))
     batch = Limits(
-        _frozen(found["intervals"].reshape(shape)),
+        _frozen(answer["intervals"].reshape(shape)),
         ~np.isnan(period),
         period,
-        found["folds"].reshape(shape),
+        answer["folds"].reshape(shape),
         names,
     )
     return batch if mechanism.shape else batch[()]

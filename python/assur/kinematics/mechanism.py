@@ -59,10 +59,10 @@ class Mechanism(MechanismModel):
         +1 or −1 by inner joint or slide, for dyads drawn with their links
         collinear: the drawing does not show their assembly.
     tolerance : float or (float, float), optional
-        Length to which the drawing is known, m, and angle of guides, rad: so far coordinates of
-        joints are moved, and guides turned, where redundant links need it;
-        ``structure.adjustment`` says how far. The angle is by default the length at the size of
-        the linkage; without a tolerance only rounding is adjusted, 2e-9 of the size.
+        Length to which the drawing is known, m, and angle of guides, rad: joints are moved, and
+        guides turned, by no more than this where redundant links need it; ``structure.adjustment``
+        says how far. The angle is by default the length at the size of the linkage; without a
+        tolerance only rounding is adjusted, 2e-9 of the size.
 
     Raises
     ------
@@ -102,12 +102,12 @@ class Mechanism(MechanismModel):
         points = tuple(encode.joint(name, at) for name, at in encode.items(joints, "joints"))
         members = [(name, encode.members(name, on)) for name, on in encode.items(links, "links")]
         guides = []
-        for name, own in encode.items({} if slides is None else slides, "slides"):
-            if isinstance(own, Cylinder):
-                slide, parts = encode.cylinder(name, own, points)
+        for name, guide in encode.items({} if slides is None else slides, "slides"):
+            if isinstance(guide, Cylinder):
+                slide, parts = encode.cylinder(name, guide, points)
                 members += parts
             else:
-                slide = encode.slide(name, own, points)
+                slide = encode.slide(name, guide, points)
             guides.append((name, slide))
         description = encode.Description(
             joints=points,
@@ -140,8 +140,8 @@ class Mechanism(MechanismModel):
             The sketch, as for the constructor.
         lengths : mapping of (str, str) to float
             Distances of two joints of one link, m: ``("B", "C")``, or ``"BC"`` of names of one
-            letter. What is not given remains as sketched; of a link with more joints, three
-            distances make a triangle on the sketch's side, which the sketch must show clearly.
+            letter. Other distances remain as sketched; in a link with more joints, three distances
+            make a triangle on the sketch's side, which the sketch must show clearly.
 
         Returns
         -------
@@ -151,8 +151,8 @@ class Mechanism(MechanismModel):
         Raises
         ------
         InputError
-            A pair without a link, lengths that are no triangle, or that contradict each other; a
-            joint sketched on the line of two others, beside which the lengths put it.
+            A pair without a link, lengths that do not make a triangle, or that contradict each
+            other; a joint sketched on the line of two others, beside which the lengths put it.
         PositionError
             If the mechanism does not close at the sketch's q.
 
@@ -225,7 +225,7 @@ class Mechanism(MechanismModel):
             New values, m or rad; arrays broadcast by NumPy's rules, with each
             other and with the designs of this mechanism, to the design shape S.
             A pandas DataFrame has a design in each row, a Series is one; variables of an xarray
-            Dataset broadcast by the names of their axes. Of a table of results
+            Dataset broadcast by the names of their axes. From a table of results
             (`Measures.to_dataframe`) the dimensions are taken.
         **by_name : array_like
             The same by keyword, for names without a dot.
@@ -370,8 +370,8 @@ class Mechanism(MechanismModel):
             For unreachable positions: raise an error for the first one, or return NaN,
             each with its own status code.
         threads : int, optional
-            Most threads; by default one per core. Small work is done by one, because it ends
-            before others have started. Results do not depend on it.
+            Most threads; by default one per core. One thread does small work, which ends before
+            others have started. Results do not depend on it.
         out : Motion, optional
             A motion of the same shape, order and outputs. It and every array obtained
             from it are overwritten; avoids allocation.
@@ -416,8 +416,8 @@ class Mechanism(MechanismModel):
         Parameters
         ----------
         laws : Law or sequence of Law or float
-            An input law (`assur.laws`); of several drivers one each, or the coordinate of one that
-            is held.
+            An input law (`assur.laws`); for several drivers one each, or the coordinate of a driver
+            that is held.
         t : array_like
             Times, s, shape (N,).
         on_error : {"raise", "nan"}
@@ -445,9 +445,9 @@ class Mechanism(MechanismModel):
     def assemblies(self, q: npt.ArrayLike, threads: int | None = None) -> Any:
         """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.
 
-        Dyads are solved in closed form. Of a group above class II all complex assemblies with
-        random dimensions are known, and followed to those of the design: no isolated one is left
-        out [1]_.
+        Dyads are solved in closed form. For a group above class II, all complex assemblies with
+        random dimensions are known and followed to those of the design: no isolated one is missed
+        [1]_.
 
         Parameters
         ----------
@@ -459,7 +459,7 @@ class Mechanism(MechanismModel):
         Returns
         -------
         Assemblies
-            The list of one position, with `complex_count` and `failures`; of several positions or
+            A list for one position, with `complex_count` and `failures`; for several positions or
             designs, nested lists in the shape S + (N,).
 
         Warns
@@ -521,7 +521,7 @@ class Mechanism(MechanismModel):
         name : str
             A joint's ``"B.x"`` or ``"B.y"``, a link (its angle) or a slide (its value).
         order : {0, 1, 2, 3}
-            Of the derivative by q: 0 the coordinate itself, 1 to 3 its analogues.
+            Order of the derivative by q: 0 the coordinate itself, 1 to 3 its analogues.
         assembly : mapping of str to int, optional
             As for `solve`; the drawing's by default.
 
@@ -577,8 +577,8 @@ class Mechanism(MechanismModel):
         Parameters
         ----------
         positions : int
-            Coordinates of the fan about `q0`, over a turn, or over all that a slide can reach: from
-            2 to 100 000.
+            Number of coordinates of the fan about `q0`, over a turn, or over all that a slide can
+            reach: from 2 to 100 000.
 
         Returns
         -------
@@ -605,12 +605,12 @@ class Mechanism(MechanismModel):
             Coordinates of the driver at K positions, in the wanted order, rad or m; shape (K,) for
             all designs, or S + (K,).
         joints : mapping of str to array_like
-            Where joints are then, m, shape S + (K, 2): they tell the assembly.
+            Where joints are then, m, shape S + (K, 2): they determine the assembly.
 
         Returns
         -------
         Defect or ndarray of uint8
-            Of each design, shape S: flags of `Defect`, 0 for none. Of one design a `Defect`.
+            Flags of `Defect` for each design, shape S, 0 for none; a `Defect` for one design.
 
         Examples
         --------
@@ -638,8 +638,8 @@ class Mechanism(MechanismModel):
     ) -> tuple[SingularLocus, ...]:
         """Return the curves of singular positions of a mechanism with two drivers or more.
 
-        All assemblies are found on a grid of the drivers' coordinates; where two neighbours have
-        not the same number, the fold between them is found and traced by arc length. A curve that
+        All assemblies are found on a grid of the drivers' coordinates; where the numbers of two
+        neighbours differ, the fold between them is found and traced by arc length. A curve that
         lies between neighbours with the same numbers is missed: a closer grid shows it.
 
         Parameters
@@ -650,8 +650,8 @@ class Mechanism(MechanismModel):
         drivers : sequence of str or Drive, optional
             With more than two drivers the two that move; the others are held at `q0`.
         positions : int
-            Coordinates of the grid along each axis: over a turn of an angle; of a slide over the
-            sum of all lengths, both ways.
+            Number of coordinates of the grid along each axis: over a turn for an angle; for a slide
+            over the sum of all lengths, both ways.
 
         Returns
         -------
@@ -666,7 +666,7 @@ class Mechanism(MechanismModel):
 
         Examples
         --------
-        Of a five-bar, the distal links are in line:
+        A five-bar is singular where its distal links are in line:
 
         >>> import assur, numpy as np
         >>> five_bar = assur.Mechanism(
@@ -696,7 +696,7 @@ class Mechanism(MechanismModel):
         drivers : sequence of str or Drive, optional
             As for `singular_loci`.
         positions : int
-            Coordinates of the grids, of the drivers and of the joint, along each axis.
+            Number of coordinates of the grids, of drivers and joint, along each axis.
 
         Returns
         -------
@@ -722,7 +722,7 @@ class Mechanism(MechanismModel):
     def map(
         self, of: str, dimensions: Mapping[str, npt.ArrayLike], q: npt.ArrayLike | None = None
     ) -> DesignMap:
-        """Return a number of every design over two dimensions, and where it changes.
+        """Return a count for every design over two dimensions, and where it changes.
 
         Parameters
         ----------
@@ -805,8 +805,8 @@ class Mechanism(MechanismModel):
         Parameters
         ----------
         q : float or array_like, optional
-            Coordinate; the drawing's by default, or where the assembly was found. Of several the
-            first is drawn bold, the others light and numbered.
+            Coordinate; the drawing's by default, or where the assembly was found. The first of
+            several is drawn bold, the others light and numbered.
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure by default.
         assembly : Assembly, optional
@@ -821,7 +821,7 @@ class Mechanism(MechanismModel):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on.
+            The axes drawn on.
 
         Raises
         ------
@@ -855,8 +855,9 @@ class Mechanism(MechanismModel):
         """Write one self-contained page that plays the mechanism in a browser.
 
         The whole turn of the driver (or what can be reached) is computed beforehand; nothing is
-        fetched. On the page the mechanism is dragged or played, paths, velocities, accelerations,
-        groups and other positions are switched, diagrams have a cursor. A notebook shows the same.
+        fetched. The page lets the reader drag or play the mechanism and switch paths, velocities,
+        accelerations, groups and other positions; diagrams have a cursor. A notebook shows the
+        same.
 
         Parameters
         ----------
@@ -908,7 +909,7 @@ class Mechanism(MechanismModel):
         Parameters
         ----------
         height : int
-            Of the cell, px.
+            Height of the cell, px.
 
         Returns
         -------
@@ -966,7 +967,7 @@ class Mechanism(MechanismModel):
         paper : {"A4", "A3", "A2", "A1", "A0"}, optional
             By default A4, or the smallest on which the given scale fits.
         title : str, optional
-            Of the sheet; the file's name by default.
+            Title of the sheet; the file's name by default.
         outlines : bool
             A position with the links' outlines in place of symbols.
         width, hole : float, optional
@@ -1004,19 +1005,19 @@ class Mechanism(MechanismModel):
         )
 
     def _repr_svg_(self) -> str | None:
-        """Return a static picture for notebooks; none of a batch."""
+        """Return a static picture for notebooks; None for a batch."""
         from assur.pictures.page.html import notebook_svg
 
         return notebook_svg(self)
 
     def _repr_html_(self) -> str | None:
-        """Return what a notebook shows; none of a batch."""
+        """Return what a notebook shows; None for a batch."""
         from assur.pictures.page.html import notebook_html
 
         return notebook_html(self)
 
 
-# What is made of a named mechanism is a plain one.
+# A mechanism derived from a named one is plain.
 Mechanism._plain = Mechanism
 
 
@@ -1027,6 +1028,6 @@ def _rebuild(
     mechanism._set(_moved=moved)
     if place is None:
         return mechanism
-    own = place.mechanism
-    core = own.core.drawn_in(own.values.tolist(), list(place.q), place.numbers)
+    drawn = place.mechanism
+    core = drawn.core.drawn_in(drawn.values.tolist(), list(place.q), place.numbers)
     return at_place(mechanism, place, core)

@@ -1,4 +1,4 @@
-"""Mechanisms as what is computed needs them: the core's handle, dimensions, names, the drawing."""
+"""What computations need of a mechanism: the core's handle, dimensions, names, the drawing."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ __all__ = [
     "with_values",
 ]
 
-# Four units in the last place: by so much a solved place differs from the drawing's by rounding.
+# Four units in the last place: rounding moves a solved place this far from the drawing's.
 TYPED = 1e-15
 
 AnyMechanism = TypeVar("AnyMechanism", bound="MechanismModel")
@@ -98,7 +98,7 @@ class MechanismModel:
     signs: list[int]
     # Indices of joints, links and slides by name.
     _names: tuple[dict[str, int], dict[str, int], dict[str, int]] | None
-    # The class of what is made of it: of `FourBar` and others a plain mechanism.
+    # The class of mechanisms derived from it: a plain one, also for `FourBar` and others.
     _plain: ClassVar[type[Any]]
 
     def _initialise(
@@ -224,7 +224,7 @@ class MechanismModel:
             self.known_signs,
         )
         layout = Layout(joints, {}, {}, self.shape, self.driver_count, 0)
-        return {n: one for n, (one,) in layout.held("joint", Buffers(numbers, status)).items()}
+        return {n: place for n, (place,) in layout.held("joint", Buffers(numbers, status)).items()}
 
     @property
     def _is_as_drawn(self) -> bool:
@@ -268,7 +268,7 @@ class MechanismModel:
 
     @property
     def q0_array(self) -> Float:
-        """The same, of one driver an array ().
+        """The same; an array () for one driver.
 
         :meta private:
         """
@@ -290,9 +290,9 @@ class MechanismModel:
         :meta private:
         """
         if self._names is None:
-            own = self.description
-            named = own.joints, own.links, own.slides
-            names = tuple({one[0]: i for i, one in enumerate(of)} for of in named)
+            description = self.description
+            named = description.joints, description.links, description.slides
+            names = tuple({item[0]: i for i, item in enumerate(of)} for of in named)
             object.__setattr__(self, "_names", names)
         assert self._names is not None
         return self._names
@@ -305,15 +305,15 @@ class MechanismModel:
             links, slides = self.core.redundant
             groups = tuple(
                 Group(
-                    cls=one["cls"],
-                    order=one["order"],
-                    kind=one["kind"],
-                    artobolevsky_kind=one["artobolevsky_kind"],
-                    links=tuple(one["links"]),
-                    joints=tuple(one["joints"]),
-                    slides=tuple(one["slides"]),
+                    cls=group["cls"],
+                    order=group["order"],
+                    kind=group["kind"],
+                    artobolevsky_kind=group["artobolevsky_kind"],
+                    links=tuple(group["links"]),
+                    joints=tuple(group["joints"]),
+                    slides=tuple(group["slides"]),
                 )
-                for one in self.core.groups
+                for group in self.core.groups
             )
             named = dict(self.description.links)
             at_joints = [joint for on in named.values() for joint in on]
@@ -351,7 +351,7 @@ class MechanismModel:
 
     def __len__(self) -> int:
         if not self.shape:
-            message = "one mechanism has no length: it is no batch of designs"
+            message = "one mechanism has no length: it is not a batch of designs"
             raise TypeError(message)
         return self.shape[0]
 
@@ -361,27 +361,27 @@ class MechanismModel:
 
 def with_values(mechanism: AnyMechanism, values: Float) -> AnyMechanism:
     """Return a mechanism with other values of its dimensions; the rest is shared."""
-    other = mechanism._blank()
-    other._share(mechanism, values)
-    return other
+    changed = mechanism._blank()
+    changed._share(mechanism, values)
+    return changed
 
 
 def at_place(mechanism: AnyMechanism, place: Place, core: Core) -> AnyMechanism:
     """Return a mechanism drawn at a place of one of its designs."""
-    other = with_values(mechanism, mechanism.values)
-    other._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
-    return other
+    placed = with_values(mechanism, mechanism.values)
+    placed._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
+    return placed
 
 
 def copy_from(mechanism: MechanismModel, made: MechanismModel) -> None:
-    """Make a named mechanism, which is being constructed, another one that was made for it."""
+    """Turn a named mechanism under construction into the one that was made for it."""
     mechanism._share(made, made.values)
 
 
 def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
-    """Return a place; coordinates that differ from the drawing's by rounding alone are those."""
+    """Return a place; coordinates that differ by rounding alone become the drawing's."""
     size = float(np.abs(solved).max())
     return tuple(
-        own if abs(x - own) <= TYPED * size else x
-        for x, own in zip(solved.tolist(), drawn, strict=True)
+        typed if abs(x - typed) <= TYPED * size else x
+        for x, typed in zip(solved.tolist(), drawn, strict=True)
     )

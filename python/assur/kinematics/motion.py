@@ -110,7 +110,7 @@ class Motion(MotionModel):
             if index in names:
                 return of(index)
         known = ", ".join(repr(name) for kind in kinds for name in kind)
-        message = f"[{short(index)}]: nothing is called so; there are {known}"
+        message = f"[{short(index)}]: no joint, link or slide has this name; there are {known}"
         raise InputError(message)
 
     def __iter__(self) -> Iterator[Motion]:
@@ -194,7 +194,7 @@ class Motion(MotionModel):
         Returns
         -------
         ndarray
-            S + (N,); of a link without unit, of a slide 1/m.
+            S + (N,); without unit for a link, 1/m for a slide.
 
         Examples
         --------
@@ -353,8 +353,8 @@ class Motion(MotionModel):
         q = self.coordinate(entry)
         mechanism = self.request.mechanism
         values = np.moveaxis(mechanism.values, 0, -1)[entry[: len(mechanism.shape)]]
-        one = [q] if isinstance(q, float) else list(q)
-        return mechanism.core.explain(values.tolist(), one, self.request.signs)
+        coordinates = [q] if isinstance(q, float) else list(q)
+        return mechanism.core.explain(values.tolist(), coordinates, self.request.signs)
 
     def to_dataframe(
         self,
@@ -494,8 +494,8 @@ class Motion(MotionModel):
     ) -> Any:
         """Draw a quantity and its derivatives over the driver's coordinate (needs matplotlib).
 
-        One diagram an order, the extremes of the curve (not of its samples) marked. A batch of
-        designs is drawn as a band from the least to the greatest, with the median.
+        One diagram per order, with the extremes of the curve (not of its samples) marked. A batch
+        of designs is drawn as a band from the least to the greatest, with the median.
 
         Parameters
         ----------
@@ -517,13 +517,13 @@ class Motion(MotionModel):
         Returns
         -------
         matplotlib.axes.Axes or ndarray of them
-            Those drawn on, one for each order.
+            The axes drawn on, one for each order.
 
         Raises
         ------
         InputError
-            Names of different units, several drivers, a single position, or designs that have
-            each its own q.
+            Names of different units, several drivers, a single position, or designs that each have
+            their own q.
 
         Examples
         --------
@@ -581,7 +581,7 @@ class Motion(MotionModel):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on.
+            The axes drawn on.
 
         Raises
         ------
@@ -620,7 +620,7 @@ class Motion(MotionModel):
         joint : str or sequence of str, optional
             Joints whose paths are shown.
         frames : int
-            Most pictures of one round; no more than there are positions.
+            Greatest number of pictures in one round; never more than there are positions.
         seconds : float
             How long one round takes, s.
         groups : bool
@@ -658,8 +658,8 @@ class Motion(MotionModel):
     ) -> None:
         """Write one self-contained page that plays these positions in a browser.
 
-        Of one driver whose coordinate only grows or only falls, they are played along the
-        coordinate; else (several drivers, to and fro) along time, at equal steps of it.
+        With one driver whose coordinate only grows or only falls, they are played along the
+        coordinate; otherwise (several drivers, to and fro) along time, at equal steps of it.
 
         Parameters
         ----------
@@ -668,7 +668,7 @@ class Motion(MotionModel):
         omega : float, optional
             Speed along the coordinate, rad/s or m/s.
         duration : float, optional
-            Of all positions, s: they are then played along time; 4 s for several drivers.
+            Duration of all positions, s: they are then played along time; 4 s for several drivers.
         paths, diagrams, title, dark
             As for `Mechanism.to_html`.
 
@@ -704,7 +704,7 @@ class Motion(MotionModel):
         )
 
     def _repr_html_(self) -> str | None:
-        """Return what a notebook shows; none of a batch or of one position."""
+        """Return what a notebook shows; None for a batch or for one position."""
         from assur.pictures.page.html import notebook_html
 
         return notebook_html(self)
@@ -742,7 +742,7 @@ class Motion(MotionModel):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Artists have names, `get_gid`: ``velocity C``, ``velocity C relative
+            The axes drawn on. Artists have names, `get_gid`: ``velocity C``, ``velocity C relative
             to B``, ``normal C relative to B``, ``sliding A relative to A of lever``.
 
         Raises

@@ -99,16 +99,16 @@ class MotionModel:
 
     def __copy__(self) -> Self:
         # Copies its arrays, which solve(out=) may overwrite; q never is.
-        own = object.__new__(type(self))
+        copied = object.__new__(type(self))
         state = self.__getstate__()
-        own.__setstate__(
+        copied.__setstate__(
             {
                 **state,
                 "stored": self._results.without_buffers(copy=True),
                 "_status": self.status.copy(),
             }
         )
-        return own
+        return copied
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -132,7 +132,7 @@ class MotionModel:
     def joint(self, name: str | Sequence[str]) -> Analogues:
         """Return the position of a joint, m, with its analogues.
 
-        Of a sequence of names, arrays are stacked along a new first axis.
+        A sequence of names stacks the results along a new first axis.
 
         Parameters
         ----------
@@ -157,7 +157,7 @@ class MotionModel:
     def link(self, name: str | Sequence[str]) -> Analogues:
         """Return the angle of a link, rad, continuous along q, with its analogues.
 
-        Of a sequence of names, arrays are stacked along a new first axis.
+        A sequence of names stacks the results along a new first axis.
 
         Parameters
         ----------
@@ -181,7 +181,7 @@ class MotionModel:
     def slide(self, name: str | Sequence[str]) -> Analogues:
         """Return the value of a slide, m, with its analogues.
 
-        Of a sequence of names, arrays are stacked along a new first axis.
+        A sequence of names stacks the results along a new first axis.
 
         Parameters
         ----------
@@ -211,7 +211,7 @@ class MotionModel:
         if not isinstance(name, list | tuple) or not name:
             message = f"{kind}: {short(name)} is not a name or a list of names"
             raise InputError(message)
-        several = [self._find(kind, held, one) for one in name]
+        several = [self._find(kind, held, item) for item in name]
         arrays = tuple(np.stack(order) for order in zip(*several, strict=True))
         return Analogues(", ".join(name), arrays, self.driver_count, is_point)
 
@@ -250,12 +250,12 @@ class MotionModel:
 def overwrite(
     motion: MotionModel, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
 ) -> None:
-    """Make a motion that of another request."""
+    """Turn a motion into that of another request."""
     motion._replace_with(request, results, status)
 
 
 class _ReferencePoints(Mapping[str, Analogues]):
-    """Reference points of a motion's links; those that were solved are kept by the motion."""
+    """Reference points of a motion's links; the motion keeps those that were solved."""
 
     def __init__(self, motion: MotionModel, solved: dict[str, tuple[Float, ...]]) -> None:
         self._motion, self._solved = motion, solved

@@ -1,4 +1,4 @@
-"""Dimensions by name: of a mapping, or of a table of pandas or xarray."""
+"""Dimensions by name, from a mapping or from a table of pandas or xarray."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["columns_of_designs", "dimensions_by_name", "with_dimensions"]
 
-# Columns of this package's own tables of results that are no dimensions.
+# Columns of this package's own tables of results that are not dimensions.
 LABELS = re.compile(r"design\d*|status|kept")
 # A column of row numbers, as pandas writes and reads it.
 UNNAMED = re.compile(r"(Unnamed: 0)?")
@@ -30,7 +30,7 @@ ENDINGS = (".length", ".angle", ".offset")
 
 
 def dimensions_by_name(dimensions: Any, known: Collection[str]) -> Mapping[Any, Any]:
-    """Return dimensions by name: of a mapping, a DataFrame, a Series or a Dataset.
+    """Return dimensions by name from a mapping, a DataFrame, a Series or a Dataset.
 
     A DataFrame has a design in each row, a Series is one of them. Variables of a Dataset
     broadcast by the names of their axes, coordinates that are named like dimensions too.
@@ -62,13 +62,13 @@ def dimensions_by_name(dimensions: Any, known: Collection[str]) -> Mapping[Any, 
 
 
 def _of_table(names: Iterable[Any], known: Collection[str]) -> list[Any]:
-    """Return the names that are dimensions; a table without any is refused."""
+    """Return the names that are dimensions; refuse a table without any."""
     listed = list(names)
-    wanted = columns_of_designs(listed, known)
-    if listed and not wanted:
+    chosen = columns_of_designs(listed, known)
+    if listed and not chosen:
         message = f"dimensions: no column is a dimension: {short(listed)}"
         raise InputError(message)
-    return wanted
+    return chosen
 
 
 def columns_of_designs(names: Iterable[Any], known: Iterable[str]) -> list[Any]:
@@ -101,14 +101,14 @@ def with_dimensions(
     by_name: Mapping[str, npt.ArrayLike] = MappingProxyType({}),
 ) -> AnyMechanism:
     """See `Mechanism.with_dimensions`."""
-    given = dimensions_by_name(dimensions, mechanism.core.dimension_names)
-    wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
-    indices = [mechanism.core.dimension(name) for name in wanted]
-    new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in wanted.items()]
+    mapping = dimensions_by_name(dimensions, mechanism.core.dimension_names)
+    changed = {**{checked_name(name, "dimensions"): v for name, v in mapping.items()}, **by_name}
+    indices = [mechanism.core.dimension(name) for name in changed]
+    new = [real_array(v, f"dimension {name!r}", copy=False) for name, v in changed.items()]
     try:
         shape = np.broadcast_shapes(mechanism.shape, *(array.shape for array in new))
     except ValueError as error:
-        shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(wanted, new, strict=True))
+        shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(changed, new, strict=True))
         message = f"dimensions do not broadcast: {shapes}, designs {mechanism.shape}"
         raise InputError(message) from error
     replaced = dict(zip(indices, new, strict=True))

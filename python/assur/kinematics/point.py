@@ -34,10 +34,10 @@ def point_of(motion: MotionModel, link: str, local: npt.ArrayLike) -> Analogues:
     x, y = points[:, 0].reshape(lead), points[:, 1].reshape(lead)
     arm = np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
     drivers = motion.driver_count
-    # With one driver too an axis for each order, to be dropped again.
+    # Even with one driver each order has an axis, which is dropped again.
     rates = [
-        one.reshape(angle.value.shape + (drivers,) * order)
-        for order, one in enumerate(angle.arrays)
+        rate.reshape(angle.value.shape + (drivers,) * order)
+        for order, rate in enumerate(angle.arrays)
     ]
     arrays = []
     for order in range(motion.order + 1):
@@ -65,16 +65,16 @@ def _derivative(arm: Float, rates: list[Float], order: int) -> Float:
     squares = _outer(first, first, 1, 1)
     if order == 2:
         return _outer(left, second, 1, 2) - _outer(arm, squares, 1, 2)
-    one = _outer(second, first, 2, 1)
-    mixed = one + np.swapaxes(one, -1, -2) + np.moveaxis(one, -1, -3)
+    twice = _outer(second, first, 2, 1)
+    mixed = twice + np.swapaxes(twice, -1, -2) + np.moveaxis(twice, -1, -3)
     cubes = _outer(squares, first, 2, 1)
     return _outer(left, rates[3] - cubes, 1, 3) - _outer(arm, mixed, 1, 3)
 
 
-def _outer(one: Float, other: Float, of_one: int, of_other: int) -> Float:
+def _outer(left: Float, right: Float, of_one: int, of_other: int) -> Float:
     """Multiply every entry of the last axes of one by every entry of those of the other."""
     product: Float = (
-        one[(..., *(None,) * of_other)]
-        * other[(..., *(None,) * of_one, *(slice(None),) * of_other)]
+        left[(..., *(None,) * of_other)]
+        * right[(..., *(None,) * of_one, *(slice(None),) * of_other)]
     )
     return product

@@ -54,17 +54,17 @@ def drawn_at(mechanism: AnyMechanism, description: Description, pose: Pose) -> A
 
 def with_signs(mechanism: AnyMechanism, place: Place, signs: list[int]) -> AnyMechanism:
     """Return a mechanism that is drawn at a place, with other signs of its dyads there."""
-    own = place.mechanism
+    drawn = place.mechanism
     numbers: AssemblyNumbers = {**place.numbers, "signs": signs, "is_double": False}
-    core = own.core.drawn_in(own.values.tolist(), list(place.q), numbers)
-    found = Place(own, place.q, numbers)
-    arrays, status = at_position(at_place(own, found, core), place.q)
+    core = drawn.core.drawn_in(drawn.values.tolist(), list(place.q), numbers)
+    turned = Place(drawn, place.q, numbers)
+    arrays, status = at_position(at_place(drawn, turned, core), place.q)
     if is_reached(status):
         # The joints of the place move with the signs.
-        joints = [arrays.joints[name][0].tolist() for name in own.joint_names]
+        joints = [arrays.joints[name][0].tolist() for name in drawn.joint_names]
         numbers["joints"] = [(x, y) for x, y in joints]
-        numbers["angles"] = [float(arrays.links[name][0]) for name in own.links]
-    return at_place(mechanism, found, core)
+        numbers["angles"] = [float(arrays.links[name][0]) for name in drawn.links]
+    return at_place(mechanism, turned, core)
 
 
 def in_signs(mechanism: AnyMechanism, signs: list[int]) -> AnyMechanism:

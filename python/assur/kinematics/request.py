@@ -109,7 +109,7 @@ def at_position(
     mechanism: MechanismModel, q: Sequence[float]
 ) -> tuple[Results, npt.NDArray[np.uint8]]:
     """Solve one design at one position, with a coordinate for each driver: NaN where it is open."""
-    own = np.array(q[0] if len(q) == 1 else q)
-    request = SolveRequest(mechanism, own, (), False, 0, mechanism.signs, True, None)
+    coordinates = np.array(q[0] if len(q) == 1 else q)
+    request = SolveRequest(mechanism, coordinates, (), False, 0, mechanism.signs, True, None)
     results, status, _ = request.arrays(*mechanism.indices)
     return results, status

@@ -38,7 +38,7 @@ class Buffers:
 class Layout:
     """What the columns of a result are.
 
-    The core writes those of joints, then of slides, then of links: for each one by one the orders.
+    The core writes those of joints, then of slides, then of links: for each, its orders in turn.
     With several drivers each order adds an axis.
     """
 
@@ -70,7 +70,7 @@ class Layout:
 class Held(Mapping[str, tuple[Float, ...]]):
     """Arrays of joints, links or slides by name, one for each order, read-only.
 
-    Each has `width` components. `before` these there are so many others, with so many components.
+    Each has `width` components; `before` counts the others ahead of them, and their components.
     """
 
     def __init__(
@@ -170,18 +170,18 @@ class Results:
 
     def each(self, change: Callable[[Float], Float]) -> Results:
         """Return every array changed, without buffers."""
-        other = Results(None, None)
+        changed = Results(None, None)
         for kind in ("joint", "link", "slide"):
             held = self._of(kind)
-            other._held[kind] = {n: tuple(map(change, arrays)) for n, arrays in held.items()}
-        return other
+            changed._held[kind] = {n: tuple(map(change, arrays)) for n, arrays in held.items()}
+        return changed
 
     def without_buffers(self, copy: bool) -> Results:
         """Return the same arrays, or copies of them, that the core cannot overwrite."""
-        other = Results(None, None)
+        bare = Results(None, None)
         for kind in ("joint", "link", "slide"):
             held = self._of(kind)
             if copy:
                 held = {name: tuple(a.copy() for a in arrays) for name, arrays in held.items()}
-            other._held[kind] = held
-        return other
+            bare._held[kind] = held
+        return bare

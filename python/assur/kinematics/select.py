@@ -57,39 +57,39 @@ def part_of(motion: AnyMotion, index: Any) -> AnyMotion:
     request = replace(request, mechanism=mechanism, q=q, positions=count)
     if not mechanism.shape:
         request = replace(request, per_design=False)
-    own = object.__new__(type(motion))
-    own._replace_with(request, motion._results.each(part), part(motion.status))
+    chosen = object.__new__(type(motion))
+    chosen._replace_with(request, motion._results.each(part), part(motion.status))
     if motion.kept is not None:
-        own.kept = _taken(motion.kept, designs)
-    return own
+        chosen.kept = _taken(motion.kept, designs)
+    return chosen
 
 
 def _own(array: Any) -> Any:
-    """Return a copy that nobody may write to: the core needs contiguous arrays."""
-    own = np.array(array, order="C")
-    own.flags.writeable = False
-    return own
+    """Return a read-only copy: the core needs contiguous arrays."""
+    copied = np.array(array, order="C")
+    copied.flags.writeable = False
+    return copied
 
 
 def _entries(index: Any, shape: tuple[int, ...]) -> tuple[Any, ...]:
     """Return an integer, a slice or an array of indices for each axis."""
-    given = list(index) if isinstance(index, tuple) else [index]
-    dots = [i for i, one in enumerate(given) if one is Ellipsis]
-    if len(dots) > 1 or len(given) - len(dots) > len(shape):
+    entries = list(index) if isinstance(index, tuple) else [index]
+    dots = [i for i, entry in enumerate(entries) if entry is Ellipsis]
+    if len(dots) > 1 or len(entries) - len(dots) > len(shape):
         message = f"[{short(index)}] has more entries than the shape {shape} has axes"
         raise InputError(message)
-    at = dots[0] if dots else len(given)
-    given[at : at + 1] = [slice(None)] * (len(shape) - len(given) + len(dots))
-    return tuple(_entry(one, size, shape) for one, size in zip(given, shape, strict=True))
+    at = dots[0] if dots else len(entries)
+    entries[at : at + 1] = [slice(None)] * (len(shape) - len(entries) + len(dots))
+    return tuple(_entry(entry, size, shape) for entry, size in zip(entries, shape, strict=True))
 
 
-def _entry(one: Any, size: int, shape: tuple[int, ...]) -> Any:
-    if isinstance(one, slice):
-        return one
+def _entry(entry: Any, size: int, shape: tuple[int, ...]) -> Any:
+    if isinstance(entry, slice):
+        return entry
     try:
-        array = np.asarray(one)
+        array = np.asarray(entry)
     except ValueError as error:  # lists of different lengths
-        message = f"[{short(one)}]: {FORMS}"
+        message = f"[{short(entry)}]: {FORMS}"
         raise InputError(message) from error
     if array.dtype == np.bool_:
         if array.shape != (size,):
@@ -99,11 +99,11 @@ def _entry(one: Any, size: int, shape: tuple[int, ...]) -> Any:
     if array.size == 0:
         array = array.astype(np.intp)
     if array.ndim > 1 or array.dtype.kind not in "ui":
-        message = f"[{short(one)}]: {FORMS}"
+        message = f"[{short(entry)}]: {FORMS}"
         raise InputError(message)
     outside = array[(array < -size) | (array >= size)]
     if outside.size:
-        message = f"[{short(one)}]: {outside.flat[0]} is outside the shape {shape}"
+        message = f"[{short(entry)}]: {outside.flat[0]} is outside the shape {shape}"
         raise InputError(message)
     return operator.index(array[()]) if array.ndim == 0 else array
 

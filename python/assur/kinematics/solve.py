@@ -48,8 +48,8 @@ def solve(
     is_typed: bool = False,
 ) -> Motion:
     """See `Mechanism.solve`; `is_typed`: whether a user wrote the coordinates, in rad."""
-    given: object = on_error
-    if isinstance(given, str) and given == "drop":
+    policy: object = on_error
+    if isinstance(policy, str) and policy == "drop":
         message = 'on_error is "drop": that is for assur.sweep; one of "raise", "nan" is needed'
         raise InputError(message)
     one_of(on_error, ("raise", "nan"), "on_error")
@@ -67,15 +67,15 @@ def solve(
     request = SolveRequest(
         mechanism, coordinates, positions, per_design, order, signs, own_signs, threads
     )
-    wanted = _outputs(mechanism, outputs)
+    chosen = _outputs(mechanism, outputs)
     report = on_error == "raise"
     if out is None:
-        results, status, failure = request.arrays(*wanted, report=report)
+        results, status, failure = request.arrays(*chosen, report=report)
         motion = Motion(request, results, status)
     else:
-        buffers = buffers_of(out, request, wanted)
+        buffers = buffers_of(out, request, chosen)
         # If interrupted, the arrays mix both motions: the buffers stay marked incomplete.
-        results, status, failure = request.arrays(*wanted, buffers, report=report)
+        results, status, failure = request.arrays(*chosen, buffers, report=report)
         motion = out
         overwrite(motion, request, results, status)
     if failure is not None:
@@ -86,9 +86,9 @@ def solve(
 def _with_advice(
     mechanism: MechanismModel, assembly: Mapping[str, int] | None, failure: AssurError
 ) -> AssurError:
-    """Say of a position beyond a dead point what goes past it, or where to look."""
+    """Add what goes past a dead point, or where to look, to the error of a position beyond it."""
     advice = PAST_DEAD_POINTS.get(failure.kind or "")
-    # A configuration curve is of one design.
+    # A configuration curve is for one design.
     if advice is None or mechanism.driver_count > 1 or mechanism.shape:
         return failure
     if failure.kind == "not_closed" and not _moves_somewhere(mechanism, assembly):
@@ -107,7 +107,7 @@ def _moves_somewhere(mechanism: MechanismModel, assembly: Mapping[str, int] | No
         return False
 
 
-def buffers_of(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
+def buffers_of(motion: Any, request: SolveRequest, chosen: Names) -> Buffers:
     """Return the arrays of a motion that the request may overwrite."""
     if not isinstance(motion, Motion):
         message = f"out is {short(motion)}: a motion is needed"
@@ -115,12 +115,12 @@ def buffers_of(motion: Any, request: SolveRequest, wanted: Names) -> Buffers:
     held = motion.stored
     names = [list(of) for of in (held.joints, held.links, held.slides)]
     drivers = request.mechanism.driver_count
-    given = (motion._status.shape, motion.order, motion.driver_count, *names)
-    needed = (request.shape, request.order, drivers, *(list(of) for of in wanted))
+    there = (motion._status.shape, motion.order, motion.driver_count, *names)
+    needed = (request.shape, request.order, drivers, *(list(of) for of in chosen))
     what = ("shape", "order", "number of drivers", "joints", "links", "slides")
-    for of, one, other in zip(what, given, needed, strict=True):
-        if one != other:
-            message = f"out has {of} {one}, this call needs {other}"
+    for of, held_value, needed_value in zip(what, there, needed, strict=True):
+        if held_value != needed_value:
+            message = f"out has {of} {held_value}, this call needs {needed_value}"
             raise InputError(message)
     if held.buffers is None:
         message = "out: a copy cannot be overwritten; pass a motion as solve returned it"
@@ -136,12 +136,12 @@ def _outputs(mechanism: MechanismModel, names: Iterable[str] | None) -> Names:
         message = f"outputs={short(names)}: a list of names is needed, [{short(names)}]"
         raise InputError(message)
     try:
-        wanted: list[Any] = list(names)
+        listed: list[Any] = list(names)
     except TypeError as error:
         message = f"outputs is {short(names)}: a list of names is needed"
         raise InputError(message) from error
     chosen: Names = ({}, {}, {})
-    for name in wanted:
+    for name in listed:
         is_known = False
         if isinstance(name, str):
             if name in joints:
@@ -155,6 +155,6 @@ def _outputs(mechanism: MechanismModel, names: Iterable[str] | None) -> Names:
                 is_known = True
         if not is_known:
             known = ", ".join(repr(n) for n in (*joints, *links, *slides))
-            message = f"outputs: nothing is called {short(name)}; there are {known}"
+            message = f"outputs: no joint, link or slide is called {short(name)}; there are {known}"
             raise InputError(message)
     return chosen

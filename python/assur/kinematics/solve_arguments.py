@@ -47,7 +47,7 @@ def checked_coordinates(
 
 
 def checked_assembly(mechanism: MechanismModel, assembly: Mapping[str, int] | None) -> list[int]:
-    """Return the signs of all dyads, of the drawing where the assembly says nothing."""
+    """Return the signs of all dyads, those of the drawing where the assembly says nothing."""
     if assembly is None:
         return mechanism.signs
     signs = dict(mechanism.core.assembly)

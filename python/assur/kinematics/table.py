@@ -76,7 +76,7 @@ def driven_angles(mechanism: MechanismModel) -> list[bool]:
     """Whether each driver is an angle, not a slide."""
     slides = mechanism.slides
     drivers = mechanism.description.drivers
-    return [not isinstance(one, str) or one not in slides for one in drivers]
+    return [not isinstance(driver, str) or driver not in slides for driver in drivers]
 
 
 def _quantities(motion: MotionModel, taken: set[str]) -> Iterator[_Quantity]:
@@ -102,7 +102,7 @@ def _moves(analogues: Analogues) -> bool:
         if bool(((value != first) & ~np.isnan(value) & ~np.isnan(first)).any()):
             return True
     elif len(analogues.arrays) == 1:
-        # One position without analogues does not show it.
+        # A single position without analogues does not show it.
         return True
     rates = analogues.arrays[1:2]
     return any(bool((np.nan_to_num(rate) != 0.0).any()) for rate in rates)

@@ -85,7 +85,7 @@ class TimedMotion(Tabular):
         return f"<assur.TimedMotion of {self.motion.mechanism.core.formula}, {count} times>"
 
     def joint(self, name: str | Sequence[str]) -> InTime:
-        """Return a joint over time (of several, stacked along a new first axis).
+        """Return a joint over time; several are stacked along a new first axis.
 
         Parameters
         ----------
@@ -208,7 +208,7 @@ class TimedMotion(Tabular):
         Returns
         -------
         matplotlib.axes.Axes or ndarray of them
-            Those drawn on, one for each order.
+            The axes drawn on, one for each order.
 
         Examples
         --------
@@ -278,7 +278,7 @@ class TimedMotion(Tabular):
         write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
 
     def _repr_html_(self) -> str | None:
-        """Return what a notebook shows; none of what cannot be played."""
+        """Return what a notebook shows; None for what cannot be played."""
         from assur.pictures.page.html import notebook_html
         from assur.pictures.page.turn_in_time import turn_of_timed
 
@@ -307,7 +307,7 @@ def follow(
         raise InputError(message)
     each = [_course(law, times) for law in listed]
     q, speed, acceleration, jerk = (
-        each[0][k] if drivers == 1 else np.stack([one[k] for one in each], axis=-1)
+        each[0][k] if drivers == 1 else np.stack([course[k] for course in each], axis=-1)
         for k in range(4)
     )
     motion = solve(mechanism, q, order=3, on_error=on_error, is_typed=True)

@@ -46,14 +46,14 @@ def lines(mechanism: MechanismModel, name: str, between: Any) -> tuple[list[Line
     """Return the two lines, and whether the complement of their angle is wanted."""
     name = checked_name(name, "transmission_angle")
     if between is not None:
-        given = (name, *between) if isinstance(between, tuple | list) else ()
-        joints = [checked_name(joint, "between") for joint in given]
+        listed = (name, *between) if isinstance(between, tuple | list) else ()
+        joints = [checked_name(joint, "between") for joint in listed]
         if len(set(joints)) != 3 or len(joints) != 3:
             message = f"between={short(between)}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
         for joint in joints:
             mechanism.core.require("joint", joint)
-        return [JointLine(name, other) for other in joints[1:]], False
+        return [JointLine(name, end) for end in joints[1:]], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)
     if slide is not None:
         return _at_slide(mechanism, slide), True
@@ -80,10 +80,10 @@ def _direction(motion: MotionModel, line: Line) -> Float:
     if isinstance(line, JointLine):
         along: Float = motion.joint(line.end).value - motion.joint(line.start).value
         return along
-    own = np.asarray(mechanism.dimensions.get(f"{line.slide}.angle", 0.0))
+    angle = np.asarray(mechanism.dimensions.get(f"{line.slide}.angle", 0.0))
     if motion.shape[len(mechanism.shape) :]:
-        own = own[..., np.newaxis]
-    direction = motion.link(line.link).value + own
+        angle = angle[..., np.newaxis]
+    direction = motion.link(line.link).value + angle
     sine, cosine = sin_cos(direction)
     return np.stack([cosine, sine], axis=-1)
 
@@ -136,7 +136,7 @@ def _at_slide(mechanism: MechanismModel, name: str) -> list[Line]:
 
 
 def _pivot(mechanism: MechanismModel, link: str) -> str:
-    """Return the joint about which a guide's link turns: that on the ground, or its only one."""
+    """Return the joint about which a guide's link turns: the one on the ground, or its only one."""
     joined = [j for j in mechanism.links[link] if _pairs(mechanism, j) > 1]
     fixed = [j for j in joined if j in mechanism.links["ground"]]
     pivots = fixed or joined

@@ -177,12 +177,12 @@ def _drawn(joints: Mapping[str, Sequence[float]]) -> Mechanism:
     return from_drawing(_core.class_iv_drawing(points))
 
 
-def _require_names(given: Any, names: Iterable[str], what: str) -> None:
+def _require_names(mapping: Any, names: Iterable[str], what: str) -> None:
     """Raise InputError for missing or unknown names."""
     try:
-        missing, unknown = [n for n in names if n not in given], set(given) - set(names)
+        missing, unknown = [n for n in names if n not in mapping], set(mapping) - set(names)
     except TypeError as error:
-        message = f"{what} is {short(given)}: a mapping is needed"
+        message = f"{what} is {short(mapping)}: a mapping is needed"
         raise InputError(message) from error
     if missing or unknown:
         lack = f"{', '.join(map(repr, missing))} missing" if missing else ""
@@ -191,9 +191,9 @@ def _require_names(given: Any, names: Iterable[str], what: str) -> None:
         raise InputError(message)
 
 
-def _numbers(given: Any, names: Sequence[str], what: str) -> dict[str, float]:
-    _require_names(given, names, what)
-    return {name: real_number(given[name], f"{what}[{name!r}]") for name in names}
+def _numbers(mapping: Any, names: Sequence[str], what: str) -> dict[str, float]:
+    _require_names(mapping, names, what)
+    return {name: real_number(mapping[name], f"{what}[{name!r}]") for name in names}
 
 
 def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism:
@@ -233,8 +233,8 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
     dimensions |= {f"{name}.y": point.imag for name, point in corner.items()}
     drawn = _drawn({n: (at[n].real, at[n].imag) for n in JOINTS})
     sized = drawn.with_dimensions(dimensions)
-    found = sized.solve(sized.q0, order=0, on_error="nan")
-    if not has_analogues(found.status):
+    motion = sized.solve(sized.q0, order=0, on_error="nan")
+    if not has_analogues(motion.status):
         apart = abs(at["8"] + leg("6-8", first["7-8"] + angle["7-8-6"]) - at["6"])
         message = (
             f"these starting angles lead to no assembly with the crank at {first['1-2']!r} "
@@ -242,5 +242,5 @@ def _from_paper(lengths: Any, angles: Any, pivots: Any, start: Any) -> Mechanism
             f"another crank angle"
         )
         raise InputError(message, q=first["1-2"])
-    joints = {name: tuple(found.joint(name).value.tolist()) for name in JOINTS}
+    joints = {name: tuple(motion.joint(name).value.tolist()) for name in JOINTS}
     return _drawn(joints).with_dimensions(dimensions)

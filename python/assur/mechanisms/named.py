@@ -85,7 +85,10 @@ def _coupler_point(point: Any) -> dict[str, npt.ArrayLike]:
     if not is_list or len(both) != 2:
         message = f"point is {short(point)}: (x, y) in the coupler's frame is needed"
         raise InputError(message)
-    x, y = (real_array(one, f"point, {axis}") for one, axis in zip(both, "xy", strict=True))
+    x, y = (
+        real_array(coordinate, f"point, {axis}")
+        for coordinate, axis in zip(both, "xy", strict=True)
+    )
     if x.ndim and y.ndim and x.shape != y.shape:
         message = f"point: x has shape {x.shape} and y {y.shape}"
         raise InputError(message)
@@ -143,9 +146,9 @@ def _where_it_exists(mechanism: Mechanism) -> Mechanism:
     if not intervals or any(low <= q0 <= high for low, high in intervals):
         return mechanism
     # A quarter of the way from the nearest end: change points are in the middle, if anywhere.
-    inward = [(end, other) for low, high in intervals for end, other in ((low, high), (high, low))]
-    end, other = min(inward, key=lambda ends: abs(math.remainder(ends[0] - q0, math.tau)))
-    place_q = end + 0.25 * (other - end)
+    inward = [(end, far) for low, high in intervals for end, far in ((low, high), (high, low))]
+    end, far = min(inward, key=lambda ends: abs(math.remainder(ends[0] - q0, math.tau)))
+    place_q = end + 0.25 * (far - end)
     for assembly in mechanism.assemblies(place_q):
         place = assembly.place
         if assembly == mechanism.assembly and place is not None:

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 WIDTH, LEAST_WIDTH, LEAST_HEIGHT, GREATEST_HEIGHT = 6.4, 3.6, 2.4, 6.4
 # About the mechanism, points: for names, pivots, drivers; and below for the scale bar.
 MARGIN, FOOT = 30.0, 30.0
-# The scale bar is about so long, points.
+# About the length of the scale bar, points.
 SCALE_BAR = 55.0
 TEXT = 9.0
-# Squares of what is drawn must not overflow, nor the number of pixels to a unit.
+# Squares of the extent must not overflow, nor the number of pixels per unit.
 LEAST_EXTENT, GREATEST_EXTENT = 1e-100, 1e100
 
 
@@ -64,7 +64,7 @@ def checked_axes(ax: Any) -> Any:
 
 
 def root_figure(ax: Any) -> Any:
-    """Return the figure that the axes are on, at last: they may be on a part of it."""
+    """Return the figure that the axes are on in the end: they may be on a part of it."""
     return ax.figure.figure
 
 
@@ -83,7 +83,7 @@ class Canvas:
     size : float
         Points to a px of the symbols: they shrink where links are short.
     low, high : ndarray
-        Corners of what is seen, m.
+        Corners of the visible area, m.
     """
 
     ax: Any
@@ -95,8 +95,8 @@ class Canvas:
 
     def points(self, at: Any) -> Float:
         """Return points of the drawing in points of print."""
-        own: Float = np.asarray(at, dtype=np.float64) * self.scale
-        return own
+        printed: Float = np.asarray(at, dtype=np.float64) * self.scale
+        return printed
 
 
 def canvas(
@@ -134,10 +134,13 @@ def canvas(
         if ax.has_data() or ax.artists or ax.patches or ax.texts:
             (x0, x1), (y0, y1) = sorted(ax.get_xlim()), sorted(ax.get_ylim())
             low, high = np.minimum(low, (x0, y0)), np.maximum(high, (x1, y1))
-    # Limits stay as they are, whatever the layout does later; twins cannot keep them.
+    # Limits stay as they are when the layout changes later; twins cannot keep them.
     box = ax.get_position(original=True)
     siblings = {*ax.get_shared_x_axes().get_siblings(ax), *ax.get_shared_y_axes().get_siblings(ax)}
-    twins = any(one is not ax and one.get_position(True).bounds == box.bounds for one in siblings)
+    twins = any(
+        sibling is not ax and sibling.get_position(True).bounds == box.bounds
+        for sibling in siblings
+    )
     ax.set_aspect("equal", adjustable="datalim" if twins else "box")
     ax.set_axis_off()
     size = np.maximum(72.0 * root_figure(ax).get_size_inches() * (box.width, box.height), 1.0)
@@ -164,7 +167,7 @@ def _spread(low: Float, high: Float) -> tuple[Float, Float]:
 
 
 def _new_axes(span: Float, margins: Float, style: Style) -> Any:
-    """Return axes that fill a new figure in the proportion of what is drawn."""
+    """Return axes that fill a new figure in the proportion of the drawing."""
     border = margins / 72.0
     width, height = np.maximum(span, 1e-300)
     tall = float((WIDTH - border[0]) * height / width + border[1])
@@ -177,7 +180,7 @@ def _new_axes(span: Float, margins: Float, style: Style) -> Any:
 
 
 def plain_figure(size: tuple[float, float], style: Style) -> Any:
-    """Return a figure for axes with places of their own, whatever layout rcParams ask for."""
+    """Return a figure for axes with places of their own, ignoring the layout in rcParams."""
     plt = pyplot()
     from matplotlib.layout_engine import PlaceHolderLayoutEngine
 

@@ -52,18 +52,18 @@ def chart_axes(
             needed = "one is" if rows * columns == 1 else f"{rows * columns} are"
             message = f"ax has {len(several)} axes: {needed} needed"
             raise InputError(message)
-        for one in several:
-            checked_axes(one)
+        for panel in several:
+            checked_axes(panel)
         axes = (
             several[0]
             if rows * columns == 1
             else np.array(several).reshape(rows, columns).squeeze()
         )
-    for one in np.atleast_1d(axes).flat:
-        if "log" in (one.get_xscale(), one.get_yscale()):
+    for panel in np.atleast_1d(axes).flat:
+        if "log" in (panel.get_xscale(), panel.get_yscale()):
             message = "ax has a logarithmic scale: diagrams have linear ones"
             raise InputError(message)
-        _dress(one, style)
+        _dress(panel, style)
     return axes
 
 
@@ -93,7 +93,7 @@ def title(ax: Any, text: str, style: Style, below: str = "") -> None:
 
 
 def degree_ticks(ax: Any, low: float, high: float) -> None:
-    """Put ticks at every 60°, of long spans at every turn."""
+    """Put ticks at every 60°, or at every turn for long spans."""
     from matplotlib.ticker import FuncFormatter, MultipleLocator
 
     steps = (60.0, 180.0, 360.0, 720.0, 3600.0)

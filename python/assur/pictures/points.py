@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def settle(ax: Any) -> None:
-    """Lay the figure out now: what is placed clear of something else stays so."""
+    """Compute the figure's layout now, so that texts placed clear of others stay clear."""
     figure = root_figure(ax)
     engine = figure.get_layout_engine()
     if engine is not None:
@@ -37,8 +37,8 @@ def in_points(ax: Any, data: Float) -> Float:
 
 def in_data(ax: Any, points: Float) -> Float:
     """Return places in points as places of the data."""
-    own: Float = ax.transData.inverted().transform(points / per_px(ax))
-    return own
+    places: Float = ax.transData.inverted().transform(points / per_px(ax))
+    return places
 
 
 def bounds(ax: Any) -> tuple[Float, Float]:

@@ -1,6 +1,6 @@
 """Sizes of symbols."""
 
-# All are px of a screen, of which an inch has 96, a point of print 72.
+# All are px of a screen, 96 to the inch; points of print are 72 to the inch.
 POINTS_PER_PX = 0.75
 
 JOINT = 5.0  # radius
@@ -23,5 +23,5 @@ HATCH = 1.0
 BRIDGE = 18.0
 ARROW_RADIUS, ARROW, ARROW_HEAD, ARROW_HEAD_WIDTH = 24.0, 2.25, 10.0, 9.0
 DRIVE_LENGTH, DRIVE_DISTANCE = 30.0, 12.0
-# Where links are shorter than this, all symbols shrink, to no less than that part.
+# Where links are shorter than this, all symbols shrink, to no less than this fraction.
 USUAL_LINK, LEAST_DENSITY = 60.0, 0.6

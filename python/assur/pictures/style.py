@@ -76,7 +76,7 @@ def style_of(dark: bool) -> Style:
 
 
 def blend(colour: str, canvas: str, part: float) -> tuple[float, float, float]:
-    """Return a part of a colour on the canvas, opaque: pictures stay small, and print."""
+    """Return a colour mixed with the canvas, opaque: pictures stay small, and print."""
     mixed = [
         part * int(colour[i : i + 2], 16) / 255.0
         + (1.0 - part) * int(canvas[i : i + 2], 16) / 255.0

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.axes import Canvas
 
-# Serif italic for joints and quantities; what it lacks comes from the default font.
+# Serif italic for joints and quantities; letters it lacks come from the default font.
 NAME_FONT = ["STIXGeneral", "DejaVu Serif", "DejaVu Sans"]
 NAME_SIZE = 12.0
 # For a letter that no font has.
@@ -39,7 +39,7 @@ def name_font(size: float = NAME_SIZE) -> FontProperties:
 def printable(text: str) -> str:
     """Return a text with a box for each letter that the default font, rcParams, does not have.
 
-    That is what matplotlib draws of such a letter, with a warning.
+    Matplotlib draws the same for such a letter, with a warning.
     """
     if text.isascii():
         return text
@@ -50,7 +50,7 @@ def printable(text: str) -> str:
 
 
 def shortened(text: str) -> str:
-    """Return a text of no more than `LONGEST` letters; what is left out is in its middle."""
+    """Return a text of no more than `LONGEST` letters, shortened in its middle."""
     if len(text) <= LONGEST:
         return text
     half = LONGEST // 2
@@ -104,7 +104,7 @@ def write_names(
     radii: Float,
     lines: list[Float],
     gids: Sequence[str],
-    others: Float | None = None,
+    boxes: Float | None = None,
     light: list[Float] | None = None,
     font: FontProperties | None = None,
     colours: Sequence[str] | None = None,
@@ -112,12 +112,12 @@ def write_names(
 ) -> list[Any]:
     """Write names beside points, m.
 
-    `radii` of their symbols are in points, `lines` in m; `others` are boxes that are there
-    already: their middles and halves in points, (k, 2, 2); `light` are lines to be covered first.
+    `radii` of their symbols are in points, `lines` in m; `boxes` are there already: their
+    middles and halves in points, (k, 2, 2); `light` are lines to be covered first.
     The font and ink of names by default; texts whose `sizes`, points, are given may have formulas.
     """
     names = Names(on, texts, radii, gids, font, colours, sizes)
-    names.place(points, lines, others, light)
+    names.place(points, lines, boxes, light)
     return names.artists
 
 
@@ -180,7 +180,7 @@ class Names:
         self,
         points: Float,
         lines: list[Float],
-        others: Float | None = None,
+        boxes: Float | None = None,
         light: list[Float] | None = None,
     ) -> None:
         """Move the names to points, m, clear of lines."""
@@ -192,7 +192,7 @@ class Names:
             self._radii,
             along([on.points(line) for line in lines], STEP, bounds),
             bounds,
-            others,
+            boxes,
             along([on.points(line) for line in light or []], STEP, bounds),
             self._kept,
         )

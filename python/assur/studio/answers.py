@@ -1,4 +1,4 @@
-"""From a request to its frame: every request has one answer, whatever it asks."""
+"""From a request to its frame: every request has exactly one answer."""
 
 from __future__ import annotations
 
@@ -51,22 +51,24 @@ def _computed(request: Request, session: Session) -> Answer:
     if not _RECORD.acquire(timeout=LONGEST_WAIT):
         return compute(request.fields, session)
     try:
-        with warnings.catch_warnings(record=True) as found:
+        with warnings.catch_warnings(record=True) as record:
             warnings.simplefilter("always", AssurWarning)
             answer = compute(request.fields, session)
     finally:
         _RECORD.release()
-    said = [str(one.message) for one in found if issubclass(one.category, AssurWarning)]
-    return Answer({**answer.header, "warnings": said}, answer.arrays) if said else answer
+    messages = [
+        str(warning.message) for warning in record if issubclass(warning.category, AssurWarning)
+    ]
+    return Answer({**answer.header, "warnings": messages}, answer.arrays) if messages else answer
 
 
 def described(error: BaseException) -> dict[str, Any]:
     """Return an error in plain words, with what it is about."""
     if isinstance(error, AssurError):
-        own = {name: getattr(error, name, None) for name in (*FIELDS, *PLACES)}
-        own["what_to_do"] = error.hint
-        own["message"] = str(error)[:MOST_LETTERS]
-        return {name: value for name, value in own.items() if value is not None}
+        fields = {name: getattr(error, name, None) for name in (*FIELDS, *PLACES)}
+        fields["what_to_do"] = error.hint
+        fields["message"] = str(error)[:MOST_LETTERS]
+        return {name: value for name, value in fields.items() if value is not None}
     if isinstance(error, ImportError):
         return {"message": str(error)[:MOST_LETTERS], "kind": "missing_package"}
     if isinstance(error, MemoryError):
@@ -74,7 +76,7 @@ def described(error: BaseException) -> dict[str, Any]:
     if isinstance(error, RecursionError):
         return {"message": "the document is nested too deeply", "kind": "malformed"}
     if isinstance(error, UnicodeError):
-        return {"message": "a text has letters that are no letters", "kind": "malformed"}
+        return {"message": "a text is not valid Unicode", "kind": "malformed"}
     LOG.error("a request failed", exc_info=error)
     message = f"the studio failed at this ({type(error).__name__}); the document is not changed"
     return {"message": message, "kind": "internal"}

@@ -24,7 +24,7 @@ INDEX = "studio/page/index.html"
 
 
 def pages() -> dict[str, tuple[str, str]]:
-    """Return all that is served, by address: its text and its type. Nothing else is ever read."""
+    """Return the served files by address, each with text and type. Nothing else is ever read."""
     index = files("assur").joinpath(INDEX).read_text(encoding="utf-8")
     return {
         "/": (index, "text/html; charset=utf-8"),
@@ -33,19 +33,19 @@ def pages() -> dict[str, tuple[str, str]]:
     }
 
 
-def application(given: Given | None, token: str, host: str, port: int) -> ASGIApp:
+def application(opened: Given | None, token: str, host: str, port: int) -> ASGIApp:
     """Return the application.
 
     Parameters
     ----------
-    given : Given or None
+    opened : Given or None
         The file or example that the command named.
     token : str
-        Who has it is let in.
+        Whoever has it is let in.
     host, port : str, int
         Where the server listens.
     """
-    served, studio = pages(), Studio(given)
+    served, studio = pages(), Studio(opened)
 
     async def page(request: Request) -> Response:
         if request.url.path not in served:

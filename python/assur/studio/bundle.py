@@ -52,8 +52,8 @@ def _modules(entry: str) -> list[str]:
 
 
 def _imported(path: str) -> Iterator[str]:
-    for other in _IMPORT.findall(_text(path)):
-        yield from _imported(normpath(join(path.rpartition("/")[0], other)))
+    for imported in _IMPORT.findall(_text(path)):
+        yield from _imported(normpath(join(path.rpartition("/")[0], imported)))
     yield path
 
 

@@ -1,4 +1,4 @@
-"""One page: reads its requests, computes them in two lanes, keeps of live kinds the newest."""
+"""One page: reads its requests, computes them in two lanes, keeps the newest of live kinds."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ TRY_LATER = 1013
 
 
 class Studio:
-    """What all connections share: the file given, the threads, who is connected."""
+    """What all connections share: the file given, the threads, the connections."""
 
     def __init__(self, given: Given | None = None) -> None:
         self.given = given
@@ -109,26 +109,32 @@ class Connection:
             return
         lane = self._long if request.kind in LONG else self._quick
         place = LIVE.get(request.kind)
-        older = [one for one in lane.waiting if place is not None and LIVE.get(one.kind) == place]
-        for one in older:
-            lane.waiting.remove(one)
-            await self._send(encode({**_head(one), "dropped": True}, {}))
+        older = [
+            queued
+            for queued in lane.waiting
+            if place is not None and LIVE.get(queued.kind) == place
+        ]
+        for outdated in older:
+            lane.waiting.remove(outdated)
+            await self._send(encode({**_head(outdated), "dropped": True}, {}))
         if len(lane.waiting) >= MOST_WAITING:
             await self._send(failed(_head(request), BusyError()))
             return
         lane.add(request)
 
     async def _compute(self, lane: Lane) -> None:
-        """Answer what waits in a lane."""
+        """Answer the requests that wait in a lane."""
         while True:
             await self._send(await self._answer(await lane.next()))
 
     async def _answer(self, request: Request) -> bytes:
         seconds = EXPORT_SECONDS if request.kind == "export" else SECONDS
-        others = sum(one.has_file for one in self._studio.connections if one is not self)
+        other_files = sum(
+            connection.has_file for connection in self._studio.connections if connection is not self
+        )
 
         def call() -> bytes:
-            return answered(request, Session(self._studio.given, Deadline(seconds), others))
+            return answered(request, Session(self._studio.given, Deadline(seconds), other_files))
 
         try:
             frame = await self._studio.workers.compute(call, seconds, request.kind)

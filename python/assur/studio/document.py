@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
     from assur.kinematics.mechanism import Mechanism
 
-# Mechanisms of the documents that were read last: a page asks many things of one.
+# Mechanisms of the documents that were read last: a page asks much of each.
 MOST_KNOWN = 8
 _KNOWN: OrderedDict[str, Mechanism] = OrderedDict()
 
@@ -38,7 +38,7 @@ def read(data: Any) -> Contents:
     Raises
     ------
     FileError
-        What is wrong, with its key in the document.
+        The fault, with its key in the document.
     """
     node = checked(data)
     contents = contents_of(Tree({"format": FORMAT, **node.value}))
@@ -59,7 +59,7 @@ def read_mechanism(data: Any) -> Mechanism:
 
 
 def remember(data: dict[str, Any], mechanism: Mechanism) -> None:
-    """Keep the mechanism of a document that was made of it: the page asks for it next."""
+    """Keep the mechanism of a document made from it: the page asks for it next."""
     _remember(json.dumps(_geometry(data)), mechanism)
 
 
@@ -89,9 +89,9 @@ def checked(data: Any) -> Node:
     node = Node(Tree(data if isinstance(data, dict) else {}), (), data)
     entries = node.keys(KEYS)
     for key, most in COUNTED.items():
-        own = entries[key].value if key in entries else ()
-        if isinstance(own, dict | list) and len(own) > most:
-            message = f"has {len(own)} entries: the studio takes {most}"
+        value = entries[key].value if key in entries else ()
+        if isinstance(value, dict | list) and len(value) > most:
+            message = f"has {len(value)} entries: the studio takes {most}"
             raise entries[key].error(message, kind="too_many")
     return node
 

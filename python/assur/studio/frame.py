@@ -64,10 +64,10 @@ def decode(frame: bytes) -> tuple[dict[str, Any], dict[str, npt.NDArray[Any]]]:
     header = json.loads(frame[4 : 4 + length])
     at = 4 + length + len(_zeros(4 + length))
     arrays = {}
-    for one in header["arrays"]:
-        kind: Any = np.dtype(one["type"]).newbyteorder("<")
-        count = math.prod(one["shape"])
-        arrays[one["name"]] = np.frombuffer(frame, kind, count, at).reshape(one["shape"])
+    for entry in header["arrays"]:
+        kind: Any = np.dtype(entry["type"]).newbyteorder("<")
+        count = math.prod(entry["shape"])
+        arrays[entry["name"]] = np.frombuffer(frame, kind, count, at).reshape(entry["shape"])
         at += count * kind.itemsize
         at += len(_zeros(at))
     return header, arrays
@@ -92,9 +92,9 @@ def plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return plain(value.tolist())
     if isinstance(value, Mapping):
-        return {str(key): plain(one) for key, one in value.items()}
+        return {str(key): plain(entry) for key, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [plain(one) for one in value]
+        return [plain(entry) for entry in value]
     if isinstance(value, np.integer | np.bool_):
         return value.item()
     return value

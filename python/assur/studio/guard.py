@@ -1,6 +1,6 @@
-"""Who is let in: the page that has the token, on the host it was given, from its own origin.
+"""Access: only the page that has the token, on the host it was given, from its own origin.
 
-Any web page can send requests to this machine. So the token keeps out all that does not have it;
+Any web page can send requests to this machine. So the token keeps out everyone without it;
 Host keeps out names that another site lets point here (DNS rebinding); Origin and Sec-Fetch-Site
 keep out requests of other sites, even where the browser adds the cookie.
 """
@@ -45,7 +45,7 @@ class Guard:
     app : callable
         The application (ASGI).
     token : str
-        What the address has, then a cookie.
+        In the address first, then in a cookie.
     host : str
         Where the server listens.
     port : int
@@ -82,7 +82,7 @@ class Guard:
         if not is_socket and scope["method"] not in ("GET", "HEAD"):
             return False
         sites = headers.get("sec-fetch-site", [])
-        # The first page may be opened from anywhere by who has the token.
+        # Anyone who has the token may open the first page from anywhere.
         if not with_token and any(site not in ("same-origin", "none") for site in sites):
             return False
         return with_token or self._has_cookie(headers)
@@ -112,15 +112,15 @@ class Guard:
         except ValueError:
             # More fields than that.
             return False
-        return any(self._is_token(one) for one in query.get("token", []))
+        return any(self._is_token(token) for token in query.get("token", []))
 
     def _has_cookie(self, headers: dict[str, list[str]]) -> bool:
         for text in headers.get("cookie", []):
             try:
-                found = SimpleCookie(text).get(self.cookie)
+                cookie = SimpleCookie(text).get(self.cookie)
             except CookieError:
                 continue
-            if found is not None and self._is_token(found.value):
+            if cookie is not None and self._is_token(cookie.value):
                 return True
         return False
 
@@ -139,10 +139,10 @@ class Guard:
 
 
 def _headers(scope: Scope) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
+    headers: dict[str, list[str]] = {}
     for name, value in scope["headers"]:
-        found.setdefault(name.decode("latin-1").lower(), []).append(value.decode("latin-1"))
-    return found
+        headers.setdefault(name.decode("latin-1").lower(), []).append(value.decode("latin-1"))
+    return headers
 
 
 def _adding(

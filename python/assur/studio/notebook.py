@@ -27,7 +27,7 @@ LEAST_HEIGHT = 320
 class Explorer(anywidget.AnyWidget):
     """A mechanism that is played, dragged and changed in a cell of a notebook.
 
-    Both ways: what is dragged or typed in the cell changes `mechanism`; setting `mechanism`
+    Both ways: dragging or typing in the cell changes `mechanism`; setting `mechanism`
     draws that one. Made by `Mechanism.explore` and `Machine.explore`.
 
     Parameters
@@ -35,7 +35,7 @@ class Explorer(anywidget.AnyWidget):
     what : Mechanism or Machine
         What is shown first.
     height : int
-        Of the cell, px.
+        Height of the cell, px.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Explorer(anywidget.AnyWidget):
     machine : Machine or None
         With masses and loads, if there are any.
     q : float or list of float
-        The coordinate of the driver at which it stands, rad or m; of several drivers a list.
+        The driver's coordinate, rad or m; a list for several drivers.
         Assign to move it.
     document : dict
         The description as the page has it, also while it does not move. Observe it, with
@@ -72,8 +72,8 @@ class Explorer(anywidget.AnyWidget):
 
     def __init__(self, what: Mechanism | Machine, height: int = 640) -> None:
         shown = self._shown = _shown(what)
-        own, place = document.document_of(what), _place(shown[0])
-        super().__init__(document=own, q=place, height=max(int(height), LEAST_HEIGHT))
+        shown_document, place = document.document_of(what), _place(shown[0])
+        super().__init__(document=shown_document, q=place, height=max(int(height), LEAST_HEIGHT))
         # Setting the document read it again.
         self._shown = shown
         self.on_msg(self._asked)
@@ -126,7 +126,7 @@ class Explorer(anywidget.AnyWidget):
 
 
 def _shown(what: Any) -> tuple[Mechanism, Machine | None]:
-    """Return a mechanism, and its machine if it is one, of one design."""
+    """Return the mechanism of one design, and its machine if it is one."""
     is_machine = isinstance(what, Machine)
     mechanism: Any = what.mechanism if is_machine else what
     shape = getattr(mechanism, "shape", None)

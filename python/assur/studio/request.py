@@ -36,9 +36,9 @@ class Request:
 class MalformedError(InputError):
     """A message that is not a request; `id` is its own as far as it has one."""
 
-    def __init__(self, message: str, own: int | None = None) -> None:
+    def __init__(self, message: str, identifier: int | None = None) -> None:
         super().__init__(message, kind="malformed")
-        self.id = own
+        self.id = identifier
 
 
 def parse(text: str | bytes) -> Request:
@@ -64,20 +64,20 @@ def parse(text: str | bytes) -> Request:
         message = "a message is a JSON object with id, rev and kind"
         raise MalformedError(message)
     number = data.get("id")
-    own = number if _is_whole(number) else None
+    identifier = number if _is_whole(number) else None
     for key in ("id", "rev"):
         if not _is_whole(data.get(key)):
             message = f"{key}: a whole number is needed"
-            raise MalformedError(message, own)
+            raise MalformedError(message, identifier)
     if not isinstance(data.get("kind"), str):
         message = "kind: a text is needed"
-        raise MalformedError(message, own)
+        raise MalformedError(message, identifier)
     rest = {key: value for key, value in data.items() if key not in ENVELOPE}
     return Request(data["id"], data["rev"], data["kind"], rest)
 
 
 def _refuse(word: str) -> NoReturn:
-    message = f"{word} is no number of JSON"
+    message = f"{word} is not a JSON number"
     raise ValueError(message)
 
 
@@ -152,14 +152,14 @@ class Fields:
         return self.node(name).pair()
 
     def drivers(self, name: str, mechanism: Mechanism, default: float | None = None) -> Any:
-        """Return a number for each driver: of one driver a number, else an array."""
+        """Return a number for each driver: for one driver a number, else an array."""
         count = mechanism.driver_count
         if name not in self:
             if default is None:
                 return np.asarray(mechanism.q0) if count > 1 else mechanism.q0
             return default if count == 1 else np.full(count, default)
-        given: Float = self.node(name).array()
-        if given.shape != (() if count == 1 else (count,)):
+        numbers: Float = self.node(name).array()
+        if numbers.shape != (() if count == 1 else (count,)):
             needed = "a number" if count == 1 else f"a list of {count} numbers, one of each driver,"
             raise self.error(name, f"{needed} is needed")
-        return float(given) if count == 1 else given
+        return float(numbers) if count == 1 else numbers

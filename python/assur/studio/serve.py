@@ -46,7 +46,7 @@ def serve(
     Parameters
     ----------
     given : Given or None
-        What is opened; None for an empty page.
+        The document to open; None for an empty page.
     host : str, optional
         Where to listen: this machine alone by default.
     port : int, optional
@@ -94,9 +94,9 @@ def _listening(host: str, port: int | None) -> socket.socket:
         raise InputError(message)
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     ports = range(USUAL_PORT, USUAL_PORT + MORE_PORTS) if port is None else ()
-    for one in ports:
+    for number in ports:
         with suppress(OSError):
-            return socket.create_server((host, one), family=family)
+            return socket.create_server((host, number), family=family)
     try:
         return socket.create_server((host, 0 if port is None else port), family=family)
     except OSError as error:

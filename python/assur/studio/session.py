@@ -62,14 +62,14 @@ class Given:
 
     @property
     def title(self) -> str:
-        """What the page calls it."""
+        """Its name on the page."""
         return self.path.name if self.path is not None else str(self.example)
 
     @property
     def id(self) -> str:
         """What distinguishes it from other files and examples, for what a browser keeps of it."""
-        own = f"example:{self.example}" if self.path is None else os.path.realpath(self.path)
-        return stamp_of(os.fsencode(own))
+        source = f"example:{self.example}" if self.path is None else os.path.realpath(self.path)
+        return stamp_of(os.fsencode(source))
 
     @property
     def is_saved(self) -> bool:
@@ -77,7 +77,7 @@ class Given:
         return self.path is not None and self.path.suffix.lower() == ".toml"
 
     def bytes(self) -> bytes:
-        """Return what is in the file."""
+        """Return the contents of the file."""
         assert self.path is not None
         try:
             with self.path.open("rb") as file:

@@ -24,7 +24,7 @@ GRACE = 0.5
 
 
 class BusyError(InputError):
-    """All threads compute what was left behind."""
+    """All threads are busy with calls that were left behind."""
 
     def __init__(self) -> None:
         message = "the studio is still busy with earlier requests"
@@ -46,13 +46,13 @@ class Workers:
     async def compute(self, call: Callable[[], bytes], seconds: float, kind: str) -> bytes:
         """Return what the call returns, within the time.
 
-        A kind of which one call was left behind has to wait until that has ended: so what takes
-        too long, asked again and again, takes one thread and not all.
+        A kind with a call that was left behind has to wait until that has ended: a slow request,
+        repeated, takes one thread and not all.
 
         Raises
         ------
         TimeIsUpError, BusyError
-            It takes longer, or it could not be begun.
+            It takes longer, or it could not be started.
         """
         if kind in self._left:
             if not self._left[kind].done():
@@ -70,7 +70,7 @@ class Workers:
             return await asyncio.wait_for(asyncio.wrap_future(future), seconds + GRACE)
         except asyncio.TimeoutError:
             if future.cancelled():
-                # It had not been begun.
+                # It had not been started.
                 raise BusyError from None
             self._left[kind] = future
             raise TimeIsUpError(seconds) from None

@@ -1,8 +1,8 @@
-"""What the tables, axes and reasons of a sweep's measures ask of these."""
+"""What the tables, axes and reasons of a sweep need of its measures."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import ItemsView
@@ -15,6 +15,15 @@ if TYPE_CHECKING:
     from assur.sweeps.designs import Designs
 
 
+class Undefined(NamedTuple):
+    """A metric without a value."""
+
+    metric: str
+    reason: str
+    # The load, body or motor to blame.
+    subject: str | None = None
+
+
 class Asked(Protocol):
     """What was measured: see `Measuring`."""
 
@@ -22,7 +31,7 @@ class Asked(Protocol):
     def conditions(self) -> Any: ...
     @property
     def q(self) -> Float: ...
-    def without_value(self, design: Mechanism) -> str:
+    def undefined(self, design: Mechanism) -> Undefined:
         """Return which metric of a design has no value, and why."""
 
 

@@ -31,21 +31,22 @@ class Designs:
         if not isinstance(mechanism, Mechanism):
             message = f"mechanism is {short(mechanism)}: an assur.Mechanism is needed"
             raise InputError(message)
-        # From here on it is drawn in the assembly: whatever is handed back is, too.
+        # From here on it is drawn in the assembly, and so is what is returned.
         self.mechanism = mechanism = in_assembly(mechanism, assembly)
-        given = dimensions_by_name(dimensions, mechanism.core.dimension_names)
-        names = [checked_name(name, "dimensions") for name in given]
+        by_name = dimensions_by_name(dimensions, mechanism.core.dimension_names)
+        names = [checked_name(name, "dimensions") for name in by_name]
         indices = [mechanism.core.dimension(name) for name in names]
-        new = [real_array(given[n], f"dimension {n!r}", copy=False) for n in names]
-        # Designs are asked for later, when the caller may have changed his arrays (no grid's).
+        new = [real_array(by_name[n], f"dimension {n!r}", copy=False) for n in names]
+        # Designs are read later, when the caller may have changed their arrays (a grid's cannot
+        # change).
         if not isinstance(dimensions, Grid):
             new = _copied(new)
-        own = mechanism.shape
+        batch = mechanism.shape
         try:
-            self.shape = np.broadcast_shapes(own, *(array.shape for array in new))
+            self.shape = np.broadcast_shapes(batch, *(array.shape for array in new))
         except ValueError as error:
             shapes = ", ".join(f"{n!r} {a.shape}" for n, a in zip(names, new, strict=True))
-            message = f"dimensions do not broadcast: {shapes}, designs {own}"
+            message = f"dimensions do not broadcast: {shapes}, designs {batch}"
             raise InputError(message) from error
         columns: list[Float] = list(mechanism.values)
         for index, array in zip(indices, new, strict=True):
@@ -88,19 +89,19 @@ class Designs:
         return with_values(self.mechanism, values)
 
     def values(self, name: str) -> Float:
-        """Return a dimension that the sweep changes, of all designs in C order."""
+        """Return a dimension that the sweep changes, for all designs in C order."""
         column = self._columns[self.changed[name]]
         values: Float = np.broadcast_to(column, self.shape).reshape(-1)
         return values
 
 
 def _copied(arrays: list[Float]) -> list[Float]:
-    """Copy arrays into one: a large one gets large pages, which take a tenth of the time."""
+    """Copy arrays into one: a large one gets large pages, which are ten times as fast."""
     memory = np.empty(sum(array.size for array in arrays))
-    found, start = [], 0
+    copies, start = [], 0
     for array in arrays:
         copy = memory[start : start + array.size].reshape(array.shape)
         copy[...] = array
-        found.append(copy)
+        copies.append(copy)
         start += array.size
-    return found
+    return copies

@@ -1,4 +1,4 @@
-"""Blocks of designs on an engine: what has ``submit``, as `concurrent.futures` and Dask have."""
+"""Blocks of designs on an engine: anything with ``submit``, as in `concurrent.futures` and Dask."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ Result = TypeVar("Result")
 
 
 class Future(Protocol):
-    """What will be the result of a call."""
+    """The future result of a call."""
 
     def result(self) -> Any:
         """Return it, or raise what the call raised."""
 
     def cancel(self) -> Any:
-        """Leave the call out, if it has not begun."""
+        """Cancel the call if it has not started."""
 
 
 class Engine(Protocol):
-    """What does calls elsewhere."""
+    """What makes calls elsewhere."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future:
-        """Do a call."""
+        """Make a call."""
 
 
 def checked_engine(engine: Any) -> Any:
@@ -46,9 +46,9 @@ def checked_engine(engine: Any) -> Any:
 def results(
     engine: Any, work: Callable[[Task], Result], tasks: Iterable[tuple[slice, Task]]
 ) -> Iterator[tuple[slice, Result]]:
-    """Do tasks, each of a block of designs, and give their results in order.
+    """Run tasks, each of a block of designs, and yield their results in order.
 
-    Without an engine they are done one after another when they are asked for.
+    Without an engine each runs when its result is asked for.
     """
     if engine is None:
         for block, task in tasks:

@@ -45,18 +45,21 @@ class Grid(Mapping[str, Float]):
     def __init__(
         self, dimensions: Mapping[str, npt.ArrayLike] | None = None, **by_name: npt.ArrayLike
     ) -> None:
-        given: Any = {} if dimensions is None else dimensions
-        if not isinstance(given, Mapping):
-            message = f"dimensions is {short(given)}: a mapping of names to values is needed"
+        mapping: Any = {} if dimensions is None else dimensions
+        if not isinstance(mapping, Mapping):
+            message = f"dimensions is {short(mapping)}: a mapping of names to values is needed"
             raise InputError(message)
-        wanted = {**{checked_name(name, "dimensions"): v for name, v in given.items()}, **by_name}
+        all_axes = {
+            **{checked_name(name, "dimensions"): v for name, v in mapping.items()},
+            **by_name,
+        }
         self._axes: dict[str, Float] = {}
-        for axis, (name, values) in enumerate(wanted.items()):
+        for axis, (name, values) in enumerate(all_axes.items()):
             array = real_array(values, f"dimension {name!r}")
             if array.ndim != 1:
                 message = f"dimension {name!r} has shape {array.shape}: an axis of a grid has (n,)"
                 raise InputError(message)
-            after = len(wanted) - axis - 1
+            after = len(all_axes) - axis - 1
             self._axes[name] = array.reshape(-1, *(1,) * after)
             self._axes[name].flags.writeable = False
 

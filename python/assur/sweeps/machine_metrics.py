@@ -58,7 +58,7 @@ class Driven(ByValue, OfMachine):
     def motion(self) -> MotionKey:
         """Equal for metrics of the same motion."""
         both = np.asarray(self.speed), np.asarray(self.acceleration)
-        return tuple((one.shape, one.tobytes()) for one in both)
+        return tuple((rates.shape, rates.tobytes()) for rates in both)
 
     def keys(self, machine: Machine) -> list[Key]:
         """The reactions it needs."""
@@ -72,16 +72,16 @@ class Driven(ByValue, OfMachine):
         """Its values for the designs of a machine."""
         return together([self], machine, q, threads)[0]
 
-    def why(self, machine: Machine, q: Float) -> str:
+    def why(self, machine: Machine, q: Float) -> AssurError | str:
         """Why a design has no value: the error of its first position without one."""
         try:
-            found = reactions(
+            solved = reactions(
                 machine, motion_of(q, self.speed, self.acceleration, 0.0), None, "raise"
             )
         except AssurError as error:
-            return str(error)
-        if np.any(found.locked):
-            at = np.ravel(q)[int(np.argmax(found.locked))]
+            return error
+        if np.any(solved.locked):
+            at = np.ravel(q)[int(np.argmax(solved.locked))]
             return f"friction locks the machine at q = {at:.9g}"
         return "redundant links leave it undetermined"
 
@@ -155,11 +155,11 @@ class Effort(Driven):
     def _by_power(self, machine: Machine, q: Float) -> Float:
         """Its values where a position has no forces: at a change point the effort has a value."""
         motion, keys = motion_of(q, self.speed, self.acceleration, 0.0), self.keys(machine)
-        found = reactions(machine, motion, None, "nan", keys).by_key
+        forces = reactions(machine, motion, None, "nan", keys).by_key
         known = machine.effort(q, self.speed, self.acceleration, on_error="nan")
         every = [known] if machine.driver_count == 1 else list(np.moveaxis(known, -1, 0))
         each = [
-            np.where(np.isnan(found[key]), b, found[key])
+            np.where(np.isnan(forces[key]), b, forces[key])
             for key, b in zip(keys, every, strict=True)
         ]
         with np.errstate(over="ignore"):
@@ -201,26 +201,26 @@ class FlywheelInertia(ByValue, OfMachine):
     mean_speed: float | None
     mean: Mean
 
-    def why(self, machine: Machine, _q: Float) -> str:
+    def why(self, machine: Machine, _q: Float) -> AssurError | str:
         """Why a design has no such flywheel."""
         try:
             machine.flywheel(self.fluctuation, self.mean_speed, self.mean)
         except AssurError as error:
-            return str(error)
+            return error
         return "there is no such flywheel"
 
     def values(self, machine: Machine, _q: Float, _threads: int | None) -> Float:
         """Its values for the designs of a machine."""
-        found = machine.flywheel(self.fluctuation, self.mean_speed, self.mean, on_error="nan")
-        return np.asarray(found.inertia)
+        flywheel = machine.flywheel(self.fluctuation, self.mean_speed, self.mean, on_error="nan")
+        return np.asarray(flywheel.inertia)
 
     def __repr__(self) -> str:
         return f"flywheel_inertia({self.fluctuation!r})"
 
 
 def _motion(speed: npt.ArrayLike, acceleration: npt.ArrayLike) -> tuple[Any, Any]:
-    given = (("speed", speed), ("acceleration", acceleration))
-    first, second = (finite_array(value, what)[()] for what, value in given)
+    rates = (("speed", speed), ("acceleration", acceleration))
+    first, second = (finite_array(value, what)[()] for what, value in rates)
     return first, second
 
 
@@ -308,7 +308,7 @@ def rms_reaction(
 def peak_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
     """The greatest size of the torque or force of the drive, N·m or N.
 
-    With several drivers it is the greatest of all, whatever their units.
+    With several drivers it is the greatest of all, regardless of their units.
 
     Parameters
     ----------

@@ -40,11 +40,11 @@ class Measures(Mapping[str, Float]):
     Attributes
     ----------
     status : numpy.ndarray
-        A `Status` of each design, S: that of a position that cannot be solved, if one was
-        found, or the worst. With a ``SINGULAR`` position metrics of derivatives are NaN; otherwise
-        a metric that is NaN makes it ``NO_VALUE``: a load's table ends, friction locks the machine,
-        a path is not closed. A design that misses a condition is not solved further: it has ``OK``,
-        or what its solved positions have.
+        A `Status` of each design, S: that of a position that cannot be solved, if there is one, or
+        the worst. With a ``SINGULAR`` position metrics of derivatives are NaN; otherwise a metric
+        that is NaN makes it ``NO_VALUE``: a load's table ends, friction locks the machine, a path
+        is not closed. A design that misses a condition is not solved further: it has ``OK``, or
+        what its solved positions have.
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q, meet all conditions
         and have all metrics, ascending.
@@ -94,9 +94,9 @@ class Measures(Mapping[str, Float]):
         Parameters
         ----------
         n : int
-            How many; fewer are returned if fewer have a value.
+            Number of designs; fewer are returned if fewer have a value.
         by : str
-            Name of the metric. NaN is left out; of equal values the first is first.
+            Name of the metric. NaN is left out; equal values keep their order.
         greatest : bool
             Those with the greatest values instead.
 
@@ -126,7 +126,7 @@ class Measures(Mapping[str, Float]):
                 f"best({short(n)}, {short(by)}): the number comes first: best(10, by={short(n)})"
             )
             raise InputError(message)
-        wanted = whole_number(n, "n", 1)
+        count = whole_number(n, "n", 1)
         name: object = by
         if not isinstance(name, str) or name not in self._values:
             names = ", ".join(map(repr, self._values))
@@ -138,11 +138,11 @@ class Measures(Mapping[str, Float]):
             message = f"best: no design has a value of {by!r}: {counts_text(self)}"
             raise InputError(message)
         some = -values[indices] if flag(greatest, "greatest") else values[indices]
-        if wanted < len(some):
+        if count < len(some):
             # Sorting all would take longer than measuring them.
-            few = np.flatnonzero(some <= np.partition(some, wanted - 1)[wanted - 1])
+            few = np.flatnonzero(some <= np.partition(some, count - 1)[count - 1])
             indices, some = indices[few], some[few]
-        return indices[np.argsort(some, kind="stable")[:wanted]]
+        return indices[np.argsort(some, kind="stable")[:count]]
 
     def explain(self, index: int | tuple[int, ...]) -> str | None:
         """Return why a design is not kept, or None if it is.
@@ -208,19 +208,19 @@ class Measures(Mapping[str, Float]):
         >>> round(best.dimensions["coupler.length"], 3)
         2.0
         """
-        wanted = self._flat(indices)
-        some = self._designs.some(np.atleast_1d(wanted))
-        return some if wanted.ndim else some.design(0)
+        flat = self._flat(indices)
+        some = self._designs.some(np.atleast_1d(flat))
+        return some if flat.ndim else some.design(0)
 
     def _flat(self, indices: Any) -> npt.NDArray[np.intp]:
         """Return indices in C order, one or (n,)."""
         if isinstance(indices, tuple):
-            shape, given = self.shape, indices
+            shape, indices_of_axes = self.shape, indices
         else:
-            shape, given = (self._designs.count,), (indices,)
+            shape, indices_of_axes = (self._designs.count,), (indices,)
         entries: tuple[npt.NDArray[Any], ...] = ()
         with suppress(ValueError):
-            entries = tuple(np.broadcast_arrays(*(np.asarray(entry) for entry in given)))
+            entries = tuple(np.broadcast_arrays(*(np.asarray(entry) for entry in indices_of_axes)))
         if len(entries) == 1 and entries[0].dtype == np.bool_ and entries[0].shape == self.shape:
             return np.flatnonzero(entries[0])
         axes = zip(entries, shape, strict=False)
@@ -272,12 +272,12 @@ class Measures(Mapping[str, Float]):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Data are in m and rad; the ticks are written in the units that suit.
+            The axes drawn on. Data are in m and rad; the ticks are written in the units that suit.
 
         Raises
         ------
         InputError
-            An unknown metric; designs that are no grid of one or two dimensions.
+            An unknown metric; designs that are not a grid of one or two dimensions.
 
         Examples
         --------
@@ -377,12 +377,12 @@ class Measures(Mapping[str, Float]):
         if name not in self:
             names = ", ".join(map(repr, self._values))
             message = (
-                f"[{short(name)}]: no metric is called so; there are {names}{self._near(name)}"
+                f"[{short(name)}]: no metric has this name; there are {names}{self._near(name)}"
             )
             raise InputError(message)
         return self._values[name]
 
-    # `Mapping` asks for a KeyError.
+    # `Mapping` requires a KeyError.
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and name in self._values
 
@@ -394,7 +394,7 @@ class Measures(Mapping[str, Float]):
         name : str
             Name of the metric.
         default : object
-            What is returned otherwise.
+            The value to return otherwise.
 
         Returns
         -------
@@ -427,16 +427,16 @@ class Measures(Mapping[str, Float]):
         return f"<assur.Measures of {names}, shape {self.shape}, {len(self.kept)} kept>"
 
 
-def counts_text(found: Measures) -> str:
+def counts_text(measures: Measures) -> str:
     """Say how many designs are kept, and what the others lack."""
-    kept, missed = len(found.kept), len(found.missed)
-    without = int(np.count_nonzero(found.status == Status.NO_VALUE))
-    fail = found.status.size - kept - missed - without
-    of = f"of {found.status.size} designs {fail} do not move"
+    kept, missed = len(measures.kept), len(measures.missed)
+    without = int(np.count_nonzero(measures.status == Status.NO_VALUE))
+    fail = measures.status.size - kept - missed - without
+    of = f"of {measures.status.size} designs {fail} do not move"
     undefined = f"{without} lack a metric, " if without else ""
     return f"{of}, {missed} miss a condition, {undefined}{kept} are kept"
 
 
-def changed_dimensions(found: Measures) -> dict[str, Float]:
-    """Return the dimensions that a sweep changed, of all designs in C order."""
-    return {name: found._designs.values(name) for name in found._designs.changed}
+def changed_dimensions(measures: Measures) -> dict[str, Float]:
+    """Return the dimensions that a sweep changed, for all designs in C order."""
+    return {name: measures._designs.values(name) for name in measures._designs.changed}

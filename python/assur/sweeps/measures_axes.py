@@ -16,23 +16,23 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.sweeps._measured import Measured
 
-# A value of `at` is one of the sweep's, to this part of their range.
+# A value of `at` matches one of the sweep's within this fraction of the greatest.
 SAME = 1e-9
 # What a picture shows.
 MOST = 2
 
 
 def shown_axes(
-    found: Measured, at: Mapping[str, float] | None
+    measures: Measured, at: Mapping[str, float] | None
 ) -> tuple[list[tuple[str, Float]], np.ndarray[tuple[int, ...], np.dtype[np.intp]]]:
     """Return one or two dimensions with ascending values, and the designs' indices over them.
 
     Other dimensions of a grid must be held by `at`.
     """
-    designs, shape = found._designs, found.shape
+    designs, shape = measures._designs, measures.shape
     along = {name: axes_of(designs, name) for name in designs.changed}
     names = axis_names(along, len(shape))
-    indices = np.arange(found.status.size).reshape(shape)
+    indices = np.arange(measures.status.size).reshape(shape)
     axes: list[tuple[str, Float]] = []
     held = _held(at, [name for name in names if name in designs.changed])
     where: list[Any] = []
@@ -41,7 +41,10 @@ def shown_axes(
             where.append(0)
             continue
         if name not in designs.changed:
-            several = ", ".join(one for one, own in along.items() if axis in own) or "nothing"
+            several = (
+                ", ".join(changed for changed, its_axes in along.items() if axis in its_axes)
+                or "nothing"
+            )
             message = (
                 f"plot: axis {axis} of the designs changes {several}, not one dimension: "
                 "sweep an assur.Grid of one or two dimensions"
@@ -58,19 +61,19 @@ def shown_axes(
         axes.append((name, values[order]))
     if not 1 <= len(axes) <= MOST:
         raise InputError(_many(axes))
-    kept = [one for one in where if not isinstance(one, int)]
+    kept = [index for index in where if not isinstance(index, int)]
     grid = iter(np.ix_(*kept))
-    chosen = tuple(one if isinstance(one, int) else next(grid) for one in where)
+    chosen = tuple(index if isinstance(index, int) else next(grid) for index in where)
     return axes, indices[chosen]
 
 
 def _held(at: Any, names: list[str]) -> dict[str, float]:
-    given = {} if at is None else at
-    if not hasattr(given, "items"):
+    pairs = {} if at is None else at
+    if not hasattr(pairs, "items"):
         message = f"at is {short(at)}: names of dimensions with a value each are needed"
         raise InputError(message)
     held = {}
-    for name, value in given.items():
+    for name, value in pairs.items():
         if name not in names:
             known = ", ".join(map(repr, names)) or "none"
             message = f"at: {short(name)} is not a dimension of the sweep's grid; there are {known}"
@@ -79,12 +82,12 @@ def _held(at: Any, names: list[str]) -> dict[str, float]:
     return held
 
 
-def _place(name: str, values: Float, wanted: float) -> int:
+def _place(name: str, values: Float, value: float) -> int:
     """Return the index of a value."""
-    gaps = np.abs(values - wanted)
+    gaps = np.abs(values - value)
     place = int(np.argmin(np.where(np.isfinite(gaps), gaps, np.inf)))
     if not gaps[place] <= SAME * max(float(np.nanmax(np.abs(values))), 1e-300):
-        message = f"at[{name!r}] = {wanted:g} is not a value of the sweep; the nearest is "
+        message = f"at[{name!r}] = {value:g} is not a value of the sweep; the nearest is "
         raise InputError(message + f"{values[place]!r}")
     return place
 

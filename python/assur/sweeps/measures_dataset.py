@@ -7,31 +7,33 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.description.dotted_names import unit_of
+
 if TYPE_CHECKING:
     from assur.sweeps._measured import Measured
     from assur.sweeps.designs import Designs
 
 
-def dataset(found: Measured) -> Any:
+def dataset(measures: Measured) -> Any:
     """See `Measures.to_xarray`."""
     try:
         import xarray as xr
     except ImportError as error:  # pragma: no cover
         message = "to_xarray needs xarray: pip install assur[xarray]"
         raise ImportError(message) from error
-    designs, shape = found._designs, found.shape
+    designs, shape = measures._designs, measures.shape
     axes = {name: axes_of(designs, name) for name in designs.changed}
     names = axis_names(axes, len(shape))
     coordinates = {}
-    for name, own in axes.items():
+    for name, its_axes in axes.items():
         values = designs.values(name).reshape(shape)
-        at = tuple(slice(None) if axis in own else 0 for axis in range(len(shape)))
-        unit = {"units": "rad" if name.endswith(".angle") else "m"}
-        coordinates[name] = ([names[axis] for axis in own], values[at], unit)
-    kept = np.isin(np.arange(found.status.size), found.kept).reshape(shape)
-    variables: dict[str, Any] = {"status": (names, found.status), "kept": (names, kept)}
+        at = tuple(slice(None) if axis in its_axes else 0 for axis in range(len(shape)))
+        unit = {"units": unit_of(name)}
+        coordinates[name] = ([names[axis] for axis in its_axes], values[at], unit)
+    kept = np.isin(np.arange(measures.status.size), measures.kept).reshape(shape)
+    variables: dict[str, Any] = {"status": (names, measures.status), "kept": (names, kept)}
     taken = {*names, *coordinates, *variables}
-    for name, values in found.items():
+    for name, values in measures.items():
         variables[f"metric {name}" if name in taken else name] = (names, values)
     return xr.Dataset(variables, coordinates)
 
@@ -45,9 +47,9 @@ def axes_of(designs: Designs, name: str) -> list[int]:
 
 def axis_names(axes: dict[str, list[int]], count: int) -> list[str]:
     """Return the name of each axis: that of the dimension that changes along it alone."""
-    along = Counter(axis for own in axes.values() for axis in own)
+    along = Counter(axis for its_axes in axes.values() for axis in its_axes)
     names = ["design"] if count == 1 else [f"design{axis}" for axis in range(count)]
-    for name, own in axes.items():
-        if len(own) == 1 and along[own[0]] == 1:
-            names[own[0]] = name
+    for name, its_axes in axes.items():
+        if len(its_axes) == 1 and along[its_axes[0]] == 1:
+            names[its_axes[0]] = name
     return names

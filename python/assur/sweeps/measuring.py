@@ -1,4 +1,4 @@
-"""Measures designs: one number each of a metric, block by block."""
+"""Measures designs, block by block: one number for each metric."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ import numpy.typing as npt
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.description.words import Status, has_analogues
-from assur.errors import InputError
+from assur.errors import AssurError, InputError, subject_of
 from assur.kinematics import transmission
 from assur.kinematics.model import with_values
 from assur.kinematics.solve import solve
+from assur.sweeps._measured import Undefined
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Single
 
 Float: TypeAlias = npt.NDArray[np.float64]
-# For some designs: values by name, statuses, which are kept.
+# For some designs: values by name, statuses, and which are kept.
 Block: TypeAlias = tuple[dict[str, Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]
 
 # Positions of a block, between two reports of progress: some ten milliseconds. Positions whose
@@ -41,14 +42,14 @@ POSITIONS_OF_FUNCTIONS = 262_144
 
 
 def blocks(count: int, positions: int) -> Iterator[slice]:
-    """Blocks of designs with so many positions each."""
+    """The size of blocks of designs with this many positions each."""
     size = max(1, POSITIONS_OF_BLOCK // max(1, positions))
     for first in range(0, count, size):
         yield slice(first, min(first + size, count))
 
 
 class Measuring:
-    """What is measured of designs of one mechanism; it can be sent to other processes."""
+    """What to measure of the designs of one mechanism; it can be sent to other processes."""
 
     def __init__(
         self,
@@ -62,8 +63,10 @@ class Measuring:
         if not isinstance(metrics, Mapping):
             message = f"metrics is {short(metrics)}: a mapping of names to metrics is needed"
             raise InputError(message)
-        named = [(checked_name(name, "metrics"), one) for name, one in metrics.items()]
-        self.metrics = {name: _metric(name, one) for name, one in named}
+        named = [
+            (checked_name(name, "metrics"), definition) for name, definition in metrics.items()
+        ]
+        self.metrics = {name: _metric(name, definition) for name, definition in named}
         self.conditions = conditions = _conditions(where)
         self.threads = threads
         self.q = _coordinates(mechanism, q)
@@ -81,11 +84,11 @@ class Measuring:
         ]
         early = [c for c in conditions if c not in self.late]
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
-        for one in self.leaves:
-            located = _with_lines(one, mechanism)
+        for measured in self.leaves:
+            located = _with_lines(measured, mechanism)
             refusal = mechanism.core.refusal_of_metric(self.q.reshape(-1), located)
             if refusal is not None:
-                message = f"{one!r}: {refusal}"
+                message = f"{measured!r}: {refusal}"
                 raise InputError(message)
         self.asked = [_with_lines(metric, mechanism) for metric in asked]
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
@@ -96,15 +99,15 @@ class Measuring:
         values = {name: np.full(count, np.nan) for name in self.metrics}
         status = np.zeros(count, dtype=np.uint8)
         kept = np.zeros(count, dtype=np.bool_)
-        # Room for the indices is taken now: a sweep that has no memory for them ends at once.
+        # Allocate the indices now: a sweep without memory for them ends at once.
         room = np.empty(count, dtype=np.intp)
         parts = list(blocks(count, len(self.q)))
-        # Here one block after another takes the same memory.
+        # Here all blocks reuse the same memory.
         size = designs.size * max((part.stop - part.start for part in parts), default=0)
         memory = np.empty(size) if engine is None else None
         tasks = ((part, designs.some(part, memory)) for part in parts)
-        for part, (found, status[part], kept[part]) in results(engine, self.measure, tasks):
-            for name, value in found.items():
+        for part, (block, status[part], kept[part]) in results(engine, self.measure, tasks):
+            for name, value in block.items():
                 values[name][part] = value
             report(part.stop)
         del room
@@ -116,7 +119,7 @@ class Measuring:
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
-        found, status, kept = some.core.measure(
+        numbers, status, kept = some.core.measure(
             some.values.reshape(-1),
             self.q.reshape(-1),
             some.signs,
@@ -124,7 +127,7 @@ class Measuring:
             self.early,
             self.threads,
         )
-        of: dict[Single, Float] = dict(zip(self.leaves, found, strict=False))
+        of: dict[Single, Float] = dict(zip(self.leaves, numbers, strict=False))
         if self.functions:
             indices = np.flatnonzero(kept)
             of.update(self._called(some, indices))
@@ -142,28 +145,33 @@ class Measuring:
             without |= kept & np.isnan(value) & is_defined
         return values, np.where(without, np.uint8(Status.NO_VALUE), status), kept & ~without
 
-    def without_value(self, design: Mechanism) -> str:
+    def undefined(self, design: Mechanism) -> Undefined:
         """Return which metric of a design has no value, and why."""
         some = with_values(design, design.values[:, None])
-        asked = {**self.metrics, **{repr(one): one.metric for one in self.conditions}}
+        asked = {
+            **self.metrics,
+            **{repr(condition): condition.metric for condition in self.conditions},
+        }
         for name, metric in asked.items():
             for part in (*metric.leaves(), metric):
-                own = Measuring(some, self.machine, self.q, {name: part}, None, self.threads)
-                if not np.isnan(own.measure(some)[0][name][0]):
+                alone = Measuring(some, self.machine, self.q, {name: part}, None, self.threads)
+                if not np.isnan(alone.measure(some)[0][name][0]):
                     continue
                 if isinstance(part, OfMachine):
                     assert self.machine is not None
-                    return f"{name}: {part.why(self.machine.of(design), self.q)}"
-                return f"{name}: {part!r} is not defined for this motion"
-        return "a metric has no value"
+                    why = part.why(self.machine.of(design), self.q)
+                    subject = subject_of(why) if isinstance(why, AssurError) else None
+                    return Undefined(name, str(why), subject)
+                return Undefined(name, f"{part!r} is not defined for this motion")
+        return Undefined("a metric", "it has no value")
 
     def _called(self, some: Mechanism, indices: npt.NDArray[np.intp]) -> dict[Single, Float]:
         """Call the functions with the motions, or machines, of some designs."""
-        found: dict[Single, Float] = {
+        values: dict[Single, Float] = {
             function: np.full(some.shape[0], np.nan) for function in self.functions
         }
-        # Reactions keep nothing of the positions.
-        keeps = not all(isinstance(one, Driven) for one in self.functions)
+        # Reactions do not keep positions.
+        keeps = not all(isinstance(function, Driven) for function in self.functions)
         size = max(1, POSITIONS_OF_FUNCTIONS // len(self.q)) if keeps else max(1, len(indices))
         for first in range(0, len(indices), size):
             few = indices[first : first + size]
@@ -172,12 +180,12 @@ class Measuring:
                 if numbers.shape != few.shape:
                     message = f"{function!r} returned shape {numbers.shape} for designs {few.shape}"
                     raise InputError(message)
-                found[function][few] = numbers
-        return found
+                values[function][few] = numbers
+        return values
 
     def _numbers(self, batch: Mechanism) -> Iterator[tuple[Function | OfMachine, Float]]:
         """Yield all functions with their values for a batch."""
-        of_machine = [one for one in self.functions if isinstance(one, OfMachine)]
+        of_machine = [metric for metric in self.functions if isinstance(metric, OfMachine)]
         if of_machine:
             assert self.machine is not None
             values = together(of_machine, self.machine.of(batch), self.q, self.threads)
@@ -187,8 +195,8 @@ class Measuring:
                 yield function, self._of_motion(function, batch)
 
     def _of_motion(self, function: Function, batch: Mechanism) -> Float:
-        wanted = function.order, function.outputs, None
-        motion = solve(batch, self.q, *wanted, "nan", self.threads, None)
+        options = function.order, function.outputs, None
+        motion = solve(batch, self.q, *options, "nan", self.threads, None)
         return real_array(function.function(motion), f"the values of {function!r}")
 
 
@@ -233,7 +241,7 @@ def _conditions(where: Any) -> list[Condition]:
         raise InputError(message) from error
     for condition in conditions:
         if not isinstance(condition, Condition):
-            message = f"where: {short(condition)} is no condition, as metric > limit is"
+            message = f"where: {short(condition)} is not a condition, such as metric > limit"
             raise InputError(message)
     return conditions
 

@@ -44,8 +44,8 @@ class Solving:
     def solve(self, task: Task, out: Motion | None = None) -> Motion:
         """Solve a batch."""
         some, q = task
-        wanted = self.order, self.outputs, None
-        return solver.solve(some, q, *wanted, "nan", self.threads, out)
+        options = self.order, self.outputs, None
+        return solver.solve(some, q, *options, "nan", self.threads, out)
 
     def arrays(self, task: Task) -> Arrays:
         """Solve a batch and return its arrays alone."""
@@ -61,7 +61,7 @@ class Solving:
 
 
 class Course:
-    """The coordinates of some designs: the same for all, or of each its own."""
+    """The coordinates of some designs: the same for all, or each design's own."""
 
     def __init__(self, every: Mechanism, q: npt.ArrayLike) -> None:
         array, positions, self.is_own = checked_coordinates(every, q)
@@ -103,57 +103,57 @@ def in_blocks(
     report: Report,
     engine: Any,
 ) -> Motion:
-    """Solve designs block by block; there is one at least, and their shape is not ()."""
+    """Solve designs block by block; there is at least one, and their shape is not ()."""
     tasks = course.tasks(designs)
-    # The first block shows what there is to write, and that the arguments are right.
+    # The first block shows which arrays to write, and that the arguments are right.
     block, task = next(tasks)
     first = solving.solve(task)
     motion = _whole(first, every, course, out)
     columns, status = _arrays(motion)
 
     def rows(of: slice) -> Arrays:
-        own = [_rows(column, of, designs.count) for column in columns]
-        return own, _rows(status, of, designs.count)
+        parts = [_rows(column, of, designs.count) for column in columns]
+        return parts, _rows(status, of, designs.count)
 
-    def store(of: slice, found: Arrays) -> None:
+    def store(of: slice, arrays: Arrays) -> None:
         own_columns, own_status = rows(of)
-        own_status[:] = found[1]
-        for own, column in zip(own_columns, found[0], strict=True):
-            own[:] = column
+        own_status[:] = arrays[1]
+        for part, column in zip(own_columns, arrays[0], strict=True):
+            part[:] = column
         report(of.stop)
 
     buffers = motion.stored.buffers
     assert buffers is not None
-    # What is interrupted cannot be read.
+    # An interrupted result cannot be read.
     buffers.complete = False
     store(block, _arrays(first))
     if engine is None:
-        wanted = first.held_indices
+        indices = first.held_indices
         for of, (some, own_q) in tasks:
             request = replace(first.request, mechanism=some, q=own_q)
-            request.arrays(*wanted, buffers=Buffers(*rows(of)))
+            request.arrays(*indices, buffers=Buffers(*rows(of)))
             report(of.stop)
     else:
-        for of, found in results(engine, solving.arrays, tasks):
-            store(of, found)
+        for of, arrays in results(engine, solving.arrays, tasks):
+            store(of, arrays)
     buffers.complete = True
     return motion
 
 
 def _whole(first: Motion, every: Mechanism, course: Course, out: Motion | None) -> Motion:
-    """Return a motion of all designs as that of the first ones is, with arrays to be written."""
+    """Return a motion of all designs like that of the first ones, with arrays to be written."""
     request = replace(first.request, mechanism=every, q=course.whole)
-    wanted = first.held_indices
+    indices = first.held_indices
     if out is None:
         columns, status = _arrays(first)
         designs, count = first.shape[0], math.prod(every.shape)
         columns = [np.empty(len(column) // designs * count) for column in columns]
         buffers = Buffers(columns, np.empty(len(status) // designs * count, dtype=np.uint8))
     else:
-        buffers = solver.buffers_of(out, request, wanted)
+        buffers = solver.buffers_of(out, request, indices)
     status = buffers.status.reshape(request.shape)
     status.flags.writeable = False
-    whole = Results(request.layout(*wanted), buffers)
+    whole = Results(request.layout(*indices), buffers)
     if out is None:
         return Motion(request, whole, status)
     overwrite(out, request, whole, status)

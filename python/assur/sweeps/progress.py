@@ -19,7 +19,7 @@ def silent(_: int) -> None:
 
 @contextmanager
 def reporter(progress: Any, total: int) -> Iterator[Report]:
-    """Give what is called with the number of designs done; a bar is closed in any case."""
+    """Yield the function to call with the number of designs done; a bar is always closed."""
     if progress is False or progress is None:
         yield silent
     elif callable(progress):

@@ -30,21 +30,21 @@ WORDS = {
 }
 
 
-def reasons(found: Measured, values: Float) -> list[tuple[str, Flags]]:
+def reasons(measures: Measured, values: Float) -> list[tuple[str, Flags]]:
     """Return every reason that occurs, with the designs that have it, in C order.
 
     Every design without a value has one.
     """
-    status = found.status.reshape(-1)
+    status = measures.status.reshape(-1)
     left = np.isnan(values.reshape(-1))
     missed = np.zeros_like(left)
-    missed[found.missed] = True
-    answer = [(_conditions(found._measuring.conditions), left & missed)]
+    missed[measures.missed] = True
+    answer = [(_conditions(measures._measuring.conditions), left & missed)]
     left = left & ~missed
     unreachable = left & (status == Status.UNREACHABLE)
-    answer += _unreachable(found, unreachable)
+    answer += _unreachable(measures, unreachable)
     left = left & ~unreachable
-    answer += [(_words(found, code), left & (status == code)) for code in WORDS]
+    answer += [(_words(measures, code), left & (status == code)) for code in WORDS]
     for code in (Status.UNREACHABLE, *WORDS):
         left = left & (status != code)
     answer.append(("no value", left))
@@ -52,61 +52,61 @@ def reasons(found: Measured, values: Float) -> list[tuple[str, Flags]]:
 
 
 def _conditions(conditions: Sequence[Condition]) -> str:
-    """Return what a design misses: of several conditions, one of them at least."""
+    """Return what a design misses: at least one of several conditions."""
     relations = {"<": "≥", "<=": ">", ">": "≤", ">=": "<"}
     wrong = [f"{c.metric!r} {relations[c.relation]} {c.limit:.6g}" for c in conditions]
     return " or ".join(wrong).replace("'", "")
 
 
-def _words(found: Measured, code: Status) -> str:
+def _words(measures: Measured, code: Status) -> str:
     text = WORDS[code]
-    if code == Status.NO_VALUE and (found.status == code).any():
-        # "loads[0], the Force at 'B': its table …": what has none.
-        first = int(np.flatnonzero(found.status.reshape(-1) == code)[0])
-        parts = (explained(found, np.asarray(first)) or "").split(": ")
-        return f"{parts[1] if len(parts) > 2 else parts[0]} has no value".replace("'", "")
-    return f"{_driver(found)} stops" if code == Status.LOST else text
+    if code == Status.NO_VALUE and (measures.status == code).any():
+        first = int(np.flatnonzero(measures.status.reshape(-1) == code)[0])
+        undefined = measures._measuring.undefined(measures.designs(first))
+        return f"{undefined.subject or undefined.metric} has no value".replace("'", "")
+    return f"{_driver(measures)} stops" if code == Status.LOST else text
 
 
-def explained(found: Measured, index: npt.NDArray[np.intp]) -> str | None:
+def explained(measures: Measured, index: npt.NDArray[np.intp]) -> str | None:
     """See `Measures.explain`."""
     if index.ndim:
         message = "explain() is of one design: an integer, or a tuple of integers, is needed"
         raise InputError(message)
-    flat, measuring = int(index), found._measuring
-    if flat in found.kept:
+    flat, measuring = int(index), measures._measuring
+    if flat in measures.kept:
         return None
-    if flat in found.missed:
+    if flat in measures.missed:
         return f"it misses a condition: {_conditions(measuring.conditions)}"
-    status = int(found.status.reshape(-1)[flat])
-    design = found.designs(flat)
+    status = int(measures.status.reshape(-1)[flat])
+    design = measures.designs(flat)
     if status == Status.NO_VALUE:
-        return measuring.without_value(design)
+        undefined = measuring.undefined(design)
+        return f"{undefined.metric}: {undefined.reason}"
     motion = design.solve(measuring.q, order=0, outputs=[], on_error="nan")
     failed = np.flatnonzero(~is_reached(motion.status))
     if not failed.size:
         return Status(status).name
-    wanted = np.flatnonzero(motion.status == status)
-    return motion.explain(int(wanted[0] if wanted.size else failed[0]))
+    same = np.flatnonzero(motion.status == status)
+    return motion.explain(int(same[0] if same.size else failed[0]))
 
 
-def _driver(found: Measured) -> str:
-    driver = found._designs.mechanism.driver
+def _driver(measures: Measured) -> str:
+    driver = measures._designs.mechanism.driver
     return driver if isinstance(driver, str) else "the driver"
 
 
-def _unreachable(found: Measured, which: Flags) -> list[tuple[str, Flags]]:
-    """Tell designs that cannot be assembled at all from those whose driver stops on its way."""
-    mechanism = found._designs.mechanism
+def _unreachable(measures: Measured, which: Flags) -> list[tuple[str, Flags]]:
+    """Separate designs that cannot be assembled at all from those whose driver stops on its way."""
+    mechanism = measures._designs.mechanism
     indices = np.flatnonzero(which)
     if not indices.size:
         return []
     if mechanism.driver_count > 1 or mechanism.core.cls > 2:
         # Limits of a higher class take too long.
         return [("out of reach", which)]
-    limits = found._designs.some(indices).limits()
+    limits = measures._designs.some(indices).limits()
     nowhere = np.isnan(limits.intervals).all(axis=(-2, -1))
     never, stops = np.zeros_like(which), np.zeros_like(which)
     never[indices[nowhere]] = True
     stops[indices[~nowhere]] = True
-    return [("cannot be assembled", never), (f"{_driver(found)} stops", stops)]
+    return [("cannot be assembled", never), (f"{_driver(measures)} stops", stops)]

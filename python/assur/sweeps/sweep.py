@@ -97,7 +97,7 @@ def sweep(
     assembly : mapping of str to int, optional
         Signs of dyads where they differ from the drawing's.
     metrics : mapping of str to metric, optional
-        What is measured of each design (see `assur.metric`). Positions are not kept: memory
+        What to measure of each design (see `assur.metric`). Positions are not kept: memory
         does not grow with them.
     where : iterable of Condition, optional
         Conditions on metrics, ``assur.metric.least_transmission("C") > 0.7``, also on their sums
@@ -106,7 +106,7 @@ def sweep(
         first. Only with `metrics`.
     on_error : {"nan", "raise", "drop"}
         For positions that cannot be solved: NaN, each with its status; an error for the first
-        one; or the motion of the designs alone that move over all of q, with their indices in
+        one; or the motion of only those designs that move over all of q, with their indices in
         `Motion.kept`. With `metrics` it is "nan": `Measures.kept` has the indices.
     threads : int, optional
         Maximum number of threads; by default one per core (of each task of an engine: 1).
@@ -119,8 +119,7 @@ def sweep(
     engine : optional
         Where blocks of designs are solved: a Dask client, a
         `concurrent.futures.ProcessPoolExecutor`, or anything with ``submit(function, argument)``
-        that returns a future. Results are the same bits. Functions in `metrics` must be such
-        that `pickle` sends them.
+        that returns a future. Results are the same bits. Functions in `metrics` must be picklable.
 
     Returns
     -------
@@ -131,7 +130,7 @@ def sweep(
     Raises
     ------
     InputError
-        For arguments that have no meaning, as of `Mechanism.solve` and of the metrics.
+        For meaningless arguments, as for `Mechanism.solve` and the metrics.
     DimensionError
         For one design (S is ``()``) whose dimensions are invalid; in a batch it has
         ``Status.BAD_DIMENSION``.
@@ -142,7 +141,7 @@ def sweep(
 
     Examples
     --------
-    The straightest path of a coupler point, of four-bars that transmit well:
+    The straightest path of a coupler point among four-bars that transmit well:
 
     >>> import assur, numpy as np
     >>> four_bar = assur.Mechanism(
@@ -192,8 +191,8 @@ def sweep(
         return measuring.run(designs, report, engine)
 
 
-def _refuse_for_metrics(**given: object) -> None:
-    for name, value in given.items():
+def _refuse_for_metrics(**options: object) -> None:
+    for name, value in options.items():
         if value is not None:
             message = f"{name}= is for motions, not for metrics="
             if name == "order":
@@ -214,7 +213,7 @@ def _motions(
     if on_error == "drop":
         return _moving(designs, Course(every, q), solving, out, report, engine)
     course = Course(every, q)
-    # Without a need for blocks one call writes all of it.
+    # One call writes everything where blocks are not needed.
     reports = engine is not None or report is not silent
     if reports and designs.shape and designs.count:
         motion = in_blocks(designs, every, course, solving, out, report, engine)
@@ -222,7 +221,7 @@ def _motions(
         motion = solving.solve((every, course.whole), out)
         report(designs.count)
     if on_error == "raise" and not has_analogues(motion.status).all():
-        # It raises what it finds first, and counts the others.
+        # It raises the first failure, and counts the others.
         solver.solve(every, q, solving.order, (), None, "raise", solving.threads, None)
     return motion
 

@@ -1,4 +1,4 @@
-"""What metrics are made of: those of the core, functions in Python, combinations and conditions."""
+"""Terms of metrics: those of the core, functions in Python, combinations and conditions."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from assur.dynamics.machine import Machine
+    from assur.errors import AssurError
     from assur.kinematics.motion import Motion
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -253,8 +254,8 @@ class Function(ByValue, Metric):
 
     def _key(self) -> tuple[Any, ...]:
         # A callable object may have no hash.
-        own: Any = self.function
-        same = own if isinstance(own, Hashable) else id(own)
+        function: Any = self.function
+        same = function if isinstance(function, Hashable) else id(function)
         return same, self.outputs, self.order
 
     def leaves(self) -> Iterator[Single]:
@@ -279,7 +280,7 @@ class OfMachine(Metric):
         """Its values for the designs (n,) of a machine, which all move over q."""
         raise NotImplementedError
 
-    def why(self, machine: Machine, q: Float) -> str:
+    def why(self, machine: Machine, q: Float) -> AssurError | str:
         """Why it has no value for one design."""
         raise NotImplementedError
 

@@ -233,7 +233,7 @@ def test_messages() -> None:
     refused(assur.InputError, "q one position", partial(m.map, "assemblies", over, [0.5, 1.0]))
     refused(assur.InputError, "full rotation", partial(m.map, "full_rotation", over, 1.0))
     refused(assur.InputError, "C finite", partial(m.defects, [1.0], {"C": [[np.nan, 1.0]]}))
-    refused(assur.InputError, "B tell", partial(m.defects, [1.0], {"B": m.solve([1.0])["B"]}))
+    refused(assur.InputError, "B determine", partial(m.defects, [1.0], {"B": m.solve([1.0])["B"]}))
     space = two.workspace("P", positions=6)
     assert not space.contains([1e4, 0.0])
     assert m.assemblies([]) == []

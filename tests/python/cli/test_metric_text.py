@@ -91,8 +91,8 @@ def test_every_argument_is_read_as_what_it_is(name: str) -> None:
     [
         ("", "a number or a metric is missing"),
         ("a=", "a number or a metric is missing"),
-        ("3", "is no metric"),
-        ("span(B.x) > 2", "is no metric"),
+        ("3", "is not a metric"),
+        ("span(B.x) > 2", "is not a metric"),
         ("span", "'(' is missing after span"),
         ("span(B.x", "')' is missing"),
         ("(span(B.x)", "')' is missing"),

@@ -186,7 +186,10 @@ def test_what_is_left_out_is_said(tmp_path: Path) -> None:
         (("example:jansen",), "there is no example 'jansen'; did you mean jansen_leg?"),
         (("example:engine", "--q", "5mm"), "--q is an angle: its unit can be rad, deg, not mm"),
         (("example:engine", "--q", "1", "--q", "2"), "--q is given 2 times: the mechanism has one"),
-        (("example:engine", "--outputs", "X"), "outputs: nothing is called 'X'; there are"),
+        (
+            ("example:engine", "--outputs", "X"),
+            "outputs: no joint, link or slide is called 'X'; there are",
+        ),
         (("example:engine", "--set", "rod.lenght=1"), "rod.length"),
         (("example:engine", "--set", "rod.length=1deg"), "--set rod.length is a length"),
         (("example:engine", "--set", "rod.length=-1"), "a length must be positive"),

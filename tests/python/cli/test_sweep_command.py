@@ -139,7 +139,7 @@ def test_no_design_is_left() -> None:
         (("--vary", "coupler.length=1", "--by", "x", "--best", "2"), "there is no such --metric"),
         (("--vary", "coupler.length=1", "--metric", "gamma=span(P.x)"), "two have the same name"),
         (("--vary", "coupler.length=1", "--metric", "span(X.x)"), "X"),
-        (("--vary", "coupler.length=1", "--where", "span(P.x)"), "is no condition"),
+        (("--vary", "coupler.length=1", "--where", "span(P.x)"), "is not a condition"),
         (("--vary", "coupler.length=1", "--threads", "0"), "threads is 0"),
         (("--vary", "coupler.length=1", "--positions", "0"), "--positions is 0"),
         (("--designs", "missing.csv"), "missing.csv: the designs cannot be read"),

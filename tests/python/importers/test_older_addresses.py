@@ -144,7 +144,7 @@ def test_what_cannot_be_read_is_named(name: str) -> None:
 
 def test_links_without_joints_are_refused() -> None:
     for row, message in (
-        ("AB,2,0.3", "is no link"),
+        ("AB,2,0.3", "is not a link"),
         ("AB,2,0.3,0,0.5,A|Z,", "has the joint 'Z', which does not exist"),
         (LINKS[1], "a second link 'BC'"),
     ):

@@ -36,7 +36,7 @@ ARMS = [Link("AB", "AB"), Link("BC", "BC")]
 REFUSED = {
     # PMKS
     "a gear": (BAR + "a c G 2 2", "line 5: joint J5 of a and c is a gear mesh"),
-    "a line of words": (BAR + "hello there", "line 5: 'hello there' is no joint"),
+    "a line of words": (BAR + "hello there", "line 5: 'hello there' is not a joint"),
     "too few numbers": (BAR + "a R 3", "line 5: joint of a has 1 number:"),
     "no number": (BAR + "a R 3 4m", "line 5: y is '4m': a number is needed"),
     "not a number": (BAR + "a R nan 4", "line 5: x is 'nan': a number is needed"),
@@ -96,7 +96,7 @@ REFUSED = {
     ),
     "a joint of two words": (
         checked(written(PAIR, ARMS)[:-1].replace("0B,B's,", "0B")),
-        "is no joint: flags, id, name, x, y and angle are needed",
+        "is not a joint: flags, id, name, x, y and angle are needed",
     ),
     # pylinkage
     "a link with an unknown joint": (
@@ -206,7 +206,7 @@ REFUSED = {
     ),
     "an input that moves": (
         XML.replace('x="0" y="0" anchor="true"', 'x="0" y="0"'),
-        "is no anchor",
+        "is not an anchor",
     ),
     "a second connector": (XML.replace('id="4" x=', 'id="3" x='), "line 4: a second connector 3"),
     "a link on a connector": (

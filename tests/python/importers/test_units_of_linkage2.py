@@ -69,7 +69,7 @@ def test_ends_of_slots_and_throws_are_said() -> None:
         '<Link id="1"><connector id="1"/><connector id="2"/></Link></linkage2>'
     )
     found = importers.read(text)
-    assert found.omitted == ("The ends c3 and c4 of the slot of c2 are no limits here.",)
+    assert found.omitted == ("The ends c3 and c4 of the slot of c2 are not limits here.",)
     boom = (
         '<linkage2><connector id="0" x="0" y="0" anchor="true"/><connector id="1" x="192" y="96"/>'
         '<connector id="2" x="96" y="-96" anchor="true"/>'
@@ -78,7 +78,7 @@ def test_ends_of_slots_and_throws_are_said() -> None:
         "</Link></linkage2>"
     )
     lifted = importers.read(boom)
-    assert lifted.omitted == ("The throw 0.0254 m of actuator L1 is no limit here.",)
+    assert lifted.omitted == ("The throw 0.0254 m of actuator L1 is not a limit here.",)
     assert lifted.mechanism.q0 == pytest.approx(math.sqrt(5) * 0.0254)
     # Forth and back in a cycle of 5 s.
     assert lifted.input_speed == pytest.approx(2 * 0.0254 / 5)

@@ -128,7 +128,7 @@ def test_refusals() -> None:
     refused(assur.InputError, "slice", partial(many.__getitem__, 1.5))
     refused(assur.InputError, "slice", partial(many.__getitem__, "coupler"))
     refused(assur.InputError, "one mechanism", partial(many[0, 0].__getitem__, 0))
-    refused(assur.InputError, "nothing", partial(motion.__getitem__, "Z"))
+    refused(assur.InputError, "slide has this name", partial(motion.__getitem__, "Z"))
     refused(assur.InputError, "outside", partial(motion.__getitem__, (0, 0, 9)))
     refused(assur.InputError, "name", partial(motion.joint, []))
     refused(assur.InputError, "Z", partial(motion.joint, ["C", "Z"]))

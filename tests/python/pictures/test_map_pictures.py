@@ -139,7 +139,7 @@ def test_what_is_no_map_is_refused_by_name() -> None:
         paired.plot("s")
     with pytest.raises(assur.InputError, match="one design alone"):
         assur.sweep(engine, {}, Q, metrics=asked).plot("s")
-    with pytest.raises(assur.InputError, match="no metric is called so"):
+    with pytest.raises(assur.InputError, match="no metric has this name"):
         paired.plot("stroke")
     with pytest.raises(assur.InputError, match="best"):
         paired.plot("s", best="most")  # type: ignore[arg-type]

@@ -10,6 +10,7 @@ import pytest
 import assur
 from assur import Force, Machine, Status, Table, metric
 from assur.sweeps.measures import counts_text
+from assur.sweeps.reasons import reasons
 
 Q = np.linspace(0.0, 2.0 * np.pi, 36, endpoint=False)
 CRANKS = {"crank.length": [0.04, 0.05, 0.06, 0.5]}
@@ -103,3 +104,13 @@ def test_the_map_names_the_load() -> None:
     axes = found.plot("T")
     texts = [text.get_text() for text in axes.texts if text.get_gid() == "reason"]
     assert any("loads[0], the Force at B has no value" in text for text in texts)
+
+
+@pytest.mark.parametrize("name", ["T", "effort: peak", "a: b: c"])
+def test_what_has_no_value_is_named_whatever_metrics_are_called(name: str) -> None:
+    for asked, subject in (
+        (metric.peak_effort(), "loads[0], the Force at B"),
+        (metric.deviation("O", "line", relative=True), name),
+    ):
+        found = assur.sweep(press(), {"crank.length": [0.05, 0.06]}, Q, metrics={name: asked})
+        assert [text for text, _ in reasons(found, found[name])] == [f"{subject} has no value"]

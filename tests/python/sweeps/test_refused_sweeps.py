@@ -29,7 +29,7 @@ def four_bar() -> assur.Mechanism:
             r"a list of conditions is needed, where=\[span\('rocker'\) > 1.0\]",
         ),
         ({"where": 3}, "where is 3: a list of conditions"),
-        ({"where": [False]}, "False is no condition"),
+        ({"where": [False]}, "False is not a condition"),
         ({"order": 2}, r"order= is for motions.*metric.span\('rocker', order=1\)"),
         ({"order": 0}, "order= is for motions"),
         ({"on_error": "drop"}, r"on_error='drop' is for motions.*\.kept has the indices"),

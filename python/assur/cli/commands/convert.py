@@ -28,8 +28,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_toml(parser)
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
-    refuse_same(given.target, given.file)
-    check_toml(given.target, given.force)
-    write_toml(read(given), given.target)
+    refuse_same(arguments.target, arguments.file)
+    check_toml(arguments.target, arguments.force)
+    write_toml(read(arguments), arguments.target)

@@ -28,14 +28,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_toml(parser)
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
-    if given.name is not None:
-        check_toml(given.out, given.force)
-        write_toml(example(given.name.removeprefix(EXAMPLE)), given.out)
+    if arguments.name is not None:
+        check_toml(arguments.out, arguments.force)
+        write_toml(example(arguments.name.removeprefix(EXAMPLE)), arguments.out)
         return
-    if given.out != "-":
-        given.parser.error("--out needs the NAME of an example")
+    if arguments.out != "-":
+        arguments.parser.error("--out needs the NAME of an example")
     from assur.examples import ALL
 
     width = max(map(len, ALL))

@@ -38,41 +38,43 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output(parser)
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
     from assur.kinematics.table import driven_angles
 
-    output = Output(given.out, given.file)
-    mechanism = read(given).mechanism
-    require_one(mechanism, given.file)
-    found = mechanism.extremes(given.name, order=given.order)
-    of_driver = _unit(driven_angles(mechanism)[0] and given.degrees, driven_angles(mechanism)[0])
-    is_angle = given.name in mechanism.links
-    unit = _unit(is_angle and given.degrees and not given.order, is_angle)
-    if given.order:
+    output = Output(arguments.out, arguments.file)
+    mechanism = read(arguments).mechanism
+    require_one(mechanism, arguments.file)
+    extremes = mechanism.extremes(arguments.name, order=arguments.order)
+    of_driver = _unit(
+        driven_angles(mechanism)[0] and arguments.degrees, driven_angles(mechanism)[0]
+    )
+    is_angle = arguments.name in mechanism.links
+    unit = _unit(is_angle and arguments.degrees and not arguments.order, is_angle)
+    if arguments.order:
         unit = f"{unit}/{'rad' if of_driver == 'deg' else of_driver}" + (
-            f"^{given.order}" if given.order > 1 else ""
+            f"^{arguments.order}" if arguments.order > 1 else ""
         )
-    if given.out is not None:
-        output.write(_columns(found, of_driver, unit))
-    if given.out != "-":
-        for name, at in (("least", found.least), ("greatest", found.greatest)):
+    if arguments.out is not None:
+        output.write(_columns(extremes, of_driver, unit))
+    if arguments.out != "-":
+        for name, at in (("least", extremes.least), ("greatest", extremes.greatest)):
             value, q = _shown(at.value, unit), _shown(at.q, of_driver)
             print(f"{name:<10}  {value!r} {unit} at q = {q!r} {of_driver}")
-        print(f"stroke      {_shown(found.stroke, unit)!r} {unit}")
-        if found.time_ratio is not None:
-            print(f"time ratio  {found.time_ratio!r}")
-        if is_angle and not given.order:
-            for line in _instead(mechanism, given.name, found):
+        print(f"stroke      {_shown(extremes.stroke, unit)!r} {unit}")
+        if extremes.time_ratio is not None:
+            print(f"time ratio  {extremes.time_ratio!r}")
+        if is_angle and not arguments.order:
+            for line in _instead(mechanism, arguments.name, extremes):
                 print(line)
 
 
-def _instead(mechanism: Mechanism, link: str, found: Extremes) -> list[str]:
-    """Return, of a link that does not turn, which of its slides move."""
+def _instead(mechanism: Mechanism, link: str, extremes: Extremes) -> list[str]:
+    """Return the notes on a link that does not turn: which of its slides move."""
     from assur.kinematics.configuration import size_of
     from assur.kinematics.extremes import STANDS
 
-    if found.stroke > STANDS:
+    if extremes.stroke > STANDS:
         return []
     lines = [f"note        {link} does not turn"]
     for name, slide in mechanism.slides.items():
@@ -92,11 +94,11 @@ def _shown(value: float, unit: str) -> float:
     return float(np.degrees(value)) if unit == "deg" else float(value)
 
 
-def _columns(found: Extremes, of_driver: str, unit: str) -> list[Column]:
+def _columns(extremes: Extremes, of_driver: str, unit: str) -> list[Column]:
     """Return a row for each of the two."""
     from assur._table import Column
 
-    both = found.least, found.greatest
+    both = extremes.least, extremes.greatest
     return [
         Column("q", np.array([_shown(at.q, of_driver) for at in both]), of_driver, "extremes"),
         Column("value", np.array([_shown(at.value, unit) for at in both]), unit, "extremes"),

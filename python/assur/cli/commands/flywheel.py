@@ -1,4 +1,4 @@
-"""``assur flywheel``: of a machine, or of a table of reduced moment and inertia."""
+"""``assur flywheel``: for a machine, or a table of reduced moment and inertia."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "assur flywheel press.toml --fluctuation 0.03 --out speed.csv",
     )
     add_source(parser, others=False)
-    one = parser.add_mutually_exclusive_group()
-    one.add_argument(
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument(
         "--fluctuation", type=argument(ratio), help="coefficient δ wanted: 0.04, or 1/25"
     )
-    one.add_argument(
+    either.add_argument(
         "--flywheel",
         type=argument(numbers),
-        help="of a table: a given flywheel, kg·m², instead",
+        help="instead, a given flywheel, kg·m² (tables only)",
     )
     parser.add_argument(
         "--mean-speed", metavar="SPEED", type=argument(numbers), help="rad/s, or 143rpm"
     )
-    parser.add_argument("--mean", choices=flywheel.MEANS, help="definition of it; extremes")
-    parser.add_argument("--turns", type=int, help="of a machine: turns of a cycle; 1")
-    parser.add_argument("--spline", choices=flywheel.SPLINES, help="of a table; not-a-knot")
+    parser.add_argument("--mean", choices=flywheel.MEANS, help="definition of the mean; extremes")
+    parser.add_argument("--turns", type=int, help="turns of a cycle (machines only); 1")
+    parser.add_argument("--spline", choices=flywheel.SPLINES, help="tables only; not-a-knot")
     parser.add_argument(
         "--degrees", action="store_true", help="phi of the table, q of --out, in degrees"
     )
@@ -56,65 +56,67 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output(parser)
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
-    output = Output(given.out, given.file)
-    found = _of_machine(given) if _is_machine(given.file) else _of_table(given)
-    if given.out is not None:
+    output = Output(arguments.out, arguments.file)
+    result = _of_machine(arguments) if _is_machine(arguments.file) else _of_table(arguments)
+    if arguments.out is not None:
         from assur._table import columns_of
 
-        output.write(columns_of(found, given.degrees))
-    if given.out != "-":
-        _print(found)
-    if given.plot:
+        output.write(columns_of(result, arguments.degrees))
+    if arguments.out != "-":
+        _print(result)
+    if arguments.plot:
         from assur.cli.picture import save_figure
 
-        save_figure(found.plot, given.plot)
+        save_figure(result.plot, arguments.plot)
 
 
 def _is_machine(file: str) -> bool:
     return file.startswith(EXAMPLE) or file == STDIN or PurePath(file).suffix.lower() == ".toml"
 
 
-def _number(given: Any, kind: str, what: str) -> float | None:
-    return None if given is None else given.one(kind, what)
+def _number(flag: Any, kind: str, what: str) -> float | None:
+    return None if flag is None else flag.one(kind, what)
 
 
-def _of_table(given: argparse.Namespace) -> Flywheel:
-    if (given.fluctuation is None and given.flywheel is None) or given.mean_speed is None:
-        given.parser.error("a table needs --fluctuation (or --flywheel) and --mean-speed")
-    if given.set or given.design is not None:
-        given.parser.error("--set and --design are for machines, not for tables")
-    table = flywheel.read_table(given.file, degrees=given.degrees)
-    speed = given.mean_speed.one(ROTARY, "--mean-speed")
-    mean, spline = given.mean or "extremes", given.spline or "not-a-knot"
+def _of_table(arguments: argparse.Namespace) -> Flywheel:
+    if (
+        arguments.fluctuation is None and arguments.flywheel is None
+    ) or arguments.mean_speed is None:
+        arguments.parser.error("a table needs --fluctuation (or --flywheel) and --mean-speed")
+    if arguments.set or arguments.design is not None:
+        arguments.parser.error("--set and --design are for machines, not for tables")
+    table = flywheel.read_table(arguments.file, degrees=arguments.degrees)
+    speed = arguments.mean_speed.one(ROTARY, "--mean-speed")
+    mean, spline = arguments.mean or "extremes", arguments.spline or "not-a-knot"
     options: dict[str, Any] = {"mean": mean, "spline": spline}
-    if given.flywheel is None:
-        wanted = given.fluctuation.one("", "--fluctuation")
-        return flywheel.from_table(*table, wanted, speed, **options)
-    own = given.flywheel.one("", "--flywheel")
-    return flywheel.evaluate(*table, own, mean_speed=speed, **options)
+    if arguments.flywheel is None:
+        fluctuation = arguments.fluctuation.one("", "--fluctuation")
+        return flywheel.from_table(*table, fluctuation, speed, **options)
+    inertia = arguments.flywheel.one("", "--flywheel")
+    return flywheel.evaluate(*table, inertia, mean_speed=speed, **options)
 
 
-def _of_machine(given: argparse.Namespace) -> Flywheel:
+def _of_machine(arguments: argparse.Namespace) -> Flywheel:
     for name in ("flywheel", "spline"):
-        if getattr(given, name) is not None:
-            given.parser.error(f"--{name} is for tables, not for machines")
-    contents = read(given)
-    machine = require_machine(contents, given.file)
+        if getattr(arguments, name) is not None:
+            arguments.parser.error(f"--{name} is for tables, not for machines")
+    contents = read(arguments)
+    machine = require_machine(contents, arguments.file)
     asked = dict(contents.wanted.get("flywheel", {}))
     flags = {
-        "fluctuation": _number(given.fluctuation, "", "--fluctuation"),
-        "mean_speed": _number(given.mean_speed, ROTARY, "--mean-speed"),
-        "mean": given.mean,
-        "turns": given.turns,
+        "fluctuation": _number(arguments.fluctuation, "", "--fluctuation"),
+        "mean_speed": _number(arguments.mean_speed, ROTARY, "--mean-speed"),
+        "mean": arguments.mean,
+        "turns": arguments.turns,
     }
     asked.update({name: value for name, value in flags.items() if value is not None})
     if "fluctuation" not in asked:
         message = "no fluctuation is given: write --fluctuation 0.05, or [flywheel] in the file"
         raise InputError(message)
     if machine.shape:
-        message = f"{given.file} has {machine.shape} designs: choose one by --design"
+        message = f"{arguments.file} has {machine.shape} designs: choose one by --design"
         raise InputError(message)
     return machine.flywheel(**asked)
 

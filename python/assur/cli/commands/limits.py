@@ -35,19 +35,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_output(parser)
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
     from assur.kinematics.table import driven_angles
 
-    output = Output(given.out, given.file)
-    mechanism = read(given).mechanism
-    require_one(mechanism, given.file)
+    output = Output(arguments.out, arguments.file)
+    mechanism = read(arguments).mechanism
+    require_one(mechanism, arguments.file)
     limits = mechanism.limits()
     is_angle = driven_angles(mechanism)[0]
-    unit = "m" if not is_angle else "deg" if given.degrees else "rad"
-    if given.out is not None:
+    unit = "m" if not is_angle else "deg" if arguments.degrees else "rad"
+    if arguments.out is not None:
         output.write(_columns(limits, unit))
-    if given.out != "-":
+    if arguments.out != "-":
         _print(mechanism, limits, unit)
 
 
@@ -72,10 +72,10 @@ def _print(mechanism: Mechanism, limits: Limits, unit: str) -> None:
     if not limits.dead_points:
         print("dead points    none")
     q0 = float(mechanism.q0)
-    found = mechanism.assemblies(q0)
+    assemblies = mechanism.assemblies(q0)
     at = f"{_shown(q0, unit)!r} {unit}"
-    of = f", of {math.prod(found.complex_count)} complex" if found.complex_count else ""
-    print(f"assemblies     {len(found)} at q = {at}{of}")
+    of = f", of {math.prod(assemblies.complex_count)} complex" if assemblies.complex_count else ""
+    print(f"assemblies     {len(assemblies)} at q = {at}{of}")
 
 
 def _columns(limits: Limits, unit: str) -> list[Column]:

@@ -49,50 +49,52 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
     from assur.cli.written import refuse_same, require_writable
 
-    out = given.out or f"{_stem(given.file)}.svg"
-    refuse_same(out, given.file)
+    out = arguments.out or f"{_stem(arguments.file)}.svg"
+    refuse_same(out, arguments.file)
     require_writable(out)
-    contents = read(given)
+    contents = read(arguments)
     mechanism = contents.mechanism
-    require_one(mechanism, given.file)
+    require_one(mechanism, arguments.file)
     suffix = PurePath(out).suffix.lower()
-    wanted = contents.wanted.get("solve", {})
+    asked = contents.wanted.get("solve", {})
     if suffix == ".html":
-        _write_page(given, mechanism, wanted, out)
+        _write_page(arguments, mechanism, asked, out)
     elif suffix in FILMS:
-        motion = mechanism.solve(**coordinates(mechanism, given.q, wanted), order=0, on_error="nan")
-        motion.animate(out, given.joint, groups=given.groups, dark=given.dark)
+        motion = mechanism.solve(
+            **coordinates(mechanism, arguments.q, asked), order=0, on_error="nan"
+        )
+        motion.animate(out, arguments.joint, groups=arguments.groups, dark=arguments.dark)
     else:
-        _draw(given, mechanism, wanted, out)
+        _draw(arguments, mechanism, asked, out)
     print(out)
 
 
-def _draw(given: argparse.Namespace, mechanism: Mechanism, wanted: Any, out: str) -> None:
+def _draw(arguments: argparse.Namespace, mechanism: Mechanism, asked: Any, out: str) -> None:
     from assur.cli.picture import save_figure
 
-    shown = {"groups": given.groups, "dark": given.dark}
-    if given.joint is not None:
-        place = coordinates(mechanism, given.q, wanted)
+    shown = {"groups": arguments.groups, "dark": arguments.dark}
+    if arguments.joint is not None:
+        place = coordinates(mechanism, arguments.q, asked)
         motion = mechanism.solve(**place, order=0, on_error="nan")
-        save_figure(lambda: motion.plot(given.joint, **shown), out)
+        save_figure(lambda: motion.plot(arguments.joint, **shown), out)
     else:
-        q = None if given.q is None else coordinates(mechanism, given.q, {})["q"]
+        q = None if arguments.q is None else coordinates(mechanism, arguments.q, {})["q"]
         save_figure(lambda: mechanism.plot(q, **shown), out)
 
 
-def _write_page(given: argparse.Namespace, mechanism: Mechanism, wanted: Any, out: str) -> None:
-    if given.groups:
+def _write_page(arguments: argparse.Namespace, mechanism: Mechanism, asked: Any, out: str) -> None:
+    if arguments.groups:
         message = "--groups: a page has a switch for them"
         raise InputError(message)
-    shown = {"paths": given.joint, "dark": True if given.dark else None}
-    if given.q is None and not isinstance(mechanism.driver, tuple):
+    shown = {"paths": arguments.joint, "dark": True if arguments.dark else None}
+    if arguments.q is None and not isinstance(mechanism.driver, tuple):
         mechanism.to_html(out, **shown)
         return
-    place = coordinates(mechanism, given.q, wanted)
+    place = coordinates(mechanism, arguments.q, asked)
     if np.ndim(place.get("q", [])) == 0:
         mechanism.to_html(out, **place, **shown)
         return
@@ -100,7 +102,7 @@ def _write_page(given: argparse.Namespace, mechanism: Mechanism, wanted: Any, ou
 
 
 def _stem(file: str) -> str:
-    """Return what a picture is called if it has no name."""
+    """Return the name of a picture's file by default."""
     if file == STDIN or "://" in file:
         return "mechanism"
     return PurePath(file.removeprefix(EXAMPLE)).stem or "mechanism"

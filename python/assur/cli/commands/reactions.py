@@ -37,7 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--speed",
         metavar="SPEED",
         type=argument(numbers),
-        help="of the driver, 10rad/s, 60rpm, 20mm/s; of several drivers 1,2",
+        help="of the driver, 10rad/s, 60rpm, 20mm/s; 1,2 for several drivers",
     )
     parser.add_argument(
         "--acceleration", metavar="NUMBER", type=argument(numbers), help="rad/s² or m/s²"
@@ -46,53 +46,53 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--sense",
         metavar="SIGN",
         type=argument(numbers),
-        help="1 or -1: in which way the drive is about to move at speed 0, if there is friction",
+        help="1 or -1: direction in which the drive is about to move at speed 0, with friction",
     )
     parser.add_argument("--degrees", action="store_true", help="angles of the table in degrees")
     add_output(parser)
 
 
-def run(given: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
-    output = Output(given.out, given.file)
-    contents = read(given)
-    machine = require_machine(contents, given.file)
+    output = Output(arguments.out, arguments.file)
+    contents = read(arguments)
+    machine = require_machine(contents, arguments.file)
     mechanism = contents.mechanism
-    wanted = contents.wanted.get("reactions", {})
-    asked: dict[str, Any] = {name: wanted[name] for name in wanted if name not in ("q", "deg")}
+    in_file = contents.wanted.get("reactions", {})
+    asked: dict[str, Any] = {name: in_file[name] for name in in_file if name not in ("q", "deg")}
     flags = {
-        "speed": speeds(mechanism, given.speed, "--speed"),
-        "acceleration": plain(given.acceleration, mechanism, "--acceleration"),
-        "sense": plain(given.sense, mechanism, "--sense"),
+        "speed": speeds(mechanism, arguments.speed, "--speed"),
+        "acceleration": plain(arguments.acceleration, mechanism, "--acceleration"),
+        "sense": plain(arguments.sense, mechanism, "--sense"),
     }
     asked.update({name: value for name, value in flags.items() if value is not None})
-    place = coordinates(mechanism, given.q, wanted or contents.wanted.get("solve", {}))
+    place = coordinates(mechanism, arguments.q, in_file or contents.wanted.get("solve", {}))
     if "deg" in place:
         from assur.kinematics.solve_arguments import in_radians
 
         place = {"q": in_radians(mechanism, None, place["deg"])}
     from assur._table import columns_of
 
-    found = machine.reactions(**place, **{**asked, "on_error": "nan"})
-    output.write(columns_of(found, given.degrees))
-    without = found.status == Status.NO_VALUE
-    unknown = np.isnan(found.driver).reshape(*found.status.shape, -1).any(axis=-1)
-    failed = report(np.where(without, 0, found.status), Status.SINGULAR)
+    reactions = machine.reactions(**place, **{**asked, "on_error": "nan"})
+    output.write(columns_of(reactions, arguments.degrees))
+    without = reactions.status == Status.NO_VALUE
+    unknown = np.isnan(reactions.driver).reshape(*reactions.status.shape, -1).any(axis=-1)
+    failed = report(np.where(without, 0, reactions.status), Status.SINGULAR)
     if failed or not unknown.any():
         return failed
     why = ": friction locks the machine"
     if without.any():
-        why = f"; the first: {_why(machine, found, asked)}"
+        why = f"; the first: {_why(machine, reactions, asked)}"
     note(f"{int(unknown.sum())} of {unknown.size} positions have no reactions{why}")
     return INCOMPLETE
 
 
-def _why(machine: Any, found: Any, asked: dict[str, Any]) -> str:
+def _why(machine: Any, reactions: Any, asked: dict[str, Any]) -> str:
     """Return why the first position without a value has none."""
-    at = tuple(np.argwhere(found.status == Status.NO_VALUE)[0])
-    rates = {name: getattr(found, name)[at] for name in ("speed", "acceleration")}
+    at = tuple(np.argwhere(reactions.status == Status.NO_VALUE)[0])
+    rates = {name: getattr(reactions, name)[at] for name in ("speed", "acceleration")}
     try:
-        machine.reactions(found.q[at], **{**asked, **rates, "on_error": "raise"})
+        machine.reactions(reactions.q[at], **{**asked, **rates, "on_error": "raise"})
     except AssurError as error:
         return str(error)
     return "a load has no value there"

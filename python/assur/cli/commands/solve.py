@@ -59,31 +59,31 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_progress(parser)
 
 
-def run(given: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     from assur.kinematics.table import Options, motion_columns
 
-    output = Output(given.out, given.file)
-    contents = read(given)
-    omega = speeds(contents.mechanism, given.omega, "--omega")
-    alpha = plain(given.alpha, contents.mechanism, "--alpha")
-    motion = _motion(contents, given, output)
-    options = Options(omega, 0.0 if alpha is None else alpha, given.degrees, given.moving)
+    output = Output(arguments.out, arguments.file)
+    contents = read(arguments)
+    omega = speeds(contents.mechanism, arguments.omega, "--omega")
+    alpha = plain(arguments.alpha, contents.mechanism, "--alpha")
+    motion = _motion(contents, arguments, output)
+    options = Options(omega, 0.0 if alpha is None else alpha, arguments.degrees, arguments.moving)
     output.write(motion_columns(motion, options))
     return report(motion.status, Status.UNREACHABLE, motion)
 
 
-def _motion(contents: Contents, given: argparse.Namespace, output: Output) -> Motion:
+def _motion(contents: Contents, arguments: argparse.Namespace, output: Output) -> Motion:
     from assur.kinematics.solve_arguments import in_radians
     from assur.sweeps.sweep import sweep
 
-    mechanism, wanted = contents.mechanism, contents.wanted.get("solve", {})
-    asked = {name: wanted[name] for name in ("order", "outputs") if name in wanted}
-    if given.order is not None:
-        asked["order"] = given.order
-    if given.outputs is not None:
-        asked["outputs"] = [name.strip() for name in given.outputs.split(",")]
-    place = coordinates(mechanism, given.q, wanted)
+    mechanism, in_file = contents.mechanism, contents.wanted.get("solve", {})
+    asked = {name: in_file[name] for name in ("order", "outputs") if name in in_file}
+    if arguments.order is not None:
+        asked["order"] = arguments.order
+    if arguments.outputs is not None:
+        asked["outputs"] = [name.strip() for name in arguments.outputs.split(",")]
+    place = coordinates(mechanism, arguments.q, in_file)
     drivers = mechanism.driver_count
     size = np.size(place["q"] if "q" in place else place["deg"])
     output.require_few(size // drivers * math.prod(mechanism.shape))
@@ -91,5 +91,5 @@ def _motion(contents: Contents, given: argparse.Namespace, output: Output) -> Mo
         motion: Motion = mechanism.solve(**place, **asked, on_error="nan")
         return motion
     q = in_radians(mechanism, None, place["deg"]) if "deg" in place else place["q"]
-    many: Motion = sweep(mechanism, {}, q, **asked, progress=progress(given))
+    many: Motion = sweep(mechanism, {}, q, **asked, progress=progress(arguments))
     return many

@@ -29,13 +29,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
-    mechanism = read(given).mechanism
+    mechanism = read(arguments).mechanism
     print(mechanism.structure)
     if mechanism.shape:
         print(f"{mechanism.shape} designs")
-    if not given.dimensions:
+    if not arguments.dimensions:
         return
     for name, value in mechanism.dimensions.items():
         unit = "m" if kind_of(name) == LENGTH else "rad"

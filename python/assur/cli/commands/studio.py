@@ -38,19 +38,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--host",
         metavar="H",
-        help="listen there, 0.0.0.0 for the whole network: who has the address can use it",
+        help="listen there, 0.0.0.0 for the whole network: anyone with the address can use it",
     )
 
 
-def run(given: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
     from assur.studio.serve import require_packages, serve
 
     require_packages()
-    opened = _given(given.file)
+    opened = _given(arguments.file)
     if opened is not None and opened.path is not None:
         _require_readable(opened)
-    serve(opened, given.host, given.port, not given.no_browser, _say)
+    serve(opened, arguments.host, arguments.port, not arguments.no_browser, _say)
 
 
 def _say(address: str) -> None:
@@ -74,7 +74,7 @@ def _given(file: str | None) -> Given | None:
 
 
 def _require_readable(opened: Given) -> None:
-    """Refuse what is not a mechanism before a browser opens."""
+    """Refuse a file without a mechanism before a browser opens."""
     from assur.studio.kinds.opening import read_text
 
     read_text(str(opened.path), opened.bytes())

@@ -75,7 +75,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=METRIC",
         action="append",
         required=True,
-        help="what is measured, gamma=least_transmission(C)",
+        help="a metric, gamma=least_transmission(C)",
     )
     parser.add_argument(
         "--where",
@@ -92,75 +92,75 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--positions",
         type=int,
         metavar="N",
-        help=f"instead of --q: so many even steps of a turn; {POSITIONS}",
+        help=f"instead of --q: the number of even steps of a turn; {POSITIONS}",
     )
-    parser.add_argument("--threads", type=int, metavar="N", help="most threads; one a core")
+    parser.add_argument("--threads", type=int, metavar="N", help="most threads; one per core")
     add_output(parser)
     add_progress(parser)
 
 
-def run(given: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Run the command."""
     from assur.cli.metrics import condition, named_metric
     from assur.sweeps.measures import counts_text
     from assur.sweeps.sweep import sweep
 
-    if given.best is None and (given.by is not None or given.greatest):
-        given.parser.error("--by and --greatest need --best")
-    if given.best is not None and given.best < 1:
-        given.parser.error("--best needs a number of at least 1")
-    if given.positions is not None and given.q is not None:
-        given.parser.error("--positions is in place of --q")
-    output = Output(given.out, given.file)
-    metrics = dict(named_metric(text) for text in given.metric)
-    if len(metrics) < len(given.metric):
+    if arguments.best is None and (arguments.by is not None or arguments.greatest):
+        arguments.parser.error("--by and --greatest need --best")
+    if arguments.best is not None and arguments.best < 1:
+        arguments.parser.error("--best needs a number of at least 1")
+    if arguments.positions is not None and arguments.q is not None:
+        arguments.parser.error("--positions is in place of --q")
+    output = Output(arguments.out, arguments.file)
+    metrics = dict(named_metric(text) for text in arguments.metric)
+    if len(metrics) < len(arguments.metric):
         message = "--metric: two have the same name"
         raise InputError(message)
-    by = _by(given, list(metrics))
-    where = [condition(text) for text in given.where]
-    contents = read(given)
-    require_one(contents.mechanism, given.file)
-    dimensions = _dimensions(given, contents.mechanism.core.dimension_names)
+    by = _by(arguments, list(metrics))
+    where = [condition(text) for text in arguments.where]
+    contents = read(arguments)
+    require_one(contents.mechanism, arguments.file)
+    dimensions = _dimensions(arguments, contents.mechanism.core.dimension_names)
     rows = math.prod(np.broadcast_shapes(*map(np.shape, dimensions.values())))
-    output.require_few(rows if given.best is None else min(rows, given.best))
-    found: Measures = sweep(
+    output.require_few(rows if arguments.best is None else min(rows, arguments.best))
+    measures: Measures = sweep(
         contents.machine or contents.mechanism,
         dimensions,
-        _positions(contents, given),
+        _positions(contents, arguments),
         metrics=metrics,
         where=where or None,
-        threads=given.threads,
-        progress=progress(given),
+        threads=arguments.threads,
+        progress=progress(arguments),
     )
-    if not len(found.kept):
-        output.write(_columns(found, None))
-        note(f"no design is left: {counts_text(found)}")
+    if not len(measures.kept):
+        output.write(_columns(measures, None))
+        note(f"no design is left: {counts_text(measures)}")
         return INCOMPLETE
-    best = None if given.best is None else found.best(given.best, by, given.greatest)
-    output.write(_columns(found, best))
+    best = None if arguments.best is None else measures.best(arguments.best, by, arguments.greatest)
+    output.write(_columns(measures, best))
     return 0
 
 
-def _by(given: argparse.Namespace, names: list[str]) -> str:
-    if given.by is None:
+def _by(arguments: argparse.Namespace, names: list[str]) -> str:
+    if arguments.by is None:
         return names[0]
-    if given.by not in names:
-        message = f"--by {given.by}: there is no such --metric; there are {', '.join(names)}"
+    if arguments.by not in names:
+        message = f"--by {arguments.by}: there is no such --metric; there are {', '.join(names)}"
         raise InputError(message)
-    return str(given.by)
+    return str(arguments.by)
 
 
-def _dimensions(given: argparse.Namespace, known: Sequence[str]) -> Mapping[str, npt.ArrayLike]:
+def _dimensions(arguments: argparse.Namespace, known: Sequence[str]) -> Mapping[str, npt.ArrayLike]:
     from assur.sweeps.grid import Grid
 
-    if given.designs is not None:
-        if given.vary:
-            given.parser.error("--designs is in place of --vary")
-        return read_designs(given.designs, known)
-    if not given.vary:
-        given.parser.error("the designs are missing: --vary, or --designs")
+    if arguments.designs is not None:
+        if arguments.vary:
+            arguments.parser.error("--designs is in place of --vary")
+        return read_designs(arguments.designs, known)
+    if not arguments.vary:
+        arguments.parser.error("the designs are missing: --vary, or --designs")
     axes: dict[str, Float] = {}
-    for name, values in given.vary:
+    for name, values in arguments.vary:
         values.require(kind_of(name), f"--vary {name}")
         if name in axes:
             message = f"--vary {name} is given twice"
@@ -173,43 +173,43 @@ def _dimensions(given: argparse.Namespace, known: Sequence[str]) -> Mapping[str,
     return Grid(axes)
 
 
-def _positions(contents: Contents, given: argparse.Namespace) -> Any:
+def _positions(contents: Contents, arguments: argparse.Namespace) -> Any:
     from assur.kinematics.solve_arguments import in_radians
     from assur.kinematics.table import driven_angles
 
     mechanism = contents.mechanism
-    if given.q is None and driven_angles(mechanism) == [True]:
-        count = POSITIONS if given.positions is None else given.positions
+    if arguments.q is None and driven_angles(mechanism) == [True]:
+        count = POSITIONS if arguments.positions is None else arguments.positions
         if not 1 <= count <= 1_000_000:
             message = f"--positions is {count}: a whole number from 1 to 1000000 is needed"
             raise InputError(message)
         return np.linspace(0.0, math.tau, count, endpoint=False)
-    if given.positions is not None:
+    if arguments.positions is not None:
         message = "--positions is for a driver that turns: give --q"
         raise InputError(message)
-    place = coordinates(mechanism, given.q, contents.wanted.get("solve", {}))
+    place = coordinates(mechanism, arguments.q, contents.wanted.get("solve", {}))
     q = in_radians(mechanism, None, place["deg"]) if "deg" in place else place["q"]
     return np.atleast_1d(q) if len(driven_angles(mechanism)) == 1 else np.atleast_2d(q)
 
 
-def _columns(found: Measures, best: npt.NDArray[np.intp] | None) -> list[Column]:
+def _columns(measures: Measures, best: npt.NDArray[np.intp] | None) -> list[Column]:
     """Return the columns of `Measures.to_dataframe`, of the best designs or of all."""
     from assur._table import Column, design_columns
     from assur.sweeps.measures import changed_dimensions
 
-    size = found.status.size
+    size = measures.status.size
     which = np.arange(size) if best is None else best
-    columns = [*design_columns(found.shape, len(found.shape))]
-    for name, values in changed_dimensions(found).items():
+    columns = [*design_columns(measures.shape, len(measures.shape))]
+    for name, values in changed_dimensions(measures).items():
         unit = "m" if kind_of(name) == LENGTH else "rad"
         columns.append(Column(name, values, unit, None))
-    columns.append(Column("status", found.status.reshape(-1), "", None))
-    columns.append(Column("kept", np.isin(np.arange(size), found.kept), "", None))
+    columns.append(Column("status", measures.status.reshape(-1), "", None))
+    columns.append(Column("kept", np.isin(np.arange(size), measures.kept), "", None))
     taken = {column.name for column in columns}
-    for name, values in found.items():
+    for name, values in measures.items():
         shown = f"metric {name}" if name in taken else name
         columns.append(Column(shown, values.reshape(-1), "", "metrics"))
-    return [one._replace(values=one.values[which]) for one in columns]
+    return [column._replace(values=column.values[which]) for column in columns]
 
 
 def _axis(text: str) -> tuple[str, Numbers]:

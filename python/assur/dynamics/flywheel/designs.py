@@ -1,4 +1,4 @@
-"""The flywheels of designs whose loads are smooth between coordinates of their own."""
+"""The flywheels of designs that each have their own coordinates where loads are not smooth."""
 
 from __future__ import annotations
 
@@ -33,17 +33,20 @@ class FlywheelOfDesigns(Flywheel):
             return numbers
 
         def extreme(all_: list[Extreme]) -> Extreme:
-            return Extreme(stacked([one.at for one in all_]), stacked([one.value for one in all_]))
+            return Extreme(
+                stacked([peak.at for peak in all_]),
+                stacked([peak.value for peak in all_]),
+            )
 
         super().__init__(
-            inertia=stacked([one.inertia for one in each]),
-            speed0=stacked([one.speed0 for one in each]),
-            motor_moment=stacked([one.motor_moment for one in each]),
+            inertia=stacked([flywheel.inertia for flywheel in each]),
+            speed0=stacked([flywheel.speed0 for flywheel in each]),
+            motor_moment=stacked([flywheel.motor_moment for flywheel in each]),
             extremes=(
-                extreme([one.greatest for one in each]),
-                extreme([one.least for one in each]),
+                extreme([flywheel.greatest for flywheel in each]),
+                extreme([flywheel.least for flywheel in each]),
             ),
-            period=stacked([one.period for one in each]),
+            period=stacked([flywheel.period for flywheel in each]),
             mean=each[0].mean,
             turn=each[0].turn,
             shape=shape,
@@ -53,11 +56,11 @@ class FlywheelOfDesigns(Flywheel):
     def of(
         cls,
         machine: MachineModel,
-        wanted: tuple[Any, Any, Any, int, str],
-        one: Callable[[MachineModel, Any, Any, Any, int, str], Flywheel],
+        asked: tuple[Any, Any, Any, int, str],
+        size_one: Callable[[MachineModel, Any, Any, Any, int, str], Flywheel],
     ) -> Self:
         """Size the flywheel of each design for a fluctuation, mean speed and mean."""
-        fluctuation, speed, mean, turns, on_error = wanted
+        fluctuation, speed, mean, turns, on_error = asked
         try:
             fluctuations, speeds = (
                 np.broadcast_to(real_array(value, name), machine.shape)
@@ -68,9 +71,9 @@ class FlywheelOfDesigns(Flywheel):
             raise InputError(message) from error
         each = []
         for index in np.ndindex(machine.shape):
-            own = float(fluctuations[index]), float(speeds[index])
+            demand = float(fluctuations[index]), float(speeds[index])
             try:
-                each.append(one(machine.design(index), *own, mean, turns, on_error))
+                each.append(size_one(machine.design(index), *demand, mean, turns, on_error))
             except AssurError as error:
                 error.design = index
                 raise
@@ -80,11 +83,11 @@ class FlywheelOfDesigns(Flywheel):
         return type(self), (self._each, self.shape)
 
     def _problem(self, entry: tuple[int, ...]) -> str | None:
-        own = self._each[int(np.ravel_multi_index(entry, self.shape))]
-        return problem_of(own, ())
+        flywheel = self._each[int(np.ravel_multi_index(entry, self.shape))]
+        return problem_of(flywheel, ())
 
     def _curve(self, what: Curve, x: Float) -> Any:
-        curves = np.array([curve_of(one, what, x) for one in self._each], np.float64)
+        curves = np.array([curve_of(flywheel, what, x) for flywheel in self._each], np.float64)
         curves = curves.reshape(self.shape + x.shape)
         curves.flags.writeable = False
         return curves

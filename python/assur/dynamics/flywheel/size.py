@@ -77,11 +77,11 @@ def flywheel(
                 f"batch {machine.shape}: take one with design(i), or give mean_speed"
             )
             raise InputError(message)
-        wanted = real_number(fluctuation, "fluctuation")
-        if not 0.0 < wanted < 2.0:
-            message = f"fluctuation = {wanted:g}: it must be more than 0 and less than 2"
-            raise InputError(message, kind="bad_fluctuation", value=wanted)
-        steady = steady_state(machine, None, turns, None, wanted, mean=mean, **STEADY_OPTIONS)
+        limit = real_number(fluctuation, "fluctuation")
+        if not 0.0 < limit < 2.0:
+            message = f"fluctuation = {limit:g}: it must be more than 0 and less than 2"
+            raise InputError(message, kind="bad_fluctuation", value=limit)
+        steady = steady_state(machine, None, turns, None, limit, mean=mean, **STEADY_OPTIONS)
         return SteadyFlywheel(machine, steady)
     if not constant:
         message = (
@@ -96,13 +96,13 @@ def flywheel(
     else:
         made = _from_tables(machine, *asked)
     if isinstance(machine.motor, ConstantTorque):
-        own = float(machine.motor.ratio) * float(torque)
-        off = np.abs(np.asarray(made.motor_moment) - own) > TORQUE_RTOL * abs(own)
+        motor_moment = float(machine.motor.ratio) * float(torque)
+        off = np.abs(np.asarray(made.motor_moment) - motor_moment) > TORQUE_RTOL * abs(motor_moment)
         if off.any():
             needed = np.asarray(made.motor_moment).ravel()[int(np.argmax(off))]
             message = (
-                f"the motor gives the driver {own:g} N·m, the loads take {needed:g} on average: "
-                "the flywheel is sized for the loads"
+                f"the motor gives the driver {motor_moment:g} N·m, the loads take {needed:g} on "
+                "average: the flywheel is sized for the loads"
             )
             warnings.warn(message, AssurWarning, stacklevel=3)
     return made
@@ -129,11 +129,13 @@ def _from_tables(
         own_speed = speed[..., np.newaxis] if speed.ndim else speed
         inertia, _, moment, _ = reduce(machine, at, own_speed, on_error)
         if last is None:
-            others = _aperiodic_designs(machine, (at, cycle), own_speed, on_error, inertia, moment)
-        inertia[others], moment[others] = math.nan, math.nan
+            aperiodic = _aperiodic_designs(
+                machine, (at, cycle), own_speed, on_error, inertia, moment
+            )
+        inertia[aperiodic], moment[aperiodic] = math.nan, math.nan
         # The last row equals the first up to rounding: make it exact.
         moment[..., -1, :], inertia[..., -1, :, :] = moment[..., 0, :], inertia[..., 0, :, :]
-        own = tabulated_flywheel(
+        made = tabulated_flywheel(
             phi,
             moment[..., 0],
             inertia[..., 0, 0],
@@ -146,18 +148,18 @@ def _from_tables(
             corners,
         )
         if last is not None:
-            size = np.asarray(own.inertia) + inertia[..., 0, 0].max(axis=-1)
-            change = np.abs(np.asarray(own.inertia) - np.asarray(last.inertia)) / size
+            size = np.asarray(made.inertia) + inertia[..., 0, 0].max(axis=-1)
+            change = np.abs(np.asarray(made.inertia) - np.asarray(last.inertia)) / size
             if not (change > CONVERGED_RTOL).any():
-                return own
+                return made
         if rows == LAST_ROWS:
             message = (
                 f"tables of {rows} rows still change the flywheel by {float(np.nanmax(change)):.1e}"
                 ": a function among the loads is not smooth (a Table is cut at its knots)"
             )
             warnings.warn(message, AssurWarning, stacklevel=4)
-            return own
-        last, rows = own, 2 * rows
+            return made
+        last, rows = made, 2 * rows
 
 
 def _aperiodic_designs(
@@ -173,8 +175,8 @@ def _aperiodic_designs(
     The cycle is given by its coordinates and its length.
     """
     phi, length = cycle
-    found = np.zeros(machine.shape, bool)
-    later, _, other, _ = reduce(machine, phi + length, speed, on_error)
+    aperiodic = np.zeros(machine.shape, bool)
+    later, _, later_moment, _ = reduce(machine, phi + length, speed, on_error)
     # Inertia times squared speed is the scale of a moment's rounding error.
     of_inertia = np.nanmax(np.abs(_flat(machine, inertia)), axis=-1, initial=0.0)
     floor = (
@@ -182,20 +184,20 @@ def _aperiodic_designs(
         * of_inertia
         * np.square(np.max(speed, axis=-1) if np.ndim(speed) else speed)
     )
-    for name, kind, one, two, least in (
+    for name, kind, first_rows, second_rows, least in (
         ("inertia", "inertia_not_periodic", inertia, later, 0.0),
-        ("moment", "not_periodic", moment, other, floor),
+        ("moment", "not_periodic", moment, later_moment, floor),
     ):
-        first, second = _flat(machine, one), _flat(machine, two)
+        first, second = _flat(machine, first_rows), _flat(machine, second_rows)
         size = np.nanmax(np.abs(first), axis=-1, initial=0.0)
         off = np.nanmax(np.abs(second - first), axis=-1, initial=0.0)
-        others = off > PERIODIC_RTOL * size + least
-        if not others.any():
+        differ = off > PERIODIC_RTOL * size + least
+        if not differ.any():
             continue
-        found |= others
+        aperiodic |= differ
         if on_error == "nan":
             continue
-        design = tuple(int(i) for i in np.argwhere(others)[0])
+        design = tuple(int(i) for i in np.argwhere(differ)[0])
         row = int(np.nanargmax(np.abs(second - first)[design]))
         q, value = float(phi[row]), float(first[design][row])
         unit = "kg·m²" if name == "inertia" else "N·m"
@@ -206,7 +208,7 @@ def _aperiodic_designs(
             "pass turns= if its cycle is longer"
         )
         raise MotionError(message, kind=kind, design=design or None, q=q, value=value)
-    return found
+    return aperiodic
 
 
 def _flat(machine: MachineModel, array: Any) -> Any:
@@ -216,27 +218,27 @@ def _flat(machine: MachineModel, array: Any) -> Any:
 
 def _jumps(machine: MachineModel, knots: list[float], cycle: float) -> list[bool]:
     """Return at which of the knots of a cycle loads may jump."""
-    found = jumps_between(machine, -PERIOD_RTOL, cycle + PERIOD_RTOL)
+    jumps = jumps_between(machine, -PERIOD_RTOL, cycle + PERIOD_RTOL)
     # The seam is at both ends.
-    every = np.concatenate([found, found + cycle, found - cycle, [math.inf]])
+    every = np.concatenate([jumps, jumps + cycle, jumps - cycle, [math.inf]])
     return [bool(np.abs(every - q).min() <= PERIOD_RTOL) for q in knots]
 
 
 def _knots(machine: MachineModel, cycle: float) -> list[float]:
     """Return the coordinates of a cycle at which loads are not smooth, its ends included."""
-    found = {0.0, cycle, *stations_between(machine, 0.0, cycle)}
+    places = {0.0, cycle, *stations_between(machine, 0.0, cycle)}
     tables = zip(machine.core.tables, machine.core.rows, strict=True)
     for ((first, last), periodic), rows in tables:
         period = last - first
         require_whole_periods(period if periodic else None, cycle)
-        own = rows[: MAX_KNOTS + 1].tolist()
+        within = rows[: MAX_KNOTS + 1].tolist()
         steps = range(math.floor(-first / period) - 1, math.ceil((cycle - first) / period) + 1)
         for shift in steps:
-            found |= {q + shift * period for q in own}
-            if len(found) > MAX_KNOTS:
+            places |= {q + shift * period for q in within}
+            if len(places) > MAX_KNOTS:
                 message = f"a table's period of {period:g} rad has too many knots in a cycle"
                 raise InputError(message, value=period)
-    knots = sorted(q for q in found if 0.0 <= q <= cycle)
+    knots = sorted(q for q in places if 0.0 <= q <= cycle)
     # Knots closer than this are the same but for rounding.
     kept = [q for q, before in zip(knots, [-1.0, *knots], strict=False) if q - before > PERIOD_RTOL]
     return [*(q for q in kept if q < cycle - PERIOD_RTOL), cycle]
@@ -245,20 +247,20 @@ def _knots(machine: MachineModel, cycle: float) -> list[float]:
 def _table_rows(knots: list[float], jumps: list[bool], rows: int) -> tuple[Any, Any, list[int]]:
     """Return coordinates with a row at every knot, two at a jump, and the indices of the knots.
 
-    The second array is where loads are evaluated: at a jump beside it.
+    The second array has the coordinates at which loads are evaluated: beside a jump, not at it.
     """
     parts, places, corners = [], [], [0]
     for index, (low, high) in enumerate(itertools.pairwise(knots)):
         count = max(MIN_ROWS_BETWEEN_KNOTS, math.ceil(rows * (high - low) / (2.0 * math.pi)))
-        own = np.linspace(low, high, count, endpoint=False)
+        piece = np.linspace(low, high, count, endpoint=False)
         if jumps[index + 1]:
-            own = np.append(own, high)
-        at = own.copy()
+            piece = np.append(piece, high)
+        at = piece.copy()
         at[0] += BESIDE * jumps[index]
         at[-1] -= BESIDE * jumps[index + 1]
-        parts.append(own)
+        parts.append(piece)
         places.append(at)
-        corners.append(corners[-1] + own.size)
+        corners.append(corners[-1] + piece.size)
     last = knots[-1] + BESIDE * jumps[-1]
     return (
         np.append(np.concatenate(parts), knots[-1]),

@@ -1,4 +1,4 @@
-"""What is computed from reactions asks of them."""
+"""What computations need of reactions."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ class Acting(NamedTuple):
 
     @property
     def what(self) -> str:
-        """What acts, for messages."""
+        """The name of what acts, for messages."""
         if self.kind == "drive":
             return "the drive"
         return f"a {self.name}" if self.kind == "load" else f"{self.kind} {self.name!r}"
@@ -125,8 +125,8 @@ def _drivers(at: Positions, link: str, couples: bool) -> Iterator[Acting]:
         drive = driver if isinstance(driver, Drive) else Drive(driver)
         if link not in (drive.link, drive.relative_to):
             continue
-        other = mechanism.links[drive.relative_to]
-        shared = [joint for joint in mechanism.links[drive.link] if joint in other]
+        base = mechanism.links[drive.relative_to]
+        shared = [joint for joint in mechanism.links[drive.link] if joint in base]
         if not shared and not couples:
             message = (
                 f"the drive of {drive.link!r} acts on {link!r} with a torque, but the link shares "
@@ -167,8 +167,8 @@ def _origin(at: Positions, link: str) -> Float:
 def _guide(at: Positions, name: str) -> Float:
     """Return the direction of a guide, (P, 2)."""
     mechanism = _mechanism(at)
-    own = mechanism.dimensions.get(f"{name}.angle", 0.0)
-    sine, cosine = _trig.sin_cos(at.motion.link(mechanism.slides[name].on).value + own)
+    angle = mechanism.dimensions.get(f"{name}.angle", 0.0)
+    sine, cosine = _trig.sin_cos(at.motion.link(mechanism.slides[name].on).value + angle)
     return np.stack([cosine, sine], axis=-1)
 
 

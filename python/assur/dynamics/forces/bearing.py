@@ -30,7 +30,7 @@ class Bearing:
     ----------
     angle : ndarray
         Direction of the force, counter-clockwise from the frame's x, rad, in (−π, π], S + (N,).
-        A bore in the link is pressed on this side, a pin that is fast in the link on the opposite
+        The force presses a bore in the link on this side, a pin fixed to the link on the opposite
         one.
     size : ndarray
         N, S + (N,).
@@ -150,20 +150,21 @@ class Bearing:
     def plot(self, ax: Any = None, dark: bool = False) -> Any:
         """Draw the polar load diagram: the ends of the forces laid off from one pole.
 
-        Once as the ground sees them, once as the link does in whose frame they are given; the
-        greatest force is drawn and written (needs matplotlib).
+        Once in the ground's frame, once in the frame in which they are given; the greatest force is
+        drawn and labelled (needs matplotlib).
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes or sequence of two, optional
-            Where to draw: on one only the own frame's diagram; a new figure by default.
+            Where to draw: a single one takes only the diagram in its own frame; a new figure by
+            default.
         dark : bool
             Light lines on a dark ground.
 
         Returns
         -------
         matplotlib.axes.Axes or ndarray of two
-            Those drawn on; one if the frame is the ground's. Artists are named ``force``,
+            The axes drawn on; one if the frame is the ground's. Artists are named ``force``,
             ``greatest``, ``position 3``.
 
         Raises
@@ -196,36 +197,38 @@ class Bearing:
 
     def _extreme(self, sign: float) -> Extreme:
         size = self._rows("an extreme")
-        one = np.ndim(self.q) == np.ndim(self.size)
-        q = np.reshape(self.q, (*size.shape, 1 if one else self.q.shape[-1]))
-        # NaN only where all are.
+        is_single = np.ndim(self.q) == np.ndim(self.size)
+        q = np.reshape(self.q, (*size.shape, 1 if is_single else self.q.shape[-1]))
+        # NaN only where all sizes are.
         index = np.argmin(np.where(np.isnan(size), np.inf, sign * size), axis=-1)[..., np.newaxis]
         value = np.take_along_axis(size, index, -1)[..., 0][()]
         at = np.take_along_axis(q, index[..., np.newaxis], -2)[..., 0, :]
-        return Extreme(at[..., 0][()] if one else at, value)
+        return Extreme(at[..., 0][()] if is_single else at, value)
 
 
 def bearing(
-    found: Reactions, name: str, on: str, frame: str | None, against: str | None
+    solved: Reactions, name: str, on: str, frame: str | None, against: str | None
 ) -> Bearing:
     """Return a pin's force as polar data; see `Reactions.bearing`."""
     name, on = checked_name(name, "joint"), checked_name(on, "on")
-    force = found.joint(name, on)
-    links = [link for link, joints in found.mechanism.links.items() if name in joints]
+    force = solved.joint(name, on)
+    links = [link for link, joints in solved.mechanism.links.items() if name in joints]
     if len(links) == 1:
         message = f"joint {name!r} is on link {on!r} alone: nothing bears on it"
         raise InputError(message, joint=name, link=on)
-    others = [link for link in links if link != on]
+    opposites = [link for link in links if link != on]
     for what, link in (("frame", frame), ("against", against)):
-        known = links if what == "frame" else others
+        known = links if what == "frame" else opposites
         allowed = (*known, *(["ground"] if what == "frame" else []))
-        # An array equals each of them part by part.
+        # An array would be compared with each of them part by part.
         if link is not None and not (type(link) in (str, np.str_) and link in allowed):
             message = f"{what} is {short(link)}: at joint {name!r} it is one of {', '.join(known)}"
             raise InputError(message, joint=name)
-    other = against or (others[0] if len(others) == 1 else None)
+    opposite = against or (opposites[0] if len(opposites) == 1 else None)
     own_frame = on if frame is None else frame
-    angles, speeds = _motion_of(found, [one for one in (own_frame, on, other) if one is not None])
+    angles, speeds = _motion_of(
+        solved, [member for member in (own_frame, on, opposite) if member is not None]
+    )
     sine, cosine = _trig.sin_cos(angles[own_frame])
     x, y = force[..., 0], force[..., 1]
     with in_range("the force"):
@@ -235,12 +238,12 @@ def bearing(
         angle=_trig.arctan2(turned[..., 1], turned[..., 0])[()],
         size=size[()],
         force=turned,
-        relative_speed=None if other is None else (speeds[on] - speeds[other])[()],
-        q=found.q,
-        designs=found.mechanism.shape,
+        relative_speed=None if opposite is None else (speeds[on] - speeds[opposite])[()],
+        q=solved.q,
+        designs=solved.mechanism.shape,
         frame=(own_frame, angles[own_frame]),
         what=(name, on),
-        is_angle=driven_angles(found.mechanism)[0],
+        is_angle=driven_angles(solved.mechanism)[0],
     )
 
 
@@ -255,5 +258,7 @@ def _motion_of(found: Reactions, links: list[str]) -> tuple[dict[str, Float], di
         q, speed = np.expand_dims(q, axis), np.expand_dims(speed, axis)
     motion = mechanism.solve(q, order=1, outputs=sorted(set(links)), on_error="nan")
     quantities = {link: motion.link(link) for link in links}
-    angles = {link: one.value.reshape(shape) for link, one in quantities.items()}
-    return angles, {link: one.velocity(speed).reshape(shape) for link, one in quantities.items()}
+    angles = {link: quantity.value.reshape(shape) for link, quantity in quantities.items()}
+    return angles, {
+        link: quantity.velocity(speed).reshape(shape) for link, quantity in quantities.items()
+    }

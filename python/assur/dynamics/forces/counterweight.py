@@ -80,7 +80,7 @@ class Counterweight:
         return self.moment / self.mass if self.mass > 0.0 else 0.0
 
     def with_radius(self, radius: float) -> Counterweight:
-        """Return this weight with the mass that it needs at a radius, m.
+        """Return this weight with the mass needed at a radius, m.
 
         Parameters
         ----------
@@ -104,7 +104,7 @@ class Counterweight:
         return replace(self, mass=self.moment / at)
 
     def with_mass(self, mass: float) -> Counterweight:
-        """Return this weight with a mass, kg, at the radius that it then needs.
+        """Return this weight with a mass, kg, at the radius then needed.
 
         Parameters
         ----------

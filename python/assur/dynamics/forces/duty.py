@@ -37,15 +37,15 @@ NUMBERS = 13
 class Duty(NamedTuple):
     """The effort of a drive over the positions of a cycle, by `Machine.duty`.
 
-    Numbers of a batch of designs are arrays of its shape S; all are NaN for a design of which a
-    position fails.
+    For a batch of designs the numbers are arrays of its shape S, NaN for a design with a position
+    that fails.
 
     Attributes
     ----------
     effort : ndarray
         Torque (driven slide: force) of the drive at q, N·m or N, S + (N,).
     greatest, least : Extreme
-        Its extreme values and the q where they are, also between the positions.
+        Its extreme values and their q, also between the positions.
     rms : float or ndarray
         Root mean square of the effort over time, N·m or N.
     power : ndarray
@@ -61,10 +61,10 @@ class Duty(NamedTuple):
     time : float or ndarray
         Time that the motion takes, s.
     lost : float or ndarray
-        Energy that friction takes, J: what the drive gives beyond what it would give without.
+        Energy that friction takes, J: the drive's energy less that without friction.
     efficiency : float or ndarray
-        1 − lost/max(energy, lost − energy): what comes out of what goes in, whichever way energy
-        flows over the cycle; NaN if none flows.
+        1 − lost/max(energy, lost − energy): output over input, whichever way energy flows over the
+        cycle; NaN if none flows.
 
     Examples
     --------
@@ -112,13 +112,13 @@ def duty(
     x, v, a, shape = kinetostatics.broadcast_motion(machine, motion)
     t = times(motion.t, shape)
     require_finite(x, "q")
-    x, v, a = (np.broadcast_to(one, shape) for one in (x, v, a))
+    x, v, a = (np.broadcast_to(part, shape) for part in (x, v, a))
     senses = None if motion.senses is None else motion.senses.reshaped(shape)
     # Without a speed only the times of a run say how long it takes.
     is_timed = senses is not None and bool(senses.sense.any())
     _check_path(x, v if senses is None else senses.creeping(v, with_begins=True))
     effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t, senses), on_error))
-    rows = [one.reshape(-1, shape[-1]) for one in (x, v, effort)]
+    rows = [part.reshape(-1, shape[-1]) for part in (x, v, effort)]
     if is_timed:
         rows.append(t.reshape(-1, shape[-1]))
     numbers = np.empty((len(rows[0]), NUMBERS))
@@ -134,11 +134,11 @@ def duty(
         last = [ends, rows[1][:, :1], np.reshape(effort_after, (-1, 1))]
         longer = [np.concatenate(pair, axis=1) for pair in zip(rows, last, strict=True)]
         lacks_end &= _ends_agree(longer[2])
-        numbers[lacks_end] = _numbers([one[lacks_end] for one in longer], closed=True)
+        numbers[lacks_end] = _numbers([row[lacks_end] for row in longer], closed=True)
     is_closed &= _ends_agree(rows[2])
     for chosen, closed in ((is_closed, True), (~(is_closed | lacks_end), False)):
         if chosen.any():
-            numbers[chosen] = _numbers([one[chosen] for one in rows], closed=closed)
+            numbers[chosen] = _numbers([row[chosen] for row in rows], closed=closed)
     with np.errstate(over="ignore", invalid="ignore"):
         power = effort * v
     _require_finite(numbers, effort, on_error)
@@ -221,7 +221,7 @@ def _check_path(x: Float, speed: Float) -> None:
 def _closing(
     machine: MachineModel, x: Float
 ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_], Float]:
-    """Return which rows of q cover whole turns, which do so but for their end, and these turns."""
+    """Return which rows of q cover whole turns, which lack only their end, and these turns."""
     nothing = np.zeros(len(x), dtype=bool)
     mechanism = machine.mechanism
     if mechanism is None:
@@ -251,7 +251,7 @@ def _ends_agree(effort: Float) -> npt.NDArray[np.bool_]:
 def _numbers(samples: list[Float], closed: bool) -> Float:
     """Return the numbers of each row, in the order in which `duty` reads them.
 
-    With times behind the efforts means are over these.
+    If times follow the efforts, means are over these times.
     """
     x, speed, effort, *clock = samples
     with np.errstate(all="ignore"):
@@ -259,7 +259,7 @@ def _numbers(samples: list[Float], closed: bool) -> Float:
         time = Pieces(x, 1.0 / speed, closed).integral()
         for t in clock:
             time = t[:, -1] - t[:, 0]
-        # Squares are those of parts of the greatest: they stay within range.
+        # The squares are of ratios to the greatest, and so stay within range.
         most = np.abs(effort).max(axis=1)
         parts = np.where(most > 0.0, most, 1.0)[:, None]
         squares = Pieces(x, (effort / parts) ** 2 / speed, closed).integral()
@@ -268,11 +268,11 @@ def _numbers(samples: list[Float], closed: bool) -> Float:
         rms = parts[:, 0] * np.sqrt(np.maximum(squares / time, 0.0))
         energy, size = curve.integral(), curve.integral_of_size()
         # Where the effort has one sign, the difference is rounding, perhaps negative.
-        given = np.maximum(0.5 * (size + energy), 0.0)
+        work_in = np.maximum(0.5 * (size + energy), 0.0)
         taken = np.maximum(0.5 * (size - energy), 0.0)
         extremes = [*curve.extreme(1.0), *curve.extreme(-1.0)]
         extremes += [*power.extreme(1.0), *power.extreme(-1.0)]
-    numbers = np.stack([*extremes, rms, energy, given, taken, time], axis=1)
+    numbers = np.stack([*extremes, rms, energy, work_in, taken, time], axis=1)
     numbers[np.isnan(effort).any(axis=1)] = np.nan
     return numbers
 

@@ -1,4 +1,4 @@
-"""The forces on links cut free at one position: what is drawn in place, and as a polygon."""
+"""The forces on links cut free at one position, which are drawn in place and as a polygon."""
 
 from __future__ import annotations
 
@@ -61,22 +61,23 @@ class ForceSystem(NamedTuple):
 
 
 def force_system(
-    found: Reactions, links: str | Sequence[str] | None, at: int | tuple[int, ...]
+    solved: Reactions, links: str | Sequence[str] | None, at: int | tuple[int, ...]
 ) -> ForceSystem:
     """Return the forces on links at an index into the shape of reactions.
 
-    Of all moving links, with `links=None`, those in the joints between them too.
+    With `links=None`, all moving links are cut free, with the forces in the joints between them
+    too.
     """
-    if found._source is None:
+    if solved._source is None:
         message = "a copy of reactions does not keep functions among the loads: draw the original"
         raise InputError(message)
-    index = checked_index(at, found.status.shape, "at")
-    positions, motion = _positions(found, index)
+    index = checked_index(at, solved.status.shape, "at")
+    positions, motion = _positions(solved, index)
     mechanism = motion.mechanism
     chosen = _checked_links(mechanism, links)
-    if not has_analogues(found.status[index]):
+    if not has_analogues(solved.status[index]):
         why = motion.explain()
-        if found.status[index] == Status.NO_VALUE:
+        if solved.status[index] == Status.NO_VALUE:
             why = "a load or an inertia force is not finite"
         message = f"no reactions there: {why}"
         raise InputError(message)
@@ -91,24 +92,25 @@ def force_system(
     return ForceSystem(motion, chosen, tuple(force for force in forces if _is_any(force)))
 
 
-def _positions(found: Reactions, index: tuple[int, ...]) -> tuple[Positions, Motion]:
+def _positions(solved: Reactions, index: tuple[int, ...]) -> tuple[Positions, Motion]:
     """Return the machine of one design at one position, as a row of one."""
-    assert found._source is not None
-    machine, _ = found._source
-    mechanism = found.mechanism
+    assert solved._source is not None
+    machine, _ = solved._source
+    mechanism = solved.mechanism
     drivers = mechanism.driver_count
     if mechanism.shape:
         mechanism = mechanism.design(index[: len(mechanism.shape)])
         machine = machine.of(mechanism)
     q, speed, acceleration = (
-        np.reshape(one[index], (1, drivers)) for one in (found.q, found.speed, found.acceleration)
+        np.reshape(array[index], (1, drivers))
+        for array in (solved.q, solved.speed, solved.acceleration)
     )
     row = q[:, 0] if drivers == 1 else q
     rates = (speed[:, 0], acceleration[:, 0]) if drivers == 1 else (speed, acceleration)
     motion = mechanism.solve(row, order=2, on_error="nan")
-    held = {key: values[index][np.newaxis] for key, values in found.by_key.items()}
-    part = type(found)(mechanism, (row, *rates), held, found.status[index].reshape(1))
-    loads = [one.at(index) for one in loads_of(found)]
+    held = {key: values[index][np.newaxis] for key, values in solved.by_key.items()}
+    part = type(solved)(mechanism, (row, *rates), held, solved.status[index].reshape(1))
+    loads = [load.at(index) for load in loads_of(solved)]
     at: Any = Positions(machine, motion, part, loads)
     return at, motion[0]
 
@@ -117,13 +119,13 @@ def _checked_links(mechanism: Mechanism, links: str | Sequence[str] | None) -> t
     moving = [link for link in mechanism.links if link != "ground"]
     if links is None:
         return tuple(moving)
-    wanted = checked_names(links, "links")
-    for link in wanted:
+    chosen = checked_names(links, "links")
+    for link in chosen:
         mechanism.core.require("link", link)
-    if not wanted or "ground" in wanted:
+    if not chosen or "ground" in chosen:
         message = f"links is {short(links)}: moving links are needed, some of {', '.join(moving)}"
         raise InputError(message)
-    return tuple(link for link in moving if link in wanted)
+    return tuple(link for link in moving if link in chosen)
 
 
 def _is_any(force: PlacedForce) -> bool:
@@ -132,11 +134,11 @@ def _is_any(force: PlacedForce) -> bool:
 
 def _pairs_and_loads(at: Positions, link: str, chosen: tuple[str, ...]) -> Iterator[PlacedForce]:
     mechanism = at.motion.mechanism
-    others = links_at(mechanism)
+    links_of = links_at(mechanism)
     for acting in acting_on(at, link, couples=True):
         name = acting.name
         if acting.kind == "joint":
-            inner = _is_inner(others[name], link, chosen)
+            inner = _is_inner(links_of[name], link, chosen)
             yield _placed(acting, "reaction", name, link, inner)
         elif acting.kind == "slide":
             slide = mechanism.slides[name]
@@ -150,7 +152,7 @@ def _pairs_and_loads(at: Positions, link: str, chosen: tuple[str, ...]) -> Itera
 
 def _is_inner(links: list[str], link: str, chosen: tuple[str, ...]) -> bool:
     """Whether nothing outside meets the links at a joint."""
-    return all(other in chosen for other in links) and link in links
+    return all(meeting in chosen for meeting in links) and link in links
 
 
 def _placed(acting: Acting, kind: str, name: str, link: str, inner: bool) -> PlacedForce:

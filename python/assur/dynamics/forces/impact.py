@@ -34,7 +34,7 @@ class Impact(NamedTuple):
     energy_lost : ndarray
         Kinetic energy before less that after, J.
     reactions : Reactions
-        Impulses in the pairs, N·s, and their moments, N·m·s. The drive gives none but that which
+        Impulses in the pairs, N·s, and their moments, N·m·s. The drive gives only the impulse that
         turns the rotor of its motor.
 
     Examples
@@ -74,8 +74,8 @@ def impact(
     full = shape if n == 1 else (*shape, n)
     before = np.broadcast_to(speed, full).reshape(*shape, n)
     # The unit load's moments on the drivers are the derivatives of its path.
-    one = type(machine)(mechanism, loads=[load])
-    path = np.asarray(reduced_moment(one, q, on_error=on_error)).reshape(*shape, n)
+    unit_load = type(machine)(mechanism, loads=[load])
+    path = np.asarray(reduced_moment(unit_load, q, on_error=on_error)).reshape(*shape, n)
     inertia = np.asarray(reduced_inertia(machine, q, on_error).value).reshape(*shape, n, n)
     with in_range("an impact"), np.errstate(divide="ignore"):
         answer = _solved(inertia, path)
@@ -83,16 +83,16 @@ def impact(
         approach = (path * before).sum(axis=-1)
         if impulse is None:
             e = _restitution(restitution, shape)
-            given = np.where(approach < 0.0, -(1.0 + e) * approach / mobility, 0.0)
-            given = np.where(np.isnan(mobility), np.nan, given)
+            size = np.where(approach < 0.0, -(1.0 + e) * approach / mobility, 0.0)
+            size = np.where(np.isnan(mobility), np.nan, size)
         else:
-            given = _of_positions(finite_array(impulse, "impulse"), "impulse", shape)
-        change = answer * given[..., None]
+            size = _of_positions(finite_array(impulse, "impulse"), "impulse", shape)
+        change = answer * size[..., None]
         # ½ q̇ᵀ H q̇ before less after, without the difference of two large numbers.
-        lost = -given * (approach + 0.5 * mobility * given)
-    found = _impulses(machine, one, q, (speed, change.reshape(full)), given, on_error)
+        lost = -size * (approach + 0.5 * mobility * size)
+    impulses = _impulses(machine, unit_load, q, (speed, change.reshape(full)), size, on_error)
     after = (before + change).reshape(full)
-    return Impact(after[()], given[()], lost[()], found)
+    return Impact(after[()], size[()], lost[()], impulses)
 
 
 def _check_load(load: Any) -> None:
@@ -111,7 +111,7 @@ def _check_load(load: Any) -> None:
         message = f"{short(load)}: an impact needs a direction in numbers"
         raise InputError(message)
     if load.while_ is not None:
-        message = f"{short(load)}: an impact is no motion in one direction; leave while_= out"
+        message = f"{short(load)}: an impact is not a motion in one direction; leave while_= out"
         raise InputError(message)
     if not any(parts):
         message = f"{short(load)} is zero: an impact needs a direction"
@@ -160,7 +160,7 @@ def _solved(inertia: Any, path: Any) -> Any:
 
 def _impulses(
     machine: MachineModel,
-    one: MachineModel,
+    unit_load: MachineModel,
     q: Any,
     speeds: tuple[Any, Any],
     impulse: Any,
@@ -168,8 +168,8 @@ def _impulses(
 ) -> Reactions:
     """Return the impulses in all pairs: those of the change of speed, and of the impact itself.
 
-    `one`: the machine with the unit load alone. Impulses balance as forces do that accelerate the
-    bodies, from rest, by the change of speed.
+    `unit_load` is the machine with the unit load alone. Impulses balance like forces that
+    accelerate the bodies, from rest, by the change of speed.
     """
     mechanism = machine.mechanism
     assert mechanism is not None
@@ -177,20 +177,20 @@ def _impulses(
     bodies = type(machine)(mechanism, machine.bodies)
     known = np.nan_to_num(change)
     of_change = reactions(bodies, DrivenMotion(q, 0.0, known, 0.0), None, on_error)
-    of_unit = reactions(one, DrivenMotion(q, 0.0, 0.0, 0.0), None, on_error)
-    found = {}
+    of_unit = reactions(unit_load, DrivenMotion(q, 0.0, 0.0, 0.0), None, on_error)
+    impulses = {}
     for key, values in of_change.by_key.items():
         factor = impulse[..., None] if values.ndim > np.ndim(impulse) else impulse
         with np.errstate(invalid="ignore"):
             # The place of a guide's force may be at infinity.
-            found[key] = np.asarray(values + factor * of_unit.by_key[key])
-        found[key].flags.writeable = False
+            impulses[key] = np.asarray(values + factor * of_unit.by_key[key])
+        impulses[key].flags.writeable = False
     if mechanism.slides:
         places = mechanism.solve(q, order=0, outputs=list(mechanism.slides), on_error=on_error)
-        for key in [key for key in found if key.kind == "along"]:
+        for key in [key for key in impulses if key.kind == "along"]:
             name = list(mechanism.slides)[key.index]
-            normal, moment = (found[replace(key, kind=kind)] for kind in ("normal", "moment"))
+            normal, moment = (impulses[replace(key, kind=kind)] for kind in ("normal", "moment"))
             with np.errstate(invalid="ignore", divide="ignore"):
-                found[key] = np.asarray(places.slide(name).value + moment / normal)
+                impulses[key] = np.asarray(places.slide(name).value + moment / normal)
     motion = of_change.q, np.broadcast_to(before, of_change.q.shape), change
-    return type(of_change)(mechanism, motion, found, of_change.status)
+    return type(of_change)(mechanism, motion, impulses, of_change.status)

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from assur.dynamics.motion.sense_at_rest import Senses
     from assur.kinematics.mechanism import Mechanism
 
-# What the core says where it would have to search for too many solutions, or cannot know a force.
+# The core's codes for too many solutions to search for, and for a force that it cannot know.
 UNSOLVED, UNDETERMINED = -1.0, -2.0
 
 
@@ -44,7 +44,7 @@ def _keys(mechanism: Mechanism) -> list[Key]:
     keys: list[Key] = []
     for joint, links in links_at(mechanism).items():
         index = core.require("joint", joint)
-        # What the last link takes follows from the others, unless these are undetermined.
+        # The force on the last link follows from the others, unless these are undetermined.
         asked = links if is_redundant and len(links) > 1 else links[:-1]
         keys += [Key("joint", index, core.require("link", link)) for link in asked]
     for slide in range(len(mechanism.slides)):
@@ -69,18 +69,18 @@ def _keys_of_friction(machine: MachineModel) -> list[Key]:
     return [*keys, SOLUTIONS, RESIDUAL] if keys else []
 
 
-def _require_solved(found: dict[Key, Float]) -> None:
-    """Raise InputError where the core has not looked for the frictions of a position."""
-    counts = found[SOLUTIONS]
+def _require_solved(arrays: dict[Key, Float]) -> None:
+    """Raise InputError where the core has not solved for the friction of a position."""
+    counts = arrays[SOLUTIONS]
     if np.any(counts == UNDETERMINED):
         message = (
             "redundant links leave forces in a pair with friction undetermined, and its friction "
-            "with them: leave it out, or the redundant links"
+            "with them: remove the friction, or the redundant links"
         )
         raise InputError(message)
     if np.any(counts == UNSOLVED):
         message = (
-            "so many pairs with friction depend on one another that their solutions are not "
+            "too many pairs with friction depend on one another: their solutions are not "
             "searched for, and there may be several or none: leave out the friction that matters "
             "least"
         )
@@ -129,21 +129,21 @@ def reactions(
         elif beyond.size:
             status = status.copy()
             status[beyond] = Status.NO_VALUE
-    found: dict[Key, Float] = {}
+    by_key: dict[Key, Float] = {}
     for key, array in zip(keys, arrays, strict=True):
         array.flags.writeable = False
-        found[key] = array.reshape((*shape, 2) if key.has_two_axes else shape)
-    if SOLUTIONS in found:
-        _require_solved(found)
+        by_key[key] = array.reshape((*shape, 2) if key.has_two_axes else shape)
+    if SOLUTIONS in by_key:
+        _require_solved(by_key)
     full = shape if drivers == 1 else (*shape, drivers)
     given_motion = np.broadcast_to(x, full), np.broadcast_to(v, full), np.broadcast_to(a, full)
 
     # Not a closure, which could not be pickled.
     again = partial(_again, machine, motion, threads, sense)
-    rubs = again if machine.friction and SOLUTIONS in found else None
+    rubs = again if machine.friction and SOLUTIONS in by_key else None
     source = machine, again
     return Reactions(
-        mechanism, given_motion, found, status.reshape(shape), rubs, source, rests.reshape(shape)
+        mechanism, given_motion, by_key, status.reshape(shape), rubs, source, rests.reshape(shape)
     )
 
 
@@ -167,7 +167,7 @@ def _solved_in_senses(
     senses: Senses | None,
     friction: tuple[float | Sequence[float] | None, int],
 ) -> tuple[list[Float], npt.NDArray[np.uint8], Any]:
-    """Return what `_solved` does of a motion that has these senses where its speed is 0."""
+    """Return what `_solved` does for a motion with these senses where its speed is 0."""
     if senses is None:
         return _solved(machine, moving, t, threads, keys, squares=False, friction=friction)
     x, v, a, shape = moving
@@ -177,12 +177,14 @@ def _solved_in_senses(
     arrays, status, failure = _solved(machine, creeping, t, threads, keys, False, (1.0, solution))
     backward = (senses.begins & (senses.sense < 0.0)).reshape(-1)
     if backward.any():
-        others, _, _ = _solved(machine, creeping, t, threads, keys, False, (-1.0, solution))
-        for own, other in zip(arrays, others, strict=True):
-            rows = own.reshape(backward.size, -1)
-            rows[backward] = other.reshape(rows.shape)[backward]
-    for key, own in zip(keys, arrays, strict=True):
-        rows = own.reshape(status.size, -1)
+        backward_arrays, _, _ = _solved(
+            machine, creeping, t, threads, keys, False, (-1.0, solution)
+        )
+        for forward, backward_values in zip(arrays, backward_arrays, strict=True):
+            rows = forward.reshape(backward.size, -1)
+            rows[backward] = backward_values.reshape(rows.shape)[backward]
+    for key, array in zip(keys, arrays, strict=True):
+        rows = array.reshape(status.size, -1)
         if key.kind in ("joint loss", "slide loss"):
             rows[(senses.sense != 0.0).reshape(-1)] = 0.0
         # Inertia and loads are known whatever the pairs transmit.
@@ -208,7 +210,7 @@ def reaction_squares(
 ) -> dict[Key, Float]:
     """Return the greatest and the mean square of reactions over all positions, (designs, 2).
 
-    NaN where a position of a design has no value. Nothing is kept of the positions.
+    NaN where a position of a design has no value. Positions are not kept.
     """
     moving = broadcast_motion(machine, motion)
     arrays, _, _ = _solved(machine, moving, motion.t, threads, keys, squares=True)
@@ -235,23 +237,25 @@ def _solved(
     # One speed for all positions is not repeated; (2, 1) of two drivers are two positions.
     given_once = ((),) if drivers == 1 else ((drivers,),)
     speeds, accelerations = (
-        np.ascontiguousarray(one if one.shape in given_once else np.broadcast_to(one, full)).ravel()
-        for one in (v, a)
+        np.ascontiguousarray(
+            part if part.shape in given_once else np.broadcast_to(part, full)
+        ).ravel()
+        for part in (v, a)
     )
     coordinates = np.ascontiguousarray(everywhere if per_design else x).ravel()
     rows = everywhere.reshape(-1, drivers), np.broadcast_to(v, full).reshape(-1, drivers)
     senses = checked_senses(machine, *rows, friction[0])
     at = times(t, shape)
-    given = np.empty(0)
+    load_values = np.empty(0)
     if functions:
-        given = function_values(functions, *rows, at.ravel())
-    found: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine.core.reactions(
+        load_values = function_values(functions, *rows, at.ravel())
+    answer: tuple[list[Float], npt.NDArray[np.uint8], Any] = machine.core.reactions(
         mechanism.values.reshape(-1),
         coordinates,
         per_design,
         speeds,
         accelerations,
-        given,
+        load_values,
         keys,
         math.prod(designs if squares else shape),
         squares,
@@ -259,7 +263,7 @@ def _solved(
         checked_threads(threads),
         list(designs),
     )
-    return found
+    return answer
 
 
 def _require_finite(
@@ -278,10 +282,10 @@ def _require_finite(
     if beyond.size:
         (x, v, _, shape), row, drivers = moving, int(beyond[0]), drives.shape[1]
         full = shape if drivers == 1 else (*shape, drivers)
-        q, speed = (np.broadcast_to(one, full).reshape(drives.shape)[row] for one in (x, v))
-        one, design = single(machine, row, len(drives))
+        q, speed = (np.broadcast_to(part, full).reshape(drives.shape)[row] for part in (x, v))
+        single_machine, design = single(machine, row, len(drives))
         moment = Moment(q, speed, float(times(t, shape).ravel()[row]), sense)
-        failed = without_value(one, moment, what)
+        failed = without_value(single_machine, moment, what)
         failed.design = design
         raise failed
 
@@ -336,7 +340,7 @@ def effort(
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
     n = machine.driver_count
     if machine.friction:
-        # What friction takes depends on the forces in its pairs.
+        # The power that friction takes depends on the forces in its pairs.
         keys = [*(Key("driver", driver) for driver in range(n)), SOLUTIONS]
         return reactions(machine, motion, None, on_error, keys, sense).driver
     x, v, a, shape = broadcast_motion(machine, motion)

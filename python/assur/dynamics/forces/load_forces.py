@@ -47,15 +47,15 @@ class LoadForce(NamedTuple):
         return self._replace(place=place, force=force, couple=couple)
 
 
-def loads_of(found: Reactions) -> list[LoadForce]:
+def loads_of(solved: Reactions) -> list[LoadForce]:
     """Return what the loads do to links at the positions of reactions, weight aside.
 
-    Where a motion stays at rest no load acts that is of one sense only.
+    Where a motion stays at rest, loads of one sense only do not act.
     """
-    assert found._source is not None
-    machine, again = found._source
+    assert solved._source is not None
+    machine, again = solved._source
     # The core counts the loads without gravity, which acts on bodies.
-    own = [index for index, load in enumerate(machine.loads) if not isinstance(load, Gravity)]
+    counted = [index for index, load in enumerate(machine.loads) if not isinstance(load, Gravity)]
     actions = machine.core.load_actions
     keys = [
         Key(kind, index)
@@ -64,14 +64,14 @@ def loads_of(found: Reactions) -> list[LoadForce]:
     ]
     if not keys:
         return []
-    values, rests = again(keys, 0).by_key, np.asarray(found.at_rest)
+    values, rests = again(keys, 0).by_key, np.asarray(solved.at_rest)
     all_forces = []
     for index, (load, link, joint, is_couple) in enumerate(actions):
         strength = values[Key("load couple" if is_couple else "load force", index)]
-        if getattr(machine.loads[own[load]], "while_", None) is not None:
+        if getattr(machine.loads[counted[load]], "while_", None) is not None:
             strength = np.where(rests if is_couple else rests[..., np.newaxis], 0.0, strength)
         place = None if is_couple else values[Key("load place", index)]
         couple = strength if is_couple else np.zeros(strength.shape[:-1])
         force = np.zeros((*strength.shape, 2)) if is_couple else strength
-        all_forces.append(LoadForce(own[load], link, joint, place, force, couple))
+        all_forces.append(LoadForce(counted[load], link, joint, place, force, couple))
     return all_forces

@@ -61,10 +61,10 @@ class Pieces:
         places = [np.zeros(a.shape), np.ones(a.shape), *_quadratic(b, 2 * c, 3 * d)]
         places = [np.clip(np.nan_to_num(t), 0.0, 1.0) for t in places]
         # At the samples the values are those given.
-        found = [self.values[..., :-1], self.values[..., 1:]]
-        found += [a + t * (b + t * (c + t * d)) for t in places[2:]]
+        heights = [self.values[..., :-1], self.values[..., 1:]]
+        heights += [a + t * (b + t * (c + t * d)) for t in places[2:]]
         at = np.concatenate([self.x[..., :-1] + t * self.width for t in places], axis=-1)
-        values = np.concatenate(found, axis=-1)
+        values = np.concatenate(heights, axis=-1)
         best = np.argmax(sign * values, axis=-1)[..., None]
         value = np.take_along_axis(values, best, axis=-1)[..., 0]
         place = np.take_along_axis(at, best, axis=-1)[..., 0]
@@ -104,12 +104,12 @@ def _coefficients(x: Float, y: Float, closed: bool) -> tuple[Float, Float, Float
 
 
 def _quadratic(a: Float, b: Float, c: Float) -> list[Float]:
-    """Return the real roots of a + b t + c t²; NaN or infinite where there is none."""
+    """Return the real roots of a + b t + c t²; NaN or infinite where no real root exists."""
     with np.errstate(all="ignore"):
         root = np.sqrt(b * b - 4 * a * c)
         q = -0.5 * (b + np.copysign(root, b))
-        found = [q / c, a / q]
-    return [np.where(np.isfinite(t), t, np.nan) for t in found]
+        roots = [q / c, a / q]
+    return [np.where(np.isfinite(t), t, np.nan) for t in roots]
 
 
 def _roots_within(a: Float, b: Float, c: Float, d: Float) -> list[Float]:
@@ -118,13 +118,13 @@ def _roots_within(a: Float, b: Float, c: Float, d: Float) -> list[Float]:
     Between its extremes a cubic is monotone: bisection finds each of its roots.
     """
     turns = [np.clip(np.nan_to_num(t), 0.0, 1.0) for t in _quadratic(b, 2 * c, 3 * d)]
-    zero, one = np.zeros(a.shape), np.ones(a.shape)
-    ends = np.sort(np.stack([zero, *turns, one]), axis=0)
+    zero, unit = np.zeros(a.shape), np.ones(a.shape)
+    ends = np.sort(np.stack([zero, *turns, unit]), axis=0)
 
     def value(t: Float) -> Float:
         return a + t * (b + t * (c + t * d))
 
-    return [zero, *(_root(value, low, high) for low, high in pairwise(ends)), one]
+    return [zero, *(_root(value, low, high) for low, high in pairwise(ends)), unit]
 
 
 def _root(value: Callable[[Float], Float], low: Float, high: Float) -> Float:

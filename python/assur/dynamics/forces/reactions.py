@@ -78,7 +78,7 @@ class Reactions(Tabular):
     q, speed, acceleration : ndarray
         The motion of the drivers, broadcast.
     driver : ndarray
-        Torque of the drive, counter-clockwise on the driven link, N·m; of a driven slide its force
+        Torque of the drive, counter-clockwise on the driven link, N·m; for a driven slide its force
         along the guide on the sliding link, N. With n drivers (..., n). A motor's rotor is not in
         it.
     shaking_force, shaking_moment : ndarray
@@ -89,27 +89,26 @@ class Reactions(Tabular):
     undetermined : tuple of str
         Reactions that redundant links leave undetermined.
     at_rest : ndarray of bool
-        Where a run stays at rest, so that friction is anything up to what would let it slide:
-        forces are NaN there.
+        Where a run stays at rest, so that friction may have any value up to that of sliding: forces
+        are NaN there.
     locked : ndarray of bool
         Where friction leaves no solution: the drive cannot move the machine against its loads,
         however strong it is. Forces are NaN there.
     losses : dict of str to ndarray
         Power that friction takes in each joint and slide that has some, W.
     efficiency : ndarray
-        1 − loss/max(P₀ + loss, −P₀), with P₀ the power of the drive without friction: what comes
-        out of what goes in, whichever way power flows. Negative where friction alone holds the
-        loads that drive the machine (self-locking in reverse). NaN at rest.
+        1 − loss/max(P₀ + loss, −P₀), with P₀ the power of the drive without friction: output over
+        input, whichever way power flows. Negative where friction alone holds the loads that drive
+        the machine (self-locking in reverse). NaN at rest.
     solutions : tuple of Reactions
         All that agree with the law of friction. The first is this one; where there are fewer
         solutions than elsewhere, the later ones are NaN.
     residual : ndarray
-        By how much the law of friction is missed, in parts of the greatest friction: rounding where
-        the iteration has converged; 0 without friction.
+        Residual of the law of friction, relative to the greatest friction: rounding where the
+        iteration has converged; 0 without friction.
     safety : ndarray
-        By what all coefficients of friction can be multiplied before the solution ends to which
-        friction leads as it grows from nothing: below 1 where this one does not follow from it. At
-        most 1e6.
+        Factor on all coefficients of friction at which the solution that continues the frictionless
+        one ends: below 1 where this one does not follow from it. At most 1e6.
 
     Examples
     --------
@@ -127,7 +126,7 @@ class Reactions(Tabular):
         self,
         mechanism: Mechanism,
         motion: tuple[Float, Float, Float],
-        found: dict[Key, Float],
+        by_key: dict[Key, Float],
         status: npt.NDArray[np.uint8],
         again: Callable[[list[Key], int], Reactions] | None = None,
         source: tuple[MachineModel, Callable[[list[Key], int], Reactions]] | None = None,
@@ -135,7 +134,7 @@ class Reactions(Tabular):
     ) -> None:
         self.mechanism = mechanism
         self.q, self.speed, self.acceleration = motion
-        self.by_key = found
+        self.by_key = by_key
         self._again = again
         # The machine, and other reactions of the same motion: with them what acts can be drawn.
         self._source = source
@@ -150,7 +149,7 @@ class Reactions(Tabular):
         return {**self.__dict__, "_source": source if kept else None}
 
     def _columns(self, degrees: bool) -> list[Column]:
-        """Return all forces: of a joint on every link but the first, which takes the rest."""
+        """Return all forces: those at a joint on every link but the first, which takes the rest."""
         mechanism, shape = self.mechanism, self.status.shape
         angles = driven_angles(mechanism)
         columns = [
@@ -163,8 +162,8 @@ class Reactions(Tabular):
             columns.append(Column(name, np.broadcast_to(values, shape).reshape(-1), unit, quantity))
 
         for k, is_angle in enumerate(angles):
-            tail, own = (f"{k}", self.driver[..., k]) if len(angles) > 1 else ("", self.driver)
-            add(f"driver{tail}", own, "N m" if is_angle else "N", "driver")
+            tail, drive = (f"{k}", self.driver[..., k]) if len(angles) > 1 else ("", self.driver)
+            add(f"driver{tail}", drive, "N m" if is_angle else "N", "driver")
         for joint, links in links_at(mechanism).items():
             for link in links[1:]:
                 force = self.joint(joint, on=link)
@@ -203,7 +202,7 @@ class Reactions(Tabular):
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Reactions of redundant links that no balance determines somewhere: they are NaN there."""
+        """Reactions of redundant links that no balance determines somewhere; they are NaN there."""
         solved = has_analogues(self.status) & ~self.at_rest
         joints, links = self.mechanism.joint_names, list(self.mechanism.links)
         slides = list(self.mechanism.slides)
@@ -241,7 +240,7 @@ class Reactions(Tabular):
 
     @property
     def efficiency(self) -> Any:
-        """What comes out of what goes in."""
+        """Output power over input power."""
         loss = np.sum(list(self.losses.values()), axis=0) + np.zeros(self.status.shape)
         power = np.asarray(self.driver * self.speed)
         if np.size(self.mechanism.q0) > 1:
@@ -261,12 +260,12 @@ class Reactions(Tabular):
 
     @property
     def residual(self) -> Any:
-        """By how much the law of friction is missed, in parts of the greatest friction."""
+        """Residual of the law of friction, relative to the greatest friction."""
         return self.by_key.get(RESIDUAL, np.zeros(self.status.shape))[()]
 
     @property
     def safety(self) -> Any:
-        """By what coefficients of friction can be multiplied before this solution ends."""
+        """Factor on the coefficients of friction at which this solution ends."""
         if self._again is None:
             return np.full(self.status.shape, np.inf)[()]
         return self._again([SAFETY], 0).by_key[SAFETY][()]
@@ -350,7 +349,7 @@ class Reactions(Tabular):
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
         if key in self.by_key:
             return self.by_key[key]
-        indices = [core.require("link", other) for other in links[:-1]]
+        indices = [core.require("link", link) for link in links[:-1]]
         total = self.by_key[Key("joint", joint, indices[0])]
         for index in indices[1:]:
             total = total + self.by_key[Key("joint", joint, index)]
@@ -450,7 +449,7 @@ class Reactions(Tabular):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Artists are named ``reaction B on rod``, ``load B on piston``,
+            The axes drawn on. Artists are named ``reaction B on rod``, ``load B on piston``,
             ``weight rod``, ``inertia rod`` (dashed: the opposite of mass times acceleration),
             ``drive crank``; moments are arcs, ``moment`` stands before their names.
 
@@ -498,7 +497,7 @@ class Reactions(Tabular):
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on; artists are named as those of `plot`.
+            The axes drawn on; artists are named as those of `plot`.
 
         Raises
         ------
@@ -518,12 +517,12 @@ class Reactions(Tabular):
         """
         from assur.pictures.forces.polygon import force_polygon
 
-        own = links.links if isinstance(links, Group) else links
-        return force_polygon(force_system(self, own, at), ax, dark)
+        names = links.links if isinstance(links, Group) else links
+        return force_polygon(force_system(self, names, at), ax, dark)
 
 
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:
-    """Return the force at a joint on a link; with `on=None` on one of two links, whichever."""
+    """Return the force at a joint on a link; with `on=None` on either of two links."""
     core = mechanism.core
     joint, links = core.require("joint", name), links_at(mechanism)[name]
     if on is None:

@@ -91,8 +91,8 @@ def self_locking(
 
     def locked(at: Float) -> npt.NDArray[np.bool_]:
         motion = DrivenMotion(at, rate, change, 0.0)
-        found = reactions(machine, motion, None, "nan", sense=way)
-        return np.asarray(found.locked)
+        solved = reactions(machine, motion, None, "nan", sense=way)
+        return np.asarray(solved.locked)
 
     def holding(at: Float) -> npt.NDArray[np.bool_]:
         motion = DrivenMotion(at, rate, change, 0.0)

@@ -66,7 +66,7 @@ class Beam(NamedTuple):
     edges : ndarray
         Where cells begin and end, (P, cells + 1), m.
     coefficients : dict of str to ndarray
-        Of powers of the distance from a cell's left edge, (P, cells, 5), by quantity.
+        Coefficients of powers of the distance from a cell's left edge, (P, cells, 5), by quantity.
     end : ndarray
         What is left of the quantities beyond the last load, (P, 3): 0 in equilibrium.
     """
@@ -87,19 +87,21 @@ class Beam(NamedTuple):
 
     def _part(self, quantity: str, rows: slice, x: Float) -> Float:
         """Return a quantity at some of the positions."""
-        edges, own = self.edges[rows], self.coefficients[quantity][rows]
+        edges, coefficients = self.edges[rows], self.coefficients[quantity][rows]
         inner = edges[:, 1:-1, np.newaxis]
         cell = np.minimum((x >= inner).sum(axis=1), edges.shape[1] - 2)
         each = np.arange(edges.shape[0])[:, np.newaxis]
-        return _value(own[each, cell], x - edges[each, cell])
+        return _value(coefficients[each, cell], x - edges[each, cell])
 
     def extremes(self, quantity: str) -> tuple[Float, Float, Float, Float]:
         """Return the least value and its place, the greatest and its place, (P,) each."""
-        own = self.coefficients[quantity]
+        coefficients = self.coefficients[quantity]
         length = np.diff(self.edges)
-        places = [np.zeros(length.shape), length, *_stationary(own, length)]
+        places = [np.zeros(length.shape), length, *_stationary(coefficients, length)]
         t = np.stack(places, axis=-1)
-        values = _value(own[:, :, np.newaxis], t).reshape(t.shape[0], t.shape[1] * t.shape[2])
+        values = _value(coefficients[:, :, np.newaxis], t).reshape(
+            t.shape[0], t.shape[1] * t.shape[2]
+        )
         x = (self.edges[:, :-1, np.newaxis] + t).reshape(values.shape)
         rows = np.arange(values.shape[0])
         low, high = np.argmin(values, axis=1), np.argmax(values, axis=1)
@@ -127,15 +129,15 @@ def solve_beam(
     """
     positions = axial.shape[0]
     nodes = np.broadcast_to(density.x[:-1], (positions, density.x.size - 1))
-    starts = np.concatenate([nodes, *(one.x[:, np.newaxis] for one in loads)], axis=1)
-    # No cell begins at the far end: loads there are in none.
+    starts = np.concatenate([nodes, *(load.x[:, np.newaxis] for load in loads)], axis=1)
+    # No cell begins at the far end, so loads there are in no cell.
     starts = np.sort(np.where(starts < length, starts, 0.0), axis=1)
     edges = np.concatenate([starts, np.full((positions, 1), length)], axis=1)
     jumps = np.zeros((3, positions, edges.shape[1]))
     rows = np.arange(positions)
-    for one in loads:
-        cell = (edges < one.x[:, np.newaxis]).sum(axis=1)
-        for jump, size in zip(jumps, (one.along, one.across, one.couple), strict=True):
+    for load in loads:
+        cell = (edges < load.x[:, np.newaxis]).sum(axis=1)
+        for jump, size in zip(jumps, (load.along, load.across, load.couple), strict=True):
             jump[rows, cell] -= size
     h = np.diff(edges)
     mass, slope = density.within(edges)
@@ -144,21 +146,21 @@ def solve_beam(
     coefficients = {name: empty.copy() for name in QUANTITIES}
     for name, rate in (("axial", axial), ("shear", across)):
         first = rate[:, :1] + rate[:, 1:] * start
-        own = coefficients[name]
-        own[..., 1] = mass * first
-        own[..., 2] = (mass * rate[:, 1:] + slope * first) / 2.0
-        own[..., 3] = slope * rate[:, 1:] / 3.0
+        rows_of = coefficients[name]
+        rows_of[..., 1] = mass * first
+        rows_of[..., 2] = (mass * rate[:, 1:] + slope * first) / 2.0
+        rows_of[..., 3] = slope * rate[:, 1:] / 3.0
     end = np.empty((positions, 3))
     for k, name in enumerate(QUANTITIES):
-        own = coefficients[name]
+        rows_of = coefficients[name]
         if name == "moment":
-            own[..., 1:] = -coefficients["shear"][..., :-1] / np.arange(1.0, 5.0)
-        whole = _value(own, h)
+            rows_of[..., 1:] = -coefficients["shear"][..., :-1] / np.arange(1.0, 5.0)
+        whole = _value(rows_of, h)
         # Loads at the left edge of a cell count in it.
         before = np.cumsum(
             np.concatenate([jumps[k][:, :1], whole + jumps[k][:, 1:]], axis=1), axis=1
         )
-        own[..., 0], end[:, k] = before[:, :-1], before[:, -1]
+        rows_of[..., 0], end[:, k] = before[:, :-1], before[:, -1]
     return Beam(edges, coefficients, end)
 
 
@@ -192,7 +194,7 @@ def _stationary(coefficients: Float, length: Float) -> list[Float]:
 
 
 def _quadratic_roots(coefficients: Float, length: Float) -> tuple[Float, Float]:
-    """Return the roots of c + b t + a t², kept within (0, length); where there are none 0."""
+    """Return the roots of c + b t + a t², kept within (0, length); 0 without real roots."""
     c, b, a = (coefficients[..., k] for k in range(3))
     with np.errstate(all="ignore"):
         root = np.sqrt(b * b - 4.0 * a * c)
@@ -206,6 +208,6 @@ def _quadratic_roots(coefficients: Float, length: Float) -> tuple[Float, Float]:
 def _halve(slope: Float, a: Float, b: Float) -> Float:
     """Return the root between a and b of polynomials that are monotone there; a without one."""
     at_a = _value(slope, a)
-    found = (at_a * np.sign(_value(slope, b))) < 0.0
+    has_root = (at_a * np.sign(_value(slope, b))) < 0.0
     low, high = bisected(lambda t: (_value(slope, t) > 0.0) == (at_a > 0.0), a, b, HALVINGS)
-    return np.where(found, 0.5 * (low + high), a)
+    return np.where(has_root, 0.5 * (low + high), a)

@@ -53,7 +53,7 @@ class LoadExtremes(NamedTuple):
 
 
 class InternalLoads:
-    """What the parts of a link do to each other, by `Machine.internal_loads`.
+    """The loads between the parts of a link, by `Machine.internal_loads`.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ class InternalLoads:
         Returns
         -------
         LoadExtremes
-            Exact: not of the places `x`, but where the slope vanishes, or at a load.
+            Exact: not sampled at `x`, but found where the slope vanishes, or at a load.
 
         Examples
         --------
@@ -125,8 +125,8 @@ class InternalLoads:
         -23.77 N·m at 0.144 m
         """
         one_of(quantity, QUANTITIES, "quantity")
-        found = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
-        return LoadExtremes(*found)
+        extremes = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
+        return LoadExtremes(*extremes)
 
     def peak(self, quantity: str, of: str = "size") -> Peak:
         """Return the extreme of a quantity over the link and all positions.
@@ -142,8 +142,8 @@ class InternalLoads:
         -------
         Peak
             With one driver, one row of ascending or descending coordinates and one speed and
-            acceleration for all, refined between the positions; else at one of them. NaN counts
-            for nothing.
+            acceleration for all, refined between the positions; otherwise at one of them. NaN is
+            ignored.
 
         Raises
         ------
@@ -183,10 +183,10 @@ def internal_loads(
     one_of(on_error, ("raise", "nan"), "on_error")
     whole_number(n, "n", 2, MAX_POINTS)
     rod = straight_rod(machine, machine.mechanism, link, along, density)
-    *given, shape = broadcast_motion(machine, motion)
+    *parts, shape = broadcast_motion(machine, motion)
     drivers = machine.driver_count
     full = shape if drivers == 1 else (*shape, drivers)
-    q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in given)
+    q, speed, acceleration = (np.broadcast_to(part, full).reshape(-1, drivers) for part in parts)
     senses = motion.senses
     if senses is not None:
         senses = senses.reshaped(shape).flat()

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from assur.dynamics.internal.rod import Rod
 
 MEASURES = ("size", "greatest", "least")
-# Positions tried at a time between the neighbours of a peak, and the last distance of neighbours in
-# parts of the first: a maximum is known to the square of that.
+# Positions tried at a time between the neighbours of a peak, and the last distance of neighbours
+# relative to the first: a maximum is known to the square of that.
 TRIED = 9
 CLOSEST = 1e-8
-# Peaks this close to the greatest, in parts of the range of all positions, are refined too.
+# Peaks this close to the greatest, relative to the range of all positions, are refined too.
 NEAR = 0.2
 
 
@@ -78,32 +78,32 @@ def find_peak(
     before = np.where(np.isfinite(beside[peaks]), peaks - 1, peaks)
     after = np.where(np.isfinite(beside[peaks + 2]), peaks + 1, peaks)
     rates = float(motion.speed[0, 0]), float(motion.acceleration[0, 0]), float(motion.t[0])
-    found = _refined(rod, rates, (quantity, of), q[before, 0], q[after, 0])
-    return max([(float(measure[at]), best), *found], key=lambda one: one[0])[1]
+    refined = _refined(rod, rates, (quantity, of), q[before, 0], q[after, 0])
+    return max([(float(measure[at]), best), *refined], key=lambda candidate: candidate[0])[1]
 
 
 def _refined(
     rod: Rod, rates: tuple[float, float, float], asked: tuple[str, str], low: Float, high: Float
 ) -> list[tuple[float, Peak]]:
-    """Return the peaks between positions: the best of a few in between, again and again."""
+    """Return the peaks between positions: narrowed down to the best of a few, repeatedly."""
     last: tuple[Float, ...] = ()
 
     def height(q: Float) -> Float:
         nonlocal last
         flat = q.reshape(-1, 1)
-        v, a, t = (np.full(flat.shape, one) for one in rates)
+        v, a, t = (np.full(flat.shape, rate) for rate in rates)
         with np.errstate(over="ignore", invalid="ignore"):
             beam = rod.solve(DrivenMotion(flat, v, a, t[:, 0]), "nan")
-            last = tuple(one.reshape(q.shape) for one in _measured(beam, *asked))
+            last = tuple(part.reshape(q.shape) for part in _measured(beam, *asked))
         return last[0]
 
     q, best = narrowed(height, low, high, TRIED + 2, CLOSEST)
-    chosen = (one[np.arange(low.size), best].tolist() for one in (*last, q))
-    return [(m, Peak(*found)) for m, *found in zip(*chosen, strict=True)]
+    chosen = (column[np.arange(low.size), best].tolist() for column in (*last, q))
+    return [(m, Peak(*peak)) for m, *peak in zip(*chosen, strict=True)]
 
 
 def _measured(beam: Beam, quantity: str, of: str) -> tuple[Float, Float, Float]:
-    """Return what is to be greatest at each position (−inf: no value), the value and its place."""
+    """Return the measure to maximise at each position (−inf: no value), the value and its place."""
     least, least_x, greatest, greatest_x = beam.extremes(quantity)
     up = np.abs(greatest) >= np.abs(least) if of == "size" else np.full(least.shape, of != "least")
     value, x = np.where(up, greatest, least), np.where(up, greatest_x, least_x)

@@ -1,4 +1,4 @@
-"""A link as a straight rod with mass along it, and what it is loaded with at positions."""
+"""A link as a straight rod with mass along it, and the loads on it at positions."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from assur.dynamics.model import MachineModel, OnError
     from assur.kinematics.mechanism import Mechanism
 
-# The body and its distribution may differ by this part: they are typed.
+# The body and its distribution may differ by this fraction: they are typed numbers.
 AGREE = 1e-9
 
 
@@ -40,21 +40,21 @@ class Rod(NamedTuple):
     def solve(self, motion: DrivenMotion, on_error: OnError) -> Beam:
         """Return the loads at P positions: coordinates and rates (P, n), times (P,)."""
         machine, first = self.machine, self.along[0]
-        one = motion.q.shape[1] == 1
-        given = [part[:, 0] if one else part for part in motion[:3]]
-        q, speed, acceleration = given
-        own = DrivenMotion(q, speed, acceleration, motion.t, motion.senses)
-        found = reactions(machine, own, None, on_error)
-        solved = found.mechanism.solve(given[0], order=2, on_error=on_error)
+        is_single = motion.q.shape[1] == 1
+        parts = [part[:, 0] if is_single else part for part in motion[:3]]
+        q, speed, acceleration = parts
+        driven = DrivenMotion(q, speed, acceleration, motion.t, motion.senses)
+        solved_forces = reactions(machine, driven, None, on_error)
+        solved = solved_forces.mechanism.solve(parts[0], order=2, on_error=on_error)
         a, b = (solved.joint(joint).value for joint in self.along)
         e = (b - a) / self.length
         n = np.stack([-e[:, 1], e[:, 0]], axis=-1)
-        pull = solved.joint(first).acceleration(*given[1:]) - _gravity(machine)
+        pull = solved.joint(first).acceleration(*parts[1:]) - _gravity(machine)
         angle = solved.link(self.link)
-        spin, second = angle.velocity(given[1]), angle.acceleration(*given[1:])
+        spin, second = angle.velocity(parts[1]), angle.acceleration(*parts[1:])
         axial = np.stack([(pull * e).sum(axis=1), -spin * spin], axis=-1)
         across = np.stack([(pull * n).sum(axis=1), second], axis=-1)
-        at = Positions(machine, solved, found, loads_of(found))
+        at = Positions(machine, solved, solved_forces, loads_of(solved_forces))
         loads = [self._on_line(load, a, e, n) for load in acting_on(at, self.link)]
         return solve_beam(self.length, self.density, axial, across, loads)
 
@@ -77,15 +77,15 @@ class Rod(NamedTuple):
                 f"its length of {self.length:g} m: name its outer joints as along"
             )
             raise InputError(message, link=self.link, value=where)
-        # A foot at an end but for rounding is at the end; its couple stays what it was.
+        # A foot that is at an end but for rounding moves there; its couple stays the same.
         at_end = np.where(x > self.length - tiny, self.length, x)
         foot = np.where(x < tiny, 0.0, at_end)
         return PointLoad(foot, along, across, load.couple - y * along + (x - foot) * across)
 
 
 def _gravity(machine: MachineModel) -> Float:
-    own = [load.acceleration for load in machine.loads if isinstance(load, Gravity)]
-    return np.sum(own, axis=0) if own else np.zeros(2)
+    accelerations = [load.acceleration for load in machine.loads if isinstance(load, Gravity)]
+    return np.sum(accelerations, axis=0) if accelerations else np.zeros(2)
 
 
 def straight_rod(
@@ -108,7 +108,7 @@ def straight_rod(
                 f"along: {short(joint)} is not one of the joints of {link!r}, {', '.join(joints)}"
             )
             raise InputError(message, link=link)
-    # One joint twice too has no length.
+    # The same joint twice also has no length.
     first, second = (joint_place(mechanism, link, joint) for joint in ends)
     span = second - first
     length = float(np.sqrt(span.real * span.real + span.imag * span.imag))
@@ -151,8 +151,8 @@ def _require_agreement(
     first, direction = line
     length = float(density.x[-1])
     centre = first + middle * direction
-    own = mass_centre(mechanism, link, body)
-    off = own - centre if mass > 0.0 else 0j
+    body_centre = mass_centre(mechanism, link, body)
+    off = body_centre - centre if mass > 0.0 else 0j
     agrees = (
         abs(body.mass - mass) <= AGREE * mass
         and max(abs(off.real), abs(off.imag)) <= AGREE * length
@@ -160,7 +160,8 @@ def _require_agreement(
     )
     if not agrees:
         message = (
-            f"the body of {link!r} has {body.mass:.9g} kg at ({own.real:.9g}, {own.imag:.9g}) and "
+            f"the body of {link!r} has {body.mass:.9g} kg at "
+            f"({body_centre.real:.9g}, {body_centre.imag:.9g}) and "
             f"{body.inertia:.9g} kg·m², the mass along its line {mass:.9g} kg at "
             f"({centre.real:.9g}, {centre.imag:.9g}) and {inertia:.9g} kg·m²: change the body or "
             "give another density"

@@ -1,4 +1,4 @@
-"""Friction in the pairs of a machine: what it is given, and checked.
+"""Friction in the pairs of a machine: the user's values, checked.
 
 The core reads the fields of these classes by name (rust/py/src/convert).
 """
@@ -24,7 +24,7 @@ __all__ = ["JointFriction", "PairFriction", "SlideFriction"]
 class JointFriction:
     """Friction of the journals at a joint.
 
-    The pin is fast in the first link of the description that has the joint; each other one rubs on
+    The pin is fixed to the first link of the description that has the joint; each other one rubs on
     it with the whole force F on it: the moment is coefficient · radius · ``|F|`` against the
     turning, tangent to the friction circle.
 
@@ -126,8 +126,8 @@ def checked_friction(mechanism: Mechanism, friction: Any) -> dict[str, PairFrict
             "to assur.SlideFriction is needed"
         )
         raise InputError(message)
-    named = ((checked_name(name, "friction"), one) for name, one in friction.items())
-    return {name: _of_pair(mechanism, name, one) for name, one in named}
+    named = ((checked_name(name, "friction"), pair) for name, pair in friction.items())
+    return {name: _of_pair(mechanism, name, pair) for name, pair in named}
 
 
 def _of_pair(mechanism: Mechanism, name: str, friction: Any) -> PairFriction:

@@ -1,4 +1,4 @@
-"""Coordinates that loads are over."""
+"""Coordinates over which loads are given."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ BESIDE = (-1e-3, 0.0, 1e-3)
 def check_over(mechanism: Mechanism, loads: Sequence[Any]) -> None:
     """Refuse loads over the angle of a link that never turns, and tables of far too many periods.
 
-    The former would never act, or always.
+    The former would act never, or always.
     """
     for load in loads:
         tables = list(_tables(load))
@@ -43,9 +43,9 @@ def check_over(mechanism: Mechanism, loads: Sequence[Any]) -> None:
 def _tables(load: Any) -> Iterator[Table]:
     values = (getattr(load, part, None) for part in ("force", "torque", "pressure"))
     for value in values:
-        for one in value if isinstance(value, tuple) else (value,):
-            if isinstance(one, Table) and one.over is not None:
-                yield one
+        for number in value if isinstance(value, tuple) else (value,):
+            if isinstance(number, Table) and number.over is not None:
+                yield number
 
 
 def _require_long_period(mechanism: Mechanism, load: Any, table: Table) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from assur.dynamics.loads.loads import Load
 
-# Tried where a function has no value at rest: a load of constant power.
+# Speeds to try where a function has no value at rest, like a load of constant power.
 SPEEDS = 0.0, 1.0
 
 
@@ -36,11 +36,11 @@ def _functions(loads: Iterable[Load], motors: Iterable[Any]) -> Iterator[tuple[s
 
 def _try(name: str, function: Any, q0: list[float]) -> None:
     for speed in SPEEDS:
-        given = (0.0, q0[0], speed) if len(q0) == 1 else (0.0, tuple(q0), (speed,) * len(q0))
-        _require_arguments(name, function, given)
-        place = f"t = 0, q = {given[1]}, speed = {given[2]}"
+        arguments = (0.0, q0[0], speed) if len(q0) == 1 else (0.0, tuple(q0), (speed,) * len(q0))
+        _require_arguments(name, function, arguments)
+        place = f"t = 0, q = {arguments[1]}, speed = {arguments[2]}"
         try:
-            value = function(*given)
+            value = function(*arguments)
         except ArithmeticError as error:
             problem = f"raises {error!r}"
             continue
@@ -68,14 +68,14 @@ def _is_nan(value: Any) -> bool:
     return isinstance(value, float) and math.isnan(value)
 
 
-def _require_arguments(name: str, function: Any, given: tuple[Any, ...]) -> None:
+def _require_arguments(name: str, function: Any, arguments: tuple[Any, ...]) -> None:
     """Raise InputError unless a function takes (t, q, speed), as far as that is known."""
     try:
         signature = inspect.signature(function)
     except (TypeError, ValueError):
         return
     try:
-        signature.bind(*given)
+        signature.bind(*arguments)
     except TypeError as error:
         message = (
             f"{name} is a function with the arguments {signature}: it is called with (t, q, "

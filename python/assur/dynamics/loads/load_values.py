@@ -33,10 +33,10 @@ def function_values(functions: list[Function], q: Float, speed: Float, t: Float)
     """Evaluate functions at rows of coordinates and speeds, at times."""
     if not functions:
         return np.empty(0)
-    one = q.shape[1] == 1
+    is_single = q.shape[1] == 1
     rows = zip(t.tolist(), q.tolist(), speed.tolist(), strict=True)
-    all_given = ((at, a[0], b[0]) if one else (at, tuple(a), tuple(b)) for at, a, b in rows)
-    table = [[_called(f, *given) for f in functions] for given in all_given]
+    all_given = ((at, a[0], b[0]) if is_single else (at, tuple(a), tuple(b)) for at, a, b in rows)
+    table = [[_called(f, *arguments) for f in functions] for arguments in all_given]
     return np.array(table, np.float64).ravel()
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def warn_of_open_takers(
     mechanism: Mechanism, loads: Iterable[Load], friction: Container[str]
 ) -> None:
-    """Warn of loads at joints with friction whose link is a guess that the friction depends on."""
+    """Warn of loads at joints with friction whose link is a guess that affects the friction."""
     for load in loads:
         for joint in _joints_without_a_link(load):
             if joint not in friction:

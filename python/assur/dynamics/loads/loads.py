@@ -135,9 +135,9 @@ class Force:
         axes by default.
     on : str, optional
         At a joint of several links the one that takes the force. By default the piston or block, if
-        just one of the links is one: it slides, has this joint only, and the ground does not have
-        it; otherwise the first of them in the description. The forces in the joint depend on it,
-        and with friction all that follows from them: efforts, efficiency, self-locking, runs.
+        just one of the links is one (it slides, has this joint only, and the joint is not on the
+        ground); otherwise the first of them in the description. The forces in the joint depend on
+        it, and with friction all that follows from them: efforts, efficiency, self-locking, runs.
     while_ : {"forward", "backward"}, optional
         It acts only while a coordinate grows, or falls: a cutting force, the friction of a tool.
         While the coordinate rests, also where it turns back, it does not act.
@@ -180,7 +180,8 @@ class Force:
             self,
             at=at,
             force=tuple(
-                checked_value(one, f"Force at {where}: {name}") for name, one in components
+                checked_value(component, f"Force at {where}: {name}")
+                for name, component in components
             ),
             axes=None if self.axes is None else _link(self.axes, "Force axes"),
             on=None if self.on is None else _link(self.on, "Force on"),
@@ -230,8 +231,8 @@ class Spring:
     Parameters
     ----------
     first, second : str or (link, (x, y))
-        Its ends: joints, or points in links' frames, m. Of several links at a joint the same one
-        takes the pull as of a `Force` without ``on``; a point of a link says which.
+        Its ends: joints, or points in links' frames, m. At a joint of several links the same one
+        takes the pull as for a `Force` without ``on``; a point in a link's frame names its link.
     stiffness : float
         N/m.
     length : float
@@ -303,7 +304,7 @@ class Damper:
     Parameters
     ----------
     first, second : str or (link, (x, y))
-        Its ends, as of a `Spring`.
+        Its ends, as for a `Spring`.
     damping : float
         N·s/m.
 

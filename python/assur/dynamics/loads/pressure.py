@@ -80,8 +80,8 @@ class Pressure:
         Area of the piston, m².
     pressure : Gas, float, Table or callable
         Absolute pressure, Pa: a closed `Gas`, a number, a `Table` over q or (``over=``) over the
-        value of a slide, or a function of (t, q, speed). An engine of four strokes has a table over
-        q with the period 4π; a compressor, whose lines of compression and expansion differ, has two
+        value of a slide, or a function of (t, q, speed). A four-stroke engine has a table over q
+        with the period 4π; a compressor, whose lines of compression and expansion differ, has two
         pressures over its slide, each with its ``while_``.
     expands : {"forward", "backward"}
         The direction of the slide in which the volume grows: the pressure drives it there.
@@ -116,8 +116,8 @@ class Pressure:
     over: str | None = None
 
     def __post_init__(self) -> None:
-        given: Any = self.pressure
-        is_gas = isinstance(given, Gas)
+        pressure: Any = self.pressure
+        is_gas = isinstance(pressure, Gas)
         area = not_negative(self.area, "Pressure: area")
         if area == 0.0:
             message = "Pressure: area is 0: that of the piston is needed, m²"
@@ -128,6 +128,6 @@ class Pressure:
             self,
             slide=checked_name(self.slide, "Pressure slide"),
             area=area,
-            pressure=given if is_gas else checked_value(given, "Pressure pressure"),
+            pressure=pressure if is_gas else checked_value(pressure, "Pressure pressure"),
             ambient=not_negative(self.ambient, "Pressure: ambient"),
         )

@@ -19,8 +19,8 @@ from assur.flywheel import SPLINES, Spline
 
 __all__ = ["Table", "checked_ratio", "replace_fields"]
 
-# Warn if a spline leaves the range of its rows by more than so many times this range; where it is
-# looked at.
+# Warn if a spline leaves the range of its rows by more than this multiple of the range; the points
+# at which to look.
 OVERSHOOT = 3.0
 CHECKED_BETWEEN_ROWS = 8
 
@@ -46,10 +46,10 @@ class Table(ByValue):
     value : array_like
         Values there, of the same length.
     spline : {"pchip", "linear", "not-a-knot", "natural", "clamped", "periodic"}
-        Interpolation between the rows. By default a smooth curve that is nowhere beyond the rows on
-        its two sides, and monotone where they are; ``"linear"`` joins them by straight lines; the
-        others are cubic splines, also smooth in their second derivative, which swing beyond rows
-        with corners.
+        Interpolation between the rows. By default a smooth curve that never goes beyond its two
+        neighbouring rows, and is monotone where they are; ``"linear"`` joins them by straight
+        lines; the others are cubic splines, also smooth in their second derivative, which swing
+        beyond rows with corners.
     periodic : bool, optional
         Whether the rows are one period, the last equal to the first: the default over q. Then the
         first coordinate or the last may be given twice, for a jump there. Otherwise, by default
@@ -115,8 +115,8 @@ class Table(ByValue):
     ) -> None:
         one_of(spline, SPLINES, "Table spline")
         x, y = real_array(q, "Table q"), real_array(value, "Table value")
-        own = None if over is None else checked_name(over, "Table over")
-        repeats = own is None if periodic is None else flag(periodic, "Table periodic")
+        coordinate = None if over is None else checked_name(over, "Table over")
+        repeats = coordinate is None if periodic is None else flag(periodic, "Table periodic")
         _check_rows(x, y, 3 if spline == "periodic" else 2)
         _check_jumps(x, spline, repeats)
         for column in (x, y):
@@ -129,7 +129,7 @@ class Table(ByValue):
             periodic=repeats,
             ratio=checked_ratio(ratio, "Table: ratio"),
             rotor_inertia=not_negative(rotor_inertia, "Table: rotor_inertia"),
-            over=own,
+            over=coordinate,
         )
         _warn_of_overshoot(self)
 
@@ -169,7 +169,7 @@ class Table(ByValue):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor, so that a copy is checked and read-only too.
-        return type(self), tuple(getattr(self, one.name) for one in fields(self))
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))
 
 
 def _check_rows(q: Float, value: Float, least: int) -> None:
@@ -246,7 +246,7 @@ def _warn_of_overshoot(table: Table) -> None:
     parts = np.linspace(0.0, 1.0, CHECKED_BETWEEN_ROWS, endpoint=False)[1:]
     values = table.at((table.q[:-1, None] + np.diff(table.q)[:, None] * parts).ravel())
     if not np.isfinite(values).all():
-        # Its numbers are beyond what can be computed with: whatever reads it says so.
+        # Its numbers are too great to compute with: whatever reads it says so.
         return
     least, most = float(table.value.min()), float(table.value.max())
     low, high = float(values.min()), float(values.max())

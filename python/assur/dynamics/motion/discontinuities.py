@@ -23,10 +23,10 @@ __all__ = ["BESIDE", "driven_motion", "jumps_between", "stations_between"]
 
 # How far beside a jump loads are evaluated, rad (relative beyond 1 rad): beyond its rounding.
 BESIDE = 1e-10
-# The same beside a reversal of a pair with friction, which must not seem to rest there: of a rod a
-# hundred cranks long the relative speed is a hundredth of the crank's.
+# The same beside a reversal of a pair with friction, which must not seem to rest there: the
+# relative speed of a rod a hundred cranks long is a hundredth of the crank's.
 BESIDE_REVERSAL = 1e-9
-# Most jumps of a table that are looked for.
+# Greatest number of jumps of a table to look for.
 MAX_JUMPS = 1_000_000
 # A coordinate this near to a jump is at it.
 AT_JUMP = 1e-11
@@ -48,18 +48,18 @@ def _reversals_between(machine: MachineModel, low: float, high: float) -> list[f
 
 def jumps_between(machine: MachineModel, low: float, high: float) -> Float:
     """Return where the loads of one design may jump between two coordinates."""
-    found = stations_between(machine, low, high)
-    for (rows, periodic), own in zip(machine.core.tables, machine.core.jumps, strict=True):
-        if not own:
+    jumps = stations_between(machine, low, high)
+    for (rows, periodic), own_jumps in zip(machine.core.tables, machine.core.jumps, strict=True):
+        if not own_jumps:
             continue
         period = rows[-1] - rows[0]
-        first, last = (low - own[-1]) / period, (high - own[0]) / period
-        if periodic and not (last - first) * len(own) < MAX_JUMPS:
+        first, last = (low - own_jumps[-1]) / period, (high - own_jumps[0]) / period
+        if periodic and not (last - first) * len(own_jumps) < MAX_JUMPS:
             message = f"a table's period of {period:g} has too many jumps from {low:g} to {high:g}"
             raise InputError(message, value=period)
         shifts = range(math.floor(first), math.ceil(last) + 1) if periodic else (0,)
-        found += [q + shift * period for shift in shifts for q in own]
-    every = np.unique(found)
+        jumps += [q + shift * period for shift in shifts for q in own_jumps]
+    every = np.unique(jumps)
     return every[(every >= low) & (every <= high)]
 
 
@@ -77,7 +77,7 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
     """Return a motion at the ends of its steps, moved off the jumps of loads and friction.
 
     The acceleration at the end of a step is that before a jump, at the start of the motion that
-    behind it: loads and friction must be those of the same side.
+    after it: loads and friction must be those of the same side.
     """
     q, speed = np.asarray(motion.q), np.asarray(motion.speed)
     if machine.driver_count > 1 or q.ndim != 1 or q.size == 0 or not np.isfinite(q).all():
@@ -97,16 +97,16 @@ def _one_sided(machine: MachineModel, motion: DrivenMotion, run: Run) -> DrivenM
     moved, states = np.where(at_jump, q + way * sense, q), [speed, np.asarray(motion.acceleration)]
     rows = at_jump & (speed != 0.0)
     if rows.any():
-        # So near the run itself says how fast it is: its own effort stays zero.
+        # This close, the run itself gives the speed: its own effort stays zero.
         if run.along_q:
             state = run.at(q=np.clip(moved[rows], low + reach, high - reach))
         else:
             times = run.t[rows] + (way / np.where(rows, np.abs(speed), 1.0))[rows]
             state = run.at(np.clip(times, run.t[0], run.t[-1]))
         moved[rows] = state.q
-        states = [one.copy() for one in states]
-        for one, own in zip(states, (state.speed, state.acceleration), strict=True):
-            one[rows] = own
+        states = [column.copy() for column in states]
+        for column, values in zip(states, (state.speed, state.acceleration), strict=True):
+            column[rows] = values
     return motion._replace(q=moved, speed=states[0], acceleration=states[1])
 
 

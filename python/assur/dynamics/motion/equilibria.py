@@ -131,10 +131,10 @@ def equilibria(machine: MachineModel, between: Any) -> Equilibria:
         )
         raise MotionError(message)
     intervals_of_zero = np.array(indifferent, np.float64).reshape(-1, 2)
-    found = Equilibria(q, stable, frequency, stiffness, intervals_of_zero)
-    for array in found:
+    answer = Equilibria(q, stable, frequency, stiffness, intervals_of_zero)
+    for array in answer:
         array.flags.writeable = False
-    return found
+    return answer
 
 
 def search_range(machine: MachineModel, between: Any) -> tuple[tuple[float, float], bool, int]:

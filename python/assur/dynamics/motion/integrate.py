@@ -56,10 +56,8 @@ EARLY_ENDS = (
     "step limit",
     "time limit",
 )
-# Places of a period at which tables are looked at, to name the load of one that does not cover it.
+# Places of a period at which tables are tried, to name the load whose table does not cover it.
 PLACES = 721
-# How the core begins the error of a motor's table.
-OF_MOTOR = "a motor's table"
 # Events of friction.
 STICK, SLIP = "stick", "slip"
 # Warn of an energy imbalance above both: relative to the greatest energy, and in units of rtol.
@@ -82,8 +80,8 @@ def run(
         raise InputError(message)
     watched = as_list(options["events"], "events")
     n = machine.driver_count
-    checked = [known_events.checked(one, machine.mechanism, n) for one in watched]
-    if along_q and any(isinstance(one, known_events.Obstacle) for one in watched):
+    checked = [known_events.checked(event, machine.mechanism, n) for event in watched]
+    if along_q and any(isinstance(event, known_events.Obstacle) for event in watched):
         message = "q_end: over q a motion does not turn back at an Obstacle; give t_end"
         raise InputError(message)
     start, speeds = _start(machine, q0, "q0"), _start(machine, speed0, "speed0")
@@ -113,7 +111,7 @@ def run(
             checked_breaks(options["breaks"]),
             checked,
         )
-    # The core counts what friction does after the events that were asked for.
+    # The core numbers friction's events after those that were asked for.
     made = Run(core, machine.mechanism, n, [*watched, STICK, SLIP], along_q, table_names(machine))
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=3)
@@ -130,9 +128,14 @@ def run(
 
 
 def steady_state(
-    machine: MachineModel, speed: Any, turns: Any, q0: Any, wanted: float | None, **options: Any
+    machine: MachineModel,
+    speed: Any,
+    turns: Any,
+    q0: Any,
+    fluctuation: float | None,
+    **options: Any,
 ) -> SteadyState:
-    """See `Machine.steady_state`; with `wanted`, size a flywheel for this fluctuation."""
+    """See `Machine.steady_state`; with a `fluctuation`, size a flywheel for it."""
     one_design(machine, "steady_state")
     without_friction(machine, "steady_state")
     require_rotary_driver(machine, "a periodic motion")
@@ -153,7 +156,7 @@ def steady_state(
         message = f"rtol is {options['rtol']!r}: it must be at most {LOOSEST_RTOL}"
         raise InputError(message)
     start = _start(machine, q0, "q0")[0]
-    # Where the core finds a table that does not cover the period, it says nothing of the load.
+    # The core does not know which load has a table that does not cover the period.
     places = start + np.linspace(0.0, span, PLACES)
     with _naming_tables(machine, places, [0.0 if guess is None else guess]):
         core, numbers = machine.core.steady(
@@ -167,7 +170,7 @@ def steady_state(
             (step_count(options["max_steps"]), checked_seconds(options["max_seconds"])),
             checked_breaks(options["breaks"]),
             flywheel,
-            wanted,
+            fluctuation,
         )
     made = SteadyState(core, numbers, machine.mechanism, options["mean"])
     if machine.motor is not None and abs(made.found_moment) > BALANCE_WARN_RTOL * abs(
@@ -189,8 +192,8 @@ def _naming_tables(machine: MachineModel, places: Float, speeds: list[float]) ->
     except InputError as error:
         if error.kind != "table_ends" or machine.mechanism is None:
             raise
-        driver = _driver_beyond(machine, speeds)
-        if driver is not None and str(error).startswith(OF_MOTOR):
+        driver = _driver_beyond(machine, float(places[0]), speeds, error.value)
+        if driver is not None:
             raise _of_driver(driver, error) from None
         if machine.driver_count > 1:
             raise
@@ -200,13 +203,22 @@ def _naming_tables(machine: MachineModel, places: Float, speeds: list[float]) ->
         raise named from None
 
 
-def _driver_beyond(machine: MachineModel, speeds: list[float]) -> str | None:
-    """Return the driver whose motor's table over its speed does not cover the speed of it."""
+def _driver_beyond(
+    machine: MachineModel, q: float, speeds: list[float], value: float | None
+) -> str | None:
+    """Return the driver whose motor's table over its speed does not cover this value.
+
+    The core looks up the tables over q first: where one ends, no motor is to blame.
+    """
+    if not all(periodic or rows[0] <= q <= rows[-1] for rows, periodic in machine.core.tables):
+        return None
     assert machine.mechanism is not None
     drivers = machine.mechanism.description.drivers
     motors = components.motors(machine.motor, len(drivers))
     for driver, motor, speed in zip(drivers, motors, speeds, strict=True):
-        if isinstance(motor, Table) and not motor.q[0] <= speed * motor.ratio <= motor.q[-1]:
+        if not isinstance(motor, Table) or speed * motor.ratio != value:
+            continue
+        if not motor.q[0] <= value <= motor.q[-1]:
             return driver if isinstance(driver, str) else driver.link
     return None
 

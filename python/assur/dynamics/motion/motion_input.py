@@ -24,7 +24,7 @@ MotionLike: TypeAlias = "npt.ArrayLike | Run | SteadyState | State | TimedMotion
 class DrivenMotion(NamedTuple):
     """Coordinates, speeds and accelerations of the drivers, and times.
 
-    Of a run with one driver also its sense where the speed is 0.
+    A run with one driver also has its sense where the speed is 0.
     """
 
     q: Any
@@ -45,14 +45,14 @@ def motion_of(q: Any, speed: Any, acceleration: Any, t: Any) -> DrivenMotion:
             message = f"{name} is given with a {what}, which has its own: leave it out"
             raise InputError(message)
     state = q.run if isinstance(q, SteadyState) else q
-    given = state.q, state.speed, state.acceleration
+    parts = state.q, state.speed, state.acceleration
     senses: Senses | None = None
     # A law does not say how friction holds a machine in a dwell.
     if isinstance(state, Run) and np.ndim(state.q) == 1:
-        senses = senses_of_run(*given)
+        senses = senses_of_run(*parts)
     elif isinstance(state, State) and np.shape(state.q) == np.shape(state.t):
-        senses = senses_of_states(*given[1:])
-    return DrivenMotion(*given, state.t, senses)
+        senses = senses_of_states(*parts[1:])
+    return DrivenMotion(*parts, state.t, senses)
 
 
 def times(t: npt.ArrayLike, shape: tuple[int, ...]) -> Float:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
 
 
-# `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as many.
+# `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as much.
 END_ULPS = 4.0
 # Rounding of the sum of the energies, in units of the last place of the greatest.
 ROUNDINGS = 64.0
@@ -65,7 +65,7 @@ class State(NamedTuple):
 
 
 def _short_number(x: Any) -> str:
-    return f"{x:.6g}" if np.ndim(x) == 0 else "(" + ", ".join(f"{one:.6g}" for one in x) + ")"
+    return f"{x:.6g}" if np.ndim(x) == 0 else "(" + ", ".join(f"{number:.6g}" for number in x) + ")"
 
 
 class NearChangePoint(str):
@@ -227,7 +227,7 @@ class Run(Tabular):
     q, speed, acceleration : ndarray
         Coordinate, speed and acceleration of the driver at these times. Where the acceleration
         jumps (a load, friction that reverses, a stop) it is that before the jump; in the first row
-        that behind it.
+        that after it.
     events : list of EventRecord
         The events detected, in order.
     end : str
@@ -269,17 +269,17 @@ class Run(Tabular):
         self.t, *arrays = core.arrays()
         for array in (self.t, *arrays):
             array.flags.writeable = False
-        self.q, self.speed, self.acceleration = (self._shaped(one) for one in arrays[:3])
+        self.q, self.speed, self.acceleration = (self._shaped(column) for column in arrays[:3])
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
         self.events = [
             EventRecord(
-                events[one["event"]],
-                one["t"],
-                self._per_driver(one["q"]),
-                self._per_driver(one["speed"]),
+                events[record["event"]],
+                record["t"],
+                self._per_driver(record["q"]),
+                self._per_driver(record["speed"]),
             )
-            for one in core.events
+            for record in core.events
         ]
         self.at_rest_from = self._at_rest_from()
         self.end, self.message = self._end_and_message(events)
@@ -343,16 +343,16 @@ class Run(Tabular):
         >>> run.at([0.5, 1.0]).speed.round(6)  # rad/s: 4 rad/s² for t
         array([2., 4.])
         """
-        own, other, name = (q, t, "q") if self.along_q else (t, q, "t")
-        if own is None or other is not None:
+        coordinate, unused, name = (q, t, "q") if self.along_q else (t, q, "t")
+        if coordinate is None or unused is not None:
             message = f"this run goes along {name}: call at({name}=...)"
             raise InputError(message)
-        x = self._clip_to_run(real_array(own, name), name)
+        x = self._clip_to_run(real_array(coordinate, name), name)
         arrays = self._core.at(x.ravel())
         tail = () if self._drivers == 1 else (self._drivers,)
         return State(
             arrays[0].reshape(x.shape)[()],
-            *(one.reshape((*x.shape, *tail))[()] for one in arrays[1:4]),
+            *(array.reshape((*x.shape, *tail))[()] for array in arrays[1:4]),
         )
 
     def _clip_to_run(self, x: Float, name: str) -> Float:
@@ -402,7 +402,8 @@ class Run(Tabular):
         for k, is_angle in enumerate(angles):
             tail, unit = f"{k}" if len(angles) > 1 else "", "rad" if is_angle else "m"
             speed, acceleration = (
-                one[:, k] if len(angles) > 1 else one for one in (self.speed, self.acceleration)
+                values_of[:, k] if len(angles) > 1 else values_of
+                for values_of in (self.speed, self.acceleration)
             )
             columns.append(Column(f"speed{tail}", speed, f"{unit}/s", "motion"))
             columns.append(Column(f"acceleration{tail}", acceleration, f"{unit}/s2", "motion"))
@@ -425,7 +426,7 @@ class Run(Tabular):
         Returns
         -------
         matplotlib axes
-            Those drawn on.
+            The axes drawn on.
 
         Examples
         --------
@@ -481,7 +482,7 @@ class Run(Tabular):
         write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
 
     def _repr_html_(self) -> str | None:
-        """Return what a notebook shows; none of a machine of tables."""
+        """Return what a notebook shows; None for a machine of tables."""
         from assur.pictures.page.html import notebook_html
         from assur.pictures.page.turn_in_time import turn_of_run
 

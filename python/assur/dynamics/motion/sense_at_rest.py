@@ -1,4 +1,4 @@
-"""In which sense a motion goes where its speed is 0, which friction asks for."""
+"""The sense of a motion where its speed is 0, which friction needs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Senses(NamedTuple):
         return np.isnan(self.sense)
 
     def creeping(self, speed: Float, with_begins: bool) -> Float:
-        """Return the speeds; where they are 0, one that is next to nothing in the sense.
+        """Return the speeds; where they are 0, one next to nothing in the direction of the sense.
 
         Positions at which it leaves its rest keep 0, unless asked for `with_begins`.
         """
@@ -64,8 +64,8 @@ def senses_of_run(q: Float, speed: Float, acceleration: Float) -> Senses:
         before = steps[row - 1] if row else np.sign(acceleration[row])
         after = steps[row] if row < count - 1 else 0.0
         begins[row] = before == 0.0 and after != 0.0
-        found = before or after
-        sense[row] = found or np.nan
+        direction = before or after
+        sense[row] = direction or np.nan
     return Senses(sense, begins)
 
 

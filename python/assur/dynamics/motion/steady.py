@@ -30,7 +30,8 @@ EXTREME = "extreme speed"
 class SteadyState(Tabular):
     """A machine in periodic motion.
 
-    Made by `Machine.steady_state`; that of a flywheel with the machine's own motor is its `steady`.
+    Made by `Machine.steady_state`; a flywheel with the machine's own motor has its motion as
+    `steady`.
 
     Attributes
     ----------
@@ -171,7 +172,7 @@ class SteadyState(Tabular):
         Returns
         -------
         matplotlib axes
-            Those drawn on.
+            The axes drawn on.
 
         Examples
         --------

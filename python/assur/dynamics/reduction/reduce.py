@@ -62,26 +62,26 @@ def reduce(
     Without a speed no function is called, and the moments are not valid.
     """
     one_of(on_error, ("raise", "nan"), "on_error")
-    own = answer(machine, q, speed, t, sense)
+    reduced = answer(machine, q, speed, t, sense)
     if on_error == "raise":
-        if own.failure is not None:
-            raise own.failure
-        _require_within_table(machine, own.q, own.status)
+        if reduced.failure is not None:
+            raise reduced.failure
+        _require_within_table(machine, reduced.q, reduced.status)
     if speed is not None and on_error == "raise":
         n = machine.driver_count
-        has_value = np.isfinite(own.moment).reshape(-1, n).any(axis=1)
-        missing = np.flatnonzero(~has_value & has_analogues(own.status))
+        has_value = np.isfinite(reduced.moment).reshape(-1, n).all(axis=1)
+        missing = np.flatnonzero(~has_value & has_analogues(reduced.status))
         if missing.size:
             row = int(missing[0])
             if machine.mechanism is None:
-                raise _beyond_table(float(own.q[row]), machine.core.tables[0][0])
-            one, design = single(machine, row, own.status.size)
-            place = own.q.reshape(-1, n)[row], own.speed.reshape(-1, n)[row]
-            time = float(np.broadcast_to(np.asarray(t), own.shape).ravel()[row])
-            failed = without_value(one, Moment(*place, time, sense), "the moment is")
+                raise _beyond_table(float(reduced.q[row]), machine.core.tables[0][0])
+            single_machine, design = single(machine, row, reduced.status.size)
+            place = reduced.q.reshape(-1, n)[row], reduced.speed.reshape(-1, n)[row]
+            time = float(np.broadcast_to(np.asarray(t), reduced.shape).ravel()[row])
+            failed = without_value(single_machine, Moment(*place, time, sense), "the moment is")
             failed.design = design
             raise failed
-    return own.inertia, own.rates, own.moment, own.potential
+    return reduced.inertia, reduced.rates, reduced.moment, reduced.potential
 
 
 def reduced_inertia(machine: MachineModel, q: npt.ArrayLike, on_error: str = "raise") -> Reduced:
@@ -102,36 +102,36 @@ def reduced_moment(
 
 def potential(machine: MachineModel, q: npt.ArrayLike, on_error: str = "raise") -> Any:
     """See `Machine.potential`."""
-    found = reduce(machine, q, None, on_error)[3]
+    energies = reduce(machine, q, None, on_error)[3]
     if on_error == "raise":
-        _require_potential(machine, q, found)
-    return found[()]
+        _require_potential(machine, q, energies)
+    return energies[()]
 
 
-def _require_potential(machine: MachineModel, q: npt.ArrayLike, found: Float) -> None:
+def _require_potential(machine: MachineModel, q: npt.ArrayLike, energies: Float) -> None:
     """Raise the error of the first position without a potential energy: beyond a load's table."""
-    missing = np.flatnonzero(np.isnan(found))
+    missing = np.flatnonzero(np.isnan(energies))
     if not missing.size:
         return
     n, row = machine.driver_count, int(missing[0])
     x = real_array(q, "q")
-    places = np.broadcast_to(x, found.shape if n == 1 else (*found.shape, n))
-    one, design = single(machine, row, found.size)
+    places = np.broadcast_to(x, energies.shape if n == 1 else (*energies.shape, n))
+    single_machine, design = single(machine, row, energies.size)
     # At no speed the loads of one sense only need none.
     moment = Moment(places.reshape(-1, n)[row], np.zeros(n), 0.0, [1.0] * n if n > 1 else 1.0)
-    failed = without_value(one, moment, "the potential energy is")
+    failed = without_value(single_machine, moment, "the potential energy is")
     failed.design = design
     raise failed
 
 
 def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineModel, Any]:
-    """Return the machine of one design, and the design's index in a batch, of a flat position."""
+    """Return the machine of the design of a flat position, and the design's index in a batch."""
     if not machine.shape or machine.mechanism is None:
         return machine, None
     design = row // max(1, positions // math.prod(machine.shape))
     index = tuple(int(i) for i in np.unravel_index(design, machine.shape))
-    own = machine.mechanism.design(index)
-    return type(machine)(own, machine.bodies, machine.loads, machine.motor), index
+    mechanism = machine.mechanism.design(index)
+    return type(machine)(mechanism, machine.bodies, machine.loads, machine.motor), index
 
 
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:

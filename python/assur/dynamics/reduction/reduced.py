@@ -1,4 +1,4 @@
-"""What the core finds of reduced inertia and moment: checks of shapes, then its answer."""
+"""Reduced inertia and moment by the core: checks of shapes, then its answer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Answer(NamedTuple):
-    """Mass matrices, their derivatives, moments and potential energies, of a shape."""
+    """Mass matrices, their derivatives, moments and potential energies, in a shape."""
 
     inertia: Float
     rates: Float
@@ -59,15 +59,15 @@ def answer(
         message = f"speed has the shape {v.shape}, q {x.shape}: they do not fit"
         raise InputError(message) from error
     flat, speeds = np.ascontiguousarray(x).ravel(), np.ascontiguousarray(v).ravel()
-    given, senses = np.empty(0), list[float]()
+    load_values, senses = np.empty(0), list[float]()
     if speed is not None:
         senses = checked_senses(machine, flat.reshape(-1, n), speeds.reshape(-1, n), sense)
         functions = machine.core.load_functions
         at = np.broadcast_to(np.asarray(t), shape).ravel()
-        given = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
+        load_values = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
     values = np.empty(0) if machine.mechanism is None else machine.mechanism.values
     *arrays, status, failure = machine.core.reduce(
-        values.reshape(-1), flat, speeds, given, senses, None, list(designs)
+        values.reshape(-1), flat, speeds, load_values, senses, None, list(designs)
     )
     inertia, rates, moment, potential = arrays
     return Answer(
@@ -86,17 +86,17 @@ def answer(
 def checked_senses(
     machine: MachineModel, q: Float, speeds: Float, sense: float | Sequence[float] | None
 ) -> list[float]:
-    """Return in which sense each driver is about to move at rest, which some loads need."""
+    """Return the sense in which each driver is about to move at rest, which some loads need."""
     if sense is not None:
         senses = real_array(sense, "sense").ravel()
         if senses.size != machine.driver_count or not np.isin(senses, (-1.0, 1.0)).all():
-            wanted = (
+            needed = (
                 "+1 or −1" if machine.driver_count == 1 else f"{machine.driver_count} of +1 or −1"
             )
-            message = f"sense is {short(sense)}: {wanted} is needed"
+            message = f"sense is {short(sense)}: {needed} is needed"
             raise InputError(message)
-        found: list[float] = senses.tolist()
-        return found
+        listed: list[float] = senses.tolist()
+        return listed
     rests = ~speeds.any(axis=1)
     has_ways = machine.core.follows[1]
     if (machine.friction or has_ways) and rests.any():

@@ -12,7 +12,7 @@ from assur.dynamics.loads.motors import ConstantTorque
 from assur.dynamics.loads.pressure import Gas
 from assur.dynamics.loads.table import Table
 from assur.dynamics.reduction.reduced import answer
-from assur.errors import InputError, MotionError
+from assur.errors import InputError, MotionError, with_subject
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -48,21 +48,22 @@ class Moment(NamedTuple):
 
 
 def without_value(machine: MachineModel, moment: Moment, what: str) -> AssurError:
-    """Return the error of one design without a finite value of what is asked for."""
+    """Return the error of one design for which the quantity asked for is not finite."""
     mechanism = machine.mechanism
     assert mechanism is not None
     for name, load in named_loads(machine):
         bodies = machine.bodies if isinstance(load, Gravity) else {}
         alone = type(machine)(mechanism, bodies, [load])
         if not _is_finite(alone, moment):
-            return _of_load(mechanism, name, load, moment)
+            return with_subject(_of_load(mechanism, name, load, moment), name)
     for link, body in machine.bodies.items():
         if not _is_finite(type(machine)(mechanism, {link: body}), moment):
-            return _too_great(f"bodies[{link!r}]: its inertia", moment)
+            body_name = f"bodies[{link!r}]"
+            return with_subject(_too_great(f"{body_name}: its inertia", moment), body_name)
     for name, value in _motor_values(machine):
         error = _of_value(mechanism, name, value, moment)
         if error is not None:
-            return error
+            return with_subject(error, name)
     message = (
         f"{what} not finite at q = {moment.shown}: every load by itself has a value, a speed, an "
         "acceleration or a mass is too great there (on_error='nan' keeps the other positions)"
@@ -78,21 +79,21 @@ def named_loads(machine: MachineModel) -> Iterator[tuple[str, Load]]:
 
 def table_names(machine: MachineModel) -> tuple[str, ...]:
     """Return names of the tables in the order of the core: those over q, then those over others."""
-    over_q, others = list[str](), list[str]()
+    over_q, over_others = list[str](), list[str]()
     for name, value in _every_value(machine):
         if isinstance(value, Gas):
-            others.append(name)
+            over_others.append(name)
         elif isinstance(value, Table):
-            one = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
-            (over_q if value.over is None else others).append(one)
-    return (*(over_q or ["a table over q"] * len(machine.core.tables)), *others)
+            text = f"{name}: a table over {'q' if value.over is None else repr(value.over)}"
+            (over_q if value.over is None else over_others).append(text)
+    return (*(over_q or ["a table over q"] * len(machine.core.tables)), *over_others)
 
 
 def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
     """Return the error of the first of the coordinates (P,) that a load's table does not cover."""
     mechanism = machine.mechanism
     assert mechanism is not None
-    found: list[tuple[int, str, Table, float]] = []
+    uncovered: list[tuple[int, str, Table, float]] = []
     for name, value in _every_value(machine):
         if not isinstance(value, Table):
             continue
@@ -103,10 +104,10 @@ def not_covered(machine: MachineModel, places: Float) -> AssurError | None:
             at = of(value.over).value
         outside = np.flatnonzero(~np.isfinite(value.at(at)) & np.isfinite(at))
         if outside.size:
-            found.append((int(outside[0]), name, value, float(at[outside[0]])))
-    if not found:
+            uncovered.append((int(outside[0]), name, value, float(at[outside[0]])))
+    if not uncovered:
         return None
-    row, name, table, value_there = min(found, key=lambda one: one[0])
+    row, name, table, value_there = min(uncovered, key=lambda entry: entry[0])
     moment = Moment(places[row : row + 1], np.zeros(1), 0.0)
     return table_ends(name, table, value_there, moment, START_WITHIN)
 
@@ -143,9 +144,9 @@ def _motor_values(machine: MachineModel) -> Iterator[tuple[str, Any]]:
 def _is_finite(machine: MachineModel, moment: Moment) -> bool:
     """Whether inertia and moment have values."""
     q, speed = (x if x.size > 1 else x[0] for x in (moment.q, moment.speed))
-    found = answer(machine, q, speed, moment.t, moment.sense)
-    numbers = found.inertia, found.rates, found.moment
-    return all(bool(np.isfinite(one).all()) for one in numbers)
+    reduced = answer(machine, q, speed, moment.t, moment.sense)
+    numbers = reduced.inertia, reduced.rates, reduced.moment
+    return all(bool(np.isfinite(array).all()) for array in numbers)
 
 
 def _of_load(mechanism: Mechanism, name: str, load: Load, moment: Moment) -> AssurError:
@@ -179,11 +180,11 @@ def _of_value(mechanism: Mechanism, name: str, value: Any, moment: Moment) -> As
         return None if np.isfinite(value.at(at)) else table_ends(name, value, at, moment)
     if not callable(value):
         return None
-    found = function_values([value], moment.q[None], moment.speed[None], np.array([moment.t]))
-    if np.isfinite(found).all():
+    gave = function_values([value], moment.q[None], moment.speed[None], np.array([moment.t]))
+    if np.isfinite(gave).all():
         return None
-    message = f"{name}: at q = {moment.shown} its function gave {found[0]}, it must be finite"
-    return InputError(message, kind="not_finite", q=moment.at, value=float(found[0]))
+    message = f"{name}: at q = {moment.shown} its function gave {gave[0]}, it must be finite"
+    return InputError(message, kind="not_finite", q=moment.at, value=float(gave[0]))
 
 
 def table_ends(

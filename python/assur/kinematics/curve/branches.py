@@ -46,7 +46,7 @@ class Branches:
 
     @property
     def unit(self) -> float:
-        """What the driver's coordinate is measured in: rad, or for a slide the size."""
+        """Unit of the driver's coordinate: rad, or for a slide the size."""
         return 1.0 if self.is_angle else self.size
 
     def places(self, assembly: Mapping[str, int], q: Float) -> Float:
@@ -56,26 +56,26 @@ class Branches:
 
     def look_at(self, q: float) -> int:
         """Add the branches of all assemblies at a coordinate; return how many assemblies it has."""
-        found = list(assemblies(self.mechanism, q))
-        for assembly in found:
+        all_assemblies = list(assemblies(self.mechanism, q))
+        for assembly in all_assemblies:
             self.add(assembly, q)
-        return len(found)
+        return len(all_assemblies)
 
     def add(self, assembly: Assembly, q: float) -> None:
         """Add the branch of an assembly, if it is a new one."""
         assert assembly.place is not None
-        own = place_of(assembly.place.numbers, self.size)
-        if self.has(own, q):
+        place = place_of(assembly.place.numbers, self.size)
+        if self.has(place, q):
             return
         own_limits = self.limits(assembly)
-        dead = {one.q: one.group for one in own_limits.dead_points}
+        dead = {point.q: point.group for point in own_limits.dead_points}
         intervals = [
             Branch(assembly, low, high, own_limits.period)
             for low, high in own_limits.intervals.tolist()
         ]
-        # An angle may be in several of them, each in other turns.
+        # Several of them may contain an angle, each in other turns.
         there = [self._solve(branch, [q])[q] for branch in intervals]
-        apart = [(nearest(places, own), index) for index, places in enumerate(there)]
+        apart = [(nearest(places, place), index) for index, places in enumerate(there)]
         least, index = min(apart, default=(math.inf, 0))
         if math.isfinite(least):
             branch = intervals[index]
@@ -93,23 +93,23 @@ class Branches:
         return self._limits[signs]
 
     def has(self, place: Float, q: float) -> bool:
-        """Whether a known branch goes through a place at a coordinate, of an angle in any turn."""
+        """Whether a known branch goes through a place at a coordinate; angles in any turn."""
         for branch, solved in zip(self.branches, self._solved, strict=True):
             if q not in solved:
-                asked = [one for one in self.coordinates if one not in solved]
+                asked = [known for known in self.coordinates if known not in solved]
                 solved.update(self._solve(branch, asked if q in asked else [q]))
             if nearest(solved[q], place) <= SAME:
                 return True
         return False
 
     def _solve(self, branch: Branch, coordinates: list[float]) -> dict[float, Float]:
-        """Return all places of a branch at each coordinate, of an angle in any turn."""
+        """Return all places of a branch at each coordinate; angles in any turn."""
         turns = [self._turns(branch, q) for q in coordinates]
-        inside = [one for own in turns for one in own]
+        inside = [coordinate for turn in turns for coordinate in turn]
         if not inside:
             return dict.fromkeys(coordinates, np.empty((0, 1)))
         places = self.places(branch.assembly, np.array(inside))
-        parts = np.split(places, np.cumsum([len(own) for own in turns])[:-1])
+        parts = np.split(places, np.cumsum([len(turn) for turn in turns])[:-1])
         return dict(zip(coordinates, parts, strict=True))
 
     def _turns(self, branch: Branch, q: float) -> list[float]:

@@ -41,8 +41,8 @@ def _way(branches: Sequence[Branch], folds: Sequence[Fold], start: Step) -> tupl
         fold = branches[number].folds[1 if direction > 0 else 0]
         if fold is None:
             return way, False
-        one, other = folds[fold].branches
-        following = (other if one == number else one), -direction
+        first, second = folds[fold].branches
+        following = (second if first == number else first), -direction
         if following == start:
             return way, True
         way.append(following)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CircuitMotion", "ConfigurationCurve"]
 
-# How far (rad, or in sizes) beside dead points, which are known to about as much.
+# Distance (rad, or in sizes) kept from dead points, about the accuracy to which they are known.
 MARGINS = (1e-13, 1e-12, 1e-11, 1e-10, 1e-9)
 
 
@@ -153,7 +153,7 @@ class ConfigurationCurve:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Data are in rad and m; the ticks are written in the units that suit.
+            The axes drawn on. Data are in rad and m; the ticks are written in the units that suit.
 
         Raises
         ------
@@ -208,7 +208,7 @@ class ConfigurationCurve:
 
 
 def _beside_dead_points(mechanism: MechanismModel, branch: Branch, q: Float) -> Motion:
-    """Solve a branch, beside a dead point in place of on it: there rounding decides."""
+    """Solve a branch, beside a dead point instead of on it, where rounding decides."""
     unit = 1.0 if has_driven_angle(mechanism) else size_of(mechanism)
     finite = [abs(end) for end in (branch.low, branch.high) if np.isfinite(end)]
     motion = solve(mechanism, q, order=0, assembly=branch.assembly, on_error="nan")
@@ -239,10 +239,10 @@ def _along(
         rows.append((q, np.full(len(q), number), values))
 
     def joined(kind: int) -> dict[str, Float]:
-        own = names[kind]
+        columns = names[kind]
         return {
             name: np.concatenate([values[kind][i] for _, _, values in rows])
-            for i, name in enumerate(own)
+            for i, name in enumerate(columns)
         }
 
     return CircuitMotion(

@@ -31,7 +31,7 @@ class Defects:
     Attributes
     ----------
     circuit : bool
-        Whether they lie on different circuits: it would have to be taken apart.
+        Whether they lie on different circuits: the linkage would have to be taken apart.
     branch : bool
         Whether they lie on different branches: the driver cannot lead from one to another.
     order : bool
@@ -64,14 +64,14 @@ def defects_of(curve: ConfigurationCurve, places: Sequence[tuple[float, Assembly
     except TypeError:
         # A number, an array without axes, one mechanism.
         pairs = [places]
-    if not all(isinstance(one, tuple | list) and len(one) == 2 for one in pairs):
+    if not all(isinstance(pair, tuple | list) and len(pair) == 2 for pair in pairs):
         message = f"places is {short(places)}: pairs (q, assembly) are needed, as find() gives"
         raise InputError(message)
-    found = [_located(curve, real_number(q, "q"), assembly) for q, assembly in pairs]
+    located = [_located(curve, real_number(q, "q"), assembly) for q, assembly in pairs]
     homes = {number: i for i, c in enumerate(curve.circuits) for number, _ in c.branches}
-    branches = tuple(number for number, _ in found)
+    branches = tuple(number for number, _ in located)
     on_one = len({homes[number] for number in branches}) <= 1
-    order = on_one and bool(found) and not _is_in_order(curve, homes[branches[0]], found)
+    order = on_one and bool(located) and not _is_in_order(curve, homes[branches[0]], located)
     return Defects(not on_one, len(set(branches)) > 1, order, branches)
 
 
@@ -79,7 +79,7 @@ def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[i
     """Return the branch of a position, and its q in the branch's counted turns."""
     mechanism = curve.mechanism
     size = size_of(mechanism)
-    own = places_along(solve(mechanism, q, order=0, assembly=assembly, is_typed=True), size)
+    place = places_along(solve(mechanism, q, order=0, assembly=assembly, is_typed=True), size)
     is_angle = has_driven_angle(mechanism)
     for number, branch in enumerate(curve.branches):
         low, high = ends_of(branch, mechanism) if is_angle else (branch.low, branch.high)
@@ -91,22 +91,22 @@ def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[i
             if not low <= there <= high:
                 continue
             motion = solve(mechanism, there, order=0, assembly=branch.assembly, on_error="nan")
-            if nearest(places_along(motion, size)[np.newaxis], own) <= SAME:
+            if nearest(places_along(motion, size)[np.newaxis], place) <= SAME:
                 return number, there
     message = f"no branch goes through q = {q!r} in {assembly!r}: give the curve more positions"
     raise InputError(message, value=q)
 
 
-def _is_in_order(curve: ConfigurationCurve, circuit: int, found: list[tuple[int, float]]) -> bool:
+def _is_in_order(curve: ConfigurationCurve, circuit: int, located: list[tuple[int, float]]) -> bool:
     """Whether a circuit goes through positions in their order, one way round or the other."""
     ways = curve.circuits[circuit].branches
     places = []
-    for number, q in found:
-        step = next(i for i, (own, _) in enumerate(ways) if own == number)
+    for number, q in located:
+        step = next(i for i, (branch, _) in enumerate(ways) if branch == number)
         low, high = ends_of(curve.branches[number], curve.mechanism)
         part = (q - low) / (high - low)
         places.append(step + (part if ways[step][1] > 0 else 1.0 - part))
-    # Rounded, so that the same place twice is no step backward by a whole round.
+    # Rounded, so that the same place twice is not a step backward by a whole round.
     steps = np.diff(np.array([*places, places[0]]).round(9))
     if len(places) < 3 or not steps.any():
         return True

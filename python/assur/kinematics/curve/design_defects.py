@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 
 __all__ = ["Defect"]
 
-# How near (relative to the size) the joints of an assembly must be to those that are given.
+# How near (relative to the size) the joints of an assembly must be to the given ones.
 THERE = 1e-6
 # How far apart assemblies are that such joints should distinguish.
 APART = 1e-3
 
 
 class Defect(IntFlag):
-    """What keeps a design from going through given positions; several may.
+    """What keeps a design from going through given positions; flags combine.
 
     Examples
     --------
@@ -59,26 +59,26 @@ def design_defects(
 ) -> Any:
     """See `Mechanism.defects`."""
     require_one_driver(mechanism, "defects")
-    given: Any = joints
-    if not isinstance(given, Mapping) or not given:
+    mapping: Any = joints
+    if not isinstance(mapping, Mapping) or not mapping:
         message = f"joints is {short(joints)}: names of joints with their positions are needed"
         raise InputError(message)
     coordinates = real_array(q, "q")
     for name in joints:
         mechanism.core.require("joint", checked_name(name, "joints"))
-    wanted = {name: real_array(places, name) for name, places in joints.items()}
-    unknown = next((name for name, at in wanted.items() if not np.isfinite(at).all()), None)
+    places_of = {name: real_array(places, name) for name, places in joints.items()}
+    unknown = next((name for name, at in places_of.items() if not np.isfinite(at).all()), None)
     if unknown is not None:
         message = f"joint {unknown!r}: finite positions are needed"
         raise InputError(message, joint=unknown)
     try:
         shape = np.broadcast_shapes(
-            (*mechanism.shape, 1), coordinates.shape, *(at.shape[:-1] for at in wanted.values())
+            (*mechanism.shape, 1), coordinates.shape, *(at.shape[:-1] for at in places_of.values())
         )
         rows = np.broadcast_to(coordinates, shape)
-        there = {name: np.broadcast_to(at, (*shape, 2)) for name, at in wanted.items()}
+        there = {name: np.broadcast_to(at, (*shape, 2)) for name, at in places_of.items()}
     except ValueError as error:
-        shapes = ", ".join(f"{name} {at.shape}" for name, at in wanted.items())
+        shapes = ", ".join(f"{name} {at.shape}" for name, at in places_of.items())
         message = f"q {coordinates.shape}, {shapes} do not broadcast to {mechanism.shape} + (K, 2)"
         raise InputError(message) from error
     if len(shape) != len(mechanism.shape) + 1 or shape[:-1] != mechanism.shape:
@@ -87,39 +87,45 @@ def design_defects(
     if not np.isfinite(rows).all():
         message = "q: finite coordinates are needed"
         raise InputError(message)
-    found = np.empty(mechanism.shape, dtype=np.uint8)
+    defects = np.empty(mechanism.shape, dtype=np.uint8)
     for index in np.ndindex(mechanism.shape):
-        own = with_values(mechanism, mechanism.values[(slice(None), *index)])
+        design = with_values(mechanism, mechanism.values[(slice(None), *index)])
         places = {name: at[index] for name, at in there.items()}
-        found[index] = _of_one(own, rows[index].tolist(), places)
-    return found if mechanism.shape else Defect(int(found))
+        defects[index] = _of_one(design, rows[index].tolist(), places)
+    return defects if mechanism.shape else Defect(int(defects))
 
 
-def _of_one(mechanism: MechanismModel, q: list[float], wanted: dict[str, Float]) -> Defect:
+def _of_one(mechanism: MechanismModel, q: list[float], targets: dict[str, Float]) -> Defect:
     places = []
     for k, at in enumerate(q):
-        assembly = _nearest(mechanism, at, {name: points[k] for name, points in wanted.items()})
+        assembly = _nearest(mechanism, at, {name: points[k] for name, points in targets.items()})
         if assembly is None:
             return Defect.MISSING
         places.append((at, assembly))
-    found = curve_through(mechanism, places).defects(places)
-    defect = Defect.CIRCUIT if found.circuit else Defect.NONE
-    defect |= Defect.BRANCH if found.branch else Defect.NONE
-    return defect | (Defect.ORDER if found.order else Defect.NONE)
+    defects = curve_through(mechanism, places).defects(places)
+    defect = Defect.CIRCUIT if defects.circuit else Defect.NONE
+    defect |= Defect.BRANCH if defects.branch else Defect.NONE
+    return defect | (Defect.ORDER if defects.order else Defect.NONE)
 
 
-def _nearest(mechanism: MechanismModel, q: float, wanted: dict[str, Float]) -> Assembly | None:
-    """Return the assembly whose joints are where they are wanted."""
+def _nearest(mechanism: MechanismModel, q: float, targets: dict[str, Float]) -> Assembly | None:
+    """Return the assembly whose joints are at the given places."""
     size = size_of(mechanism)
-    found: list[tuple[float, Assembly]] = []
+    fitting: list[tuple[float, Assembly]] = []
     for assembly in assemblies(mechanism, q):
         joints = assembly.joints
         assert joints is not None
-        apart = max(float(np.abs(np.array(joints[name]) - at).max()) for name, at in wanted.items())
+        apart = max(
+            float(np.abs(np.array(joints[name]) - at).max()) for name, at in targets.items()
+        )
         if apart <= THERE * size:
-            found.append((apart, assembly))
-    places = [place_of(one.place.numbers, size) for _, one in found if one.place is not None]
+            fitting.append((apart, assembly))
+    places = [
+        place_of(assembly.place.numbers, size)
+        for _, assembly in fitting
+        if assembly.place is not None
+    ]
     if any(np.abs(place - places[0]).max() > APART for place in places[1:]):
-        message = f"joints: {', '.join(wanted)} do not tell which assembly is meant: add others"
+        message = f"joints: {', '.join(targets)} do not determine the assembly: add others"
         raise InputError(message, value=q)
-    return min(found, key=lambda one: one[0])[1] if found else None
+    return min(fitting, key=lambda pair: pair[0])[1] if fitting else None

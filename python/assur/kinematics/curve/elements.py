@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Branch", "Circuit", "Fold"]
 
-# How near (relative to the size) positions of one assembly are.
+# Positions nearer than this (relative to the size) are those of one assembly.
 SAME = 1e-6
 
 
@@ -107,7 +107,7 @@ class Circuit:
 
 
 def ends_of(branch: Branch, mechanism: MechanismModel) -> tuple[float, float]:
-    """Return where a branch begins and ends: one that closes at the drawing's coordinate.
+    """Return the ends of a branch; one that closes begins at the drawing's coordinate.
 
     A slide that nothing stops goes as far as the sum of all lengths from there.
     """

@@ -1,4 +1,4 @@
-"""The coordinates at which all assemblies of a configuration curve are looked for."""
+"""The coordinates at which a configuration curve looks for all assemblies."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.branches import Branches
     from assur.kinematics.model import MechanismModel
 
-# How far, in steps, the first coordinate is to either side of the drawing's: off the values that
-# people draw at, where things may be special, and in a mirror the same.
+# Distance, in steps, of the first coordinates on both sides from the drawing's: off the values that
+# people draw at, which may be special, and the same for a mirror image.
 OFF = 0.4877
 # Most combinations of signs whose intervals are looked at.
 MOST_SIGNS = 512
-# The part of the fan that is enough where branches are.
+# The fraction of the fan that suffices within the branches.
 ENOUGH = 0.5
-# Where an interval is looked at, as a part of it: change points are often in its middle.
+# Where in an interval to look, as a fraction of it: change points are often in its middle.
 WITHIN = 0.3813
 
 
@@ -47,8 +47,8 @@ class Fan:
             self.counts.insert(index, self.known.look_at(q))
 
     def look_where_known(self, positions: int) -> None:
-        """Look at as many coordinates again where branches are, if few of the fan are there."""
-        if not all(math.isfinite(one.high - one.low) for one in self.known.branches):
+        """Look at as many coordinates again within the branches, if few of the fan lie there."""
+        if not all(math.isfinite(branch.high - branch.low) for branch in self.known.branches):
             return
         stretches = self._stretches()
         total = sum(high - low for low, high in stretches)
@@ -63,9 +63,9 @@ class Fan:
         self.look_at([first + (q - first) % math.tau if is_angle else q for q in more])
 
     def _stretches(self) -> list[tuple[float, float]]:
-        """Return what the branches cover together, of an angle within a turn."""
+        """Return the ranges that the branches cover together, angles within a turn."""
         known = self.known
-        ends = [(one.low, one.high) for one in known.branches]
+        ends = [(branch.low, branch.high) for branch in known.branches]
         if known.is_angle:
             ends = [(low % math.tau, low % math.tau + high - low) for low, high in ends]
         merged: list[tuple[float, float]] = []
@@ -95,7 +95,7 @@ class Fan:
         return middles
 
     def _is_between(self, at: Float, low: float, high: float) -> npt.NDArray[np.bool_]:
-        """Whether coordinates, of an angle in any turn, are between two."""
+        """Whether coordinates are between two; angles in any turn."""
         turned = low + np.mod(at - low, math.tau) if self.known.is_angle else at
         return (low < turned) & (turned < high)
 
@@ -109,9 +109,9 @@ def around_drawing(mechanism: MechanismModel, positions: int, is_angle: bool) ->
 
 
 def look_within_intervals(known: Branches) -> bool:
-    """Look for circuits between two coordinates of the fan: whether every interval is known.
+    """Look for circuits between two coordinates of the fan; return whether all intervals are known.
 
-    It is in class II.
+    In class II they are.
     """
     mechanism = known.mechanism
     drawn = dict(mechanism.core.assembly)

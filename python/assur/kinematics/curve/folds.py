@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.branches import Branches
     from assur.kinematics.curve.elements import Branch
 
-# How far from a dead point, as a part of the branch, positions are taken to extrapolate it …
+# Distance from a dead point, as a fraction of the branch, of positions that extrapolate to it …
 BESIDE = 1e-6
 # … and at least, in units of the coordinate: dead points are known to less.
 NEAREST = 1e-11
@@ -25,7 +25,7 @@ STRAIGHT = 1e-3
 # Distances from it, as squares, for the roots go as 1, 2 and 3; their weights at a distance of 0.
 SQUARES = np.array([1.0, 4.0, 9.0])
 WEIGHTS = np.array([3.0, -3.0, 1.0])
-# How near (relative to the size) two extrapolations of one fold are.
+# Extrapolations nearer than this (relative to the size) are those of one fold.
 SAME_FOLD = 1e-4
 
 
@@ -45,7 +45,7 @@ class Folds:
 
     known: Branches
     _ends: list[End] = field(default_factory=list)
-    # How many branches are among the ends; at how many ends a partner has been looked for.
+    # Numbers of branches whose ends are listed, and of ends whose partner has been looked for.
     _measured: int = 0
     _looked: int = 0
 
@@ -69,8 +69,8 @@ class Folds:
         """Add the ends of branches that are new."""
         known = self.known
         for number in range(self._measured, len(known.branches)):
-            own = enumerate((known.branches[number].low, known.branches[number].high))
-            self._ends += [_end(known, number, side, q) for side, q in own if math.isfinite(q)]
+            sides = enumerate((known.branches[number].low, known.branches[number].high))
+            self._ends += [_end(known, number, side, q) for side, q in sides if math.isfinite(q)]
         self._measured = len(known.branches)
 
     def _pairs(self) -> list[tuple[End, End]]:
@@ -107,11 +107,11 @@ def _end(known: Branches, number: int, side: int, q: float) -> End:
     return End(number, side, q, WEIGHTS @ places)
 
 
-def _apart(known: Branches, one: End, other: End) -> float:
+def _apart(known: Branches, end: End, other: End) -> float:
     """Return how far apart the places of two ends are, in sizes; infinite if they cannot meet."""
-    if one.side != other.side or one.branch == other.branch:
+    if end.side != other.side or end.branch == other.branch:
         return math.inf
-    gap = one.q - other.q
+    gap = end.q - other.q
     gap = math.remainder(gap, math.tau) if known.is_angle else gap
-    apart = float(np.abs(one.place - other.place).max())
+    apart = float(np.abs(end.place - other.place).max())
     return apart if abs(gap) <= SAME * known.unit and apart <= SAME_FOLD else math.inf

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.elements import Fold
     from assur.kinematics.model import MechanismModel
 
-# A fan of so many takes minutes, and 100 MB; its time grows faster than its positions.
+# A fan of this size takes minutes and 100 MB; its time grows faster than its positions.
 MOST_POSITIONS = 100_000
 # Halvings of the fan where the ends of branches do not explain a change of the count.
 MOST_HALVINGS = 12
@@ -40,14 +40,14 @@ def configuration_curve(mechanism: MechanismModel, positions: int) -> Configurat
     fan.look_at(around_drawing(mechanism, positions, known.is_angle))
     if not look_within_intervals(known):
         fan.look_where_known(positions)
-    found = folds.find()
+    pairs = folds.find()
     for _ in range(MOST_HALVINGS):
         gaps = fan.gaps()
         if not gaps:
             break
         fan.look_at(gaps)
-        found = folds.find()
-    return _curve_of(known, found, fan.q)
+        pairs = folds.find()
+    return _curve_of(known, pairs, fan.q)
 
 
 def curve_through(

@@ -1,7 +1,7 @@
 """The inverse question: where a coordinate has a value.
 
 The coordinate drives in place of the driver, locked at the value; all assemblies of that mechanism
-are the answers. Of a joint's x and y, sliders are added that carry it.
+are the answers. For a joint's x or y, added sliders carry the joint.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from assur._arrays import counted, short
 from assur._callers import level_of_caller
 from assur._validate import checked_name, real_array
 from assur.description import encode
+from assur.description.dotted_names import split_name
 from assur.description.words import Slide
 from assur.errors import AssurWarning, InputError, StructureError
 from assur.kinematics.assemblies import assemblies
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from assur.kinematics.model import AssemblyNumbers, MechanismModel
 
 # Places of the same assembly found in two ways, in sizes. Beside a fold half of the digits are
-# lost; there the assemblies so far (rad, or in sizes) from it tell.
+# lost; there the assemblies at this distance (rad, or in sizes) from it decide.
 SAME = 1e-6
 AT_FOLD = 1e-3
 BESIDE = 1e-9
@@ -48,31 +49,31 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[tuple[Any, As
     if drivers > 2:
         message = f"find() is for one driver or two; this mechanism has {drivers}"
         raise InputError(message)
-    wanted = np.atleast_1d(real_array(value, "value"))
-    if wanted.shape != (drivers,) or not np.isfinite(wanted).all():
+    target = np.atleast_1d(real_array(value, "value"))
+    if target.shape != (drivers,) or not np.isfinite(target).all():
         need = "a finite number" if drivers == 1 else "finite numbers (x, y) of a joint"
         message = f"value is {short(value)}: with {counted(drivers, 'driver')} {need} is needed"
         raise InputError(message)
-    if drivers == 1 and name in mechanism.links and abs(float(wanted[0])) > 4.0 * np.pi:
-        turns = abs(float(wanted[0])) / (2.0 * np.pi)
-        message = f"{name} = {wanted[0]:g} is in rad, {turns:.3g} turns; for degrees: np.radians()"
+    if drivers == 1 and name in mechanism.links and abs(float(target[0])) > 4.0 * np.pi:
+        turns = abs(float(target[0])) / (2.0 * np.pi)
+        message = f"{name} = {target[0]:g} is in rad, {turns:.3g} turns; for degrees: np.radians()"
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
-    other, coordinates = _driven_by(mechanism, name, wanted)
+    inverse, coordinates = _driven_by(mechanism, name, target)
     size = size_of(mechanism)
-    found: list[tuple[Any, Assembly]] = []
-    for assembly in assemblies(other, coordinates):
+    answers: list[tuple[Any, Assembly]] = []
+    for assembly in assemblies(inverse, coordinates):
         place = assembly.place
         assert place is not None
-        one = _of_original(mechanism, place.numbers, size)
-        if one is not None and not any(_is_same(one, known) for known in found):
-            found.append(one)
-    return sorted(found, key=lambda one: np.ravel(one[0]).tolist())
+        answer = _of_original(mechanism, place.numbers, size)
+        if answer is not None and not any(_is_same(answer, known) for known in answers):
+            answers.append(answer)
+    return sorted(answers, key=lambda answer: np.ravel(answer[0]).tolist())
 
 
-def _is_same(one: tuple[Any, Assembly], other: tuple[Any, Assembly]) -> bool:
-    """Whether an answer is there already: a double one is found twice."""
-    gap = np.abs(np.ravel(one[0]) - np.ravel(other[0])).max()
-    return bool(gap == 0.0) and one[1] == other[1]
+def _is_same(answer: tuple[Any, Assembly], known: tuple[Any, Assembly]) -> bool:
+    """Whether two answers are the same: a double one is found twice."""
+    gap = np.abs(np.ravel(answer[0]) - np.ravel(known[0])).max()
+    return bool(gap == 0.0) and answer[1] == known[1]
 
 
 def driven_by_joint(
@@ -81,30 +82,30 @@ def driven_by_joint(
     """Return the design driven by a joint's x and y before other drivers, and where both are 0."""
     description = _with_cross_slide(_to_size(mechanism), joint, "xy")
     description = description._replace(drivers=(*description.drivers, *held))
-    other = _redriven(mechanism, description, joint)
-    x, y = _base(other)
-    return other, (x, y)
+    inverse = _redriven(mechanism, description, joint)
+    x, y = _base(inverse)
+    return inverse, (x, y)
 
 
 def _driven_by(
-    mechanism: MechanismModel, name: str, wanted: Any
+    mechanism: MechanismModel, name: str, target: Any
 ) -> tuple[MechanismModel, float | list[float]]:
     """Return the design driven by a coordinate, and the driver's coordinate of the value."""
-    own = mechanism.description
+    drawing = mechanism.description
     if mechanism.driver_count == 1 and "." not in name:
         checked_coordinate(mechanism, name)
-        description = own._replace(drivers=encode.drivers(name), assembly=())
-        return _redriven(mechanism, description, name), float(wanted[0])
+        description = drawing._replace(drivers=encode.drivers(name), assembly=())
+        return _redriven(mechanism, description, name), float(target[0])
     if mechanism.driver_count == 1:
-        joint, _, axes = name.rpartition(".")
+        joint, axes = split_name(name)
         checked_coordinate(mechanism, name)
     else:
         joint, axes = name, "xy"
         mechanism.core.require("joint", joint)
-    other = _redriven(mechanism, _with_cross_slide(_to_size(mechanism), joint, axes), name)
-    base = dict(zip("xy", _base(other), strict=True))
-    steps = [float(value - base[axis]) for value, axis in zip(wanted, axes, strict=True)]
-    return other, steps[0] if len(steps) == 1 else steps
+    inverse = _redriven(mechanism, _with_cross_slide(_to_size(mechanism), joint, axes), name)
+    base = dict(zip("xy", _base(inverse), strict=True))
+    steps = [float(value - base[axis]) for value, axis in zip(target, axes, strict=True)]
+    return inverse, steps[0] if len(steps) == 1 else steps
 
 
 def _redriven(mechanism: MechanismModel, description: Description, name: str) -> MechanismModel:
@@ -116,14 +117,14 @@ def _redriven(mechanism: MechanismModel, description: Description, name: str) ->
             if error.kind != "cannot_drive":
                 raise
             raise _does_not_change(mechanism, name) from error
-        joint = name if name in mechanism.joint_names else name.rpartition(".")[0]
+        joint, _ = split_name(name)
         why = "the joint moves along a curve only, or not without other drivers"
         if joint in mechanism.links.get("ground", ()):
             why = f"joint {joint!r} is on the ground and does not move"
         raise InputError(f"{name!r} cannot be set: {why}") from error
-    own = dict(zip(mechanism.core.dimension_names, mechanism.values.tolist(), strict=True))
+    known = dict(zip(mechanism.core.dimension_names, mechanism.values.tolist(), strict=True))
     drawn = zip(core.dimension_names, core.drawing, strict=True)
-    values = np.array([own.get(name, value) for name, value in drawn])
+    values = np.array([known.get(name, value) for name, value in drawn])
     return mechanism._make(description, values, core)
 
 
@@ -140,11 +141,13 @@ def _does_not_change(mechanism: MechanismModel, name: str) -> InputError:
 
 def _to_size(mechanism: MechanismModel) -> Description:
     """Return the drawing in the size of the design: positions are followed from there."""
-    own = mechanism.description
+    drawing = mechanism.description
     ratio = size_of(mechanism) / size_of(mechanism, drawn=True)
     if 0.5 <= ratio <= 2.0:
-        return own
-    return own._replace(joints=tuple((name, x * ratio, y * ratio) for name, x, y in own.joints))
+        return drawing
+    return drawing._replace(
+        joints=tuple((name, x * ratio, y * ratio) for name, x, y in drawing.joints)
+    )
 
 
 def _base(mechanism: MechanismModel) -> tuple[float, float]:
@@ -154,13 +157,13 @@ def _base(mechanism: MechanismModel) -> tuple[float, float]:
     return values[f"ground.{joint}.x"], values[f"ground.{joint}.y"]
 
 
-def _with_cross_slide(own: Description, joint: str, axes: str) -> Description:
+def _with_cross_slide(drawing: Description, joint: str, axes: str) -> Description:
     """Return a description driven by a joint's x, y or both, from a joint of the ground on."""
-    at = {key: (x, y) for key, x, y in own.joints}
-    taken = {one[0] for kind in (own.joints, own.links, own.slides) for one in kind}
+    at = {key: (x, y) for key, x, y in drawing.joints}
+    taken = {item[0] for kind in (drawing.joints, drawing.links, drawing.slides) for item in kind}
     words = ("cross", "block", "along", "across", "centre", "base")
     cross, block, along, across, centre, base = (_free(word, taken) for word in words)
-    joints, links = list(own.joints), dict(own.links)
+    joints, links = list(drawing.joints), dict(drawing.links)
     grounded = links.setdefault("ground", ())
     if grounded:
         base = grounded[0]
@@ -169,18 +172,18 @@ def _with_cross_slide(own: Description, joint: str, axes: str) -> Description:
         at[base], links["ground"] = (0.0, 0.0), (base,)
     # A cross-slide moves along x from the base, and a block on it along y, pinned at the joint.
     first = axes != "y"
-    way, other = (0.0, 0.5 * np.pi) if first else (0.5 * np.pi, 0.0)
+    way, square = (0.0, 0.5 * np.pi) if first else (0.5 * np.pi, 0.0)
     middle = (at[joint][0], at[base][1]) if first else (at[base][0], at[joint][1])
     joints.append((centre, *middle))
     links[cross], links[block] = (centre,), (joint,)
     slides = (
         (along, Slide(cross, on="ground", angle=way, origin=base)),
-        (across, Slide(block, on=cross, angle=other, origin=centre)),
+        (across, Slide(block, on=cross, angle=square, origin=centre)),
     )
-    return own._replace(
+    return drawing._replace(
         joints=tuple(joints),
         links=tuple(links.items()),
-        slides=(*own.slides, *slides),
+        slides=(*drawing.slides, *slides),
         drivers=(along,) if len(axes) == 1 else (along, across),
         assembly=(),
     )
@@ -205,16 +208,18 @@ def _of_original(
     coordinates = q[0] if len(q) == 1 else np.array(q)
     if mechanism.core.cls > 2:
         try:
-            _, own = bare_core(mechanism.description).at_pose(*astuple(pose))
+            _, drawn_numbers = bare_core(mechanism.description).at_pose(*astuple(pose))
         except StructureError:
             pass  # at a fold: the assembly is one of those beside it
         else:
-            return coordinates, Assembly._found(Place(mechanism, tuple(q), own), ())
+            return coordinates, Assembly._found(Place(mechanism, tuple(q), drawn_numbers), ())
     there = place_vector(np.array(pose.joints), np.array(pose.angles), np.array(pose.slides), size)
     unit = size if mechanism.description.drivers[0] in mechanism.slides else 1.0
     for beside, far in ((0.0, SAME), *((side * BESIDE * unit, AT_FOLD) for side in (1.0, -1.0))):
         near = list(assemblies(mechanism, np.array(coordinates) + beside))
-        gaps = [float(np.abs(place_of(_numbers(one), size) - there).max()) for one in near]
+        gaps = [
+            float(np.abs(place_of(_numbers(assembly), size) - there).max()) for assembly in near
+        ]
         if gaps and min(gaps) <= far:
             return coordinates, near[int(np.argmin(gaps))]
     return None
@@ -229,14 +234,14 @@ def _coordinates(mechanism: MechanismModel, pose: Pose) -> list[float]:
     """Return the drivers' coordinates in a pose, of angles in (−π, π]."""
     angles = dict(zip(mechanism.links, pose.angles, strict=True))
     values = dict(zip(mechanism.slides, pose.slides, strict=True))
-    found = []
+    coordinates = []
     for driver in mechanism.description.drivers:
         if isinstance(driver, str) and driver in values:
-            found.append(values[driver])
+            coordinates.append(values[driver])
             continue
         link, base = (
             (driver, None) if isinstance(driver, str) else (driver.link, driver.relative_to)
         )
         angle = angles[link] - (angles[base] if base is not None else 0.0)
-        found.append(float(angle - np.ceil((angle - np.pi) / (2.0 * np.pi)) * 2.0 * np.pi))
-    return found
+        coordinates.append(float(angle - np.ceil((angle - np.pi) / (2.0 * np.pi)) * 2.0 * np.pi))
+    return coordinates

@@ -22,11 +22,11 @@ from assur.kinematics.solve import solve
 if TYPE_CHECKING:
     from assur.kinematics.model import AnyMechanism, MechanismModel
 
-# How far (relative to the length) a distance that others decide may be from the one that is given.
+# How far (relative to the length) a distance that others determine may be from the given one.
 AGREES = 1e-6
 
-# Sines of the angle at which a sketch shows a joint beside a line: below the one it does not, for
-# typed numbers are rounded; below the other, a degree, a hand may have meant the other side.
+# Sines of the angle at which a sketch shows a joint beside a line. Below the first it does not,
+# because typed numbers are rounded; below the second, a degree, the other side may have been meant.
 ON_LINE, HARDLY = 1e-9, 0.0175
 
 # The joints of a link in its own frame: complex numbers.
@@ -35,12 +35,12 @@ Shape = dict[str, complex]
 
 def sized(sketch: AnyMechanism, lengths: Any) -> AnyMechanism:
     """Return the sketched mechanism with lengths between joints, in the assembly nearest to it."""
-    given = _checked(sketch, lengths)
+    checked = _checked(sketch, lengths)
     dimensions: dict[str, float] = {}
     for link, joints in sketch.links.items():
-        own = {pair: length for pair, (of, length) in given.items() if of == link}
-        if own:
-            dimensions.update(_dimensions(sketch, link, joints, own))
+        of_link = {pair: length for pair, (of, length) in checked.items() if of == link}
+        if of_link:
+            dimensions.update(_dimensions(sketch, link, joints, of_link))
     return _nearest(with_dimensions(sketch, dimensions), sketch)
 
 
@@ -49,7 +49,7 @@ def _checked(sketch: MechanismModel, lengths: Any) -> dict[frozenset[str], tuple
     if not isinstance(lengths, Mapping):
         message = f"lengths is {short(lengths)}: a mapping of pairs of joints to lengths is needed"
         raise InputError(message)
-    found: dict[frozenset[str], tuple[str, float]] = {}
+    checked: dict[frozenset[str], tuple[str, float]] = {}
     for pair, length in lengths.items():
         names = tuple(pair) if isinstance(pair, str | tuple | list) else ()
         if len(names) != 2 or not all(isinstance(name, str) for name in names):
@@ -74,7 +74,7 @@ def _checked(sketch: MechanismModel, lengths: Any) -> dict[frozenset[str], tuple
         if not (value > 0.0 and math.isfinite(value)):
             message = f"length {names[0]}-{names[1]} is {short(value)}: a positive length is needed"
             raise InputError(message, value=value)
-        twice = found.get(frozenset(names))
+        twice = checked.get(frozenset(names))
         if twice is not None and twice[1] != value:
             one, other = names
             message = (
@@ -82,8 +82,8 @@ def _checked(sketch: MechanismModel, lengths: Any) -> dict[frozenset[str], tuple
                 "give it once"
             )
             raise InputError(message, link=link, value=value)
-        found[frozenset(names)] = (link, value)
-    return found
+        checked[frozenset(names)] = (link, value)
+    return checked
 
 
 def _between(sketch: MechanismModel, names: tuple[str, ...]) -> str | None:
@@ -104,20 +104,20 @@ def _dimensions(
     placed: Shape = {}
     left = list(joints)
     while left:
-        # The one with the most distances to those already placed; the sketch's first among equals.
+        # The joint with the most distances to those already placed; ties in the sketch's order.
         def known(name: str) -> int:
-            return sum(frozenset((name, other)) in lengths for other in placed)
+            return sum(frozenset((name, joint)) in lengths for joint in placed)
 
         name = max(left, key=known)
         left.remove(name)
         placed[name] = _place(link, name, at, placed, lengths)
     for pair, length in lengths.items():
-        one, other = sorted(pair)
-        found = abs(placed[one] - placed[other])
-        if abs(found - length) > AGREES * length:
+        first, second = sorted(pair)
+        distance = abs(placed[first] - placed[second])
+        if abs(distance - length) > AGREES * length:
             message = (
-                f"link {link!r}: {one}-{other} cannot be {length:g} m; the other lengths make it "
-                f"{found:g} m"
+                f"link {link!r}: {first}-{second} cannot be {length:g} m; the other lengths make "
+                f"it {distance:g} m"
             )
             raise InputError(message, link=link, value=length)
     return _named(link, joints, placed, lengths)
@@ -133,36 +133,36 @@ def _place(
     base = next(iter(placed))
     if not known:
         return placed[base] + (at[name] - at[base])
-    (one, r), *others = known
-    towards = at[name] - at[one]
-    if not others:
-        return placed[one] + towards * (r / abs(towards) if towards else 0.0)
-    other, s = others[0]
-    chord = placed[other] - placed[one]
+    (first, r), *further = known
+    towards = at[name] - at[first]
+    if not further:
+        return placed[first] + towards * (r / abs(towards) if towards else 0.0)
+    second, s = further[0]
+    chord = placed[second] - placed[first]
     d = abs(chord)
     along = (r * r - s * s + d * d) / (2.0 * d)
     height2 = r * r - along * along
     if height2 < -AGREES * r * r:
         message = (
-            f"link {link!r}: {name}-{one} {r:g} m, {name}-{other} {s:g} m and {one}-{other} "
+            f"link {link!r}: {name}-{first} {r:g} m, {name}-{second} {s:g} m and {first}-{second} "
             f"{d:g} m do not make a triangle"
         )
         raise InputError(message, link=link)
-    drawn = (at[other] - at[one]).conjugate() * towards
+    drawn = (at[second] - at[first]).conjugate() * towards
     side = math.copysign(1.0, drawn.imag)
     if height2 > AGREES * r * r:
-        _require_side(link, (name, one, other), drawn)
+        _require_side(link, (name, first, second), drawn)
     unit = chord / d
-    return placed[one] + unit * complex(along, side * math.sqrt(max(height2, 0.0)))
+    return placed[first] + unit * complex(along, side * math.sqrt(max(height2, 0.0)))
 
 
 def _require_side(link: str, names: tuple[str, str, str], drawn: complex) -> None:
     """Refuse a sketch that does not show a joint's side of two others; warn if it hardly does."""
-    name, one, other = names
+    name, first, second = names
     sine = abs(drawn.imag) / abs(drawn) if drawn else 0.0
     if sine >= HARDLY:
         return
-    line = f"the line {one}-{other}"
+    line = f"the line {first}-{second}"
     if sine <= ON_LINE:
         message = (
             f"link {link!r}: joint {name!r} is drawn on {line}, and the lengths put it beside it: "
@@ -172,7 +172,7 @@ def _require_side(link: str, names: tuple[str, str, str], drawn: complex) -> Non
     side = "left" if drawn.imag > 0.0 else "right"
     message = (
         f"link {link!r}: joint {name!r} is drawn {math.degrees(sine):.2g}° beside {line}, and is "
-        f"taken on the {side} of {one} → {other}: draw it clearly on its side"
+        f"taken on the {side} of {first} → {second}: draw it clearly on its side"
     )
     warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
 
@@ -188,25 +188,25 @@ def _named(
     axis = placed[second] - placed[first]
     length = abs(axis)
     # As it was given, to the last bit.
-    found = {f"{link}.length": lengths.get(frozenset((first, second)), length)}
+    dimensions = {f"{link}.length": lengths.get(frozenset((first, second)), length)}
     for name in further:
         local = (placed[name] - placed[first]) * axis.conjugate() / length
-        found |= {f"{link}.{name}.x": local.real, f"{link}.{name}.y": local.imag}
-    return found
+        dimensions |= {f"{link}.{name}.x": local.real, f"{link}.{name}.y": local.imag}
+    return dimensions
 
 
 def _nearest(mechanism: AnyMechanism, sketch: AnyMechanism) -> AnyMechanism:
     """Return the mechanism drawn in the assembly nearest to the sketch, at the sketch's q."""
-    wanted = np.array([at for _, *at in sketch.description.joints])
-    found = list(assemblies(mechanism, sketch.q0))
-    if not found:
+    drawn = np.array([at for _, *at in sketch.description.joints])
+    candidates = list(assemblies(mechanism, sketch.q0))
+    if not candidates:
         where = solve(mechanism, sketch.q0, order=0, on_error="nan").explain()
         message = f"these lengths do not fit the sketch's position: {where}"
         raise PositionError(message)
 
     def apart(index: int) -> float:
-        joints = found[index].joints
+        joints = candidates[index].joints
         assert joints is not None
-        return float(np.abs(np.array(list(joints.values())) - wanted).max()) / size_of(mechanism)
+        return float(np.abs(np.array(list(joints.values())) - drawn).max()) / size_of(mechanism)
 
-    return in_assembly(mechanism, found[min(range(len(found)), key=apart)])
+    return in_assembly(mechanism, candidates[min(range(len(candidates)), key=apart)])

@@ -28,10 +28,10 @@ class Edge:
     ends: Float
     found: list[Any]
 
-    def cut(self, end: int, place: Float, found: Any) -> Edge:
-        """Return the edge with another place in place of one end."""
+    def cut(self, end: int, place: Float, state: Any) -> Edge:
+        """Return the edge with one end replaced by another place."""
         edge = Edge(self.ends.copy(), list(self.found))
-        edge.ends[end], edge.found[end] = place, found
+        edge.ends[end], edge.found[end] = place, state
         return edge
 
 
@@ -53,9 +53,9 @@ def bisected(
     narrow, rest = list(edges), []
     for _ in range(halvings if narrow else 0):
         middles = np.array([edge.ends.mean(axis=0) for edge in narrow])
-        for i, (middle, found) in enumerate(zip(middles, look_at(middles), strict=True)):
+        for i, (middle, state) in enumerate(zip(middles, look_at(middles), strict=True)):
             edge = narrow[i]
-            far = 1 if count(found) != count(edge.found[0]) else 0
-            narrow[i] = edge.cut(far, middle, found)
-            rest.append(edge.cut(1 - far, middle, found))
+            far = 1 if count(state) != count(edge.found[0]) else 0
+            narrow[i] = edge.cut(far, middle, state)
+            rest.append(edge.cut(1 - far, middle, state))
     return narrow, rest

@@ -60,9 +60,9 @@ class Surface:
         angles = [angle for name, angle in links if name != "ground"]
         return np.array([*angles, *(np.array(pose.slides) / self.size)])
 
-    def difference(self, one: Float, other: Float) -> Float:
+    def difference(self, first: Float, second: Float) -> Float:
         """Return the difference of two positions' coordinates, angles within half a turn."""
-        gap = one - other
+        gap = first - second
         angles = len(self.names) - len(self.mechanism.slides)
         gap[..., :angles] -= 2.0 * np.pi * np.round(gap[..., :angles] / (2.0 * np.pi))
         return gap
@@ -104,21 +104,21 @@ class Chart:
     """
 
     def __init__(self, surface: Surface, pose: Pose, pair: tuple[int, int] | None = None) -> None:
-        own = surface.mechanism
-        drivers = own.description.drivers
+        mechanism = surface.mechanism
+        drivers = mechanism.description.drivers
         held = [driver for i, driver in enumerate(drivers) if i not in surface.free]
         free = [drivers[i] for i in surface.free]
         if pair is not None:
             free = [surface.names[index] for index in pair]
-        description = own.description._replace(drivers=(*free, *held), assembly=())
+        description = mechanism.description._replace(drivers=(*free, *held), assembly=())
         core = bare_core(description)
         q, numbers = core.at_pose(pose.joints, pose.angles, pose.slides)
-        plain = own._make(description, np.array(own.values), core)
+        plain = mechanism._make(description, np.array(mechanism.values), core)
         drawn = core.drawn_in(plain.values.tolist(), q, numbers)
         self._mechanism = at_place(plain, Place(plain, tuple(q), numbers), drawn)
         self._surface = surface
         self._held = q[2:]
-        is_length = [isinstance(one, str) and one in own.slides for one in free]
+        is_length = [isinstance(driver, str) and driver in mechanism.slides for driver in free]
         self.unit = np.where(is_length, surface.size, 1.0)
         self.pair = pair
         self.start: Float = np.array(q[:2]) / self.unit
@@ -130,21 +130,21 @@ class Chart:
         motion = solve(self._mechanism, [*(where * self.unit), *self._held], on_error="nan")
         if not has_analogues(motion.status):
             return None
-        own, surface = self._mechanism, self._surface
-        angles = {name: motion.link(name) for name in own.links}
-        slides = {name: motion.slide(name) for name in own.slides}
+        mechanism, surface = self._mechanism, self._surface
+        angles = {name: motion.link(name) for name in mechanism.links}
+        slides = {name: motion.slide(name) for name in mechanism.slides}
         pose = Pose(
-            [tuple(motion.joint(name).value.tolist()) for name in own.joint_names],
-            [float(one.value) for one in angles.values()],
-            [float(one.value) for one in slides.values()],
+            [tuple(motion.joint(name).value.tolist()) for name in mechanism.joint_names],
+            [float(angle.value) for angle in angles.values()],
+            [float(slide.value) for slide in slides.values()],
         )
-        rates = [one.d1[:2] * self.unit for name, one in angles.items() if name != "ground"]
-        rates += [one.d1[:2] * self.unit / surface.size for one in slides.values()]
+        rates = [angle.d1[:2] * self.unit for name, angle in angles.items() if name != "ground"]
+        rates += [slide.d1[:2] * self.unit / surface.size for slide in slides.values()]
 
         def derivatives(driver: Any) -> tuple[Float, Float]:
             if isinstance(driver, str) and driver in slides:
-                one = slides[driver]
-                first, second = one.d1 / surface.size, one.d2 / surface.size
+                slide = slides[driver]
+                first, second = slide.d1 / surface.size, slide.d2 / surface.size
             elif isinstance(driver, str):
                 first, second = angles[driver].d1, angles[driver].d2
             else:
@@ -159,9 +159,9 @@ class Chart:
         return Point(pose, where, np.array(rates), float(u[0] * v[1] - u[1] * v[0]), gradient)
 
 
-def dot(one: Float, other: Float) -> float:
+def dot(a: Float, b: Float) -> float:
     """Return the scalar product of two vectors."""
-    return float((one * other).sum())
+    return float((a * b).sum())
 
 
 def length_of(vector: Float) -> float:
@@ -176,17 +176,17 @@ def best_pair(point: Point) -> tuple[tuple[int, int], float]:
     it, how many times greater it is than that of the chart's own coordinates.
     """
     # Gram and Schmidt.
-    one, other = point.rates.T
-    first_length = length_of(one)
-    one = one / first_length
-    other = other - dot(one, other) * one
-    second_length = length_of(other)
-    other = other / second_length
-    determinants = np.abs(np.outer(one, other) - np.outer(other, one))
+    first_axis, second_axis = point.rates.T
+    first_length = length_of(first_axis)
+    first_axis = first_axis / first_length
+    second_axis = second_axis - dot(first_axis, second_axis) * first_axis
+    second_length = length_of(second_axis)
+    second_axis = second_axis / second_length
+    determinants = np.abs(np.outer(first_axis, second_axis) - np.outer(second_axis, first_axis))
     first, second = np.unravel_index(np.argmax(determinants), determinants.shape)
     # The chart's own rows are the identity: in the basis their determinant is 1/(both lengths).
-    own = 1.0 / (first_length * second_length)
-    return (int(first), int(second)), float(determinants[first, second]) / own
+    chart_determinant = 1.0 / (first_length * second_length)
+    return (int(first), int(second)), float(determinants[first, second]) / chart_determinant
 
 
 def chart_at(surface: Surface, point: Point) -> Chart | None:

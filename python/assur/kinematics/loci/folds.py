@@ -1,7 +1,7 @@
 """Where the number of assemblies changes over the plane of two drivers.
 
-All assemblies are found on a grid. Between two neighbours that have not the same number, folds are
-found by bisection: the two assemblies that meet there lie beside each other.
+All assemblies are found on a grid. Between two neighbours whose numbers differ, folds are found by
+bisection: the two assemblies that meet there lie beside each other.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 HALVINGS = 20
 # How far apart (rad, or sizes) two assemblies beside a fold may be.
 NEAR = 0.05
-# Edges whose folds do not explain the change of the count are searched again, this often.
+# How often edges are searched again whose folds do not explain the change of the count.
 MOST_PASSES = 4
 
 
@@ -55,11 +55,13 @@ class Grid:
 
 def all_poses(surface: Surface, places: Float) -> list[list[Pose]]:
     """Return all poses at coordinates of the two free drivers, shape (N, 2)."""
-    own = surface.mechanism
+    mechanism = surface.mechanism
     q = np.tile(np.array(surface.q), (len(places), 1))
     q[:, surface.free] = places
-    found: list[FoundAssemblies] = own.core.assemblies(own.values.ravel(), q.ravel(), False, None)
-    return [[Pose.found(numbers) for numbers in one["assemblies"]] for one in found]
+    answers: list[FoundAssemblies] = mechanism.core.assemblies(
+        mechanism.values.ravel(), q.ravel(), False, None
+    )
+    return [[Pose.found(numbers) for numbers in answer["assemblies"]] for answer in answers]
 
 
 def grid_of(surface: Surface, axes: tuple[Float, Float], is_angle: tuple[bool, bool]) -> Grid:
@@ -79,9 +81,9 @@ def changing_edges(grid: Grid) -> list[Edge]:
 def crossings(grid: Grid, edges: list[Edge], along: Float) -> npt.NDArray[np.intp]:
     """Return how often a curve of coordinates, shape (N, 2), crosses each edge."""
     ends = np.array([edge.ends for edge in edges])
-    found = np.zeros(len(edges), dtype=np.intp)
+    counts = np.zeros(len(edges), dtype=np.intp)
     for axis in (0, 1):
-        own = np.flatnonzero(ends[:, 0, axis] != ends[:, 1, axis])
+        along_axis = np.flatnonzero(ends[:, 0, axis] != ends[:, 1, axis])
 
         def off(values: Float, of: int) -> Float:
             return (
@@ -90,19 +92,19 @@ def crossings(grid: Grid, edges: list[Edge], along: Float) -> npt.NDArray[np.int
                 else values
             )
 
-        side = off(along[:, 1 - axis] - ends[own, 0, 1 - axis, None], 1 - axis)
-        one, other = side[:, :-1], side[:, 1:]
+        side = off(along[:, 1 - axis] - ends[along_axis, 0, 1 - axis, None], 1 - axis)
+        before, after = side[:, :-1], side[:, 1:]
         # Half a turn away a wrapped angle changes its sign too.
-        meets = ((one < 0.0) != (other < 0.0)) & (np.abs(other - one) < 0.5 * np.pi)
-        part = np.where(meets, one / np.where(meets, one - other, 1.0), 0.0)
+        meets = ((before < 0.0) != (after < 0.0)) & (np.abs(after - before) < 0.5 * np.pi)
+        part = np.where(meets, before / np.where(meets, before - after, 1.0), 0.0)
         step = np.diff(along[:, axis])
         middle, half = (
-            ends[own, :, axis].mean(axis=1),
-            0.5 * np.abs(np.diff(ends[own, :, axis])[:, 0]),
+            ends[along_axis, :, axis].mean(axis=1),
+            0.5 * np.abs(np.diff(ends[along_axis, :, axis])[:, 0]),
         )
         at = along[:-1, axis] + part * step - middle[:, None]
-        found[own] = (meets & (np.abs(off(at, axis)) <= half[:, None])).sum(axis=1)
-    return found
+        counts[along_axis] = (meets & (np.abs(off(at, axis)) <= half[:, None])).sum(axis=1)
+    return counts
 
 
 def poses_beside_folds(surface: Surface, edges: list[Edge]) -> tuple[list[Pose], int]:
@@ -130,16 +132,16 @@ def _edges(grid: Grid) -> list[Edge]:
             next_one = [i, j]
             next_one[along] += 1
             end = np.array([grid.axes[0][i], grid.axes[1][j]])
-            other = end.copy()
+            far = end.copy()
             if next_one[along] == counts[along]:
                 if not grid.is_angle[along]:
                     continue
                 next_one[along] = 0
-                other[along] = grid.axes[along][0] + 2.0 * np.pi
+                far[along] = grid.axes[along][0] + 2.0 * np.pi
             else:
-                other[along] = grid.axes[along][next_one[along]]
+                far[along] = grid.axes[along][next_one[along]]
             poses = [grid.poses[i][j], grid.poses[next_one[0]][next_one[1]]]
-            edges.append(Edge(np.array([end, other]), poses))
+            edges.append(Edge(np.array([end, far]), poses))
     return edges
 
 
@@ -148,16 +150,16 @@ def _meetings(surface: Surface, edge: Edge) -> list[Pose]:
     fewer, more = (list(poses) for poses in sorted(edge.found, key=len))
     here = [surface.coordinates(pose) for pose in more]
     for pose in fewer:
-        # What goes on is what is nearest on the other side.
+        # The assembly that continues is the nearest one on the other side.
         there = surface.coordinates(pose)
-        gaps = [float(np.abs(surface.difference(one, there)).max()) for one in here]
+        gaps = [float(np.abs(surface.difference(position, there)).max()) for position in here]
         nearest = int(np.argmin(gaps))
         here.pop(nearest)
-        more = [one for i, one in enumerate(more) if i != nearest]
+        more = [meeting for i, meeting in enumerate(more) if i != nearest]
     starts = []
     while len(more) > 1:
-        pose, own = more.pop(0), here.pop(0)
-        gaps = [float(np.abs(surface.difference(one, own)).max()) for one in here]
+        pose, place = more.pop(0), here.pop(0)
+        gaps = [float(np.abs(surface.difference(position, place)).max()) for position in here]
         nearest = int(np.argmin(gaps))
         if gaps[nearest] > NEAR:
             continue

@@ -115,7 +115,7 @@ class DesignMap:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on. Data are in m and rad; the ticks are written in the units that suit.
+            The axes drawn on. Data are in m and rad; the ticks are written in the units that suit.
 
         Examples
         --------
@@ -143,9 +143,9 @@ def design_map(
     if mechanism.shape:
         message = f"map() is over dimensions of one design, this is a batch {mechanism.shape}"
         raise InputError(message)
-    given: Any = dimensions
-    if not isinstance(given, Mapping) or len(given) != 2:
-        message = f"{short(given)}: two dimensions, each with ascending values, are needed"
+    mapping: Any = dimensions
+    if not isinstance(mapping, Mapping) or len(mapping) != 2:
+        message = f"{short(mapping)}: two dimensions, each with ascending values, are needed"
         raise InputError(message)
     where = _checked_place(mechanism, of, q)
     (first, second), (x, y) = (
@@ -157,7 +157,7 @@ def design_map(
         batch = with_dimensions(mechanism, {first: places[:, 0], second: places[:, 1]})
         if of == "full_rotation":
             return [int(whole) for whole in limits(batch).full_rotation.tolist()]
-        return [len(one) for one in assemblies(batch, where)]
+        return [len(found) for found in assemblies(batch, where)]
 
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     values = np.array(look_at(places.reshape(-1, 2)), dtype=np.intp).reshape(len(x), len(y))
@@ -209,7 +209,7 @@ def _boundaries(
             end = (i + 1, j) if along == 0 else (i, j + 1)
             sides.append((i, j, along))
             edges.append(Edge(np.array([places[i, j], places[end]]), [values[i, j], values[end]]))
-    narrow, _ = bisected(edges, look_at, lambda found: found >= level, HALVINGS)
+    narrow, _ = bisected(edges, look_at, lambda value: value >= level, HALVINGS)
     points = {side: edge.ends.mean(axis=0) for side, edge in zip(sides, narrow, strict=True)}
     joined: dict[Any, list[Any]] = {side: [] for side in sides}
     saddles = []
@@ -221,11 +221,11 @@ def _boundaries(
         elif crossed:
             _join(joined, *crossed)
     if saddles:
-        # Opposite corners are alike: the middle tells which of them are connected.
+        # Opposite corners are alike: the middle shows which of them are connected.
         middles = np.array([places[i : i + 2, j : j + 2].mean(axis=(0, 1)) for i, j, _ in saddles])
-        for (i, j, around), found in zip(saddles, look_at(middles), strict=True):
+        for (i, j, around), value in zip(saddles, look_at(middles), strict=True):
             bottom, right, top, left = around
-            if (found >= level) == inside[i, j]:
+            if (value >= level) == inside[i, j]:
                 _join(joined, bottom, right)
                 _join(joined, top, left)
             else:
@@ -234,9 +234,9 @@ def _boundaries(
     return _lines(points, joined, level)
 
 
-def _join(joined: dict[Any, list[Any]], one: Any, other: Any) -> None:
-    joined[one].append(other)
-    joined[other].append(one)
+def _join(joined: dict[Any, list[Any]], first: Any, second: Any) -> None:
+    joined[first].append(second)
+    joined[second].append(first)
 
 
 def _lines(points: dict[Any, Float], joined: dict[Any, list[Any]], level: int) -> list[Boundary]:
@@ -248,13 +248,13 @@ def _lines(points: dict[Any, Float], joined: dict[Any, list[Any]], level: int) -
         chain = [side]
         del free[side]
         while True:
-            side = next((other for other in joined[chain[-1]] if other in free), None)
+            side = next((next_side for next_side in joined[chain[-1]] if next_side in free), None)
             if side is None:
                 break
             chain.append(side)
             del free[side]
         is_closed = len(chain) > 2 and chain[0] in joined[chain[-1]]
-        along = [points[one] for one in chain]
+        along = [points[crossed] for crossed in chain]
         lines.append(
             Boundary(np.array([*along, along[0]] if is_closed else along), level, is_closed)
         )

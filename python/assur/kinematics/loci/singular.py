@@ -1,7 +1,7 @@
 """Singular loci of mechanisms with two drivers, and the workspace of a joint.
 
-Of the second kind are positions where the locked drivers do not hold the mechanism, of the first
-kind those where a locked joint does not (C. Gosselin and J. Angeles, IEEE Trans. Robotics and
+Positions of the second kind are those where the locked drivers do not hold the mechanism, of the
+first kind those where a locked joint does not (C. Gosselin and J. Angeles, IEEE Trans. Robotics and
 Automation 6 (1990) 281). Both are folds: of the assemblies over the plane of the drivers, and of
 those over the plane of the joint, which drives in their place.
 """
@@ -46,13 +46,13 @@ __all__ = ["SingularLocus", "Workspace"]
 
 # Edges that are searched for folds before those curves are traced.
 AT_ONCE = 8
-# How near (as a part of the step) a position must be to a locus to be one of it.
+# How near (as a fraction of the step) a position must be to a locus to lie on it.
 ON_LOCUS = 0.05
 # How far beyond the positions seen from the grid of drivers that of a joint goes.
 MARGIN = 0.1
 # Where, as a part of a step, the grid begins: off the values that people draw at.
 OFF = 0.0123
-# In sizes, where no joint of a mechanism of turning pairs comes.
+# In sizes, a distance that no joint of a mechanism with turning pairs alone reaches.
 FAR = 1000.0
 # Fewest and most positions of a grid along an axis.
 FEWEST = 4
@@ -120,7 +120,7 @@ class SingularLocus:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on; data are in m and rad.
+            The axes drawn on; data are in m and rad.
 
         Raises
         ------
@@ -161,7 +161,7 @@ class Workspace:
     x, y : ndarray
         Coordinates of a grid, m.
     count : ndarray of int
-        In how many ways (coordinates of the drivers and assemblies) the joint reaches each node,
+        The number of ways (coordinates of the drivers and assemblies) to reach each node,
         shape (len(x), len(y)).
     boundary : tuple of SingularLocus
         The loci of the first kind: where that number changes.
@@ -207,7 +207,7 @@ class Workspace:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on.
+            The axes drawn on.
 
         Examples
         --------
@@ -274,9 +274,11 @@ def _checked_loci(loci: Any, joint: str) -> list[SingularLocus]:
         listed = list(loci)
     except TypeError:
         listed = [loci]
-    for one in listed:
-        if not isinstance(one, SingularLocus) or joint not in one.joints:
-            message = f"loci has {short(one)}: loci of this mechanism's singular_loci() are needed"
+    for locus in listed:
+        if not isinstance(locus, SingularLocus) or joint not in locus.joints:
+            message = (
+                f"loci has {short(locus)}: loci of this mechanism's singular_loci() are needed"
+            )
             raise InputError(message)
     return listed
 
@@ -291,10 +293,10 @@ def singular_loci(
     if joint is not None:
         mechanism.core.require("joint", checked_name(joint, "singular_loci"))
     surface, grid = _over_drivers(mechanism, "singular_loci", drivers, positions)
-    found = _loci(surface, mechanism, grid, 2)
+    loci = _loci(surface, mechanism, grid, 2)
     if joint is not None and grid.counts.any():
-        found += _workspace_of(surface, grid, joint).boundary
-    return found
+        loci += _workspace_of(surface, grid, joint).boundary
+    return loci
 
 
 def workspace(
@@ -308,8 +310,8 @@ def workspace(
 
 def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     """Return the workspace, given all assemblies over the drivers."""
-    own = surface.mechanism
-    index = own.joint_names.index(joint)
+    mechanism = surface.mechanism
+    index = mechanism.joint_names.index(joint)
     seen = np.array([pose.joints[index] for row in grid.poses for poses in row for pose in poses])
     positions = len(grid.axes[0])
     if not len(seen):
@@ -318,13 +320,15 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     low, high = seen.min(axis=0), seen.max(axis=0)
     margin = MARGIN * np.maximum(high - low, 1e-3 * surface.size)
     axes = [np.linspace(a, b, positions) for a, b in zip(low - margin, high + margin, strict=True)]
-    held = [i for i in range(own.driver_count) if i not in surface.free]
-    other, base = driven_by_joint(own, joint, [own.description.drivers[i] for i in held])
+    held = [i for i in range(mechanism.driver_count) if i not in surface.free]
+    inverse_mechanism, base = driven_by_joint(
+        mechanism, joint, [mechanism.description.drivers[i] for i in held]
+    )
     at = (0.0, 0.0, *(surface.q[i] for i in held))
-    inverse = Surface(other, (0, 1), at, surface.size)
+    inverse = Surface(inverse_mechanism, (0, 1), at, surface.size)
     over = grid_of(inverse, (axes[0] - base[0], axes[1] - base[1]), (False, False))
-    boundary = _loci(inverse, own, over, 1)
-    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, base, own)
+    boundary = _loci(inverse, mechanism, over, 1)
+    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, base, mechanism)
 
 
 def _over_drivers(
@@ -336,8 +340,10 @@ def _over_drivers(
     free = _free_drivers(mechanism, what, drivers)
     needed = f"from {FEWEST} to {MOST} are needed"
     positions = whole_number(positions, "positions", FEWEST, MOST, needed)
-    own = mechanism.description.drivers
-    is_angle = [not isinstance(own[i], str) or own[i] not in mechanism.slides for i in free]
+    all_drivers = mechanism.description.drivers
+    is_angle = [
+        not isinstance(all_drivers[i], str) or all_drivers[i] not in mechanism.slides for i in free
+    ]
     axes = []
     for angle in is_angle:
         reach = np.pi if angle else sum(lengths(mechanism))
@@ -351,39 +357,45 @@ def _free_drivers(
     mechanism: MechanismModel, what: str, drivers: Sequence[DriverLike] | None
 ) -> tuple[int, int]:
     """Return the indices of the two drivers that move."""
-    own = mechanism.description.drivers
-    if len(own) < 2:
+    all_drivers = mechanism.description.drivers
+    if len(all_drivers) < 2:
         message = f"{what}() is for two drivers or more; this mechanism has one: see limits()"
         raise InputError(message)
-    if drivers is None and len(own) == 2:
+    if drivers is None and len(all_drivers) == 2:
         return 0, 1
     named = list(drivers) if isinstance(drivers, list | tuple) else []
-    indices = [own.index(one) for one in named if isinstance(one, str | Drive) and one in own]
+    indices = [
+        all_drivers.index(driver)
+        for driver in named
+        if isinstance(driver, str | Drive) and driver in all_drivers
+    ]
     if len(named) != 2 or len(set(indices)) != 2:
-        message = f"drivers is {short(drivers)}: name the two of {short(own)} that move"
+        message = f"drivers is {short(drivers)}: name the two of {short(all_drivers)} that move"
         raise InputError(message)
     return indices[0], indices[1]
 
 
 def _loci(
-    surface: Surface, own: MechanismModel, grid: Grid, kind: int
+    surface: Surface, mechanism: MechanismModel, grid: Grid, kind: int
 ) -> tuple[SingularLocus, ...]:
     """Return the loci of a surface, as positions of the mechanism."""
     traced, lost = _traced(surface, grid)
-    lost += sum(not one.is_complete for one in traced)
+    lost += sum(not locus.is_complete for locus in traced)
     if lost:
         message = f"singular loci of kind {kind}: {lost} could not be followed to the end"
         warnings.warn(message, AssurWarning, stacklevel=4)
-    return tuple(_named(own, one, kind) for one in traced)
+    return tuple(_named(mechanism, locus, kind) for locus in traced)
 
 
 def _traced(surface: Surface, grid: Grid) -> tuple[list[Traced], int]:
-    """Trace every locus that the grid shows; return too how many were not found again."""
+    """Trace every locus that the grid shows; also return how many were not found again."""
     traced: list[Traced] = []
     lost = 0
     is_inside = _within(surface, grid)
     edges = changing_edges(grid)
-    changes = np.array([abs(len(one.found[0]) - len(one.found[1])) for one in edges], dtype=np.intp)
+    changes = np.array(
+        [abs(len(edge.found[0]) - len(edge.found[1])) for edge in edges], dtype=np.intp
+    )
     crossed = np.zeros_like(changes)
     untried = np.full(len(edges), fill_value=True)
     # At each crossing two assemblies meet: curves found before explain most edges.
@@ -424,7 +436,7 @@ def _within(surface: Surface, grid: Grid) -> Callable[[Pose], bool]:
 
 def _is_known(surface: Surface, traced: list[Traced], pose: Pose) -> bool:
     there = surface.coordinates(pose)
-    return any(_passes(surface, one, there) for one in traced)
+    return any(_passes(surface, locus, there) for locus in traced)
 
 
 def _passes(surface: Surface, traced: Traced, there: Float) -> bool:
@@ -443,7 +455,7 @@ def _passes(surface: Surface, traced: Traced, there: Float) -> bool:
 
 
 def _round(traced: Traced) -> list[Pose]:
-    """Return the poses of a locus; of one that is closed the first again at the end."""
+    """Return the poses of a locus; a closed one has the first again at the end."""
     return [*traced.poses, traced.poses[0]] if traced.is_closed else traced.poses
 
 
@@ -458,10 +470,10 @@ def _coordinates(mechanism: MechanismModel, traced: Traced) -> Float:
     def coordinate(driver: Any) -> Float:
         if isinstance(driver, str):
             return values[driver] if driver in values else links[driver]
-        one: Float = links[driver.link] - links[driver.relative_to]
-        return one
+        relative: Float = links[driver.link] - links[driver.relative_to]
+        return relative
 
-    return np.stack([coordinate(one) for one in mechanism.description.drivers], axis=-1)
+    return np.stack([coordinate(drive) for drive in mechanism.description.drivers], axis=-1)
 
 
 def _named(mechanism: MechanismModel, traced: Traced, kind: int) -> SingularLocus:

@@ -33,7 +33,7 @@ GREATEST_STEP = 0.1
 # lengthened.
 GREATEST_TURN = 0.99
 SMALL_TURN = 0.999
-# Where Newton's iteration along the gradient has arrived; and its most steps.
+# Tolerance of Newton's iteration along the gradient, and its greatest number of steps.
 ARRIVED = 1e-11
 MOST_ITERATIONS = 6
 # How many times better another pair of coordinates leads before the chart is changed.
@@ -125,8 +125,8 @@ def _one_way(
     tangent = _tangent(point, None) * way
     first, step = tangent, FIRST_STEP
     while len(poses) < MOST_POINTS:
-        found = _step(surface, chart, point, tangent, step)
-        if found is None:
+        stepped = _step(surface, chart, point, tangent, step)
+        if stepped is None:
             # The chart may end here; a shorter step may do.
             chart, again = _newly_drawn(surface, point)
             step *= 0.5
@@ -134,7 +134,7 @@ def _one_way(
                 return poses, coordinates, End.LOST
             point = again
             continue
-        point, turned, cosine = found
+        point, turned, cosine = stepped
         here = surface.coordinates(point.pose)
         # How far ahead the start is, and how far beside.
         back = surface.difference(coordinates[0], here)
@@ -176,17 +176,17 @@ def _step(
     along = np.array([-point.gradient[1], point.gradient[0]])
     direction = point.rates @ along
     ahead = step / dot(direction, tangent) * along
-    found = onto_locus(chart, point.at + ahead)
-    if found is None:
+    reached = onto_locus(chart, point.at + ahead)
+    if reached is None:
         return None
-    turned = _tangent(found, tangent)
+    turned = _tangent(reached, tangent)
     cosine = dot(turned, tangent)
-    moved = surface.difference(surface.coordinates(found.pose), surface.coordinates(point.pose))
+    moved = surface.difference(surface.coordinates(reached.pose), surface.coordinates(point.pose))
     ahead_by = dot(moved, tangent)
     beside = length_of(moved - ahead_by * tangent)
     if cosine < GREATEST_TURN or beside > 0.15 * step or ahead_by < 0.5 * step:
         return None
-    return found, turned, cosine
+    return reached, turned, cosine
 
 
 def _is_between(last: Float, now: Float, first: Float, tangent: Float) -> bool:

@@ -59,7 +59,7 @@ def plot_zone(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -78,7 +78,7 @@ def plot_zone(
     from assur.pictures.points import settle
     from assur.pictures.style import blend, style_of
 
-    own, length = style_of(dark), real_number(coupler, "coupler")
+    style, length = style_of(dark), real_number(coupler, "coupler")
     # From the shortest rocker that leaves a zone to one as long as the coupler.
     margins = finite_array(margin, "margin")
     if margins.shape not in ((), (2,)):
@@ -91,17 +91,17 @@ def plot_zone(
         raise InputError(message, value=length)
     chart.require_shown(length)
     rockers = np.linspace(first, length, ROCKERS)
-    axes = chart.chart_axes(ax, own, height=4.2)
-    zones = [(0.0, "zone", own.driver, TINT)]
+    axes = chart.chart_axes(ax, style, height=4.2)
+    zones = [(0.0, "zone", style.driver, TINT)]
     if gamma_min:
-        zones.append((gamma_min, "zone with friction", own.velocity, 2.0 * TINT))
+        zones.append((gamma_min, "zone with friction", style.velocity, 2.0 * TINT))
     notes = []
     for angle, gid, colour, tint in zones:
         low, high = ground_range(length, rockers, margin, gamma_min=angle)
         known = np.isfinite(low)
         x, low, high = rockers[known], low[known], high[known]
         axes.fill_between(
-            x, low, high, color=blend(colour, own.canvas, tint), linewidth=0.0, gid=gid
+            x, low, high, color=blend(colour, style.canvas, tint), linewidth=0.0, gid=gid
         )
         for edge in (low, high):
             axes.plot(x, edge, color=colour, linewidth=1.6, gid=f"limit {gid}")
@@ -111,15 +111,17 @@ def plot_zone(
         if angle or len(zones) == 1:
             notes.append(Note(float(x[at]), middle, text, colour, "zone text", None, centred=True))
     axes.set_xlim(float(rockers[0]), float(rockers[-1]))
-    chart.title(axes, "Ground / crank", own, _zone_sentence(margins, gamma_min))
-    axes.set_xlabel("rocker / crank", color=own.second, fontsize=chart.TEXT)
+    chart.title(axes, "Ground / crank", style, _zone_sentence(margins, gamma_min))
+    axes.set_xlabel("rocker / crank", color=style.second, fontsize=chart.TEXT)
     settle(axes)
-    write_notes(axes, notes, own)
+    write_notes(axes, notes, style)
     return axes
 
 
 def _zone_sentence(margins: Float, gamma_min: float) -> str:
-    text = f"the crank turns; margins {' and '.join(f'{one:g}' for one in np.atleast_1d(margins))}"
+    text = (
+        f"the crank turns; margins {' and '.join(f'{value:g}' for value in np.atleast_1d(margins))}"
+    )
     return f"{text}; dark: friction leaves γ above its least" if gamma_min else text
 
 
@@ -149,7 +151,7 @@ def plot_push_and_pull(
     Returns
     -------
     ndarray of matplotlib.axes.Axes
-        Those drawn on; their titles say whether the coupler pushes or pulls, and γ.
+        The axes drawn on; their titles say whether the coupler pushes or pulls, and γ.
 
     References
     ----------
@@ -166,34 +168,34 @@ def plot_push_and_pull(
     from assur.pictures.axes import checked_axes, listed_axes, pyplot
     from assur.pictures.style import style_of
 
-    own, lengths = style_of(dark), _checked_lengths(l1=l1, l2=l2, l3=l3, l4=l4)
-    angles = [real_number(one, "phi1") for one in checked_entries(phi1, "phi1", MOST_PANELS)]
+    style, lengths = style_of(dark), _checked_lengths(l1=l1, l2=l2, l3=l3, l4=l4)
+    angles = [real_number(angle, "phi1") for angle in checked_entries(phi1, "phi1", MOST_PANELS)]
     if ax is None:
         size = (4.6 * len(angles), 3.0)
         room = {"left": 0.01, "right": 0.99, "bottom": 0.0, "top": 0.88, "wspace": 0.02}
         _, ax = pyplot().subplots(
-            1, len(angles), figsize=size, facecolor=own.canvas, gridspec_kw=room
+            1, len(angles), figsize=size, facecolor=style.canvas, gridspec_kw=room
         )
-    panels = np.array([checked_axes(one) for one in listed_axes(ax)], dtype=object)
+    panels = np.array([checked_axes(axes) for axes in listed_axes(ax)], dtype=object)
     if len(panels) != len(angles):
         message = f"ax has {len(panels)} axes: {len(angles)} are needed"
         raise InputError(message)
     for panel, phi in zip(panels, angles, strict=True):
         mechanism, places = _drawn(phi, lengths)
         mechanism.plot(ax=panel, dark=dark)
-        found = solve(phi, *lengths)
-        pushes = bool(found.pushes)
+        solved = solve(phi, *lengths)
+        pushes = bool(solved.pushes)
         b, c = places["B"], places["C"]
         along = (c - b) / lengths[1] * (1.0 if pushes else -1.0)
         panel.annotate(
             "", c, xytext=ARROW * along, textcoords="offset points", gid="force", zorder=7.0,
             arrowprops={
-                "arrowstyle": "<|-", "color": own.force, "linewidth": 2.6, "shrinkA": 0.0,
+                "arrowstyle": "<|-", "color": style.force, "linewidth": 2.6, "shrinkA": 0.0,
                 "shrinkB": 0.0, "mutation_scale": 15.0,
             },
         )  # fmt: skip
         verb = "pushes" if pushes else "pulls"
-        chart.title(panel, f"The coupler {verb}: γ = {float(found.gamma):.3f} rad", own)
+        chart.title(panel, f"The coupler {verb}: γ = {float(solved.gamma):.3f} rad", style)
     return panels
 
 
@@ -210,8 +212,8 @@ def _drawn(
     from assur.kinematics.mechanism import Mechanism
 
     l1, _, l3, l4 = lengths
-    found = solve(phi, *lengths)
-    sine, cosine = sin_cos(np.array([phi, float(found.phi3)]))
+    solved = solve(phi, *lengths)
+    sine, cosine = sin_cos(np.array([phi, float(solved.phi3)]))
     places = {
         "A": np.zeros(2),
         "B": l1 * np.array([cosine[0], sine[0]]),
@@ -241,7 +243,7 @@ def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -259,24 +261,29 @@ def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
     from assur.pictures.points import settle
     from assur.pictures.style import blend, style_of
 
-    own = style_of(dark)
-    axes = chart.chart_axes(ax, own)
+    style = style_of(dark)
+    axes = chart.chart_axes(ax, style)
     # Closer where the curve is steep.
     reduced = 1.0 - np.square(np.linspace(1.0, 0.0, 300)[:-1])
     least = np.array(
         [least_transmission_angle(float(f), 1.0, 0.0, 0.0, 1.0) for f in reduced], dtype=float
     )
     axes.fill_between(
-        reduced, 0.0, least, color=blend(own.error, own.canvas, TINT), linewidth=0.0, gid="blocked"
+        reduced,
+        0.0,
+        least,
+        color=blend(style.error, style.canvas, TINT),
+        linewidth=0.0,
+        gid="blocked",
     )
-    axes.plot(reduced, least, color=own.ink, linewidth=chart.CURVE, gid="curve least angle")
+    axes.plot(reduced, least, color=style.ink, linewidth=chart.CURVE, gid="curve least angle")
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, math.pi / 2.0))
-    chart.title(axes, "Least transmission angle, rad", own, "γ_min = arcsin f_p")
-    axes.set_xlabel("reduced friction f_p", color=own.second, fontsize=chart.TEXT)
+    chart.title(axes, "Least transmission angle, rad", style, "γ_min = arcsin f_p")
+    axes.set_xlabel("reduced friction f_p", color=style.second, fontsize=chart.TEXT)
     settle(axes)
     texts = (("blocked", 0.75, 0.4), ("moves", 0.3, 1.0))
-    notes = [Note(x, y, text, own.ink, text, None, centred=True) for text, x, y in texts]
-    write_notes(axes, notes, own)
+    notes = [Note(x, y, text, style.ink, text, None, centred=True) for text, x, y in texts]
+    write_notes(axes, notes, style)
     return axes
 
 
@@ -299,7 +306,7 @@ def plot_transmission(
     l4 : float or sequence of float
         Grounds, m; the last is drawn bold.
     gamma_min : float, optional
-        Least transmission angle, rad: what is below it is shaded, and where the last ground's
+        Least transmission angle, rad: the region below it is shaded, and where the last ground's
         mechanism is there.
     ax : pair of matplotlib axes, optional
         Where to draw; a new figure by default.
@@ -327,20 +334,20 @@ def plot_transmission(
     from assur.pictures.points import settle
     from assur.pictures.style import blend, style_of
 
-    own = style_of(dark)
-    grounds = [real_number(one, "l4") for one in checked_entries(l4, "l4", MOST_CURVES)]
+    style = style_of(dark)
+    grounds = [real_number(length, "l4") for length in checked_entries(l4, "l4", MOST_CURVES)]
     l1, l2, l3, _ = _checked_lengths(l1=l1, l2=l2, l3=l3, l4=grounds[-1])
     least = None if gamma_min is None else real_number(gamma_min, "gamma_min")
     jams = [] if least is None else blocked(l1, l2, l3, grounds[-1], least)
-    axes = chart.chart_axes(ax, own, 2, 1, 2.9)
+    axes = chart.chart_axes(ax, style, 2, 1, 2.9)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     x = np.degrees(phi)
     named: list[list[Named]] = [[], []]
     for i, ground in enumerate(grounds):
-        found = solve(phi, l1, l2, l3, ground)
+        solved = solve(phi, l1, l2, l3, ground)
         bold = i == len(grounds) - 1
-        colour = own.ink if bold else own.second
-        for panel, values, lines in zip(axes, (found.gamma23, found.gamma), named, strict=True):
+        colour = style.ink if bold else style.second
+        for panel, values, lines in zip(axes, (solved.gamma23, solved.gamma), named, strict=True):
             panel.plot(
                 x, values, color=colour, linewidth=chart.CURVE if bold else 1.0,
                 gid=f"curve l₄ = {ground:g}", zorder=2.0 + bold,
@@ -349,15 +356,15 @@ def plot_transmission(
     for panel, text in zip(axes, ("Angle γ₂₃, rad", "Transmission angle γ, rad"), strict=True):
         panel.set_xlim(0.0, 360.0)
         chart.degree_ticks(panel, 0.0, 360.0)
-        chart.title(panel, text, own)
+        chart.title(panel, text, style)
         panel.margins(y=0.1)
     axes[0].tick_params(labelbottom=False)
-    axes[1].set_xlabel("φ₁", color=own.second, fontsize=chart.TEXT)
+    axes[1].set_xlabel("φ₁", color=style.second, fontsize=chart.TEXT)
     axes[1].set_ylim(bottom=0.0)
     if least is not None:
-        tint = blend(own.error, own.canvas, TINT)
+        tint = blend(style.error, style.canvas, TINT)
         axes[1].axhspan(0.0, least, color=tint, linewidth=0.0, gid="blocked", zorder=0.4)
-        axes[1].axhline(least, color=own.error, linewidth=1.2, gid="least angle")
+        axes[1].axhline(least, color=style.error, linewidth=1.2, gid="least angle")
         for low, high in jams:
             for turn in (0.0, 360.0):
                 axes[1].axvspan(

@@ -132,7 +132,7 @@ class JammingRun:
         Returns
         -------
         matplotlib.axes.Axes
-            Those drawn on.
+            The axes drawn on.
 
         References
         ----------
@@ -239,8 +239,8 @@ def run(
         return number
 
     fixed = None if callable(ground) else ground_at(0.0)
-    given = ground_at if fixed is None else lambda _: fixed
-    made = _core.crank_rocker_run(case, given)
+    ground_of = ground_at if fixed is None else lambda _: fixed
+    made = _core.crank_rocker_run(case, ground_of)
     t, l4 = made["t"], made["l4"]
     return JammingRun(
         t,

@@ -51,14 +51,14 @@ class _Jamming(Protocol):
 
 def jamming_picture(run: _Jamming, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
     """See `JammingRun.plot`."""
-    own = style_of(dark)
+    style = style_of(dark)
     if what == "positions":
-        return _positions(run, ax, dark, own)
-    return _diagram(run, what, ax, degrees, own)
+        return _positions(run, ax, dark, style)
+    return _diagram(run, what, ax, degrees, style)
 
 
 def mechanism_of(run: _Jamming) -> Mechanism:
-    """Return the mechanism with its support on a slide: of two drivers, the crank and the slide."""
+    """Return the mechanism with its support on a slide: the crank and the slide drive it."""
     joints: dict[str, tuple[float, float]] = {"A": (0.0, 0.0)}
     for name, points in (("B", run.B), ("C", run.C), ("D", run.D)):
         joints[name] = (float(points[0, 0]), float(points[0, 1]))
@@ -80,7 +80,7 @@ def with_sliding_support(joints: Mapping[str, Any]) -> Mechanism:
     return Mechanism(joints, links, ["crank", "line"], slides)
 
 
-def _positions(run: _Jamming, ax: Any, dark: bool, own: Style) -> Any:
+def _positions(run: _Jamming, ax: Any, dark: bool, style: Style) -> Any:
     """Draw the first position with its symbols, the others as lines, in colour while D slides."""
     turned = np.abs(run.phi1 - run.phi1[0])
     last = min(float(turned[-1]), 2.0 * math.pi)
@@ -97,11 +97,11 @@ def _positions(run: _Jamming, ax: Any, dark: bool, own: Style) -> Any:
     for row in sliding.tolist():
         chain = np.array([(0.0, 0.0), run.B[row], run.C[row], run.D[row]])
         ax.plot(
-            *chain.T, color=own.error, linewidth=1.1, zorder=1.1, gid="sliding", scalex=False,
+            *chain.T, color=style.error, linewidth=1.1, zorder=1.1, gid="sliding", scalex=False,
             scaley=False,
         )  # fmt: skip
     ax.plot(
-        *run.C.T, color=own.path, linewidth=1.8, zorder=1.6, gid="path C", scalex=False,
+        *run.C.T, color=style.path, linewidth=1.8, zorder=1.6, gid="path C", scalex=False,
         scaley=False,
     )  # fmt: skip
     if sliding.size:
@@ -110,14 +110,14 @@ def _positions(run: _Jamming, ax: Any, dark: bool, own: Style) -> Any:
         travel = float(np.ptp(run.l4[run.sliding])) if run.sliding.any() else 0.0
         ax.annotate(
             f"C jammed: D slides {travel:.3g} m", (1.0, 1.0), xytext=(-10.0, -8.0),
-            xycoords="axes fraction", textcoords="offset points", color=own.error, fontsize=TEXT,
+            xycoords="axes fraction", textcoords="offset points", color=style.error, fontsize=TEXT,
             horizontalalignment="right", verticalalignment="top", gid="sliding text",
         )  # fmt: skip
     return ax
 
 
 def _misleads(artist: Any, run: _Jamming, ax: Any) -> bool:
-    """Whether an artist shows what is not so: the rod, not a drive, moves D; the crank turns."""
+    """Whether an artist is misleading: the rod, not a drive, moves D; the crank turns."""
     gid = artist.get_gid()
     if gid == "limit crank":
         return True
@@ -128,7 +128,7 @@ def _misleads(artist: Any, run: _Jamming, ax: Any) -> bool:
     return bool(np.square(middle - support).sum() < np.square(middle - pivot).sum())
 
 
-def _diagram(run: _Jamming, what: str, ax: Any, degrees: bool, own: Style) -> Any:
+def _diagram(run: _Jamming, what: str, ax: Any, degrees: bool, style: Style) -> Any:
     """Draw the ground or the transmission angle over the crank's angle, with the events."""
     from assur.pictures import chart
     from assur.pictures.diagrams.notes import Note, write_notes
@@ -137,26 +137,26 @@ def _diagram(run: _Jamming, what: str, ax: Any, degrees: bool, own: Style) -> An
     from assur.pictures.points import settle
     from assur.pictures.style import blend
 
-    axes = chart.chart_axes(ax, own)
+    axes = chart.chart_axes(ax, style)
     x = np.degrees(run.phi1) if degrees else run.phi1
     values, title = (
         (run.l4, "Ground l₄, m") if what == "ground" else (run.gamma, "Transmission angle γ, rad")
     )
-    axes.plot(x, values, color=own.ink, linewidth=chart.CURVE, gid=f"curve {what}")
+    axes.plot(x, values, color=style.ink, linewidth=chart.CURVE, gid=f"curve {what}")
     axes.set_xlim(float(x.min()), float(x.max()))
     chart.headroom(axes, values)
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + (ROOM - chart.HEADROOM) * (high - low))
     if degrees:
         chart.degree_ticks(axes, float(x.min()), float(x.max()))
-    chart.title(axes, title, own)
-    axes.set_xlabel("φ₁" if degrees else "φ₁, rad", color=own.second, fontsize=chart.TEXT)
+    chart.title(axes, title, style)
+    axes.set_xlabel("φ₁" if degrees else "φ₁, rad", color=style.second, fontsize=chart.TEXT)
     for start, end in _stretches(x, run.sliding):
-        tint = blend(own.error, own.canvas, 0.2)
+        tint = blend(style.error, style.canvas, 0.2)
         axes.axvspan(start, end, color=tint, linewidth=0.0, zorder=0.4, gid="sliding")
     settle(axes)
     notes = [
-        Note(peak.x, peak.y, f"{number(peak.y, float(np.ptp(values)))} at {place}", own.ink)
+        Note(peak.x, peak.y, f"{number(peak.y, float(np.ptp(values)))} at {place}", style.ink)
         for peak in peaks(x, values)
         for place in [degrees_text(peak.x, 360.0) if degrees else f"{peak.x:.2f} rad"]
         if what == "angle" or not peak.greatest
@@ -167,10 +167,10 @@ def _diagram(run: _Jamming, what: str, ax: Any, degrees: bool, own: Style) -> An
         text = (
             f"{NAMES.get(event.kind, event.kind)} at {degrees_text(math.degrees(event.phi1), 10.0)}"
         )
-        axes.axvline(at, color=own.error, linewidth=0.9, zorder=0.8, gid=f"event {event.kind}")
+        axes.axvline(at, color=style.error, linewidth=0.9, zorder=0.8, gid=f"event {event.kind}")
         y = top - 0.06 * (top - bottom)
-        notes.append(Note(at, y, text, own.error, "event text", None))
-    write_notes(axes, notes, own)
+        notes.append(Note(at, y, text, style.error, "event text", None))
+    write_notes(axes, notes, style)
     return axes
 
 

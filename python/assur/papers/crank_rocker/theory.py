@@ -381,12 +381,12 @@ def least_transmission_angle(
     flat, shape = _broadcast(*arrays.values())
     if exact:
         circles = [flat[5] * flat[6], flat[0] * flat[1], flat[2] * flat[3]]
-        found = _core.crank_rocker_exact_least_gamma(circles, [flat[7], flat[4]], side == "outer")
+        angles = _core.crank_rocker_exact_least_gamma(circles, [flat[7], flat[4]], side == "outer")
     else:
-        found = _core.crank_rocker_least_gamma(flat[:4], flat[4])
+        angles = _core.crank_rocker_least_gamma(flat[:4], flat[4])
     if shape:
-        return found.reshape(shape)
-    if np.isnan(found[0]):
+        return angles.reshape(shape)
+    if np.isnan(angles[0]):
         a, b, c, d, length = (float(column[0]) for column in flat[:5])
         reduced = (a * b + c * d) / length
         if exact:
@@ -394,7 +394,7 @@ def least_transmission_angle(
             raise InputError(message)
         message = f"f_p = {reduced:.6g} is not below 1: the rocker does not move at any angle"
         raise InputError(message, value=reduced)
-    return float(found[0])
+    return float(angles[0])
 
 
 def transmission_extremes(
@@ -468,8 +468,8 @@ def blocked(
     if shape:
         message = f"blocked has intervals of one mechanism, not of {shape}"
         raise InputError(message)
-    found = _core.crank_rocker_blocked([float(column[0]) for column in flat], least)
-    return [(start, end) for start, end in found]
+    intervals = _core.crank_rocker_blocked([float(column[0]) for column in flat], least)
+    return [(start, end) for start, end in intervals]
 
 
 def table1() -> Table1:

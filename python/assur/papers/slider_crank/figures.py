@@ -46,7 +46,7 @@ def plot_contour(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -65,13 +65,13 @@ def plot_contour(
 
     corners = contour(phi, crank, rod)
     o, a, b, _ = corners
-    own = style_of(dark)
-    on = canvas(ax, (corners.min(axis=0), corners.max(axis=0)), own, float(crank))
+    style = style_of(dark)
+    on = canvas(ax, (corners.min(axis=0), corners.max(axis=0)), style, float(crank))
     lines = []
     for start, end, name, colour in (
-        (o, a, "l₁", own.driver),
-        (a, b, "l₂", own.ink),
-        (o, b, "l₃", own.path),
+        (o, a, "l₁", style.driver),
+        (a, b, "l₂", style.ink),
+        (o, b, "l₃", style.path),
     ):
         on.ax.annotate(
             "", end, start, gid=f"vector {name}",
@@ -96,7 +96,7 @@ def plot_contour(
     )
     for name, point in zip("OAB", corners[:3], strict=True):
         on.ax.plot(
-            *point, "o", markersize=7.0, markerfacecolor=own.canvas, markeredgecolor=own.ink,
+            *point, "o", markersize=7.0, markerfacecolor=style.canvas, markeredgecolor=style.ink,
             markeredgewidth=1.6, zorder=4.0, gid=f"joint {name}", scalex=False, scaley=False,
         )  # fmt: skip
     scale_bar(on)
@@ -131,7 +131,7 @@ def plot_positions(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on.
+        The axes drawn on.
 
     References
     ----------
@@ -147,9 +147,9 @@ def plot_positions(
     from assur.mechanisms.named import SliderCrank
     from assur.pictures.style import style_of
 
-    own = style_of(dark)
+    style = style_of(dark)
     phi, crank, rod = (
-        real_number(one, name) for one, name in ((phi, "phi"), (crank, "crank"), (rod, "rod"))
+        real_number(value, name) for value, name in ((phi, "phi"), (crank, "crank"), (rod, "rod"))
     )
     place = rod / 2.0 if along is None else real_number(along, "along")
     across = real_number(across, "across")
@@ -159,19 +159,19 @@ def plot_positions(
         offset = across if name == "S2" else 0.0
         path = rod_point(turn, crank, rod, at, offset).value
         ax.plot(
-            *path.T, color=own.path, linewidth=1.4, zorder=1.5, gid=f"path {name}", scalex=False,
+            *path.T, color=style.path, linewidth=1.4, zorder=1.5, gid=f"path {name}", scalex=False,
             scaley=False,
         )  # fmt: skip
     point = rod_point(phi, crank, rod, place, across).value
     ax.plot(
-        *point, "o", markersize=5.0, color=own.path, zorder=6.0, gid="point S2", scalex=False,
+        *point, "o", markersize=5.0, color=style.path, zorder=6.0, gid="point S2", scalex=False,
         scaley=False,
     )  # fmt: skip
     from assur.pictures.text import name_font
 
     ax.annotate(
         "S₂", point, xytext=(7.0, 9.0), textcoords="offset points", fontproperties=name_font(),
-        color=own.path, horizontalalignment="center", verticalalignment="center", gid="name S2",
+        color=style.path, horizontalalignment="center", verticalalignment="center", gid="name S2",
     )  # fmt: skip
     return ax
 
@@ -204,11 +204,11 @@ class _Formulas:
         """Return what a diagram shows, and its unit."""
         del kind
         name = self.titles[self._quantity][order].removesuffix(", {}")
-        own = "m" if self._quantity == "stroke" else "rad"
+        unit = "m" if self._quantity == "stroke" else "rad"
         if order == 0:
-            return name, "°" if own == "rad" and self.in_degrees else own
+            return name, "°" if unit == "rad" and self.in_degrees else unit
         power = "" if order == 1 else "²"
-        return name, f"{own}/rad{power}" if self._speeds is None else f"{own}/s{power}"
+        return name, f"{unit}/rad{power}" if self._speeds is None else f"{unit}/s{power}"
 
     def lines(self, of: Quantity, order: int) -> list[Line]:
         """Return the curve."""
@@ -223,14 +223,14 @@ class _Formulas:
         return lambda x: self._values(x, order)
 
     def _values(self, x: Float, order: int) -> Float:
-        found: Analogues = self._of(np.radians(x) if self.in_degrees else x, *self._lengths)
+        analogues: Analogues = self._of(np.radians(x) if self.in_degrees else x, *self._lengths)
         if order == 0:
             in_degrees = self._quantity == "rod" and self.in_degrees
-            return np.degrees(found.value) if in_degrees else found.value
+            return np.degrees(analogues.value) if in_degrees else analogues.value
         if self._speeds is None:
-            return found.d1 if order == 1 else found.d2
+            return analogues.d1 if order == 1 else analogues.d2
         speed, alpha = self._speeds
-        return found.velocity(speed) if order == 1 else found.acceleration(speed, alpha)
+        return analogues.velocity(speed) if order == 1 else analogues.acceleration(speed, alpha)
 
 
 def plot_motion(
@@ -267,7 +267,7 @@ def plot_motion(
     Returns
     -------
     matplotlib.axes.Axes or ndarray of them
-        Those drawn on, one for each order.
+        The axes drawn on, one for each order.
 
     References
     ----------
@@ -338,30 +338,32 @@ def plot_convergence(
     from assur.pictures.points import settle
     from assur.pictures.style import style_of
 
-    own, last = style_of(dark), whole_number(count, "count", 1, 100)
-    ratios = [real_number(one, "k") for one in checked_entries(k, "k", MOST_CURVES)]
-    axes = chart.chart_axes(ax, own, 1, 2)
+    style, last = style_of(dark), whole_number(count, "count", 1, 100)
+    ratios = [real_number(value, "k") for value in checked_entries(k, "k", MOST_CURVES)]
+    axes = chart.chart_axes(ax, style, 1, 2)
     counts = np.arange(1, last + 1)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     named: list[list[Named]] = [[], []]
     for i, ratio in enumerate(ratios):
         exact = stroke(phi, 1.0, ratio).value
-        for which, one in enumerate(axes):
+        for which, panel in enumerate(axes):
             errors = np.array([_error(phi, ratio, exact, n, last, which) for n in counts.tolist()])
-            colour = own.group(i)
-            one.semilogy(
+            colour = style.group(i)
+            panel.semilogy(
                 counts, errors, "o-", color=colour, linewidth=1.8, markersize=4.5,
                 gid=f"curve k = {ratio:g}",
             )  # fmt: skip
             named[which].append(Named(counts.astype(float), errors, f"k = {ratio:g}", colour))
-    for one, text in zip(axes, ("even harmonics, all terms", "terms, all harmonics"), strict=True):
-        one.set_xticks(counts)
-        one.set_xlabel(text, color=own.second, fontsize=chart.TEXT)
-        chart.title(one, "Largest error of the stroke / crank", own)
-        one.minorticks_off()
+    for panel, text in zip(
+        axes, ("even harmonics, all terms", "terms, all harmonics"), strict=True
+    ):
+        panel.set_xticks(counts)
+        panel.set_xlabel(text, color=style.second, fontsize=chart.TEXT)
+        chart.title(panel, "Largest error of the stroke / crank", style)
+        panel.minorticks_off()
     settle(axes[0])
-    for one, lines in zip(axes, named, strict=True):
-        name_lines(one, lines)
+    for panel, lines in zip(axes, named, strict=True):
+        name_lines(panel, lines)
     return axes
 
 
@@ -397,7 +399,7 @@ def plot_deviation(
     Returns
     -------
     ndarray of matplotlib.axes.Axes
-        Those drawn on, (quantities, approximations).
+        The axes drawn on, (quantities, approximations).
 
     References
     ----------
@@ -418,17 +420,18 @@ def plot_deviation(
     from assur.pictures.points import settle
     from assur.pictures.style import style_of
 
-    own, ratio = style_of(dark), real_number(lam, "lam")
+    style, ratio = style_of(dark), real_number(lam, "lam")
     if not 0.0 < ratio < 1.0:
         message = f"lam is {lam!r}: crank over rod must be above 0 and below 1"
         raise InputError(message, value=ratio)
     known = ("stroke", "d1")
     quantities = [
-        one_of(one, known, "quantity") for one in checked_entries(quantity, "quantity", MOST_PANELS)
+        one_of(word, known, "quantity")
+        for word in checked_entries(quantity, "quantity", MOST_PANELS)
     ]
-    numbers = [whole_number(one, "n", 1, 1000) for one in checked_entries(n, "n", MOST_PANELS)]
+    numbers = [whole_number(value, "n", 1, 1000) for value in checked_entries(n, "n", MOST_PANELS)]
     rows, columns = len(quantities), len(numbers)
-    axes = np.reshape(chart.chart_axes(ax, own, rows, columns, 2.6), (rows, columns))
+    axes = np.reshape(chart.chart_axes(ax, style, rows, columns, 2.6), (rows, columns))
     phi = np.linspace(0.0, math.pi, BETWEEN)[1:-1]
     notes = []
     for (row, column), panel in np.ndenumerate(axes):
@@ -446,23 +449,23 @@ def plot_deviation(
 
         x = np.degrees(phi)
         values = off(x)
-        colour = own.velocity if order else own.ink
+        colour = style.velocity if order else style.ink
         panel.plot(x, values, color=colour, linewidth=chart.CURVE, gid="curve deviation")
         panel.set_xlim(0.0, 180.0)
         chart.degree_ticks(panel, 0.0, 180.0)
         chart.headroom(panel, values)
         name = "Velocity analogue" if order else "Stroke"
-        chart.title(panel, f"{name}, n = {which}: deviation, %", own)
-        chart.zero_line(panel, own)
+        chart.title(panel, f"{name}, n = {which}: deviation, %", style)
+        chart.zero_line(panel, style)
         if row == rows - 1:
-            panel.set_xlabel("φ", color=own.second, fontsize=chart.TEXT)
-        found = peaks(x, values, again=off)
+            panel.set_xlabel("φ", color=style.second, fontsize=chart.TEXT)
+        extremes = peaks(x, values, again=off)
         # None where they are equal to the last digit.
-        if found:
-            largest = max(found, key=lambda peak: abs(peak.y))
+        if extremes:
+            largest = max(extremes, key=lambda peak: abs(peak.y))
             text = f"{number(largest.y)} at {degrees_text(largest.x, 180.0)}"
             notes.append((panel, Note(largest.x, largest.y, text, colour, "extreme")))
     settle(axes.flat[0])
     for panel, note in notes:
-        write_notes(panel, [note], own)
+        write_notes(panel, [note], style)
     return axes

@@ -102,8 +102,8 @@ def fourier(k: npt.ArrayLike, harmonics: int = 6, terms: int | None = None) -> F
     ratios = real_array(k, "k")
     _ratio(ratios, "k")
     last, kept = _harmonics(harmonics), _terms(terms)
-    found = _core.slider_crank_fourier(np.ascontiguousarray(ratios).reshape(-1), last, kept)
-    return found.reshape((*ratios.shape, 2 + last // 2))
+    coefficients = _core.slider_crank_fourier(np.ascontiguousarray(ratios).reshape(-1), last, kept)
+    return coefficients.reshape((*ratios.shape, 2 + last // 2))
 
 
 def stroke(
@@ -154,13 +154,13 @@ def stroke(
     with in_range("rod / crank"):
         flat, ratios, inverse = _flat(angles, cranks / rods, rods / cranks)
     if method == "exact":
-        found = _core.slider_crank_stroke(flat, ratios)
+        arrays = _core.slider_crank_stroke(flat, ratios)
     elif method == "fraction":
-        found = _core.slider_crank_fraction(flat, ratios, whole_number(n, "n", 1, MAX_TERMS))
+        arrays = _core.slider_crank_fraction(flat, ratios, whole_number(n, "n", 1, MAX_TERMS))
     else:
         last, kept = _harmonics(harmonics), _terms(terms)
-        found = _core.slider_crank_series(flat, inverse, last, kept)
-    return _scaled("stroke", cranks, found)
+        arrays = _core.slider_crank_series(flat, inverse, last, kept)
+    return _scaled("stroke", cranks, arrays)
 
 
 def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> Analogues:
@@ -187,9 +187,13 @@ def coordinate(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> 
     array(4.)
     """
     angles, cranks, rods = _lengths(phi, crank, rod)
-    found = stroke(angles, cranks, rods)
+    displacement = stroke(angles, cranks, rods)
     with in_range("coordinate"):
-        arrays = tuple(map(np.asarray, (cranks + rods - found.value, -found.d1, -found.d2)))
+        arrays = tuple(
+            map(
+                np.asarray, (cranks + rods - displacement.value, -displacement.d1, -displacement.d2)
+            )
+        )
     return Analogues("coordinate", arrays, 1, point=False)
 
 
@@ -221,8 +225,8 @@ def rod_angle(phi: npt.ArrayLike, crank: npt.ArrayLike, rod: npt.ArrayLike) -> A
     np.float64(-0.523599)
     """
     angles, cranks, rods = _lengths(phi, crank, rod)
-    found = _core.slider_crank_rod_angle(*_flat(angles, cranks / rods))
-    return _scaled("rod_angle", np.ones_like(cranks), found)
+    arrays = _core.slider_crank_rod_angle(*_flat(angles, cranks / rods))
+    return _scaled("rod_angle", np.ones_like(cranks), arrays)
 
 
 def rod_point(
@@ -265,10 +269,10 @@ def rod_point(
     angles, cranks, rods, a, b = _broadcast(angles, cranks, rods, a, b)
     with in_range("place / crank"):
         flat = _flat(angles, cranks / rods, a / cranks, b / cranks)
-    found = _core.slider_crank_rod_point(*flat)
+    parts = _core.slider_crank_rod_point(*flat)
     shape = (*cranks.shape, 2)
     with in_range("rod_point"):
-        arrays = [part.reshape(shape) * cranks[..., np.newaxis] for part in found]
+        arrays = [part.reshape(shape) * cranks[..., np.newaxis] for part in parts]
     return Analogues("rod_point", tuple(arrays), 1, point=True)
 
 
@@ -304,15 +308,15 @@ def greatest_speed(
         at = arctan2(ratios, 1.0)
         return Extreme(at, stroke(at, 1.0, ratios).d1)
     flat = np.ascontiguousarray(ratios).reshape(-1)
-    found = _core.slider_crank_greatest_speed(flat, method == "exact")
-    return Extreme(*(part.reshape(ratios.shape) for part in found))
+    parts = _core.slider_crank_greatest_speed(flat, method == "exact")
+    return Extreme(*(part.reshape(ratios.shape) for part in parts))
 
 
 def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
     """Return the crank angle of the most negative acceleration of the stroke, and its value.
 
     The crank speed is constant. For k ≥ (3 + √21)/2 = 3.791 it is the inner dead point (φ = π); a
-    shorter rod has two such angles, of which the one below π is returned.
+    shorter rod has two such angles; the one below π is returned.
 
     Parameters
     ----------
@@ -334,8 +338,8 @@ def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
     ratios = real_array(k, "k")
     _ratio(ratios, "k")
     flat = np.ascontiguousarray(ratios).reshape(-1)
-    found = _core.slider_crank_greatest_acceleration(flat)
-    return Extreme(*(part.reshape(ratios.shape) for part in found))
+    parts = _core.slider_crank_greatest_acceleration(flat)
+    return Extreme(*(part.reshape(ratios.shape) for part in parts))
 
 
 def deviation(
@@ -378,8 +382,8 @@ def deviation(
     one_of(quantity, tuple(orders), "quantity")
     number = whole_number(n, "n", 1, MAX_TERMS)
     flat = np.ascontiguousarray(ratios).reshape(-1)
-    found = _core.slider_crank_deviation(flat, number, orders[quantity])
-    return Deviation(*(part.reshape(ratios.shape) for part in found))
+    parts = _core.slider_crank_deviation(flat, number, orders[quantity])
+    return Deviation(*(part.reshape(ratios.shape) for part in parts))
 
 
 def contour(phi: float, crank: float, rod: float) -> Float:
@@ -438,9 +442,9 @@ def _lengths(phi: Any, crank: Any, rod: Any) -> tuple[Float, Float, Float]:
     angles, cranks, rods = _broadcast(angles, cranks, rods)
     short = rods <= cranks
     if short.any():
-        length, other = float(rods[short].flat[0]), float(cranks[short].flat[0])
+        length, longer = float(rods[short].flat[0]), float(cranks[short].flat[0])
         message = (
-            f"rod is {length!r}, not longer than its crank {other!r} (k = {length / other:.6g}): "
+            f"rod is {length!r}, not longer than its crank {longer!r} (k = {length / longer:.6g}): "
             f"the crank cannot turn"
         )
         raise DimensionError(message, dimension="rod", value=length)
@@ -460,9 +464,9 @@ def _flat(*arrays: Float) -> tuple[Any, ...]:
     return tuple(np.ascontiguousarray(array).reshape(-1) for array in arrays)
 
 
-def _scaled(name: str, lengths: Float, found: Sequence[Float]) -> Analogues:
+def _scaled(name: str, lengths: Float, parts: Sequence[Float]) -> Analogues:
     with in_range(name):
-        arrays = tuple(np.asarray(part.reshape(lengths.shape) * lengths) for part in found)
+        arrays = tuple(np.asarray(part.reshape(lengths.shape) * lengths) for part in parts)
     return Analogues(name, arrays, 1, point=False)
 
 

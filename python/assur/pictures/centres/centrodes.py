@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 # Positions of a whole motion: the curves are smooth, and far branches end far off.
 ROWS = 721
-# What is farther than so many times the mechanism's size is cut off; the picture shows less.
+# Curves are cut off at this multiple of the mechanism's size; the picture shows less.
 FAR, SIGHT = 25.0, 0.6
 LINE = 1.8
 DOT = 6.0
@@ -47,12 +47,12 @@ def centrodes(
     Parameters
     ----------
     motion : Motion
-        Of one design and one driver: a row of positions over which the curves go, or one position,
-        which stands for the whole motion of the mechanism.
+        A motion of one design and one driver: a row of positions over which the curves go, or one
+        position, which stands for the whole motion of the mechanism.
     link, other : str
         The link, and the link relative to which it moves.
     at : int or tuple of int
-        Index of the position drawn; of a row of positions the first by default.
+        Index of the position drawn; by default the first of a row.
     ax : matplotlib.axes.Axes, optional
         Where to draw; a new figure by default.
     dark : bool
@@ -61,7 +61,7 @@ def centrodes(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. Artists are named ``fixed centrode``, ``moving centrode``, ``pole``.
+        The axes drawn on. Artists are named ``fixed centrode``, ``moving centrode``, ``pole``.
 
     Raises
     ------
@@ -87,14 +87,16 @@ def centrodes(
         message = f"link and other are both {link!r}: give two links"
         raise InputError(message, link=link)
     index = (0,) * len(motion.shape) if isinstance(at, tuple) and not at else at
-    one = motion[checked_index(index, motion.shape, "at")] if motion.shape else motion
+    position = motion[checked_index(index, motion.shape, "at")] if motion.shape else motion
     rows, _ = refined(motion, "centrodes", 1, ROWS)
-    pole = one.instant_centre(link, other)
+    pole = position.instant_centre(link, other)
     if not np.isfinite(pole).all():
-        reason = one.explain() if np.isnan(pole).all() else f"{link} does not turn relative to it"
+        reason = (
+            position.explain() if np.isnan(pole).all() else f"{link} does not turn relative to it"
+        )
         message = f"no instant centre of {link!r} and {other!r} there: {reason}"
         raise InputError(message, link=link)
-    subject = Subject(one)
+    subject = Subject(position)
     fixed, moving = _curves(subject, rows, link, other)
     points = np.concatenate([fixed, moving, pole[None]])
     on = subject.canvas(

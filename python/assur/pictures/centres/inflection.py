@@ -26,12 +26,12 @@ if TYPE_CHECKING:
     from assur.pictures.axes import Canvas
 
 DOT = 5.5
-# The pole of a crank rests: rounding moves it by less than this part of the mechanism's size.
+# The pole of a crank rests: rounding moves it by less than this fraction of the mechanism's size.
 AT_REST = 1e-9
 LINE = 1.8
-# Dash-dotted lines of pole tangent and normal reach so far beyond the circle, points.
+# How far the dash-dotted pole tangent and normal reach beyond the circle, points.
 BEYOND = 24.0
-# A circle so many times greater than the mechanism is drawn as far as it is in sight.
+# A circle greater than this multiple of the mechanism is drawn only where it is in sight.
 SIGHT = 1.2
 
 
@@ -67,7 +67,7 @@ def inflection_circle(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. Artists are named ``inflection circle``, ``pole``, ``inflection pole``,
+        The axes drawn on. Artists are named ``inflection circle``, ``pole``, ``inflection pole``,
         ``pole tangent``, ``pole normal``, ``second circle``, ``acceleration pole``.
 
     Raises
@@ -91,16 +91,16 @@ def inflection_circle(
     motion, second = checked_motion(motion), flag(bresse, "bresse")
     require_one_driver(motion.driver_count, "inflection_circle")
     motion.mechanism.core.require("link", checked_name(link, "link"))
-    one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
-    pole, change, ratio = _pole_motion(one, link)
+    position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    pole, change, ratio = _pole_motion(position, link)
     diameter = float(np.hypot(*change))
-    joints = np.array(list(one.mechanism.joints.values()))
+    joints = np.array(list(position.mechanism.joints.values()))
     if not diameter > AT_REST * float(np.ptp(joints, axis=0).max()):
         message = f"the pole of {link!r} rests: its inflection circle is a point"
         raise InputError(message, link=link)
     # The change of the pole turned by −90°.
     normal = np.array([change[1], -change[0]])
-    subject = Subject(one)
+    subject = Subject(position)
     drawn = [(pole + normal / 2.0, diameter / 2.0)]
     if second and ratio:
         drawn.append((pole + change / (2.0 * ratio), diameter / (2.0 * abs(ratio))))
@@ -125,12 +125,12 @@ def inflection_circle(
     return on.ax
 
 
-def _pole_motion(one: Motion, link: str) -> tuple[Float, Float, float]:
+def _pole_motion(position: Motion, link: str) -> tuple[Float, Float, float]:
     """Return the pole, its derivative by the link's angle, and φ″/φ′² of the link's angle φ(q)."""
-    point, angle = one.reference_points[link], one.link(link)
+    point, angle = position.reference_points[link], position.link(link)
     rate, second = float(angle.d1), float(angle.d2)
     if not (np.isfinite(rate) and np.isfinite(second)):
-        message = f"no inflection circle: {one.explain()}"
+        message = f"no inflection circle: {position.explain()}"
         raise InputError(message)
     if link == "ground" or abs(rate) < 1e-12:
         message = f"{link!r} does not turn there: it has no pole and no inflection circle"

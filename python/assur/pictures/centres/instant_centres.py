@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from assur._faces import Motion
 
 
-# Centres farther from the mechanism than this part of its size are shown at the border.
+# Centres farther from the mechanism than this multiple of its size are shown at the border.
 SIGHT = 0.75
-# Lines of Kennedy are drawn by default for so many links.
+# Kennedy's lines are drawn by default for up to this many links.
 FEW = 6
 # A legend of more letters may need two lines.
 LONG = 60
@@ -65,7 +65,7 @@ def instant_centres(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. A centre is named ``centre crank coupler``, one out of sight
+        The axes drawn on. A centre is named ``centre crank coupler``, one out of sight
         ``centre crank coupler beyond``: an arrow at the border points to it.
 
     Raises
@@ -83,19 +83,19 @@ def instant_centres(
     """
     motion = checked_motion(motion)
     require_one_driver(motion.driver_count, "instant_centres")
-    one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
-    chosen = _checked_links(one, links)
-    subject = Subject(one)
-    if not all(np.isfinite(one.link(link).d1) for link in chosen):
-        message = f"no instant centres: {one.explain()}"
+    position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    chosen = _checked_links(position, links)
+    subject = Subject(position)
+    if not all(np.isfinite(position.link(link).d1) for link in chosen):
+        message = f"no instant centres: {position.explain()}"
         raise InputError(message)
-    centres = centres_of(one, chosen)
+    centres = centres_of(position, chosen)
     seen = {
         pair: centre
         for pair, centre in centres.items()
         if centre.at is not None and subject.sees(centre.at, SIGHT).all()
     }
-    numbers = link_numbers(one.mechanism)
+    numbers = link_numbers(position.mechanism)
     points = [centre.at for centre in seen.values()]
     around = np.array(points, dtype=np.float64).reshape(-1, 2)
     ordered = sorted(chosen, key=numbers.__getitem__)
@@ -116,13 +116,13 @@ def instant_centres(
     return on.ax
 
 
-def _checked_links(one: Motion, links: Sequence[str] | None) -> list[str]:
-    known = list(one.mechanism.links)
+def _checked_links(position: Motion, links: Sequence[str] | None) -> list[str]:
+    known = list(position.mechanism.links)
     if links is None:
         return known
     chosen = checked_names(links, "links")
     for link in chosen:
-        one.mechanism.core.require("link", link)
+        position.mechanism.core.require("link", link)
     if len(set(chosen)) < 2:
         message = f"links is {chosen}: instant centres need two links"
         raise InputError(message)

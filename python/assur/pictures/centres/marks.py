@@ -24,12 +24,12 @@ DOT = 5.0
 BORDER_ARROW, BORDER = 22.0, 22.0
 # Centres nearer than this, points, have one name.
 TOGETHER = 4.0
-# If more centres are in one place, so many are named and the others counted.
+# If more centres are in one place, this many are named and the others counted.
 NAMED = 4
 
 
 class CentreMarks:
-    """Draws centres; names them all in the end, clear of what is drawn.
+    """Draws centres; names them all in the end, clear of the drawing.
 
     Parameters
     ----------
@@ -115,8 +115,8 @@ class CentreMarks:
         self._name(tip, text, gid, self._on.style.second)
 
     def _name(self, place: Float, text: str, gid: str, colour: str) -> None:
-        for i, other in enumerate(self._places):
-            if np.hypot(*(place - other)) * self._on.scale < TOGETHER:
+        for i, known_place in enumerate(self._places):
+            if np.hypot(*(place - known_place)) * self._on.scale < TOGETHER:
                 self._texts[i].append(text)
                 return
         self._places.append(place)
@@ -134,7 +134,7 @@ class CentreMarks:
 
     def write(self) -> None:
         """Write the names of the centres and the numbers of the links."""
-        texts = [_together(own) for own in self._texts]
+        texts = [_together(words) for words in self._texts]
         places, radii = [*self._places], [self._radius(place) for place in self._places]
         gids, colours = [*self._gids], [*self._colours]
         for link, number in self._numbers.items():

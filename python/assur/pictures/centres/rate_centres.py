@@ -41,49 +41,49 @@ class Centre(NamedTuple):
 
 
 def centres_of(motion: Motion, links: Sequence[str]) -> dict[frozenset[str], Centre]:
-    """Return the instant centres of links at one position; none of pairs at relative rest."""
-    found = {}
-    for one, other in combinations(links, 2):
-        centre = _centre(motion, one, other)
+    """Return the instant centres of links at one position, except for pairs at relative rest."""
+    centres = {}
+    for first, second in combinations(links, 2):
+        centre = _centre(motion, first, second)
         if centre is not None:
-            found[frozenset((one, other))] = centre
-    return found
+            centres[frozenset((first, second))] = centre
+    return centres
 
 
-def _centre(motion: Motion, one: str, other: str) -> Centre | None:
+def _centre(motion: Motion, link: str, base: str) -> Centre | None:
     mechanism = motion.mechanism
-    joints = [joint for joint in mechanism.links[one] if joint in mechanism.links[other]]
+    joints = [joint for joint in mechanism.links[link] if joint in mechanism.links[base]]
     if joints:
         place = motion.joint(joints[0]).value
-        return Centre((one, other), place, np.zeros(2), True, place)
-    at = motion.instant_centre(one, other)
-    sliding = _sliding(mechanism, one, other)
+        return Centre((link, base), place, np.zeros(2), True, place)
+    at = motion.instant_centre(link, base)
+    sliding = _sliding(mechanism, link, base)
     if sliding is None and np.isfinite(at).all():
-        return Centre((one, other), at, np.zeros(2), False, at)
+        return Centre((link, base), at, np.zeros(2), False, at)
     if sliding is None and np.isnan(at).all():
         return None
     # A translation: the centre is infinitely far across it.
-    first, second = motion.reference_points[one], motion.reference_points[other]
+    first, second = motion.reference_points[link], motion.reference_points[base]
     arm = first.value - second.value
-    turn = motion.link(other).d1
+    turn = motion.link(base).d1
     relative = first.d1 - second.d1 - turn * np.array([-arm[1], arm[0]])
     if sliding is not None:
         # A slide's direction is that of its guide, at rest too.
-        own = float(mechanism.dimensions.get(f"{sliding}.angle", 0.0))
-        angle = float(motion.link(mechanism.slides[sliding].on).value) + own
+        guide_angle = float(mechanism.dimensions.get(f"{sliding}.angle", 0.0))
+        angle = float(motion.link(mechanism.slides[sliding].on).value) + guide_angle
         relative = unit_vector(angle)
     length = float(np.hypot(*relative))
     if not length > 0.0:
         return None
     across = np.array([-relative[1], relative[0]]) / length
     origin = _sliding_point(motion, sliding) if sliding is not None else first.value
-    return Centre((one, other), None, across, sliding is not None, origin)
+    return Centre((link, base), None, across, sliding is not None, origin)
 
 
-def _sliding(mechanism: Mechanism, one: str, other: str) -> str | None:
+def _sliding(mechanism: Mechanism, link: str, base: str) -> str | None:
     """Return the slide between two links."""
     for name, slide in mechanism.slides.items():
-        if {slide.link, slide.on} == {one, other}:
+        if {slide.link, slide.on} == {link, base}:
             return name
     return None
 
@@ -106,14 +106,14 @@ def kennedy_lines(
     for pair, centre in centres.items():
         if centre.permanent or centre.at is None:
             continue
-        own = []
+        of_centre = []
         for third in links:
             if third in pair:
                 continue
-            others = [centres.get(frozenset((link, third))) for link in centre.links]
-            if None in others:
+            pair_centres = [centres.get(frozenset((link, third))) for link in centre.links]
+            if None in pair_centres:
                 continue
-            own.append((centre, *(other for other in others if other is not None)))
-        own.sort(key=lambda line: -sum(other.permanent for other in line[1:]))
-        lines += [line for line in own[:2] if len(line) == 3]
+            of_centre.append((centre, *(known for known in pair_centres if known is not None)))
+        of_centre.sort(key=lambda line: -sum(known.permanent for known in line[1:]))
+        lines += [line for line in of_centre[:2] if len(line) == 3]
     return lines

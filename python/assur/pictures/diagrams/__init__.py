@@ -2,5 +2,5 @@
 
 from assur.pictures.axes import pyplot
 
-# Whoever lacks matplotlib reads what to install, whichever module of these comes first.
+# Without matplotlib, any of these modules raises the error that says what to install.
 pyplot()

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 MOST_PANELS = 12
 # Height of one diagram in a column, inches.
 LOW = 2.6
-# A curve whose range is so many times that of its middle nine tenths runs to infinity.
+# A curve whose range is this multiple of that of its middle nine tenths runs to infinity.
 RUNAWAY, MIDDLE, KEPT = 12.0, (5.0, 95.0), 1.0
 DASHED = (0.0, (4.0, 2.0))
 BAND = 0.22
@@ -60,8 +60,8 @@ def motion_diagram(
 ) -> Any:
     """See `Motion.diagram`."""
     source = AlongDriver(motion, speeds, degrees)
-    wanted = quantities(motion, name)
-    return diagrams(source, wanted, ax, orders, style_of(dark), listed=not isinstance(name, str))
+    shown = quantities(motion, name)
+    return diagrams(source, shown, ax, orders, style_of(dark), listed=not isinstance(name, str))
 
 
 def timed_diagram(
@@ -69,24 +69,24 @@ def timed_diagram(
 ) -> Any:
     """See `TimedMotion.diagram`."""
     source = OverTime(timed, degrees)
-    wanted = quantities(timed.motion, name)
-    return diagrams(source, wanted, ax, orders, style_of(dark), listed=not isinstance(name, str))
+    shown = quantities(timed.motion, name)
+    return diagrams(source, shown, ax, orders, style_of(dark), listed=not isinstance(name, str))
 
 
 def diagrams(
-    source: Source, wanted: list[Quantity], ax: Any, orders: Any, own: Style, listed: bool = False
+    source: Source, shown: list[Quantity], ax: Any, orders: Any, style: Style, listed: bool = False
 ) -> Any:
-    """Draw one diagram an order; `listed`: several quantities, each with its name beside it."""
+    """Draw one diagram per order; `listed`: several quantities, each with its name beside it."""
     chosen = _checked_orders(orders, source.orders)
     count = len(chosen)
     rows, columns = (2, 2) if count == 4 else (count, 1)
-    panels = [_Panel(source, wanted, order, own) for order in chosen]
-    axes = chart.chart_axes(ax, own, rows, columns, chart.HEIGHT if count in (1, 4) else LOW)
-    for i, (panel, one) in enumerate(zip(panels, np.atleast_1d(axes).flat, strict=True)):
-        panel.draw(one, listed, last=ax is not None or i >= count - columns)
+    panels = [_Panel(source, shown, order, style) for order in chosen]
+    axes = chart.chart_axes(ax, style, rows, columns, chart.HEIGHT if count in (1, 4) else LOW)
+    for i, (panel, axis) in enumerate(zip(panels, np.atleast_1d(axes).flat, strict=True)):
+        panel.draw(axis, listed, last=ax is not None or i >= count - columns)
     settle(np.atleast_1d(axes).flat[0])
-    for panel, one in zip(panels, np.atleast_1d(axes).flat, strict=True):
-        panel.write(one)
+    for panel, axis in zip(panels, np.atleast_1d(axes).flat, strict=True):
+        panel.write(axis)
     return axes
 
 
@@ -108,22 +108,24 @@ def _checked_orders(orders: Any, highest: int) -> list[int]:
 class _Panel:
     """The diagram of one order."""
 
-    def __init__(self, source: Source, wanted: list[Quantity], order: int, own: Style) -> None:
-        self.source, self.wanted, self.order, self.style = source, wanted, order, own
-        self.lines = [shown for k in range(len(wanted)) for shown in self._shown(k)]
+    def __init__(
+        self, source: Source, quantities: list[Quantity], order: int, style: Style
+    ) -> None:
+        self.source, self.quantities, self.order, self.style = source, quantities, order, style
+        self.lines = [shown for k in range(len(quantities)) for shown in self._shown(k)]
         self.designs = len(self.lines[0].line.values)
 
     def _shown(self, k: int) -> list[Shown]:
-        of = self.wanted[k]
+        of = self.quantities[k]
         lines = self.source.lines(of, self.order)
-        several = len(self.wanted) > 1
+        several = len(self.quantities) > 1
         sized = any(line.part == "v" for line in lines)
         batch = len(lines[0].values) > 1
         if sized and (several or batch):
             lines = [line for line in lines if line.part == "v"]
         colours = (self.style.ink, self.style.velocity, self.style.acceleration, self.style.ink)
         colour = self.style.group(k) if several else colours[self.order]
-        found = []
+        shown = []
         for line in lines:
             symbol = {"": "", "v": "|{}|".format("pvaj"[self.order])}.get(line.part, line.part)
             alone = of.axis is not None or line.part == ""
@@ -132,18 +134,18 @@ class _Panel:
                 name = of.name
             thin = sized and line.part != "v"
             dashes = DASHED if line.part == "y" and of.axis is None else "solid"
-            found.append(Shown(of, line, name, colour, 1.3 if thin else 2.2, dashes))
-        return found
+            shown.append(Shown(of, line, name, colour, 1.3 if thin else 2.2, dashes))
+        return shown
 
     def draw(self, ax: Any, listed: bool, last: bool) -> None:
         """Draw the curves; their names and extremes come when all axes have their places."""
-        x, own = self.source.x, self.style
+        x, style = self.source.x, self.style
         self.named = listed or len(self.lines) > 1
         values = np.concatenate([shown.line.values.reshape(-1) for shown in self.lines])
         kept = _kept(values)
         for shown in self.lines:
             gid = f"curve {shown.name or shown.of.name}"
-            middle = _band(ax, x, shown, own) if self.designs > 1 else shown.line.values[0]
+            middle = _band(ax, x, shown, style) if self.designs > 1 else shown.line.values[0]
             ax.plot(
                 x, middle, color=shown.colour, linewidth=shown.width, linestyle=shown.dashes,
                 gid=gid, solid_capstyle="round",
@@ -155,28 +157,28 @@ class _Panel:
         if self.source.in_degrees:
             chart.degree_ticks(ax, float(x.min()), float(x.max()))
         known = kept[np.isfinite(kept)]
-        title, unit = self.source.title(self.wanted[0].kind, self.order)
+        title, unit = self.source.title(self.quantities[0].kind, self.order)
         unit, self.power = chart.scaled(ax, unit, float(np.abs(known).max(initial=0.0)))
-        chart.title(ax, f"{title}, {unit}", own)
+        chart.title(ax, f"{title}, {unit}", style)
         if self.order or (known.size and known.min() < 0.0 < known.max()):
-            chart.zero_line(ax, own)
+            chart.zero_line(ax, style)
         self._name(ax, listed)
         if last:
-            ax.set_xlabel(self.source.label, color=own.second, fontsize=chart.TEXT)
+            ax.set_xlabel(self.source.label, color=style.second, fontsize=chart.TEXT)
         else:
             ax.tick_params(labelbottom=False)
 
     def _name(self, ax: Any, listed: bool) -> None:
         """Write what it is of on the right, above the diagram."""
         designs = f"{self.designs} designs" if self.designs > 1 else ""
-        name = "" if listed else shortened(printable(self.wanted[0].shown))
+        name = "" if listed else shortened(printable(self.quantities[0].shown))
         if designs:
             text = f"{name}, {designs}" if name else designs
             ax.set_title(
                 text, loc="right", color=self.style.second, fontsize=chart.TEXT, parse_math=False
             )
         elif name:
-            font = name_font() if self.wanted[0].kind == "joint" else None
+            font = name_font() if self.quantities[0].kind == "joint" else None
             ax.set_title(
                 name, loc="right", color=self.style.second, fontproperties=font, parse_math=False,
                 **({} if font else {"fontsize": chart.TEXT + 1.0}),
@@ -197,7 +199,7 @@ class _Panel:
         name_lines(ax, named)
 
     def _written(self, shown: Shown, values: Float) -> str:
-        """Return the name beside a line; of a single line that is constant, its value."""
+        """Return the name beside a line, or the value of a single line that is constant."""
         if self.named:
             return shown.name
         known = values[np.isfinite(values)]
@@ -225,10 +227,10 @@ class _Panel:
             design = int(np.argmax(best))
             slopes = None if shown.line.slopes is None else shown.line.slopes[design]
             again = self.source.again(shown.of, self.order, shown.line.part, design)
-            found = peaks(x, values[design], slopes, again)
-            if not found:
+            extremes = peaks(x, values[design], slopes, again)
+            if not extremes:
                 continue
-            peak = found[0 if sign > 0 else 1]
+            peak = extremes[0 if sign > 0 else 1]
             value = 0.0 if abs(peak.y) < 1e-12 * size else peak.y
             text = f"{number(value / self.power, span)} at {self.source.place(peak.x)}"
             inside = low <= value <= high
@@ -255,13 +257,13 @@ def _median(values: Float) -> Float:
     if len(values) == 1:
         alone: Float = values[0]
         return alone
-    found: Float = np.full(values.shape[1], np.nan)
+    medians: Float = np.full(values.shape[1], np.nan)
     known = np.isfinite(values).any(axis=0)
-    found[known] = np.nanmedian(values[:, known], axis=0)
-    return found
+    medians[known] = np.nanmedian(values[:, known], axis=0)
+    return medians
 
 
-def _band(ax: Any, x: Float, shown: Shown, own: Style) -> Float:
+def _band(ax: Any, x: Float, shown: Shown, style: Style) -> Float:
     """Draw from the least to the greatest of the designs; return the median."""
     values = shown.line.values
     known = np.isfinite(values).any(axis=0)
@@ -269,7 +271,7 @@ def _band(ax: Any, x: Float, shown: Shown, own: Style) -> Float:
     high = np.where(known, np.where(np.isfinite(values), values, -np.inf).max(axis=0), np.nan)
     gid = f"band {shown.name or shown.of.name}"
     ax.fill_between(
-        x, low, high, color=blend(shown.colour, own.canvas, BAND), linewidth=0.0, gid=gid
+        x, low, high, color=blend(shown.colour, style.canvas, BAND), linewidth=0.0, gid=gid
     )
     for edge in (low, high):
         ax.plot(x, edge, color=shown.colour, linewidth=0.7, alpha=0.6, gid=f"edge {shown.of.name}")

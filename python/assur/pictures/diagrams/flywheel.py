@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from assur._faces import Flywheel
     from assur.pictures.style import Style
 
-# Areas of less than that part of the greatest are not labelled.
+# Areas below this fraction of the greatest are not labelled.
 SMALL = 0.04
-# A sign changes where halving a step so often has put it.
+# Halvings of a step to find where a sign changes.
 HALVINGS = 50
 
 
@@ -38,21 +38,21 @@ def flywheel_picture(
     dark: bool,
 ) -> Any:
     """See `Flywheel.plot`."""
-    own = style_of(dark)
+    style = style_of(dark)
     q = np.linspace(*span, points)
     if what == "energy-mass":
-        return wittenbauer_diagram(flywheel, q, ax, own)
+        return wittenbauer_diagram(flywheel, q, ax, style)
     if what == "reduced":
-        return reduced_diagrams(flywheel, q, ax, over_q(q, degrees), own)
+        return reduced_diagrams(flywheel, q, ax, over_q(q, degrees), style)
     if what == "moment":
-        return moment_diagram(flywheel, q, ax, over_q(q, degrees), own)
+        return moment_diagram(flywheel, q, ax, over_q(q, degrees), style)
     if what == "energy":
-        return energy_diagram(flywheel, q, ax, over_q(q, degrees), own)
+        return energy_diagram(flywheel, q, ax, over_q(q, degrees), style)
     if what == "speed":
         over = over_q(q, degrees)
     else:
         over = over_time(flywheel.time(q), lambda at: float(flywheel.time(at)))
-    return speed_diagram(ax, over, flywheel.speed(q), flywheel, wheel_text(flywheel), own)
+    return speed_diagram(ax, over, flywheel.speed(q), flywheel, wheel_text(flywheel), style)
 
 
 def wheel_text(flywheel: Flywheel) -> str:
@@ -60,9 +60,9 @@ def wheel_text(flywheel: Flywheel) -> str:
     return f" with {flywheel.inertia:.4g} kg·m²" if flywheel.inertia else " without a flywheel"
 
 
-def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: Style) -> Any:
+def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, style: Style) -> Any:
     """Draw the reduced moment of the loads, and the reduced inertia."""
-    axes = chart.chart_axes(ax, own, 2, 1, 2.7)
+    axes = chart.chart_axes(ax, style, 2, 1, 2.7)
     x, written = over.values, []
     for panel, curve, title, plain in zip(
         axes,
@@ -72,24 +72,24 @@ def reduced_diagrams(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own:
         strict=True,
     ):
         values = np.asarray(curve(q))
-        start(panel, over, own)
-        panel.plot(x, values, color=own.ink, linewidth=chart.CURVE, gid=f"curve {title}")
+        start(panel, over, style)
+        panel.plot(x, values, color=style.ink, linewidth=chart.CURVE, gid=f"curve {title}")
         chart.headroom(panel, values)
         unit, power = chart.scaled(panel, plain, float(np.abs(values).max()))
-        chart.title(panel, f"{title}, {unit}", own)
-        chart.zero_line(panel, own)
+        chart.title(panel, f"{title}, {unit}", style)
+        chart.zero_line(panel, style)
         span = float(np.ptp(values)) / power
         notes = []
         for peak in peaks(q, values, again=curve):
             at = over.of(peak.x)
             text = f"{number(peak.y / power, span)} at {over.place(at)}"
-            notes.append(Note(at, peak.y, text, own.ink, "extreme"))
+            notes.append(Note(at, peak.y, text, style.ink, "extreme"))
         written.append(notes)
     axes[0].set_xlabel("")
     axes[0].tick_params(labelbottom=False)
     settle(axes[0])
     for panel, notes in zip(axes, written, strict=True):
-        write_notes(panel, notes, own)
+        write_notes(panel, notes, style)
     return axes
 
 
@@ -110,35 +110,35 @@ def areas(flywheel: Flywheel, q: Float) -> list[tuple[float, float, float]]:
     ]
 
 
-def moment_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: Style) -> Any:
+def moment_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, style: Style) -> Any:
     """Draw motor and resistance; the areas between them are energies given and taken."""
-    axes = chart.chart_axes(ax, own)
-    start(axes, over, own)
+    axes = chart.chart_axes(ax, style)
+    start(axes, over, style)
     resistance = -np.asarray(flywheel.reduced_moment(q))
     motor = np.asarray(flywheel.surplus(q)) + resistance
     x = over.values
     for gid, colour, where in (
-        ("surplus", own.driver, motor >= resistance),
-        ("deficit", own.error, motor <= resistance),
+        ("surplus", style.driver, motor >= resistance),
+        ("deficit", style.error, motor <= resistance),
     ):
         axes.fill_between(
             x, resistance, motor, where=where, interpolate=True, linewidth=0.0,
-            color=blend(colour, own.canvas, 2.0 * TINT), zorder=0.5, gid=gid,
+            color=blend(colour, style.canvas, 2.0 * TINT), zorder=0.5, gid=gid,
         )  # fmt: skip
-    axes.plot(x, resistance, color=own.ink, linewidth=chart.CURVE, gid="curve resistance")
-    axes.plot(x, motor, color=own.driver, linewidth=chart.CURVE, gid="curve motor")
+    axes.plot(x, resistance, color=style.ink, linewidth=chart.CURVE, gid="curve resistance")
+    axes.plot(x, motor, color=style.driver, linewidth=chart.CURVE, gid="curve motor")
     both = np.concatenate([resistance, motor])
     chart.headroom(axes, both)
     unit, _ = chart.scaled(axes, "N·m", float(np.abs(both).max()))
-    chart.title(axes, f"Moment at the driver, {unit}", own, energies_text(flywheel, q))
-    found = areas(flywheel, q)
-    chart.zero_line(axes, own)
+    chart.title(axes, f"Moment at the driver, {unit}", style, energies_text(flywheel, q))
+    all_areas = areas(flywheel, q)
+    chart.zero_line(axes, style)
     settle(axes)
     curves = [
-        Named(x, resistance, "resistance", own.ink, italic=False),
-        Named(x, motor, "motor", own.driver, italic=False),
+        Named(x, resistance, "resistance", style.ink, italic=False),
+        Named(x, motor, "motor", style.driver, italic=False),
     ]
-    write_energies(axes, over, found, (motor, resistance), q, own)
+    write_energies(axes, over, all_areas, (motor, resistance), q, style)
     name_lines(axes, curves)
     return axes
 
@@ -161,16 +161,16 @@ def work_extremes(flywheel: Flywheel, q: Float) -> tuple[tuple[float, float], tu
 def write_energies(
     ax: Any,
     over: Abscissa,
-    found: list[tuple[float, float, float]],
+    all_areas: list[tuple[float, float, float]],
     curves: tuple[Float, Float],
     q: Float,
-    own: Style,
+    style: Style,
 ) -> None:
     """Write the energy of each area into it, or beside it where it is narrow."""
     motor, resistance = curves
-    size = max((abs(gain) for *_, gain in found), default=0.0)
+    size = max((abs(gain) for *_, gain in all_areas), default=0.0)
     notes = []
-    for first, last, gain in found:
+    for first, last, gain in all_areas:
         inside = (q >= min(first, last)) & (q <= max(first, last))
         if abs(gain) < SMALL * size or not inside.any():
             continue
@@ -180,52 +180,52 @@ def write_energies(
         y = float(np.interp(at, *_rising(q, (motor + resistance) / 2.0)))
         sign = "+" if gain > 0.0 else "−"
         text = f"{sign}{number(abs(gain))} J"
-        notes.append(Note(over.of(at), y, text, own.ink, "energy", None, centred=True))
-    write_notes(ax, notes, own)
+        notes.append(Note(over.of(at), y, text, style.ink, "energy", None, centred=True))
+    write_notes(ax, notes, style)
 
 
 def _rising(q: Float, y: Float) -> tuple[Float, Float]:
     return (q, y) if q[-1] > q[0] else (q[::-1], y[::-1])
 
 
-def energy_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, own: Style) -> Any:
-    """Draw the work of motor and loads, and what of it the flywheel stores."""
-    axes = chart.chart_axes(ax, own)
-    start(axes, over, own)
+def energy_diagram(flywheel: Flywheel, q: Float, ax: Any, over: Abscissa, style: Style) -> Any:
+    """Draw the work of motor and loads, and the part of it that the flywheel stores."""
+    axes = chart.chart_axes(ax, style)
+    start(axes, over, style)
     x = over.values
     work = np.asarray(flywheel.work(q))
     speed = np.asarray(flywheel.speed(q))
     stored = flywheel.inertia * (np.square(speed) - flywheel.speed0**2) / 2.0
     axes.fill_between(
-        x, stored, work, color=blend(own.driver, own.canvas, 2.0 * TINT), linewidth=0.0,
+        x, stored, work, color=blend(style.driver, style.canvas, 2.0 * TINT), linewidth=0.0,
         zorder=0.5, gid="of the machine",
     )  # fmt: skip
-    axes.plot(x, work, color=own.ink, linewidth=chart.CURVE, gid="curve work")
-    axes.plot(x, stored, color=own.driver, linewidth=chart.CURVE, gid="curve flywheel")
+    axes.plot(x, work, color=style.ink, linewidth=chart.CURVE, gid="curve work")
+    axes.plot(x, stored, color=style.driver, linewidth=chart.CURVE, gid="curve flywheel")
     both = np.concatenate([work, stored])
     chart.headroom(axes, both)
     unit, power = chart.scaled(axes, "J", float(np.abs(both).max()))
     low, high = work_extremes(flywheel, q)
     change = high[1] - low[1]
     text = f"greatest change {number(change)} J; shaded: kinetic energy of the machine itself"
-    chart.title(axes, f"Energy since the start, {unit}", own, text)
-    chart.zero_line(axes, own)
+    chart.title(axes, f"Energy since the start, {unit}", style, text)
+    chart.zero_line(axes, style)
     settle(axes)
     span = change / power
     notes = [
         Note(
             over.of(at), value,
-            f"{number(value / power, span)} at {over.place(over.of(at))}", own.ink,
+            f"{number(value / power, span)} at {over.place(over.of(at))}", style.ink,
             "extreme work",
         )
         for at, value in (high, low)
     ]  # fmt: skip
-    write_notes(axes, notes, own)
+    write_notes(axes, notes, style)
     name_lines(
         axes,
         [
-            Named(x, work, "work of motor and loads", own.ink, italic=False),
-            Named(x, stored, "flywheel", own.driver, italic=False),
+            Named(x, work, "work of motor and loads", style.ink, italic=False),
+            Named(x, stored, "flywheel", style.driver, italic=False),
         ],
     )
     return axes

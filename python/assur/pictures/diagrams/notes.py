@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 REACHES, ENOUGH, FARTHER, HABIT = (2.0, 8.0, 16.0, 28.0), 7.0, 0.35, 2.0
 # An optional text nearer to others than this, points, is left out.
 LEAST = 0.5
-# From its point, of a text that may lie on it.
+# Gap from its point for a text that may lie on it.
 SHIFTS = (0.0, 8.0, -8.0, 16.0, -16.0, 24.0, -24.0)
 
 
@@ -70,7 +70,7 @@ def write_notes(ax: Any, notes: Sequence[Note], style: Style) -> None:
 def _placed(ax: Any, points: Float, notes: Sequence[Note]) -> list[Any]:
     """Return the middles of the texts, the nearest to their points that are clear."""
     frame, blocked = bounds(ax), obstacles(ax)
-    found: list[Any] = []
+    placed: list[Any] = []
     for note, point in zip(notes, points, strict=True):
         half = (np.array(plain_size(note.text, note.size)) + 2.0) / 2.0
         middles, costs = _places(note, point, half)
@@ -79,11 +79,11 @@ def _placed(ax: Any, points: Float, notes: Sequence[Note]) -> list[Any]:
         worth = np.minimum(np.minimum(apart, ENOUGH), 3.0 * border - 2.0) - costs
         best = int(np.argmax(worth))
         if note.optional and min(apart[best], border[best]) < LEAST:
-            found.append(None)
+            placed.append(None)
             continue
-        found.append(middles[best])
+        placed.append(middles[best])
         blocked = np.concatenate([blocked, along([outline(middles[best], half)], STEP)])
-    return found
+    return placed
 
 
 def _places(note: Note, point: Float, half: Float) -> tuple[Float, Float]:

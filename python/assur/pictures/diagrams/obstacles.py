@@ -1,4 +1,4 @@
-"""What texts of a diagram keep clear of: its curves, marks and other texts."""
+"""What texts of a diagram avoid: its curves, marks and other texts."""
 
 from __future__ import annotations
 
@@ -24,7 +24,9 @@ def obstacles(ax: Any) -> Float:
         if str(line.get_gid()).startswith(("zero", "event")):
             # Texts may cover them.
             continue
-        points = np.column_stack([np.asarray(one, dtype=np.float64) for one in line.get_data()])
+        points = np.column_stack(
+            [np.asarray(column, dtype=np.float64) for column in line.get_data()]
+        )
         if line.get_transform() != ax.transData:
             # A level or a place all across the axes.
             points = line.get_transform().transform(points) * per_px(ax)

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 FLAT = 1e-9
 # If a curve has many hills, the highest are searched.
 HILLS = 4
-# A search tries so many places between two samples, then again about the best of them, until these
-# are so much closer: four times.
+# A search tries this many places between two samples, then again about the best of them, until
+# these are so much closer: four times.
 PLACES, CLOSEST = 17, 1 / 500
-# Interpolation is believed where it gains so much over the sample, relative to the range.
+# Interpolation counts where it gains more than this over the sample, relative to the range.
 GAIN = 1e-6
 
 
@@ -44,7 +44,7 @@ def peaks(
     slope: Float | None = None,
     again: Callable[[Float], Float] | None = None,
 ) -> list[Peak]:
-    """Return the greatest and the least value of a curve, in this order; none of a constant.
+    """Return the greatest and the least value of a curve, in this order; nothing for a constant.
 
     Parameters
     ----------
@@ -78,25 +78,25 @@ def _peak(
         (heights >= padded[:-2]) & (heights >= padded[2:]) & np.isfinite(heights)
     )
     hills = hills[np.argsort(-heights[hills], kind="stable")][:HILLS]
-    found = []
+    tops = []
     for i in hills.tolist():
         low = i - 1 if i and np.isfinite(y[i - 1]) else i
         high = i + 1 if i + 1 < len(y) and np.isfinite(y[i + 1]) else i
-        own = (float(x[i]), float(y[i]))
+        sample = (float(x[i]), float(y[i]))
         if low == high:
-            found.append(own)
+            tops.append(sample)
         elif again is not None:
-            found.append(_solved(again, (float(x[low]), float(x[high])), own, sign))
+            tops.append(_solved(again, (float(x[low]), float(x[high])), sample, sign))
         else:
             near = slice(low, high + 1)
-            other = (
-                _parabola(x[near], y[near], own)
+            refined = (
+                _parabola(x[near], y[near], sample)
                 if slope is None
                 else _cubic(x[near], y[near], slope[near], sign)
             )
-            gains = sign * (other[1] - own[1]) > GAIN * float(np.nanmax(y) - np.nanmin(y))
-            found.append(other if gains else own)
-    at, value = max(found, key=lambda point: sign * point[1])
+            gains = sign * (refined[1] - sample[1]) > GAIN * float(np.nanmax(y) - np.nanmin(y))
+            tops.append(refined if gains else sample)
+    at, value = max(tops, key=lambda point: sign * point[1])
     return Peak(at, value, sign > 0.0)
 
 
@@ -141,17 +141,17 @@ def _cubic(x: Float, y: Float, slope: Float, sign: float) -> tuple[float, float]
     return best
 
 
-def _parabola(x: Float, y: Float, own: tuple[float, float]) -> tuple[float, float]:
+def _parabola(x: Float, y: Float, sample: tuple[float, float]) -> tuple[float, float]:
     # Samples of a jump may have the same place.
     if len(x) < 3 or x[0] == x[1] or x[1] == x[2]:
-        return own
+        return sample
     before, after = (
         float(y[1] - y[0]) / float(x[1] - x[0]),
         float(y[2] - y[1]) / float(x[2] - x[1]),
     )
     bend = (after - before) / float(x[2] - x[0])
     if bend == 0.0:
-        return own
+        return sample
     at = (float(x[0]) + float(x[1])) / 2.0 - before / (2.0 * bend)
     near = min(max(at, float(x[0])), float(x[2])) - float(x[1])
     slope = before + bend * float(x[1] - x[0])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import in_range, short
+from assur.description.dotted_names import split_name
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -69,13 +70,13 @@ def quantities(motion: Motion, name: Any) -> list[Quantity]:
     if not isinstance(names, list | tuple) or not names:
         message = f"diagram: {short(name)} is not a name or a list of names"
         raise InputError(message)
-    found = [_quantity(motion, one) for one in names]
-    units = {"rad" if one.kind == "link" else "m" for one in found}
+    listed = [_quantity(motion, item) for item in names]
+    units = {"rad" if quantity.kind == "link" else "m" for quantity in listed}
     if len(units) > 1:
-        kinds = ", ".join(f"{one.kind} {one.name!r}" for one in found)
+        kinds = ", ".join(f"{quantity.kind} {quantity.name!r}" for quantity in listed)
         message = f"diagram: {kinds} have different units: draw links by themselves"
         raise InputError(message)
-    return found
+    return listed
 
 
 def _quantity(motion: Motion, name: Any) -> Quantity:
@@ -83,16 +84,16 @@ def _quantity(motion: Motion, name: Any) -> Quantity:
         for kind, names in zip(KINDS, motion.mechanism.indices, strict=True):
             if name in names:
                 return Quantity(kind, name)
-        joint, dot, axis = name.rpartition(".")
-        if dot and axis in AXES and joint in motion.mechanism.joint_names:
+        joint, axis = split_name(name)
+        if axis in AXES and joint in motion.mechanism.joint_names:
             return Quantity("joint", joint, AXES.index(axis))
-    # It says what there is.
+    # This raises the error that lists the names.
     motion[name if isinstance(name, str) else short(name)]
     raise AssertionError(name)  # pragma: no cover
 
 
 def components(of: Quantity, order: int, values: Float, slopes: Float | None) -> list[Line]:
-    """Return the components, and of a joint's derivatives the magnitude."""
+    """Return the components, and the magnitude of a joint's derivatives."""
     if of.kind != "joint":
         return [Line("", values, slopes)]
     axes: Sequence[int] = (0, 1) if of.axis is None else (of.axis,)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 POINTS = 1001
 # Energies whose range is less than that of the greatest are not drawn.
 STILL = 1e-9
-# The names of events lie that far below the upper side, relative to the diagram.
+# How far the names of events lie below the upper side, relative to the diagram.
 EVENTS = 0.07
 SUM, DASHED = "sum", (0.0, (5.0, 3.0))
 # Above the curves, relative to their range, for the names of events.
@@ -33,12 +33,12 @@ TITLES = {"q": "Coordinate", "speed": "Speed", "acceleration": "Acceleration"}
 
 def run_picture(run: Run, what: str, ax: Any, dark: bool, named: bool = True) -> Any:
     """See `Run.plot`; `named`: with the events."""
-    own = style_of(dark)
-    axes = chart.chart_axes(ax, own)
+    style = style_of(dark)
+    axes = chart.chart_axes(ax, style)
     if what == "energy":
-        t, curves, unit, title = *_energies(run, own), "J", "Energy"
+        t, curves, unit, title = *_energies(run, style), "J", "Energy"
     else:
-        t, curves, unit = _motions(run, what, own)
+        t, curves, unit = _motions(run, what, style)
         title = TITLES[what]
     for curve in curves:
         axes.plot(
@@ -55,13 +55,13 @@ def run_picture(run: Run, what: str, ax: Any, dark: bool, named: bool = True) ->
         axes.set_ylim(low, high + (ROOM - chart.HEADROOM) * (high - low))
     known = values[np.isfinite(values)]
     unit, power = chart.scaled(axes, unit, float(np.abs(known).max(initial=0.0)))
-    chart.title(axes, f"{title}, {unit}", own, _sentence(run, what))
-    axes.set_xlabel("t, s", color=own.second, fontsize=chart.TEXT)
-    chart.zero_line(axes, own)
-    _event_lines(axes, events, own)
+    chart.title(axes, f"{title}, {unit}", style, _sentence(run, what))
+    axes.set_xlabel("t, s", color=style.second, fontsize=chart.TEXT)
+    chart.zero_line(axes, style)
+    _event_lines(axes, events, style)
     settle(axes)
     notes = _extremes(run, what, t, curves, power)
-    write_notes(axes, [*notes, *_event_notes(axes, events, own)], own)
+    write_notes(axes, [*notes, *_event_notes(axes, events, style)], style)
     if len(curves) > 1:
         name_lines(axes, [Named(t, *curve[1:]) for curve in curves])
     return axes
@@ -75,22 +75,22 @@ def _sentence(run: Run, what: str) -> str:
     return f"sum = kinetic + potential − work, constant to {text}·{ten(int(power))}"
 
 
-def _energies(run: Run, own: Style) -> tuple[Float, list[Any]]:
+def _energies(run: Run, style: Style) -> tuple[Float, list[Any]]:
     """Return the energies at the ends of the steps, and their sum."""
     energy, t = run.energy, np.asarray(run.t)
-    size = max(float(np.nanmax(np.abs(one))) for one in energy[:3])
-    curves = [Named(t, energy.kinetic, "kinetic", own.driver, italic=False)]
-    for name, colour in (("potential", own.path), ("work", own.force)):
+    size = max(float(np.nanmax(np.abs(values))) for values in energy[:3])
+    curves = [Named(t, energy.kinetic, "kinetic", style.driver, italic=False)]
+    for name, colour in (("potential", style.path), ("work", style.force)):
         values = getattr(energy, name)
         if float(np.ptp(values)) > STILL * size:
             curves.append(Named(t, values, name, colour, italic=False))
     if len(curves) > 1:
         total = energy.kinetic + energy.potential - energy.work
-        curves.append(Named(t, total, SUM, own.second, italic=False))
+        curves.append(Named(t, total, SUM, style.second, italic=False))
     return t, curves
 
 
-def _motions(run: Run, what: str, own: Style) -> tuple[Float, list[Any], str]:
+def _motions(run: Run, what: str, style: Style) -> tuple[Float, list[Any], str]:
     """Return a quantity of every driver over the time, and its unit."""
     if run.along_q:
         state: Any = run
@@ -108,7 +108,7 @@ def _motions(run: Run, what: str, own: Style) -> tuple[Float, list[Any], str]:
             t,
             values[:, k],
             f"{name}, {unit}{per}" if mixed else name,
-            own.driver if alone else own.group(k),
+            style.driver if alone else style.group(k),
             italic=False,
         )
         for k, (name, unit) in enumerate(zip(names, units, strict=True))
@@ -121,8 +121,8 @@ def drivers(mechanism: Mechanism | None, count: int) -> tuple[list[str], list[st
     if mechanism is None:
         return ["driver"] * count, ["rad"] * count
     names, units = [], []
-    for one in mechanism.description.drivers:
-        name = one if isinstance(one, str) else f"{one.link} on {one.relative_to}"
+    for drive in mechanism.description.drivers:
+        name = drive if isinstance(drive, str) else f"{drive.link} on {drive.relative_to}"
         names.append(name)
         units.append("m" if name in mechanism.slides else "rad")
     return names, units
@@ -145,25 +145,25 @@ def _extremes(run: Run, what: str, t: Float, curves: list[Any], power: float) ->
     return notes
 
 
-def _event_lines(ax: Any, events: list[EventRecord], own: Style) -> None:
-    for one in events:
-        gid = f"event {event_text(one)}"
-        ax.axvline(one.t, color=own.faint, linewidth=0.9, zorder=0.8, gid=gid)
+def _event_lines(ax: Any, events: list[EventRecord], style: Style) -> None:
+    for event in events:
+        gid = f"event {event_text(event)}"
+        ax.axvline(event.t, color=style.faint, linewidth=0.9, zorder=0.8, gid=gid)
 
 
-def _event_notes(ax: Any, events: list[EventRecord], own: Style) -> list[Any]:
-    """Return the names of the events at the upper side; of many alike the first is named."""
+def _event_notes(ax: Any, events: list[EventRecord], style: Style) -> list[Any]:
+    """Return the names of the events at the upper side; the first of many alike is named."""
     bottom, top = ax.get_ylim()
     y = top - EVENTS * (top - bottom)
     counts: dict[str, int] = {}
     first: dict[str, float] = {}
-    for one in events:
-        text = event_text(one)
+    for event in events:
+        text = event_text(event)
         counts[text] = counts.get(text, 0) + 1
-        first.setdefault(text, float(one.t))
+        first.setdefault(text, float(event.t))
     return [
         Note(
-            t, y, text if counts[text] == 1 else f"{text} ({counts[text]} times)", own.second,
+            t, y, text if counts[text] == 1 else f"{text} ({counts[text]} times)", style.second,
             "event text", None,
         )
         for text, t in first.items()

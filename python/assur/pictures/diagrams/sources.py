@@ -1,4 +1,4 @@
-"""What diagrams are drawn over, and their titles: the driver's coordinate, or time."""
+"""The abscissas of diagrams, and their titles: the driver's coordinate, or time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ POWERS = ("", "", "²", "³")
 
 
 class Source(Protocol):
-    """What diagrams are drawn of.
+    """The source of a diagram's curves.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class AlongDriver:
         self.in_degrees = degrees and self.turns
         self.x = np.degrees(motion.q) if self.in_degrees else np.asarray(motion.q)
         self.label = "q" if self.in_degrees else f"q, {'rad' if self.turns else 'm'}"
-        self._steady = speeds is not None and all(one.ndim == 0 for one in speeds)
+        self._steady = speeds is not None and all(speed.ndim == 0 for speed in speeds)
 
     def place(self, x: float) -> str:
         """Write a place on the abscissa."""
@@ -111,8 +111,8 @@ class AlongDriver:
         """Return what a diagram shows, and its unit."""
         if order == 0 or self._speeds is not None:
             return title_in_time(kind, order, self.degrees)
-        own, per = "rad" if kind == "link" else "m", "rad" if self.turns else "m"
-        return ANALOGUES[order], f"{own}/{per}{POWERS[order]}"
+        unit, per = "rad" if kind == "link" else "m", "rad" if self.turns else "m"
+        return ANALOGUES[order], f"{unit}/{per}{POWERS[order]}"
 
     def lines(self, of: Quantity, order: int) -> list[Line]:
         """Return the curves of a quantity."""
@@ -187,9 +187,9 @@ class OverTime:
 
     def lines(self, of: Quantity, order: int) -> list[Line]:
         """Return the curves of a quantity."""
-        found = getattr(self._timed, of.kind)(of.name)
-        values = found[order][None]
-        slopes = found[order + 1][None] if order < self.orders else None
+        derivatives = getattr(self._timed, of.kind)(of.name)
+        values = derivatives[order][None]
+        slopes = derivatives[order + 1][None] if order < self.orders else None
         if of.kind == "link" and order == 0 and self.degrees:
             values, slopes = np.degrees(values), None if slopes is None else np.degrees(slopes)
         return components(of, order, values, slopes)
@@ -201,10 +201,10 @@ class OverTime:
 
 def title_in_time(kind: str, order: int, degrees: bool) -> tuple[str, str]:
     """Return the title of a derivative by time, or of the value, and its unit."""
-    own = "rad" if kind == "link" else "m"
+    unit = "rad" if kind == "link" else "m"
     if order == 0:
-        return TITLES[kind][0], "°" if degrees and own == "rad" else own
-    return TITLES[kind][order], f"{own}/s{POWERS[order]}"
+        return TITLES[kind][0], "°" if degrees and unit == "rad" else unit
+    return TITLES[kind][order], f"{unit}/s{POWERS[order]}"
 
 
 def _at(motion: Motion, design: int, q: Float) -> Motion:

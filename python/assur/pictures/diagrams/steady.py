@@ -41,7 +41,7 @@ def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark:
 
 
 class Abscissa:
-    """What a curve over a turn is drawn over: its values, its name, and the places of extremes."""
+    """The abscissa of a curve over a turn: its values, its name, and the places of extremes."""
 
     def __init__(
         self, values: Float, label: str, of: Callable[[float], float], place: Callable[[float], str]
@@ -69,26 +69,26 @@ def speed_diagram(
     speed: Float,
     of: Flywheel | SteadyState,
     wheel: str,
-    own: Style,
+    style: Style,
 ) -> Any:
     """Draw a speed with its extremes and mean, the band of its fluctuation shaded."""
-    axes = chart.chart_axes(ax, own)
-    start(axes, over, own)
+    axes = chart.chart_axes(ax, style)
+    start(axes, over, style)
     sign = float(np.copysign(1.0, speed[0]))
     least, greatest, mean = (
-        sign * float(one) for one in (of.least.value, of.greatest.value, of.mean_speed)
+        sign * float(value) for value in (of.least.value, of.greatest.value, of.mean_speed)
     )
-    axes.plot(over.values, speed, color=own.driver, linewidth=chart.CURVE, gid="curve speed")
+    axes.plot(over.values, speed, color=style.driver, linewidth=chart.CURVE, gid="curve speed")
     axes.axhspan(
-        least, greatest, color=blend(own.driver, own.canvas, TINT), zorder=0.5, linewidth=0.0,
+        least, greatest, color=blend(style.driver, style.canvas, TINT), zorder=0.5, linewidth=0.0,
         gid="fluctuation",
     )  # fmt: skip
     axes.axhline(
-        mean, color=own.second, linewidth=0.9, linestyle=(0.0, (5.0, 3.0)), zorder=1.5, gid="mean"
+        mean, color=style.second, linewidth=0.9, linestyle=(0.0, (5.0, 3.0)), zorder=1.5, gid="mean"
     )
     chart.headroom(axes, np.array([least, greatest]))
     unit, power = chart.scaled(axes, "rad/s", max(abs(least), abs(greatest)))
-    chart.title(axes, f"Speed, {unit}: δ = {of.delta:.3g}{wheel}", own)
+    chart.title(axes, f"Speed, {unit}: δ = {of.delta:.3g}{wheel}", style)
     settle(axes)
     span = abs(greatest - least) / power
     notes = [
@@ -97,17 +97,17 @@ def speed_diagram(
             sign * float(extreme.value),
             f"{number(sign * float(extreme.value) / power, span)} at "
             f"{over.place(over.of(float(extreme.at)))}",
-            own.driver,
+            style.driver,
             "extreme speed",
         )
         for extreme in (of.greatest, of.least)
     ]
-    write_notes(axes, notes, own)
-    write_mean(axes, over, speed, mean, f"mean {number(mean / power, span)}", own)
+    write_notes(axes, notes, style)
+    write_mean(axes, over, speed, mean, f"mean {number(mean / power, span)}", style)
     return axes
 
 
-def write_mean(ax: Any, over: Abscissa, speed: Float, mean: float, text: str, own: Style) -> None:
+def write_mean(ax: Any, over: Abscissa, speed: Float, mean: float, text: str, style: Style) -> None:
     """Write the mean on its line, where the curve is far from it."""
     width = max(len(over.values) // 6, 1)
     apart = np.abs(speed - mean)
@@ -117,15 +117,15 @@ def write_mean(ax: Any, over: Abscissa, speed: Float, mean: float, text: str, ow
     ax.annotate(
         text, (over.values[i], mean), xytext=(0.0, 2.0 if above else -2.0),
         textcoords="offset points", horizontalalignment="center",
-        verticalalignment="bottom" if above else "top", color=own.second, fontsize=chart.TEXT,
+        verticalalignment="bottom" if above else "top", color=style.second, fontsize=chart.TEXT,
         zorder=5.0, gid="mean text",
     ).set_in_layout(False)  # fmt: skip
 
 
-def start(ax: Any, over: Abscissa, own: Style) -> None:
+def start(ax: Any, over: Abscissa, style: Style) -> None:
     """Put limits, ticks and name on the abscissa."""
     low, high = float(over.values.min()), float(over.values.max())
     ax.set_xlim(low, high)
     if over.label == "q":
         chart.degree_ticks(ax, low, high)
-    ax.set_xlabel(over.label, color=own.second, fontsize=chart.TEXT)
+    ax.set_xlabel(over.label, color=style.second, fontsize=chart.TEXT)

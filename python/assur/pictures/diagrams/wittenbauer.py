@@ -22,30 +22,30 @@ if TYPE_CHECKING:
 
 # Beside the loop, relative to it: left for the intercept, right, and above and below.
 LEFT, RIGHT, ABOVE = 0.42, 0.22, 0.16
-# Tangents are steep if they rise so many times the height of the loop from the side to it.
+# Tangents are steep if they rise by this multiple of the loop's height from the side to it.
 STEEP = 1.5
 # From the frame to the intercept, relative to the picture.
 INSET = 0.02
-# A loop without width is drawn as wide as that part of the inertia.
+# A loop without width is drawn as wide as this fraction of the inertia.
 THIN = 0.2
-# Dots and their names are so far apart.
+# The angle between dots; every second dot has its name.
 DOTS, NAMES = np.pi / 6.0, 2
 # From the intercept to its text, points.
 GAP = 6.0
 
 
-def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, own: Style) -> Any:
+def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, style: Style) -> Any:
     """Draw the loop of one turn and both tangents; they meet at minus the flywheel."""
-    axes = chart.chart_axes(ax, own)
+    axes = chart.chart_axes(ax, style)
     inertia, energy = flywheel.energy_mass(len(q))
-    axes.plot(inertia, energy, color=own.ink, linewidth=chart.CURVE, gid="curve loop", zorder=2.0)
+    axes.plot(inertia, energy, color=style.ink, linewidth=chart.CURVE, gid="curve loop", zorder=2.0)
     corner = -flywheel.inertia, -flywheel.inertia * flywheel.speed0**2 / 2.0
     low, high, steep = _width(inertia, energy, float(flywheel.greatest.value))
     reach = np.array([low, high])
     tangents = []
     for name, extreme, colour in (
-        ("greatest", flywheel.greatest, own.driver),
-        ("least", flywheel.least, own.error),
+        ("greatest", flywheel.greatest, style.driver),
+        ("least", flywheel.least, style.error),
     ):
         line = corner[1] + float(extreme.value) ** 2 / 2.0 * (reach - corner[0])
         axes.plot(reach, line, color=colour, linewidth=1.4, gid=f"tangent {name}", zorder=1.8)
@@ -54,17 +54,17 @@ def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, own: Style) -> An
     axes.set(xlim=(low, high), ylim=_height(energy, [] if steep else lines))
     unit, _ = chart.scaled(axes, "J", float(np.abs(axes.get_ylim()).max()))
     title = f"Wittenbauer: energy, {unit}, over inertia, kg·m²"
-    chart.title(axes, title, own, _sentence(flywheel, corner))
-    axes.set_xlabel("reduced inertia, kg·m²", color=own.second, fontsize=chart.TEXT)
+    chart.title(axes, title, style, _sentence(flywheel, corner))
+    axes.set_xlabel("reduced inertia, kg·m²", color=style.second, fontsize=chart.TEXT)
     settle(axes)
-    _intercept(axes, lines, steep, own)
+    _intercept(axes, lines, steep, style)
     notes = []
     for _, extreme, colour in tangents:
         at = np.array([extreme.at])
         point = _point(flywheel, at)
         notes.append(Note(float(point[0][0]), float(point[1][0]), "", colour, "contact"))
-    write_notes(axes, [note._replace(gid="contact") for note in notes], own)
-    _dots(axes, flywheel, q, own)
+    write_notes(axes, [note._replace(gid="contact") for note in notes], style)
+    _dots(axes, flywheel, q, style)
     span = float(flywheel.greatest.value - flywheel.least.value)
     gap = "\n" if steep else " "
     named = [
@@ -84,7 +84,7 @@ def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, own: Style) -> An
 def _width(inertia: Float, energy: Float, speed: float) -> tuple[float, float, bool]:
     """Return the limits of the abscissa, and whether tangents are too steep to meet its left end.
 
-    Of a flat loop they may be much steeper than it is high.
+    For a flat loop they may be much steeper than it is high.
     """
     low, high = float(inertia.min()), float(inertia.max())
     span = high - low
@@ -119,10 +119,10 @@ def _height(energy: Float, tangents: list[Float]) -> tuple[float, float]:
     return bottom - (room if tangents else 2.5 * room), top + room
 
 
-def _intercept(ax: Any, tangents: list[Float], steep: bool, own: Style) -> None:
+def _intercept(ax: Any, tangents: list[Float], steep: bool, style: Style) -> None:
     """Draw what the tangents cut off the frame as a length with its value.
 
-    On the left side it is an energy; of steep tangents it is an inertia at the bottom.
+    On the left side it is an energy; for steep tangents it is an inertia at the bottom.
     """
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     ends = np.array([float(line[0]) for line in tangents])
@@ -136,7 +136,7 @@ def _intercept(ax: Any, tangents: list[Float], steep: bool, own: Style) -> None:
         points = np.column_stack([np.linspace(ends[0], ends[1], 11), np.full(11, y)])
         text, aside = f"{number(abs(ends[1] - ends[0]))} kg·m²\nat the frame", np.array([0.0, 1.0])
     arrow = {
-        "arrowstyle": "<|-|>", "color": own.second, "linewidth": 1.1, "shrinkA": 0.0,
+        "arrowstyle": "<|-|>", "color": style.second, "linewidth": 1.1, "shrinkA": 0.0,
         "shrinkB": 0.0, "mutation_scale": 9.0,
     }  # fmt: skip
     ax.annotate("", points[0], xytext=points[-1], gid="intercept", arrowprops=arrow).set_in_layout(
@@ -151,12 +151,12 @@ def _intercept(ax: Any, tangents: list[Float], steep: bool, own: Style) -> None:
     best = int(np.argmax(np.minimum(clear, 8.0) - 0.5 * np.abs(np.arange(9) - 4.0)))
     ax.annotate(
         text, points[1 + best], xytext=middles[best] - near[best], textcoords="offset points",
-        horizontalalignment="center", verticalalignment="center", color=own.second,
+        horizontalalignment="center", verticalalignment="center", color=style.second,
         fontsize=chart.TEXT, gid="intercept text", zorder=5.0,
     ).set_in_layout(False)  # fmt: skip
 
 
-def _dots(ax: Any, flywheel: Flywheel, q: Float, own: Style) -> None:
+def _dots(ax: Any, flywheel: Flywheel, q: Float, style: Style) -> None:
     """Put a dot on the loop at every 30°, with the angle at some."""
     first, last = float(q[0]), float(q[-1])
     sign = float(np.copysign(1.0, last - first))
@@ -165,15 +165,15 @@ def _dots(ax: Any, flywheel: Flywheel, q: Float, own: Style) -> None:
     places: Float = sign * DOTS * numbers.astype(np.float64)
     inertia, energy = _point(flywheel, places)
     ax.plot(
-        inertia, energy, "o", color=own.ink, markersize=3.5, zorder=2.5, gid="dots",
+        inertia, energy, "o", color=style.ink, markersize=3.5, zorder=2.5, gid="dots",
         scalex=False, scaley=False,
     )  # fmt: skip
     notes = [
         Note(
             float(inertia[i]), float(energy[i]),
-            degrees_text(float(np.degrees(places[i])), 360.0), own.second, "angle", None,
+            degrees_text(float(np.degrees(places[i])), 360.0), style.second, "angle", None,
             optional=True,
         )
         for i in np.flatnonzero(numbers % NAMES == 0).tolist()
     ]  # fmt: skip
-    write_notes(ax, notes, own)
+    write_notes(ax, notes, style)

@@ -6,5 +6,5 @@ marks are mm: of the mechanism for places, of the paper for texts, arrows and ga
 
 from assur.pictures.axes import pyplot
 
-# Whoever lacks matplotlib reads what to install, whichever module of these comes first.
+# Without matplotlib, any of these modules raises the error that says what to install.
 pyplot()

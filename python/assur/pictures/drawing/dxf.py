@@ -87,44 +87,44 @@ def _dimension_style(doc: Any, per: float, decimals: int) -> None:
 
 
 def _weight(mm: float) -> int:
-    """Return the line weight that is nearest."""
-    return min(WEIGHTS, key=lambda one: abs(one - 100.0 * mm))
+    """Return the nearest line weight."""
+    return min(WEIGHTS, key=lambda weight: abs(weight - 100.0 * mm))
 
 
 def _add(model: Any, mark: Mark, per: float) -> None:
-    own: dict[str, Any] = {"layer": mark.layer}
+    attributes: dict[str, Any] = {"layer": mark.layer}
     if isinstance(mark, Outline):
-        own["lineweight"] = _weight(mark.weight)
+        attributes["lineweight"] = _weight(mark.weight)
         if mark.dash_dotted:
-            own["linetype"] = "CENTER"
+            attributes["linetype"] = "CENTER"
         if len(mark.points) == 2 and mark.bulges is None:
-            model.add_line(*mark.points.tolist(), dxfattribs=own)
+            model.add_line(*mark.points.tolist(), dxfattribs=attributes)
             return
         bulges = np.zeros(len(mark.points)) if mark.bulges is None else mark.bulges
         points = np.column_stack([mark.points, bulges]).tolist()
-        model.add_lwpolyline(points, format="xyb", close=mark.closed, dxfattribs=own)
+        model.add_lwpolyline(points, format="xyb", close=mark.closed, dxfattribs=attributes)
     elif isinstance(mark, Circle):
-        own["lineweight"] = _weight(mark.weight)
+        attributes["lineweight"] = _weight(mark.weight)
         if mark.filled:
             hatch = model.add_hatch(color=256, dxfattribs={"layer": mark.layer})
             path = hatch.paths.add_edge_path()
             path.add_arc(mark.centre.tolist(), mark.radius, 0.0, 360.0)
         else:
-            model.add_circle(mark.centre.tolist(), mark.radius, dxfattribs=own)
+            model.add_circle(mark.centre.tolist(), mark.radius, dxfattribs=attributes)
     elif isinstance(mark, Filled):
-        hatch = model.add_hatch(color=256, dxfattribs=own)
+        hatch = model.add_hatch(color=256, dxfattribs=attributes)
         hatch.paths.add_polyline_path(mark.points.tolist(), is_closed=True)
     elif isinstance(mark, Text):
         _add_text(model, mark, per)
     elif isinstance(mark, Distance):
-        own = {"layer": mark.layer}
+        attributes = {"layer": mark.layer}
         model.add_linear_dim(
             base=mark.base.tolist(),
             p1=mark.start.tolist(),
             p2=mark.end.tolist(),
             angle=float(np.degrees(mark.angle)),
             dimstyle=STYLE,
-            dxfattribs=own,
+            dxfattribs=attributes,
         ).render()
     else:
         _add_diameter(model, mark, per)

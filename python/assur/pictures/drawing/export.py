@@ -56,7 +56,7 @@ def write_drawing(
         message = f"a drawing is of one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
     links = _checked_links(mechanism, link, q)
-    wanted = None if scale is None else _checked_scale(scale)
+    fixed_scale = None if scale is None else _checked_scale(scale)
     if paper is not None and (not isinstance(paper, str) or paper not in PAPERS):
         message = f"paper is {short(paper)}: one of {', '.join(PAPERS)} is needed"
         raise InputError(message)
@@ -77,7 +77,7 @@ def write_drawing(
     def views(per: float) -> list[list[Mark]]:
         shop = _workshop(subject, slides, *sizes, per)
         if links is not None:
-            return [link_drawing(shop, one) for one in links]
+            return [link_drawing(shop, name) for name in links]
         if show_outlines:
             marks, radii = outlines(subject, shop), np.full(len(texts), sizes[0] / 2.0 / per)
         else:
@@ -87,7 +87,7 @@ def write_drawing(
 
     heading = _heading(target, title, link)
     thinnest = sizes[0] if links is not None or show_outlines else np.inf
-    sheet = lay_out(views, _size(subject, links, sizes[0]), thinnest, heading, wanted, paper)
+    sheet = lay_out(views, _size(subject, links, sizes[0]), thinnest, heading, fixed_scale, paper)
     decimals = int(np.clip(DIGITS - np.ceil(np.log10(_size(subject, None, 0.0))), 0, MOST_DECIMALS))
     if form == ".dxf":
         from assur.pictures.drawing.dxf import dxf_bytes
@@ -113,8 +113,8 @@ def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:
         message = f'link is {short(link)}: the name of a link is needed, or "all"'
         raise InputError(message)
     if link == "all":
-        found = [name for name in mechanism.links if _has_shape(mechanism, name)]
-        return found or list(mechanism.links)
+        shaped = [name for name in mechanism.links if _has_shape(mechanism, name)]
+        return shaped or list(mechanism.links)
     link = checked_name(link, "link")
     mechanism.core.require("link", link)
     if not _has_shape(mechanism, link):
@@ -125,7 +125,7 @@ def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:
 
 def _has_shape(mechanism: Mechanism, link: str) -> bool:
     slides = mechanism.slides.values()
-    return bool(mechanism.links[link]) or any(link in (one.link, one.on) for one in slides)
+    return bool(mechanism.links[link]) or any(link in (slide.link, slide.on) for slide in slides)
 
 
 def _checked_scale(scale: Any) -> float:
@@ -145,8 +145,8 @@ def _checked_scale(scale: Any) -> float:
 
 
 def _position(mechanism: Mechanism, q: Any, assembly: Mapping[str, int] | None) -> Motion:
-    found = getattr(assembly, "q", None)
-    at = next(one for one in (q, found, mechanism.q0_array) if one is not None)
+    assembly_q = getattr(assembly, "q", None)
+    at = next(value for value in (q, assembly_q, mechanism.q0_array) if value is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if motion.shape:
         message = f"q has positions {motion.shape}: a drawing shows one"
@@ -183,7 +183,7 @@ def _length(value: Any, what: str) -> float:
 
 def _workshop(subject: Subject, slides: Slides, width: float, hole: float, per: float) -> Workshop:
     mechanism = subject.mechanism
-    named = layer_names([*OWN_LAYERS, *(f"LINK_{one}" for one in mechanism.links)])
+    named = layer_names([*OWN_LAYERS, *(f"LINK_{link_name}" for link_name in mechanism.links)])
     layers = {link: named[f"LINK_{link}"] for link in mechanism.links}
     layers["ground"] = "GROUND"
     count: dict[str, int] = {}
@@ -216,10 +216,10 @@ def _size(subject: Subject, links: list[str] | None, width: float) -> float:
         points = [np.concatenate(list(subject.at.joints().values()))]
     else:
         points = [np.array(list(subject.at.local[link].values())).reshape(-1, 2) for link in links]
-    extents = [MM * float(np.ptp(own, axis=0).max()) for own in points if len(own)]
+    extents = [MM * float(np.ptp(corners, axis=0).max()) for corners in points if len(corners)]
     return max(*extents, width, 1e-300)
 
 
 def _heading(target: Path, title: str | None, link: Any) -> str:
-    own = target.stem if title is None else title
-    return own if link in (None, "all") else f"{own}: {link}"
+    text = target.stem if title is None else title
+    return text if link in (None, "all") else f"{text}: {link}"

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from assur._arrays import Float
 
-# A piece shorter than this part of its line is dropped.
+# A piece shorter than this fraction of its line is dropped.
 SHORTEST = 1e-9
 
 

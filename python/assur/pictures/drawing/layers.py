@@ -15,19 +15,21 @@ MOST = 100
 
 def valid_text(text: str) -> str:
     """Return a text on one line, without characters that a file cannot hold."""
-    return "".join(one if one.isprintable() else "_" for one in text)
+    return "".join(letter if letter.isprintable() else "_" for letter in text)
 
 
 def layer_names(names: Iterable[str]) -> dict[str, str]:
-    """Return a valid name for each, different from the others whatever the case of letters."""
-    given: dict[str, str] = {}
+    """Return a valid name for each, different from the others in any case of letters."""
+    layers: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:
-        text = "".join("_" if one in FORBIDDEN else one for one in valid_text(name)).strip()
+        text = "".join(
+            "_" if letter in FORBIDDEN else letter for letter in valid_text(name)
+        ).strip()
         text = text[:MOST] or "_"
-        own, number = text, 2
-        while own.casefold() in taken:
-            own, number = f"{text}_{number}", number + 1
-        taken.add(own.casefold())
-        given[name] = own
-    return given
+        unique, number = text, 2
+        while unique.casefold() in taken:
+            unique, number = f"{text}_{number}", number + 1
+        taken.add(unique.casefold())
+        layers[name] = unique
+    return layers

@@ -34,13 +34,13 @@ BLOCK_LENGTH, SLOT = 1.2, 0.6
 BARREL, ROD = 1.0, 0.3
 # From the outline to the first dimension line, and from line to line, mm of the paper.
 FIRST, NEXT = 9.0, 8.0
-# Distances below this part of the link's size are 0.
+# Distances below this fraction of the link's size are 0.
 NEAR = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Workshop:
-    """What parts are made by.
+    """The settings by which parts are made.
 
     `width` and `hole` are mm, `per` is the length of a mm of the paper; `layers` has the layer of
     each link.
@@ -60,9 +60,9 @@ class Workshop:
 
 def joints_of(shop: Workshop, link: str) -> dict[str, Float]:
     """Return the joints of a link in its frame, mm; the ground's from its first joint."""
-    own = shop.frames.local[link]
-    base = next(iter(own.values()), np.zeros(2)) if link == "ground" else np.zeros(2)
-    return {joint: MM * (at - base) for joint, at in own.items()}
+    places = shop.frames.local[link]
+    base = next(iter(places.values()), np.zeros(2)) if link == "ground" else np.zeros(2)
+    return {joint: MM * (at - base) for joint, at in places.items()}
 
 
 def part_marks(shop: Workshop, link: str) -> list[Mark]:
@@ -112,11 +112,11 @@ def link_drawing(shop: Workshop, link: str) -> list[Mark]:
 
 def _hole_dimensions(joints: dict[str, Float], low: Float, per: float) -> list[Mark]:
     """Return x of every hole below the outline and y on its left, the shortest nearest to it."""
-    first, *others = joints.values()
-    size = max((float(np.abs(at - first).max()) for at in others), default=0.0)
+    first, *further = joints.values()
+    size = max((float(np.abs(at - first).max()) for at in further), default=0.0)
     marks: list[Mark] = []
     for axis, angle in ((0, 0.0), (1, np.pi / 2.0)):
-        far = [at for at in others if abs(at[axis] - first[axis]) > NEAR * size]
+        far = [at for at in further if abs(at[axis] - first[axis]) > NEAR * size]
         for i, at in enumerate(sorted(far, key=lambda at: abs(float(at[axis] - first[axis])))):
             base = low - (FIRST + NEXT * i) * per
             marks.append(Distance("DIMENSIONS", first, at, base, angle))
@@ -167,20 +167,22 @@ def _slide_shapes(shop: Workshop, link: str) -> tuple[list[Mark], list[Float]]:
 
 def _base(shop: Workshop, link: str) -> Float:
     """Return the origin of a link's drawing in its frame, m."""
-    own = shop.frames.local[link]
-    return next(iter(own.values()), np.zeros(2)) if link == "ground" else np.zeros(2)
+    places = shop.frames.local[link]
+    return next(iter(places.values()), np.zeros(2)) if link == "ground" else np.zeros(2)
 
 
 def _cylinder_part(shop: Workshop, name: str, axis: Axis, role: str, layer: str) -> Mark:
     joint = shop.slides.barrel_joint(name)
     assert joint is not None
-    own = cylinder(axis, joint)
+    drawn = cylinder(axis, joint)
     if role == "barrel":
-        start = MM * joint + own.forward * shop.width / 2.0
-        end = MM * (joint + own.barrel * own.forward)
+        start = MM * joint + drawn.forward * shop.width / 2.0
+        end = MM * (joint + drawn.barrel * drawn.forward)
         return rectangle(layer, start, end, BARREL * shop.width)
-    start = MM * axis.block - own.rod_forward * shop.width / 2.0
-    return rectangle(layer, start, MM * (axis.block - own.rod * own.rod_forward), ROD * shop.width)
+    start = MM * axis.block - drawn.rod_forward * shop.width / 2.0
+    return rectangle(
+        layer, start, MM * (axis.block - drawn.rod * drawn.rod_forward), ROD * shop.width
+    )
 
 
 def _slide_dimensions(shop: Workshop, link: str) -> list[Mark]:

@@ -43,7 +43,7 @@ def name_marks(
         return []
     boxes = np.array([(LETTER * NAME_HEIGHT * len(text), NAME_HEIGHT) for text in texts])
     lines = [mark.points for mark in marks if isinstance(mark, Outline | Filled)]
-    lines += [np.vstack([own, own[:1]]) for own in lines if len(own) > 2]
+    lines += [np.vstack([line, line[:1]]) for line in lines if len(line) > 2]
     lines += dimension_lines(marks)
     for mark in marks:
         if isinstance(mark, Distance):

@@ -12,7 +12,7 @@ from assur.pictures.scene.geometry import hull
 if TYPE_CHECKING:
     from assur._arrays import Float
 
-# A centre mark goes so far beyond its hole, relative to the hole's radius.
+# How far a centre mark goes beyond its hole, relative to the hole's radius.
 MARK = 1.6
 
 

@@ -71,7 +71,7 @@ def paper_bytes(sheet: Sheet, decimals: int, form: str) -> bytes:
     stream = BytesIO()
     settings: Any = {"svg.hashsalt": "assur", "pdf.fonttype": 42, "svg.fonttype": "path"}
     with mpl.rc_context(settings), warnings.catch_warnings():
-        # Names may be of any script; what the font lacks is a box.
+        # Names may be in any script; letters that the font lacks are boxes.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
         when = {"Date": None} if form == "svg" else {"CreationDate": None}
         figure.savefig(stream, format=form, metadata=when)
@@ -119,8 +119,8 @@ class _Pen:
             self._diameter(mark)
 
     def _at(self, points: Float) -> Float:
-        own: Float = (points - self._sheet.origin) * self._sheet.scale
-        return own
+        on_paper: Float = (points - self._sheet.origin) * self._sheet.scale
+        return on_paper
 
     def _path(self, path: Any, weight: float, dash_dotted: bool = False) -> None:
 

@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 # A px of the symbols, mm of the paper.
 PX = 25.4 / 96.0
-# A dimension of a link is so far from it on either side, mm of the paper.
+# Distances of a dimension from its link on either side, mm of the paper.
 BESIDE = (8.0, -8.0, 14.0, -14.0, 20.0, -20.0)
-# Number of points among which the nearest to a dimension is looked for.
+# Number of points among which to look for the nearest to a dimension.
 MOST = 4000
 
 
 def schematic(subject: Subject, layers: dict[str, str], per: float) -> list[Mark]:
-    """Return the symbols of a position; what lies under joints and blocks is left out."""
+    """Return the symbols of a position, without the lines under joints and blocks."""
     size = PX * per * _density(subject, per)
     drawn: list[tuple[Part, Float]] = []
     for part in subject.scene.parts:
@@ -122,11 +122,11 @@ def outlines(subject: Subject, shop: Workshop) -> list[Mark]:
     """Return the outlines of all links where they are, with the ground's under the others."""
     marks: list[Mark] = []
     for link, (x, y, angle) in zip(subject.scene.links, subject.frames[0].tolist(), strict=True):
-        own = part_marks(shop, link)
+        part = part_marks(shop, link)
         shift = MM * np.array([x, y])
         if link == "ground":
             shift = shift + MM * next(iter(shop.frames.local[link].values()), np.zeros(2))
-        marks += [moved(mark, shift, angle) for mark in own]
+        marks += [moved(mark, shift, angle) for mark in part]
     return marks
 
 
@@ -136,22 +136,26 @@ def dimensioned(subject: Subject, marks: list[Mark], per: float) -> list[Mark]:
     joints = np.array(list(at.values()))
     middle = joints.mean(axis=0)
     lines = [mark.points for mark in marks if isinstance(mark, Outline)]
-    found: list[Mark] = []
-    for link, own in subject.at.local.items():
-        if link == "ground" or len(own) < 2:
+    distances: list[Mark] = []
+    for link, joints_on in subject.at.local.items():
+        if link == "ground" or len(joints_on) < 2:
             continue
-        start, end = (at[joint] for joint in list(own)[:2])
-        found.append(_beside(start, end, middle, [*lines, *dimension_lines(found)], per))
-    low, _ = bounds([*marks, *found], per)
+        start, end = (at[joint] for joint in list(joints_on)[:2])
+        distances.append(_beside(start, end, middle, [*lines, *dimension_lines(distances)], per))
+    low, _ = bounds([*marks, *distances], per)
     ground = [at[joint] for joint in subject.at.local.get("ground", {})]
     size = float(np.ptp(joints, axis=0).max())
     for axis, angle in ((0, 0.0), (1, np.pi / 2.0)):
-        far = [one for one in ground[1:] if abs(one[axis] - ground[0][axis]) > NEAR * size]
-        far.sort(key=lambda one: abs(float(one[axis] - ground[0][axis])))
-        for i, one in enumerate(far):
+        far = [
+            joint_at
+            for joint_at in ground[1:]
+            if abs(joint_at[axis] - ground[0][axis]) > NEAR * size
+        ]
+        far.sort(key=lambda joint_at: abs(float(joint_at[axis] - ground[0][axis])))
+        for i, end_at in enumerate(far):
             base = low - (FIRST / 2.0 + NEXT * i) * per
-            found.append(Distance("DIMENSIONS", ground[0], one, base, angle))
-    return found
+            distances.append(Distance("DIMENSIONS", ground[0], end_at, base, angle))
+    return distances
 
 
 def _beside(start: Float, end: Float, middle: Float, lines: list[Float], per: float) -> Distance:
@@ -167,12 +171,12 @@ def _beside(start: Float, end: Float, middle: Float, lines: list[Float], per: fl
     obstacles = obstacles[:: max(1, len(obstacles) // MOST)]
     best, most = None, -np.inf
     for i, reach in enumerate(BESIDE):
-        one = Distance("DIMENSIONS", start, end, start + reach * per * left, angle)
-        own = along([np.stack(one.feet())], step)
-        inner = own[len(own) // 5 : len(own) - len(own) // 5] if len(own) > 5 else own
+        distance = Distance("DIMENSIONS", start, end, start + reach * per * left, angle)
+        line = along([np.stack(distance.feet())], step)
+        inner = line[len(line) // 5 : len(line) - len(line) // 5] if len(line) > 5 else line
         gaps = np.hypot(*np.moveaxis(inner[:, None] - obstacles[None], -1, 0))
         room = min(float(gaps.min(initial=np.inf)) / per, 6.0) - 0.3 * i
         if room > most:
-            best, most = one, room
+            best, most = distance, room
     assert best is not None
     return best

@@ -100,11 +100,11 @@ def _best(views: Views, size: float, title: str, scales: list[float], name: str)
     for scale in scales:
         if size * scale > max(PAPERS[name]):
             continue
-        own = views(1.0 / scale)
+        marks = views(1.0 / scale)
         for edges in (PAPERS[name], PAPERS[name][::-1]):
-            found = _placed(own, edges, 1.0 / scale)
-            if found is not None:
-                return _finished(found, edges, scale, title, name)
+            placed = _placed(marks, edges, 1.0 / scale)
+            if placed is not None:
+                return _finished(placed, edges, scale, title, name)
     return None
 
 
@@ -160,10 +160,10 @@ def _placed(
 
 
 def _finished(
-    found: tuple[list[Mark], Float], size: tuple[float, float], scale: float, title: str, name: str
+    placed: tuple[list[Mark], Float], size: tuple[float, float], scale: float, title: str, name: str
 ) -> Sheet:
     """Add the frame and the title."""
-    marks, origin = found
+    marks, origin = placed
     per = 1.0 / scale
 
     def at(x: float, y: float) -> Float:
@@ -174,11 +174,11 @@ def _finished(
     frame = np.stack([at(EDGE, EDGE), at(right, EDGE), at(right, top), at(EDGE, top)])
     middle = EDGE + STRIP / 2.0
     half = SMALL_HEIGHT / 2.0
-    said = f"{scale_text(scale)}    mm    {name}"
+    caption = f"{scale_text(scale)}    mm    {name}"
     extra: list[Mark] = [
         Outline("SHEET", frame, closed=True),
         Outline("SHEET", np.stack([at(EDGE, strip), at(right, strip)]), weight=THIN),
         Text("SHEET", at(EDGE + 4.0, middle - TITLE_HEIGHT / 2.0), title, TITLE_HEIGHT, "left"),
-        Text("SHEET", at(right - 52.0, middle - half), said, SMALL_HEIGHT, "left"),
+        Text("SHEET", at(right - 52.0, middle - half), caption, SMALL_HEIGHT, "left"),
     ]
     return Sheet([*marks, *extra], origin, size, scale)

@@ -26,7 +26,7 @@ def strokes(subject: Subject, motion: Motion) -> dict[str, Stroke]:
         return {}
     signs = [subject.assembly[name] for name, _ in mechanism.core.assembly]
     values, q = mechanism.values.tolist(), float(motion.q)
-    found = {}
+    ranges = {}
     for name in mechanism.slides:
         try:
             ends = mechanism.core.extremes(values, signs, name, 0, q)
@@ -35,5 +35,5 @@ def strokes(subject: Subject, motion: Motion) -> dict[str, Stroke]:
             continue
         present = float(motion.slide(name).value)
         if ends is not None and np.isfinite([value for value, _ in ends]).all():
-            found[name] = (ends[0][0] - present, ends[1][0] - present)
-    return found
+            ranges[name] = (ends[0][0] - present, ends[1][0] - present)
+    return ranges

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 # The longest vector, relative to the greater side of the frame; the least one that is drawn.
 LONGEST, LEAST = 0.22, 1e-6
-# Links are drawn so faintly, those not cut free still more.
+# How faintly links are drawn, and those not cut free.
 OWN, OTHERS = 0.55, 0.18
 # Arcs of inertia's moments.
 SMALL = 0.75
@@ -101,16 +101,16 @@ def forces_picture(
     return on.ax
 
 
-def _draw_faintly(subject: Subject, on: Canvas, own: tuple[str, ...]) -> None:
+def _draw_faintly(subject: Subject, on: Canvas, chosen: tuple[str, ...]) -> None:
     """Draw the mechanism, links other than its own still fainter."""
     drawn = Drawn(on, subject.scene, subject.frames[0])
     links = {part.name: part.link for part in subject.scene.parts}
     for artist in drawn.artists:
-        artist.set_alpha(OWN if links.get(artist.get_gid()) in own else OTHERS)
+        artist.set_alpha(OWN if links.get(artist.get_gid()) in chosen else OTHERS)
 
 
 def _once(forces: Sequence[PlacedForce]) -> list[PlacedForce]:
-    """Leave of the forces between two moving links the one on the first."""
+    """Keep, of the forces between two moving links, the one on the first."""
     seen: set[str] = set()
     kept = []
     for force in forces:

@@ -73,8 +73,8 @@ def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
         if len(axes) != len(views):
             message = f"ax has {len(axes)} axes: the frame {link!r} has {len(views)}"
             raise InputError(message)
-    for one, (name, ends) in zip(axes, views, strict=True):
-        _draw(one, bearing, name, ends, style)
+    for panel, (name, ends) in zip(axes, views, strict=True):
+        _draw(panel, bearing, name, ends, style)
     return axes[0] if len(axes) == 1 else np.array(axes, dtype=object)
 
 

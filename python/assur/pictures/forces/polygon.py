@@ -23,7 +23,7 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, place_text, write_headin
 if TYPE_CHECKING:
     from assur._faces import ForceSystem, PlacedForce
 
-# The order of the sides; forces smaller than this part of the greatest are not drawn.
+# The order of the sides; forces smaller than this fraction of the greatest are not drawn.
 ORDER, LEAST = ("load", "weight", "inertia", "drive", "reaction"), 1e-9
 DOT = 4.0
 
@@ -74,11 +74,11 @@ def polygon_sides(system: ForceSystem) -> list[PlacedForce]:
     for force in system.forces:
         if force.inner:
             continue
-        own = force.name if force.kind == "reaction" else str(len(outer))
-        before = outer.get((force.kind, own))
+        name = force.name if force.kind == "reaction" else str(len(outer))
+        before = outer.get((force.kind, name))
         total = force.force if before is None else before.force + force.force
         first: Any = before or force
-        outer[force.kind, own] = first._replace(force=total)
+        outer[force.kind, name] = first._replace(force=total)
     greatest = max(float(np.hypot(*force.force)) for force in outer.values())
     kept = [f for f in outer.values() if np.hypot(*f.force) > LEAST * greatest]
     return sorted(kept, key=lambda force: ORDER.index(force.kind))

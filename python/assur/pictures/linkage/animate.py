@@ -95,8 +95,8 @@ def _write_image(out: Path, film: Film, rows: list[int], seconds: float) -> None
         palette = Image.new("P", (1, 1))
         palette.putpalette(_palette(film.colours))
         images = [
-            _with_canvas(one.quantize(palette=palette, dither=Image.Dither.NONE), film.colours[0])
-            for one in images
+            _with_canvas(image.quantize(palette=palette, dither=Image.Dither.NONE), film.colours[0])
+            for image in images
         ]
         options["optimize"] = False
     images[0].save(out, save_all=True, append_images=images[1:], **options)
@@ -104,9 +104,9 @@ def _write_image(out: Path, film: Film, rows: list[int], seconds: float) -> None
 
 def _palette(colours: list[tuple[int, ...]]) -> list[int]:
     """Return the ground, which is the first colour, and its mixtures with every other one."""
-    ground, *others = (np.array(colour) for colour in colours)
+    ground, *hues = (np.array(colour) for colour in colours)
     steps = np.linspace(1.0, 0.0, SHADES, endpoint=False)[:, None]
-    mixed = [ground[None], *(ground + steps * (other - ground) for other in others)]
+    mixed = [ground[None], *(ground + steps * (hue - ground) for hue in hues)]
     entries: list[int] = np.rint(np.concatenate(mixed)).astype(int).reshape(-1).tolist()
     return entries[: 3 * 256]
 

@@ -1,4 +1,4 @@
-"""Scenes drawn by matplotlib: one artist a part, moved by the frame of its link."""
+"""Scenes drawn by matplotlib: one artist per part, moved by the frame of its link."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Drawn:
         self._groups = groups
         self._frames = {link: Affine2D() for link in scene.links}
         self.artists: list[Any] = []
-        self._transforms = {link: own + on.ax.transData for link, own in self._frames.items()}
+        self._transforms = {link: frame + on.ax.transData for link, frame in self._frames.items()}
         self.show(frames)
         for part in scene.parts:
             for artist in self._draw(part):

@@ -30,15 +30,15 @@ MOST = 24
 LONGEST = 3
 
 
-def assemblies_picture(found: Sequence[Assembly], ax: Any, dark: bool) -> Any:
+def assemblies_picture(assemblies: Sequence[Assembly], ax: Any, dark: bool) -> Any:
     """See `Assemblies.plot`."""
-    if not len(found):
+    if not len(assemblies):
         message = "there is no assembly at this coordinate: nothing to draw"
         raise InputError(message)
 
     style = style_of(dark)
     subjects = []
-    shown = list(found)[: MOST if ax is None else None]
+    shown = list(assemblies)[: MOST if ax is None else None]
     for assembly in shown:
         place = assembly.place
         assert place is not None
@@ -51,18 +51,18 @@ def assemblies_picture(found: Sequence[Assembly], ax: Any, dark: bool) -> Any:
     corners = np.concatenate([subject.points() for subject in subjects])
     extent = np.stack([corners.min(axis=0), corners.max(axis=0)])
     axes = _axes(len(shown), extent, ax, style)
-    for i, (one, subject, assembly) in enumerate(zip(axes, subjects, shown, strict=True)):
-        on = subject.canvas(one, style, [extent])
+    for i, (panel, subject, assembly) in enumerate(zip(axes, subjects, shown, strict=True)):
+        on = subject.canvas(panel, style, [extent])
         Drawn(on, subject.scene, subject.frames[0])
         if max(len(name.text) for name in subject.scene.names) <= LONGEST:
             name_joints(subject, on, subject.frames[0])
-        one.set_title(
+        panel.set_title(
             _title(i, assembly, on), color=style.second, fontsize=TEXT, y=0.0,
             pad=4.0, gid="title", parse_math=False,
         )  # fmt: skip
-    if len(shown) < len(found):
+    if len(shown) < len(assemblies):
         axes[0].figure.suptitle(
-            f"{len(shown)} of {len(found)} assemblies", color=style.second, fontsize=TEXT
+            f"{len(shown)} of {len(assemblies)} assemblies", color=style.second, fontsize=TEXT
         )
     return axes
 
@@ -80,11 +80,11 @@ def _title(index: int, assembly: Assembly, on: Canvas) -> str:
 
 def _axes(count: int, extent: Any, ax: Any, style: Any) -> Any:
     if ax is not None:
-        given = listed_axes(ax)
-        if len(given) < count:
-            message = f"ax has {len(given)} axes, there are {count} assemblies: each needs its own"
+        panels = listed_axes(ax)
+        if len(panels) < count:
+            message = f"ax has {len(panels)} axes, there are {count} assemblies: each needs its own"
             raise InputError(message)
-        return np.array([checked_axes(one) for one in given[:count]], dtype=object)
+        return np.array([checked_axes(panel) for panel in panels[:count]], dtype=object)
     columns = min(count, COLUMNS)
     rows = -(-count // columns)
     span = np.maximum(extent[1] - extent[0], 1e-300)

@@ -1,4 +1,4 @@
-"""Frames of a moving picture: what stands still is drawn once."""
+"""Frames of a moving picture: parts at rest are drawn once."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from assur.pictures.style import Style
 
 DOTS_PER_INCH = 100
-# A motion closes if its last position is the first, to this part of its size.
+# A motion closes if its last position is the first, to this fraction of its size.
 CLOSES = 1e-6
 
 

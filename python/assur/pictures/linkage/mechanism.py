@@ -38,8 +38,8 @@ def mechanism_picture(
         )
         raise InputError(message)
     one_of(labels, LABELS, "labels")
-    found = getattr(assembly, "q", None)
-    places = (q, found, mechanism.q0_array)
+    assembly_q = getattr(assembly, "q", None)
+    places = (q, assembly_q, mechanism.q0_array)
     at = next(place for place in places if place is not None)
     motion = mechanism.solve(at, order=0, assembly=assembly)
     if 0 in motion.shape:

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 
 # Between the circle of the driver and the numbers, points.
 GAP = 7.0
-# A number moves up to so far along the circle to get clear of lines, rad.
+# How far a number may move along the circle to get clear of lines, rad.
 SHIFTS = np.radians([0.0, 6.0, -6.0, 12.0, -12.0, 18.0, -18.0])
-# So far from lines a number is clear of them, points; a shift must be worth it.
+# At this distance from lines a number is clear of them, points; a shift must be worth it.
 CLEAR, COST_OF_SHIFT = 2.0, 0.05
 
 

@@ -58,16 +58,16 @@ def path_picture(
         PathArrows(motion, joints, kind, speeds, row, subject.size)
         for kind in _kinds(vectors, joints)
     ]
-    seen = [*known, *(tips for own in arrows for tips in own.tips())]
+    seen = [*known, *(tips for arrow in arrows for tips in arrow.tips())]
     on = subject.canvas(ax, style_of(dark), seen, groups=groups)
     for i, (name, path) in enumerate(zip(joints, paths, strict=True)):
         draw_path(on, path, name, DASHES[i % len(DASHES)], path[row])
     draw_position(subject, on, subject.frames[0], groups=groups, lines=known)
     lines = [*known, *subject.lines(on, subject.frames[0])]
-    lines += [shaft for own in arrows for shaft in own.shafts()]
+    lines += [shaft for arrow in arrows for shaft in arrow.shafts()]
     boxes = [name_boxes(on)]
-    for own in arrows:
-        own.draw(on, lines, boxes)
+    for arrow in arrows:
+        arrow.draw(on, lines, boxes)
     scale_bar(on)
     return on.ax
 

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
-# Besides the position drawn; the longest arrow is such a part of the mechanism's size.
+# Besides the position drawn; the longest arrow is this fraction of the mechanism's size.
 ALONG, LONGEST = 12, 0.22
-# Vectors that are shorter are drawn as none: their scale would overflow.
+# Shorter vectors are not drawn: their scale would overflow.
 LEAST = 1e-290
 
 

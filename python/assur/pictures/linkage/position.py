@@ -72,7 +72,7 @@ def name_joints(
     )
 
 
-def free_name(subject: Subject, *wanted: str) -> str:
+def free_name(subject: Subject, *names: str) -> str:
     """Return the first name that no joint has."""
     joints = {name.text for name in subject.scene.names}
-    return next((name for name in wanted if name not in joints), wanted[0])
+    return next((name for name in names if name not in joints), names[0])

@@ -40,19 +40,19 @@ def draw_positions(subject: Subject, on: Canvas, labels: str, groups: bool) -> N
                 solid_capstyle="round",
             )
         )
-    found = swings(subject.mechanism, subject.assembly)
-    traces = draw_traces(subject, on, found)
+    known_swings = swings(subject.mechanism, subject.assembly)
+    traces = draw_traces(subject, on, known_swings)
     if labels == "none":
         draw_position(subject, on, subject.frames[0], names=False, groups=groups)
         return
-    own = subject.lines(on, subject.frames[0])
-    boxes = write_numbers(subject, on, [*light, *own])
-    boxes = np.concatenate([boxes, write_swings(subject, on, found)])
+    solid = subject.lines(on, subject.frames[0])
+    boxes = write_numbers(subject, on, [*light, *solid])
+    boxes = np.concatenate([boxes, write_swings(subject, on, known_swings)])
     draw_position(
         subject, on, subject.frames[0], groups=groups, lines=[*traces, *light], boxes=boxes
     )
     if labels == "all":
-        _name_others(subject, on, [*own, *traces], boxes, light)
+        _name_others(subject, on, [*solid, *traces], boxes, light)
 
 
 def _light_lines(subject: Subject, on: Canvas, frames: Float) -> list[Float]:

@@ -20,12 +20,12 @@ ROWS = 361
 
 
 def checked_motion(motion: Any) -> Motion:
-    """Return a motion; what is none is refused."""
+    """Return a motion; refuse anything else."""
     if not hasattr(motion, "instant_centre"):
         message = f"motion is {short(motion)}: an assur.Motion is needed, as solve() gives"
         raise InputError(message)
-    own: Motion = motion
-    return own
+    checked: Motion = motion
+    return checked
 
 
 def refined(motion: Motion, what: str, order: int, rows: int = ROWS) -> tuple[Motion, int]:

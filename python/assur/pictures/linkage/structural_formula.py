@@ -29,12 +29,12 @@ def formula_lines(mechanism: Mechanism, width: float) -> list[list[tuple[int, st
     x = 0.0
     for i, piece in enumerate(printable(mechanism.structure.formula).split(ARROW)):
         text = piece if i == 0 else f"→ {piece}"
-        own = text_size(text, font)[0]
-        if lines[-1] and x + own > width - 2.0 * BORDER:
+        length = text_size(text, font)[0]
+        if lines[-1] and x + length > width - 2.0 * BORDER:
             lines.append([])
             x = 0.0
         lines[-1].append((i, text, x))
-        x += own + GAP
+        x += length + GAP
     return lines
 
 

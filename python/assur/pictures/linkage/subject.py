@@ -1,4 +1,4 @@
-"""What is drawn of a mechanism: its scene, its positions, and the frame they fit into."""
+"""A mechanism to draw: its scene, its positions, and the frame they fit into."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Subject:
         self,
         ax: Any,
         style: Style,
-        others: Iterable[Float] = (),
+        further: Iterable[Float] = (),
         head: float = 0.0,
         groups: bool = False,
     ) -> Canvas:
@@ -79,7 +79,7 @@ class Subject:
         `head`: points for other text above.
         """
         flag(groups, "groups")
-        points = np.concatenate([self.points(), *others])
+        points = np.concatenate([self.points(), *further])
         points = points[np.isfinite(points).all(axis=1)]
         extent = points.min(axis=0), points.max(axis=0)
         font = name_font()
@@ -146,7 +146,7 @@ def assembly_of(motion: Motion) -> dict[str, int]:
 
 
 def outline(part: Part, on: Canvas, subject: Subject, frames: Float) -> Float | None:
-    """Return a part's line in the drawing's axes; none of a disc."""
+    """Return a part's line in the drawing's axes; None for a disc."""
     if isinstance(part, Disc):
         return None
     per = on.size / on.scale

@@ -35,35 +35,35 @@ class Swing(NamedTuple):
 
 
 def swings(mechanism: Mechanism, assembly: dict[str, int]) -> list[Swing]:
-    """Return the links that turn about the ground; of several drivers none is known."""
+    """Return the links that turn about the ground; with several drivers none is known."""
     if mechanism.driver_count > 1:
         return []
     ground = set(mechanism.links.get("ground", ()))
-    found = []
+    listed = []
     for link, joints in mechanism.links.items():
         pivots = [joint for joint in joints if joint in ground]
         if link != "ground" and len(pivots) == 1 and len(joints) > 1:
-            own = _extremes(mechanism, link, assembly)
-            if own is not None:
-                found.append(Swing(link, pivots[0], own if np.isfinite(own).all() else None))
-    return found
+            limits = _extremes(mechanism, link, assembly)
+            if limits is not None:
+                listed.append(Swing(link, pivots[0], limits if np.isfinite(limits).all() else None))
+    return listed
 
 
 def _extremes(
     mechanism: Mechanism, link: str, assembly: dict[str, int]
 ) -> tuple[float, float] | None:
     try:
-        found = mechanism.extremes(link, assembly=assembly)
+        extremes = mechanism.extremes(link, assembly=assembly)
     except AssurError:
         # Not every assembly of a higher group can be followed to its ends.
         return None
-    return found.least.value, found.greatest.value
+    return extremes.least.value, extremes.greatest.value
 
 
-def draw_traces(subject: Subject, on: Canvas, found: list[Swing]) -> list[Float]:
+def draw_traces(subject: Subject, on: Canvas, listed: list[Swing]) -> list[Float]:
     """Draw the arcs of joints dotted, with ticks where they turn back; return their lines, m."""
     drawn = []
-    for swing in found:
+    for swing in listed:
         local = subject.whole.local[swing.link]
         centre = subject.whole.local["ground"][swing.pivot]
         low, high = swing.extremes or (0.0, 2.0 * np.pi)
@@ -71,12 +71,12 @@ def draw_traces(subject: Subject, on: Canvas, found: list[Swing]) -> list[Float]
             arm = place - local[swing.pivot]
             if not arm.any():
                 continue
-            radius, own = float(np.hypot(*arm)), float(np.arctan2(arm[1], arm[0]))
-            turn = own + np.linspace(low, min(high, low + 2.0 * np.pi), 121)
+            radius, start = float(np.hypot(*arm)), float(np.arctan2(arm[1], arm[0]))
+            turn = start + np.linspace(low, min(high, low + 2.0 * np.pi), 121)
             arc = centre + radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
             drawn.append(_line(on, arc, f"trace {joint}", 0.9, DOTTED))
             for angle in swing.extremes or ():
-                radial = np.array([np.cos(angle + own), np.sin(angle + own)])
+                radial = np.array([np.cos(angle + start), np.sin(angle + start)])
                 middle, tick = centre + radius * radial, LIMIT_TICK / on.scale * radial
                 ends = np.array([middle - tick, middle + tick])
                 drawn.append(_line(on, ends, f"limit {joint}", 1.4, "solid"))
@@ -98,11 +98,11 @@ def _line(on: Canvas, points: Float, gid: str, width: float, dashes: object) -> 
     return points
 
 
-def write_swings(subject: Subject, on: Canvas, found: list[Swing]) -> Float:
+def write_swings(subject: Subject, on: Canvas, listed: list[Swing]) -> Float:
     """Write the limits of what swings and the step of the positions; return their box, points."""
     parts = [
-        f"{swing.link} from {' to '.join(angle_text(one, 1) for one in swing.extremes)}"
-        for swing in found
+        f"{swing.link} from {' to '.join(angle_text(limit, 1) for limit in swing.extremes)}"
+        for swing in listed
         if swing.extremes is not None
     ][:WRITTEN]
     step = _even_step(subject)

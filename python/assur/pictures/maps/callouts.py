@@ -56,8 +56,8 @@ def write_beside(
     widths = np.array([plain_size(text, TEXT) for text in texts]) + PAD
     covered = [*(in_points(ax, line) for line in lines), *_covered(avoid)]
     obstacles = along(covered, STEP)
-    own = in_points(ax, points)
-    middles = placed(own, widths, np.full(len(own), size / 2.0), obstacles, bounds(ax))
+    printed = in_points(ax, points)
+    middles = placed(printed, widths, np.full(len(printed), size / 2.0), obstacles, bounds(ax))
     return [
         _write(ax, text, middle, colour, gid) for text, middle in zip(texts, middles, strict=True)
     ]
@@ -69,12 +69,12 @@ def write_along(
     lines: Sequence[Float],
     colours: Sequence[Any],
     gids: Sequence[str],
-    others: Sequence[Float] = (),
+    further: Sequence[Float] = (),
     avoid: Sequence[Any] = (),
 ) -> list[Any]:
     """Write a text beside each line where there is most room; lines are in data."""
     drawn = [in_points(ax, line) for line in lines]
-    obstacles = along([*drawn, *(in_points(ax, line) for line in others), *_covered(avoid)], STEP)
+    obstacles = along([*drawn, *(in_points(ax, line) for line in further), *_covered(avoid)], STEP)
     frame = bounds(ax)
     written = []
     for text, line, colour, gid in zip(texts, drawn, colours, gids, strict=True):
@@ -102,10 +102,10 @@ def clear_of(ax: Any, texts: Sequence[Any], gid: str) -> None:
     """Remove texts of a name that lie on others or on one another, or leave the axes."""
     taken = [text.get_window_extent() for text in texts]
     low, high = ax.bbox.get_points()
-    for text in [one for one in ax.texts if one.get_gid() == gid]:
+    for text in [written for written in ax.texts if written.get_gid() == gid]:
         box = text.get_window_extent()
         leaves = (box.min < low).any() or (box.max > high).any()
-        if leaves or any(box.overlaps(other) for other in taken):
+        if leaves or any(box.overlaps(kept) for kept in taken):
             text.remove()
         else:
             taken.append(box)

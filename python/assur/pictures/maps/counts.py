@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
+from assur.description.dotted_names import is_angle
 from assur.pictures.chart import TEXT, chart_axes, title
 from assur.pictures.maps.quantity_axis import name_axis
 from assur.pictures.maps.raster import finer
@@ -47,7 +48,7 @@ def fill_counts(
 ) -> None:
     """Fill regions between lines by the number in them, and write `name(number)` there.
 
-    What has no room is explained in a legend, so far below the axes, relative to their height.
+    A legend this far below the axes, relative to their height, explains what has no room.
     With `hatched` regions of 0 are hatched as those that are not feasible.
     """
     fine_x, fine_y, fine = finer(x, y, values, lines)
@@ -99,24 +100,26 @@ def _starts(axis: Float, count: int) -> Float:
     return starts
 
 
-def design_map_picture(found: DesignMap, ax: Any, dark: bool) -> Any:
+def design_map_picture(design_map: DesignMap, ax: Any, dark: bool) -> Any:
     """See `DesignMap.plot`."""
     style = style_of(dark)
     ax = chart_axes(ax, style)
     ax.grid(visible=False)
-    ax.set(xlim=(found.x[0], found.x[-1]), ylim=(found.y[0], found.y[-1]))
+    ax.set(xlim=(design_map.x[0], design_map.x[-1]), ylim=(design_map.y[0], design_map.y[-1]))
     for axis, name, values in zip(
-        (ax.xaxis, ax.yaxis), found.names, (found.x, found.y), strict=True
+        (ax.xaxis, ax.yaxis), design_map.names, (design_map.x, design_map.y), strict=True
     ):
-        name_axis(axis, name, values, name.endswith(".angle"), style)
-    title(ax, found.of.replace("_", " "), style)
-    lines = [boundary.points for boundary in found.boundaries]
+        name_axis(axis, name, values, is_angle(name), style)
+    title(ax, design_map.of.replace("_", " "), style)
+    lines = [boundary.points for boundary in design_map.boundaries]
 
     def named(number: int) -> str:
-        return NAMES[found.of].get(number, f"{number} assemblies")
+        return NAMES[design_map.of].get(number, f"{number} assemblies")
 
-    fill_counts(ax, found.x, found.y, found.values, lines, style, named, hatched=True)
-    for boundary in found.boundaries:
+    fill_counts(
+        ax, design_map.x, design_map.y, design_map.values, lines, style, named, hatched=True
+    )
+    for boundary in design_map.boundaries:
         ax.plot(
             *boundary.points.T, color=style.ink, linewidth=LINE, gid=f"boundary {boundary.level}",
             solid_capstyle="round",

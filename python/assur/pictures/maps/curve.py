@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur._arrays import short
+from assur.description.dotted_names import split_name
 from assur.errors import InputError
 from assur.pictures.chart import CURVE, chart_axes, title
 from assur.pictures.maps.callouts import write_along, write_beside
@@ -22,15 +23,15 @@ if TYPE_CHECKING:
 
 SAMPLES = 240
 DIAMOND = 9.0
-# A span so near a turn is one.
+# A span this near to a turn is one.
 NEAR = 1e-6
 TURN = 2.0 * np.pi
 # More dead points than this are marked without their q.
 MOST = 8
 DASHES = (0.0, (3.0, 4.0))
-# Values farther from the middle than so many times the mechanism's size are out of sight.
+# Values farther from the middle than this multiple of the mechanism's size are out of sight.
 FAR = 4.0
-# Curves so near, relative to their range, over half of one of them look like one.
+# Curves this near, relative to their range, over half of one of them look like one.
 ALIKE = 0.008
 
 
@@ -58,8 +59,8 @@ def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> 
     drawn = [_in_window(line, (turns, of_angle), (wrap[0], wrap[1])) for line in lines]
     colours = [style.ink, style.path, *style.groups]
     for i, line in enumerate(drawn):
-        # On another circuit the dashes let that be seen.
-        hides = any(_coincide(line, other) for other in drawn[:i])
+        # Dashes on another circuit let it be seen.
+        hides = any(_coincide(line, earlier) for earlier in drawn[:i])
         ax.plot(
             *line.T, color=colours[i % len(colours)], linewidth=CURVE, gid=f"circuit {i}",
             solid_capstyle="butt", dash_capstyle="butt", linestyle=DASHES if hides else "solid",
@@ -95,7 +96,7 @@ def _output(mechanism: Mechanism) -> str:
 
 def _coordinate(mechanism: Mechanism, motion: CircuitMotion, name: Any) -> Float:
     if isinstance(name, str):
-        joint, _, axis = name.rpartition(".")
+        joint, axis = split_name(name)
         if joint in motion.joints and axis in ("x", "y"):
             at: Float = motion.joints[joint][:, "xy".index(axis)]
             return at
@@ -112,17 +113,17 @@ def _in_sight(mechanism: Mechanism, values: list[Float]) -> list[Float]:
     """Return values with gaps where a joint goes toward infinity."""
     size = float(np.ptp(np.array(list(mechanism.joints.values())), axis=0).max())
     middle = float(np.median(np.concatenate(values)))
-    return [np.where(np.abs(own - middle) <= FAR * size, own, np.nan) for own in values]
+    return [np.where(np.abs(heights - middle) <= FAR * size, heights, np.nan) for heights in values]
 
 
-def _coincide(line: Float, other: Float) -> bool:
+def _coincide(line: Float, second_line: Float) -> bool:
     """Whether much of a line lies on another one."""
-    one, second = (own[np.isfinite(own).all(axis=1)][::4] for own in (line, other))
-    if not len(one) or not len(second):
+    first, second = (points[np.isfinite(points).all(axis=1)][::4] for points in (line, second_line))
+    if not len(first) or not len(second):
         return False
-    both = np.concatenate([one, second])
+    both = np.concatenate([first, second])
     span = np.maximum(np.ptp(both, axis=0), 1e-300)
-    gaps = np.abs((one[:, None] - second[None]) / span)
+    gaps = np.abs((first[:, None] - second[None]) / span)
     # Along x samples lie apart.
     near = (gaps[..., 0] < 3.0 * ALIKE) & (gaps[..., 1] < ALIKE)
     return bool(near.any(axis=1).mean() > 0.5)
@@ -168,24 +169,24 @@ def _dead_points(
     wrap: tuple[bool, bool],
 ) -> Float:
     """Return where the folds are on the lines: where a branch passes into another."""
-    found = []
+    marks = []
     for circuit, motion, line in zip(curve.circuits, motions, lines, strict=True):
         shift = _shift(line, (angles[0] and not wrap[0], angles[1] and not wrap[1]))
-        own = {number for number, _ in circuit.branches}
+        on_circuit = {number for number, _ in circuit.branches}
         for fold in curve.folds:
-            if not own & set(fold.branches):
+            if not on_circuit & set(fold.branches):
                 continue
             of_branch = np.isin(motion.branch, fold.branches)
             gaps = np.where(of_branch, np.abs(motion.q - fold.q), np.inf)
             at = line[int(np.argmin(gaps))] + shift
             at[0] = fold.q + shift[0]
-            found.append(at - np.where(wrap, TURN * np.round(at / TURN), 0.0))
-    places = np.array(found).reshape(-1, 2)
+            marks.append(at - np.where(wrap, TURN * np.round(at / TURN), 0.0))
+    places = np.array(marks).reshape(-1, 2)
     places = places[np.isfinite(places).all(axis=1)]
     # Folds of several circuits at one place are one mark.
     kept: list[Float] = []
     for place in places:
-        if all(np.abs(place - other).max() > 1e-6 for other in kept):
+        if all(np.abs(place - known).max() > 1e-6 for known in kept):
             kept.append(place)
     return np.array(kept).reshape(-1, 2)
 
@@ -210,13 +211,13 @@ def _write(
     settle(ax)
     written: list[Any] = []
     if 0 < len(dead) <= MOST:
-        said = [angle_text(q, 1) if turns else _length(q) for q in dead[:, 0].tolist()]
-        written = write_beside(ax, said, dead, DIAMOND, style.error, "dead point text", lines)
+        texts = [angle_text(q, 1) if turns else _length(q) for q in dead[:, 0].tolist()]
+        written = write_beside(ax, texts, dead, DIAMOND, style.error, "dead point text", lines)
     if len(lines) > 1:
         names = [f"circuit {i}" for i in range(len(lines))]
         gids = [f"name {name}" for name in names]
-        own = [colours[i % len(colours)] for i in range(len(lines))]
-        write_along(ax, names, lines, own, gids, avoid=written)
+        line_colours = [colours[i % len(colours)] for i in range(len(lines))]
+        write_along(ax, names, lines, line_colours, gids, avoid=written)
 
 
 def _length(length: float) -> str:

@@ -30,28 +30,30 @@ if TYPE_CHECKING:
 LINE = 2.0
 # The kinds by what they mean; dead points have the colour of errors.
 NAMES = {1: "limit of reach", 2: "dead points"}
-# On dead points at the rim of a workspace the dashes let its boundary be seen.
+# Dashes of dead points at the rim of a workspace let its boundary be seen.
 DASHES: dict[int, Any] = {1: "solid", 2: (0.0, (4.0, 1.6))}
 
 
-def workspace_picture(found: Workspace, loci: Sequence[SingularLocus], ax: Any, dark: bool) -> Any:
+def workspace_picture(
+    workspace: Workspace, loci: Sequence[SingularLocus], ax: Any, dark: bool
+) -> Any:
     """See `Workspace.plot`."""
     style = style_of(dark)
-    lines = [locus.joints[found.joint] for locus in found.boundary]
-    corners = np.array([[found.x[0], found.y[0]], [found.x[-1], found.y[-1]]])
+    lines = [locus.joints[workspace.joint] for locus in workspace.boundary]
+    corners = np.array([[workspace.x[0], workspace.y[0]], [workspace.x[-1], workspace.y[-1]]])
     seen = [np.clip(line, corners[0], corners[1]) for line in lines]
-    subject, on = _canvas(found.mechanism, [*(seen or [corners])], ax, style)
+    subject, on = _canvas(workspace.mechanism, [*(seen or [corners])], ax, style)
 
     def named(number: int) -> str:
         return "" if number == 0 else "1 way" if number == 1 else f"{number} ways"
 
-    fill_counts(on.ax, found.x, found.y, found.count, lines, style, named, below=0.08)
+    fill_counts(on.ax, workspace.x, workspace.y, workspace.count, lines, style, named, below=0.08)
     # The boundary may be among the loci.
-    kinds = {1: lines, 2: [one.joints[found.joint] for one in loci if one.kind == 2]}
-    for kind, own in kinds.items():
-        for line in own:
+    kinds = {1: lines, 2: [locus.joints[workspace.joint] for locus in loci if locus.kind == 2]}
+    for kind, of_kind in kinds.items():
+        for line in of_kind:
             _draw(on.ax, line, kind, style)
-    _lightly(subject, on, [line for own in kinds.values() for line in own])
+    _lightly(subject, on, [line for of_kind in kinds.values() for line in of_kind])
     _name_lines(on.ax, kinds, style)
     scale_bar(on)
     return on.ax
@@ -104,7 +106,7 @@ def _colour(kind: int, style: Style) -> str:
 
 
 def _name_lines(ax: Any, kinds: dict[int, list[Float]], style: Style) -> None:
-    """Write what each kind is beside its longest line, once in a picture."""
+    """Write the name of each kind beside its longest line, once in a picture."""
     settle(ax)
     written = [text.get_text() for text in ax.texts]
     for kind, lines in kinds.items():
@@ -112,15 +114,19 @@ def _name_lines(ax: Any, kinds: dict[int, list[Float]], style: Style) -> None:
         if not lines or text in written:
             continue
         longest = max(lines, key=lambda line: float(np.hypot(*np.diff(line, axis=0).T).sum()))
-        others = [
+        drawn = [
             np.column_stack(line.get_data())
             for line in ax.lines
             if line.get_transform() == ax.transData and len(line.get_xdata()) > 1
         ]
-        artists = [one for one in ax.get_children() if hasattr(one, "get_text") and one.get_text()]
-        inside = [one for one in artists if one.get_gid()]
+        artists = [
+            artist
+            for artist in ax.get_children()
+            if hasattr(artist, "get_text") and artist.get_text()
+        ]
+        inside = [artist for artist in artists if artist.get_gid()]
         write_along(
-            ax, [text], [longest], [_colour(kind, style)], [f"name kind {kind}"], others, inside
+            ax, [text], [longest], [_colour(kind, style)], [f"name kind {kind}"], drawn, inside
         )
 
 

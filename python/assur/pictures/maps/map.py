@@ -9,6 +9,7 @@ from matplotlib import patheffects
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from assur.description.dotted_names import is_angle
 from assur.pictures.chart import TEXT, chart_axes, title
 from assur.pictures.maps.callouts import clear_of, write_beside
 from assur.pictures.maps.metric_curve import metric_curve
@@ -64,8 +65,8 @@ def _map(
     (x_name, x), (y_name, y) = axes
     ax.grid(visible=False)
     ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    name_axis(ax.xaxis, x_name, x, x_name.endswith(".angle"), style)
-    name_axis(ax.yaxis, y_name, y, y_name.endswith(".angle"), style)
+    name_axis(ax.xaxis, x_name, x, is_angle(x_name), style)
+    name_axis(ax.yaxis, y_name, y, is_angle(y_name), style)
     title(ax, name, style)
     if np.isfinite(values).any():
         _contours(ax, x, y, values, unit, style)
@@ -108,7 +109,7 @@ def _contours(ax: Any, x: Float, y: Float, values: Float, unit: str, style: Styl
 
 
 def _reached(values: Float) -> Float:
-    """Return values with those of neighbours where there are none."""
+    """Return values, with those of neighbours where they are missing."""
     whole = values.copy()
     for _ in range(2):
         padded = np.pad(whole, 1, constant_values=np.nan)
@@ -165,10 +166,10 @@ def _mark_best(
             [x], [y], "o", markersize=MARK, markerfacecolor=style.canvas, clip_on=False,
             markeredgecolor=style.driver, markeredgewidth=2.0, zorder=5.0, gid=f"best {text}",
         )  # fmt: skip
-    said = [f"{text} {value_text(float(value), values)}{unit}" for text, _, _, value in places]
+    captions = [f"{text} {value_text(float(value), values)}{unit}" for text, _, _, value in places]
     points = np.array([(x, y) for _, x, y, _ in places]).reshape(-1, 2)
     reasons = [text for text in ax.texts if text.get_gid() == "reason"]
-    written = write_beside(ax, said, points, MARK, style.driver, "best text", avoid=reasons)
+    written = write_beside(ax, captions, points, MARK, style.driver, "best text", avoid=reasons)
     for text in written:
         text.set_path_effects([patheffects.withStroke(linewidth=3.0, foreground=style.canvas)])
     clear_of(ax, [*reasons, *written], "contour value")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
+from assur.description.dotted_names import is_angle
 from assur.pictures.chart import CURVE, TEXT, headroom, mark, title
 from assur.pictures.maps.quantity_axis import name_axis
 from assur.pictures.maps.regions import HATCHES
@@ -30,11 +31,11 @@ def metric_curve(
     unit: str,
     style: Style,
 ) -> None:
-    """Draw the values over the axis, hatched where there are none, extremes marked."""
+    """Draw the values over the axis, with gaps hatched and extremes marked."""
     x_name, x = axis
     margin = 0.0 if len(x) > 1 else abs(float(x[0])) or 1.0
     ax.set_xlim(float(x[0]) - margin, float(x[-1]) + margin)
-    name_axis(ax.xaxis, x_name, x, x_name.endswith(".angle"), style)
+    name_axis(ax.xaxis, x_name, x, is_angle(x_name), style)
     title(ax, name, style)
     (line,) = ax.plot(x, values, color=style.path, linewidth=CURVE, gid=name)
     known = np.isfinite(values)
@@ -48,8 +49,8 @@ def metric_curve(
     settle(ax)
     _spans(ax, x, reasons, style)
     for text, i in extremes(values, best):
-        said = f"{text} {value_text(float(values[i]), values)}{unit}"
-        mark(ax, float(x[i]), float(values[i]), said, text == "greatest", style.path, style)
+        caption = f"{text} {value_text(float(values[i]), values)}{unit}"
+        mark(ax, float(x[i]), float(values[i]), caption, text == "greatest", style.path, style)
 
 
 def _spans(ax: Any, x: Float, reasons: Reasons, style: Style) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
 
-# Finer nodes to a cell; an even number puts none of them on a node.
+# Finer nodes per cell; with an even number none lies on a node.
 FINER = 8
 # Nodes about a finer one that are tried, nearest first.
 NEAR = 2

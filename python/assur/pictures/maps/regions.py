@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.pictures.style import Style
 
 HATCHES = ("////", "\\\\\\\\", "xx", "...")
-# Places along an axis among which the roomiest is looked for.
+# Places along an axis among which to look for the roomiest.
 NODES = 49
 
 
@@ -47,24 +47,24 @@ def roomiest(
 
     The size is in the units of x and y; above 1 it fits.
     """
-    # Between nodes the nearest counts, as in what is hatched.
+    # Between nodes the nearest counts, as for hatching.
     fine = [np.linspace(axis[0], axis[-1], NODES) for axis in (x, y)]
     nearest = [
-        np.searchsorted((axis[1:] + axis[:-1]) / 2.0, own)
-        for axis, own in zip((x, y), fine, strict=True)
+        np.searchsorted((axis[1:] + axis[:-1]) / 2.0, nodes)
+        for axis, nodes in zip((x, y), fine, strict=True)
     ]
     grid = inside[np.ix_(*nearest)]
     places = np.stack(np.meshgrid(*fine, indexing="ij"), axis=-1)
-    own, others = places[grid], places[~grid]
+    inner, outer = places[grid], places[~grid]
     half = box / 2.0
-    room = np.full(len(own), np.inf)
-    for part in np.array_split(others, max(1, len(others) // 256)):
+    room = np.full(len(inner), np.inf)
+    for part in np.array_split(outer, max(1, len(outer) // 256)):
         if len(part):
-            apart = (np.abs(own[:, None] - part[None]) / half).max(axis=-1)
+            apart = (np.abs(inner[:, None] - part[None]) / half).max(axis=-1)
             room = np.minimum(room, apart.min(axis=1))
     low, high = places[0, 0], places[-1, -1]
-    room = np.minimum(room, (np.minimum(own - low, high - own) / half).min(axis=1))
-    if not len(own):
+    room = np.minimum(room, (np.minimum(inner - low, high - inner) / half).min(axis=1))
+    if not len(inner):
         return float(x[0]), float(y[0]), 0.0
     best = int(np.argmax(room))
-    return float(own[best, 0]), float(own[best, 1]), float(room[best])
+    return float(inner[best, 0]), float(inner[best, 1]), float(room[best])

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     # Why there is no value, and at which nodes.
     Reasons = list[tuple[str, npt.NDArray[np.bool_]]]
 
-# Part of the greatest value of a map below which values are rounding.
+# Fraction of a map's greatest value below which values are rounding.
 ROUNDING = 1e-12
 
 
@@ -25,7 +25,7 @@ def extremes(values: Float, best: str) -> list[tuple[str, int]]:
     if not np.isfinite(values).any():
         return []
     both = [("least", int(np.nanargmin(values))), ("greatest", int(np.nanargmax(values)))]
-    return [one for one in both if best in (one[0], "both")]
+    return [extreme for extreme in both if best in (extreme[0], "both")]
 
 
 def level_text(level: float) -> str:
@@ -34,6 +34,6 @@ def level_text(level: float) -> str:
 
 
 def value_text(value: float, values: Float) -> str:
-    """Write a value of the map; what is only rounding, beside the others, is 0."""
+    """Write a value of the map; mere rounding, compared with the others, becomes 0."""
     greatest = float(np.nanmax(np.abs(values)))
     return number(0.0 if abs(value) <= ROUNDING * greatest else value)

@@ -10,7 +10,7 @@ import re
 from functools import cache
 from importlib.resources import files
 
-# Who is imported comes first.
+# Imported modules come first.
 MODULES = (
     *("elements", "numbers", "speeds", "words", "turn", "quantities", "view", "draw", "labels"),
     *("paths", "vectors", "dial", "chart", "player", "drag", "stage", "panel"),

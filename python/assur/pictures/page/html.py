@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from assur.pictures.page.payload import Played
     from assur.pictures.style import Style
 
-# What a page has beside the colours of pictures: panels, edges, the ring of the dial.
+# Colours of a page beside those of pictures: panels, edges, the ring of the dial.
 PANELS = {
     False: {"panel": "#FFFFFF", "canvas": "#FBFCFD", "edge": "#D9DFE5", "hover": "#EEF3F9",
             "reach": "#9BB5DA", "on-driver": "#FFFFFF", "dark": "0"},
@@ -73,9 +73,9 @@ def notebook_html(of: Mechanism | Motion | Turn) -> str | None:
         played, data = _contents(of)
     except AssurError:
         return None
-    own = f"assur-{uuid4().hex}"
+    identifier = f"assur-{uuid4().hex}"
     start = f"""(() => {{
-const host = document.getElementById({json.dumps(own)});
+const host = document.getElementById({json.dumps(identifier)});
 if (!host || host.shadowRoot) return;
 {script()}
 const shadow = host.attachShadow({{ mode: "open" }});
@@ -88,7 +88,9 @@ host.style.height = "{NOTEBOOK_HEIGHT}px";
 mount(root, {_json(data)});
 }})();"""
     picture = svg_picture(played)
-    return f'<div id="{own}" class="assur-picture">{picture}</div>\n<script>{start}</script>\n'
+    return (
+        f'<div id="{identifier}" class="assur-picture">{picture}</div>\n<script>{start}</script>\n'
+    )
 
 
 def notebook_svg(of: Mechanism | Motion) -> str | None:

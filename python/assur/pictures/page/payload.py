@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 GREATEST_NUMBER = float(np.finfo(np.float32).max)
 ROMAN = ("0", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 ARROW = " → "
-# A page turns once in so many seconds, if no speed is given.
+# Seconds of a turn on a page without a given speed.
 SECONDS = 4.0
 
 
 @dataclass(frozen=True, eq=False)
 class Played:
-    """What a page shows: a mechanism, its scene, and what is played."""
+    """What a page shows: a mechanism, its scene, and the turn that it plays."""
 
     mechanism: Mechanism
     turn: Turn
@@ -68,7 +68,7 @@ class Played:
 
 
 def played_of(turn: Turn) -> Played:
-    """Return a mechanism with its scene over what is played."""
+    """Return a mechanism with its scene over the turn that is played."""
     mechanism = turn.mechanism
     known = turn.frames.is_known
     values = (turn.frames.values[0][known],)
@@ -84,7 +84,7 @@ def payload(
     diagrams: Any = None,
     encode: Callable[[Float], Any] | None = None,
 ) -> dict[str, Any]:
-    """Return what the page gets, ready for `json.dumps`.
+    """Return the page's data, ready for `json.dumps`.
 
     `encode` makes JSON of the array of positions; by default it becomes base64 of Float32.
     """
@@ -174,7 +174,7 @@ def _slides(played: Played, index: dict[str, int]) -> Iterable[dict[str, Any]]:
     """Slides as projections: of a point of the sliding link on a direction of the other."""
     mechanism, frames = played.mechanism, played.frames
     for name, slide in mechanism.slides.items():
-        own = next(iter(frames.local[slide.link].values()), np.zeros(2))
+        block = next(iter(frames.local[slide.link].values()), np.zeros(2))
         origin = np.zeros(2)
         angle = float(mechanism.dimensions.get(f"{name}.angle", 0.0))
         origin_joint = slide.origin
@@ -183,19 +183,19 @@ def _slides(played: Played, index: dict[str, int]) -> Iterable[dict[str, Any]]:
             offset = 0.0
         else:
             # Zero is the drawing's place.
-            offset = _drawn_value(played, name, own, angle)
+            offset = _drawn_value(played, name, block, angle)
         yield {
             "name": name,
             "link": index[slide.link],
             "on": index[slide.on],
-            "at": _short(own),
+            "at": _short(block),
             "origin": _short(origin),
             "angle": angle,
             "offset": float(f"{offset:.9g}"),
         }
 
 
-def _drawn_value(played: Played, name: str, own: Float, angle: float) -> float:
+def _drawn_value(played: Played, name: str, block: Float, angle: float) -> float:
     """Return what the projection gives where the slide's value is zero."""
     mechanism = played.mechanism
     motion = mechanism.solve(mechanism.q0_array, order=0)
@@ -206,29 +206,29 @@ def _drawn_value(played: Played, name: str, own: Float, angle: float) -> float:
         places.append((place, float(motion.link(link).value)))
     (at, turned), (base, guide) = places
     cosine, sine = np.cos(turned), np.sin(turned)
-    arm = np.array([cosine * own[0] - sine * own[1], sine * own[0] + cosine * own[1]])
+    arm = np.array([cosine * block[0] - sine * block[1], sine * block[0] + cosine * block[1]])
     along = (np.cos(guide + angle), np.sin(guide + angle))
     return float((at + arm - base) @ along) - float(motion.slide(name).value)
 
 
 def _part(part: Part, index: dict[str, int]) -> dict[str, Any]:
-    own: dict[str, Any] = {"link": index[part.link], "name": part.name}
+    entry: dict[str, Any] = {"link": index[part.link], "name": part.name}
     if part.colour != "link":
-        own["colour"] = part.colour
+        entry["colour"] = part.colour
     if isinstance(part, Disc):
-        return {**own, "disc": part.radius, "at": _flat([part.centre]), "width": part.width,
+        return {**entry, "disc": part.radius, "at": _flat([part.centre]), "width": part.width,
                 "fill": part.fill}  # fmt: skip
     if isinstance(part, Hatching):
-        return {**own, "hatching": part.spacing, "at": _flat([part.start, part.end])}
-    return {**own, **_stroke(part)}
+        return {**entry, "hatching": part.spacing, "at": _flat([part.start, part.end])}
+    return {**entry, **_stroke(part)}
 
 
 def _stroke(part: Stroke) -> dict[str, Any]:
-    own: dict[str, Any] = {"at": _flat(part.vertices), "width": part.width}
+    entry: dict[str, Any] = {"at": _flat(part.vertices), "width": part.width}
     for key in ("closed", "fill", "hatched", "dashes", "floor"):
         if value := getattr(part, key):
-            own[key] = value
-    return own
+            entry[key] = value
+    return entry
 
 
 def _flat(vertices: Iterable[Vertex]) -> list[float]:
@@ -237,5 +237,5 @@ def _flat(vertices: Iterable[Vertex]) -> list[float]:
 
 
 def _short(numbers: Iterable[float]) -> list[float]:
-    """Return numbers to seven digits, as many as Float32 has."""
+    """Return numbers to the seven digits of Float32."""
     return [int(x) if x == int(x) else x for x in (float(f"{number:.7g}") for number in numbers)]

@@ -1,4 +1,4 @@
-"""What a page shows at first, by the names that columns of `Motion.to_dataframe` have."""
+"""What a page shows at first, by the column names of `Motion.to_dataframe`."""
 
 from __future__ import annotations
 
@@ -30,37 +30,37 @@ def names_of_quantities(mechanism: Mechanism) -> list[str]:
     ]
 
 
-def checked_diagrams(mechanism: Mechanism, given: Any) -> list[str]:
+def checked_diagrams(mechanism: Mechanism, asked: Any) -> list[str]:
     """Return the diagrams shown at first; by default the output with two derivatives."""
-    if given is None:
+    if asked is None:
         return _output(mechanism)
-    wanted = _listed(given, "diagrams")
-    if len(wanted) > MOST_DIAGRAMS:
-        message = f"diagrams has {len(wanted)} names: a page shows up to {MOST_DIAGRAMS}"
+    names = _listed(asked, "diagrams")
+    if len(names) > MOST_DIAGRAMS:
+        message = f"diagrams has {len(names)} names: a page shows up to {MOST_DIAGRAMS}"
         raise InputError(message)
-    _require(wanted, names_of_quantities(mechanism), "diagrams", "quantity")
-    return wanted
+    _require(names, names_of_quantities(mechanism), "diagrams", "quantity")
+    return names
 
 
-def checked_paths(mechanism: Mechanism, given: Any) -> list[str]:
+def checked_paths(mechanism: Mechanism, asked: Any) -> list[str]:
     """Return the joints whose paths are shown at first."""
-    if given is None:
+    if asked is None:
         return _traced(mechanism)
-    wanted = _listed(given, "paths")
-    _require(wanted, list(mechanism.joints), "paths", "joint")
-    return wanted
+    names = _listed(asked, "paths")
+    _require(names, list(mechanism.joints), "paths", "joint")
+    return names
 
 
-def _listed(given: Any, what: str) -> list[str]:
-    listed = [given] if isinstance(given, str) else given
-    if not isinstance(listed, list | tuple) or not all(isinstance(one, str) for one in listed):
-        message = f"{what} is {short(given)}: a name or a list of names is needed"
+def _listed(asked: Any, what: str) -> list[str]:
+    listed = [asked] if isinstance(asked, str) else asked
+    if not isinstance(listed, list | tuple) or not all(isinstance(name, str) for name in listed):
+        message = f"{what} is {short(asked)}: a name or a list of names is needed"
         raise InputError(message)
     return list(dict.fromkeys(listed))
 
 
-def _require(wanted: Iterable[str], known: list[str], what: str, noun: str) -> None:
-    for name in wanted:
+def _require(names: Iterable[str], known: list[str], what: str, noun: str) -> None:
+    for name in names:
         if name not in known:
             similar = difflib.get_close_matches(name, known, 3)
             hint = f"; did you mean {' or '.join(map(repr, similar))}?" if similar else ""
@@ -69,7 +69,7 @@ def _require(wanted: Iterable[str], known: list[str], what: str, noun: str) -> N
 
 
 def _output(mechanism: Mechanism) -> list[str]:
-    """Return what the driver moves last: a slide of the ground, else the last link."""
+    """Return the output of the driver: a slide of the ground, else the last link."""
     drivers = mechanism.description.drivers
     free = {n: slide for n, slide in mechanism.slides.items() if n not in drivers}
     slides = [n for n, slide in free.items() if slide.on == "ground"]

@@ -71,8 +71,8 @@ class _Picture:
         per = self._size / self._scale
         px, py = vertex.x + per * vertex.dx, vertex.y + per * vertex.dy
         point = np.array([x + cosine * px - sine * py, y + sine * px + cosine * py])
-        own = (point - self._middle) * self._scale
-        return np.array([WIDTH / 2.0 + own[0], self._height / 2.0 - own[1]])
+        shown = (point - self._middle) * self._scale
+        return np.array([WIDTH / 2.0 + shown[0], self._height / 2.0 - shown[1]])
 
     def _colour(self, part: Part) -> str:
         driven = part.link in self._played.scene.driven

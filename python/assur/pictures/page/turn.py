@@ -49,7 +49,7 @@ class Turn:
     dead_points : list of (float, str)
         Ends where the driver cannot go on, each with the group that is flat there.
     limits : Limits or None
-        All places of the driver, where they were looked for.
+        All places of the driver, if they were searched.
     """
 
     mechanism: Mechanism
@@ -101,7 +101,7 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
             return Turn(mechanism, frames, grid, closes, unit, q0 % (TURN * count), [], limits)
     free = TURN / 2.0 if turns else free_stroke(mechanism)
     low, high = max(low, q0 - free), min(high, q0 + free)
-    # No picture can follow where something goes toward infinity.
+    # No picture can follow a part toward infinity.
     low, high = _nearby(mechanism, q0, low, high, rows)
     frames, grid = _cosine(mechanism, low, high, rows)
     dead = [
@@ -116,8 +116,8 @@ def turn_of(mechanism: Mechanism, at: Any = None, rows: int = ROWS) -> Turn:
 def passing_turn(mechanism: Mechanism, at: float, rows: int) -> Turn | None:
     """Return a turn that is known at every row and comes back, or None.
 
-    Limits are not looked for: what cannot be reached between two rows is not seen. So it is for
-    pictures that pass, while a hand moves a joint.
+    Limits are not searched: gaps between two rows are not seen. So it serves for passing pictures,
+    while a hand moves a joint.
     """
     if mechanism.driver_count > 1 or mechanism.driver in mechanism.slides:
         return None
@@ -138,8 +138,8 @@ def _comes_back(frames: Frames) -> bool:
 def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
     """Return the positions of a motion, in their order.
 
-    Of one driver whose coordinate only grows, or only falls, it is played along the coordinate;
-    else along time, as if the positions were equally far apart in time.
+    With one driver whose coordinate only grows, or only falls, it is played along the coordinate;
+    otherwise along time, as if the positions were equally far apart in time.
     """
     mechanism = motion.mechanism
     require_one(mechanism)
@@ -178,7 +178,7 @@ def turn_of_rows(motion: Motion, duration: float | None = None) -> Turn:
 
 
 def _slope(values: Float, t: Float) -> Float:
-    """Return derivatives along evenly spaced times; of a motion that comes back, across its end."""
+    """Return derivatives along evenly spaced times, across the end of a motion that comes back."""
     if (np.abs(values[-1] - values[0]) > 1e-9 * np.abs(values).max()).any():
         return np.asarray(np.gradient(values, t, axis=0, edge_order=2 if len(t) > 2 else 1))
     step = t[1] - t[0]

@@ -23,7 +23,7 @@ def turn_of_run(run: Run) -> Turn:
     """Return the positions of a run at equal steps of time."""
     mechanism = run.mechanism
     if mechanism is None:
-        message = "this run is that of a machine of tables: there is no mechanism to play"
+        message = "the machine of this run is given by tables: it has no mechanism to play"
         raise InputError(message)
     return turn_over_time(mechanism, *course_of_run(run))
 
@@ -70,7 +70,7 @@ def turn_of_timed(timed: TimedMotion) -> Turn:
 def turn_over_time(
     mechanism: Mechanism, t: Float, q: Float, speed: Float, acceleration: Float
 ) -> Turn:
-    """Return the positions at equal steps of time of a driver that moves so."""
+    """Return the positions at equal steps of time for this motion of the driver."""
     motion = mechanism.solve(q, order=2, on_error="nan")
     frames = frames_in_time(motion, np.asarray(speed), np.asarray(acceleration))
     grid = {"kind": "linear", "low": float(t[0]), "high": float(t[-1])}

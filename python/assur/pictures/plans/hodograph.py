@@ -1,4 +1,4 @@
-"""Hodographs: where velocities or accelerations end that begin at one pole."""
+"""Hodographs: the ends of velocities or accelerations drawn from one pole."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
 
-# About so many positions of a curve have a dot.
+# About this many positions of a curve have a dot.
 DOTS = 12
 LINE, DOT = 1.8, 4.0
 
@@ -40,7 +40,7 @@ def hodograph(
     ax: Any = None,
     dark: bool = False,
 ) -> Any:
-    """Draw the hodograph of a joint: the ends of its velocities laid off from one pole.
+    """Draw the hodograph of a joint: the ends of its velocities drawn from one pole.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def hodograph(
     Returns
     -------
     matplotlib.axes.Axes
-        Those drawn on. Artists are named ``hodograph C``, ``position 3`` with its number, and
+        The axes drawn on. Artists are named ``hodograph C``, ``position 3`` with its number, and
         ``greatest`` for the vector of greatest size.
 
     Raises
@@ -118,9 +118,9 @@ def hodograph(
 
 def _marked(on: Canvas, ends: Float, steps: int) -> list[int]:
     """Return the positions that have a dot: about a dozen of those given."""
-    given = range(0, len(ends), steps)
-    every = max(1, -(-(len(given) - 1) // DOTS))
-    marked = [i for i in given[::every] if np.isfinite(ends[i]).all()]
+    positions = range(0, len(ends), steps)
+    every = max(1, -(-(len(positions) - 1) // DOTS))
+    marked = [i for i in positions[::every] if np.isfinite(ends[i]).all()]
     # The last position of a turn is the first again.
     if len(marked) > 1 and np.hypot(*(ends[marked[-1]] - ends[marked[0]])) * on.scale < DOT:
         marked.pop()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur._faces import Analogues, Motion
 
 Part = Literal["absolute", "relative", "normal", "tangential", "sliding", "coriolis"]
-# Vectors shorter than this part of the greatest are not drawn.
+# Vectors shorter than this fraction of the greatest are not drawn.
 SHORT = 4e-3
 
 
@@ -39,7 +39,7 @@ class Under(NamedTuple):
 
 
 class State(NamedTuple):
-    """Place, velocity and acceleration of a point; or angle and its rates, of a link."""
+    """Place, velocity and acceleration of a point; or the angle of a link and its rates."""
 
     value: Any
     rate: Any
@@ -104,7 +104,7 @@ class _Builder:
     def plan(self) -> Plan:
         """Return the plan."""
         groups = [group.links for group in self._m.structure.groups]
-        rest = tuple(link for link in self._links if not any(link in own for own in groups))
+        rest = tuple(link for link in self._links if not any(link in members for members in groups))
         driven = self._driven()
         known = set(self._fixed)
         for links in (rest, *groups):
@@ -164,34 +164,38 @@ class _Builder:
             return
         base = next((p for p in points if p in self._fixed), None)
         base = base or next((p for p in points if p in known), points[0])
-        others = [p for p in points if p != base and p not in self._fixed]
-        if not others:
+        targets = [p for p in points if p != base and p not in self._fixed]
+        if not targets:
             return
-        pairs = [p for p in others if self._is_pair(p)] or others
+        pairs = [p for p in targets if self._is_pair(p)] or targets
         target = next((p for p in pairs if p in self._under), pairs[0])
         start, end = self._image(self._states[base]), self._image(self._states[target])
         if base in self._fixed:
             start = np.zeros(2)
-        other = None if base in self._fixed else base
+        base_name = None if base in self._fixed else base
         if not self._is_second:
-            if other or target in self._under:
-                self._add("relative" if other else "absolute", target, other, start, end)
+            if base_name or target in self._under:
+                self._add("relative" if base_name else "absolute", target, base_name, start, end)
             return
         turn = self._state(self._motion.link(link))
         arm = self._states[target].value - self._states[base].value
         middle = start - turn.rate**2 * arm
         size = max(float(np.hypot(*(end - start))), 1e-300)
-        if other is None and np.hypot(*(end - middle)) < SHORT * size and target not in self._under:
+        if (
+            base_name is None
+            and np.hypot(*(end - middle)) < SHORT * size
+            and target not in self._under
+        ):
             # It is the whole acceleration.
             return
-        self._add("normal", target, other, start, middle)
-        self._add("tangential", target, other, middle, end)
+        self._add("normal", target, base_name, start, middle)
+        self._add("tangential", target, base_name, middle, end)
 
     def _is_pair(self, point: str) -> bool:
-        return point in self._under or sum(point in own for own in self._links.values()) > 1
+        return point in self._under or sum(point in points for points in self._links.values()) > 1
 
     def _slides(self) -> None:
-        """Add what sliding points do relative to their guides."""
+        """Add the motion of sliding points relative to their guides."""
         for slide in self._m.slides.values():
             if slide.on == "ground" or slide.link == "ground":
                 continue
@@ -207,5 +211,5 @@ class _Builder:
             self._add("coriolis", point, under, start, start + coriolis)
             self._add("sliding", point, under, start + coriolis, end)
 
-    def _add(self, part: Part, point: str, other: str | None, start: Float, end: Float) -> None:
-        self._vectors.append(Vector(part, point, other, start, end))
+    def _add(self, part: Part, point: str, base: str | None, start: Float, end: Float) -> None:
+        self._vectors.append(Vector(part, point, base, start, end))

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def numbered(point: str, link: int) -> str:
-    """Return the name of a point of a link of which another link has one at the same place."""
+    """Return the name of a link's point that coincides with a point of another link."""
     return f"{point}{link}" if len(point) == 1 and point.isalpha() else f"{point}({link})"
 
 
@@ -42,13 +42,13 @@ def pole_name(images: dict[str, str], fixed: frozenset[str]) -> str:
     return next(name for name in ("o", "π", "pole") if name not in taken)
 
 
-def heading(one: Motion, plan: Plan, what: str, omega: Any, alpha: Any) -> list[str]:
+def heading(position: Motion, plan: Plan, what: str, omega: Any, alpha: Any) -> list[str]:
     """Return the lines above a plan: what it is, at which position and speed."""
     noun = {"velocity": "velocities", "acceleration": "accelerations"}[what]
-    mechanism = one.mechanism
+    mechanism = position.mechanism
     drivers = mechanism.description.drivers
     angles = [driver not in mechanism.slides for driver in drivers]
-    parts = [place_text(one), _rates("ω", omega, angles, "/s")]
+    parts = [place_text(position), _rates("ω", omega, angles, "/s")]
     if what == "acceleration" and np.any(np.asarray(alpha)):
         parts.append(_rates("α", alpha, angles, "/s²"))
     numbers = link_numbers(mechanism)
@@ -60,8 +60,8 @@ def heading(one: Motion, plan: Plan, what: str, omega: Any, alpha: Any) -> list[
     return [f"Plan of {noun}", ", ".join(parts), *legend]
 
 
-def _rates(letter: str, given: Any, angles: list[bool], per: str) -> str:
-    rates = np.broadcast_to(np.asarray(given, dtype=np.float64), (len(angles),))
+def _rates(letter: str, values: Any, angles: list[bool], per: str) -> str:
+    rates = np.broadcast_to(np.asarray(values, dtype=np.float64), (len(angles),))
     texts = [
         f"{number(float(rate))} {'rad' if is_angle else 'm'}{per}"
         for rate, is_angle in zip(rates, angles, strict=True)

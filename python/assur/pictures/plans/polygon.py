@@ -37,13 +37,13 @@ DOT = 4.0
 TOGETHER = 4.0
 
 
-def _of_one(one: Motion, given: Any, name: str) -> Any:
-    """Return a speed or acceleration of one position: a number, of several drivers one each."""
-    own, drivers = real_array(given, name), one.mechanism.driver_count
-    if own.size not in (1, drivers) or own.ndim > 1:
-        message = f"{name} has shape {own.shape}: a plan is of one position, with one {name}"
+def _of_one(position: Motion, values: Any, name: str) -> Any:
+    """Return a speed or acceleration of one position: a number, or one for each driver."""
+    rates, drivers = real_array(values, name), position.mechanism.driver_count
+    if rates.size not in (1, drivers) or rates.ndim > 1:
+        message = f"{name} has shape {rates.shape}: a plan is of one position, with one {name}"
         raise InputError(message)
-    return float(own.reshape(-1)[0]) if own.size == 1 else own
+    return float(rates.reshape(-1)[0]) if rates.size == 1 else rates
 
 
 def polygon_picture(
@@ -51,13 +51,13 @@ def polygon_picture(
 ) -> Any:
     """See `Motion.polygon`."""
     one_of(what, ("velocity", "acceleration"), "what")
-    one = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
-    omega = checked_rates(omega, "omega", one.mechanism)
-    alpha = checked_rates(alpha, "alpha", one.mechanism)
-    plan = plan_of(one, what, omega, alpha)
+    position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    omega = checked_rates(omega, "omega", position.mechanism)
+    alpha = checked_rates(alpha, "alpha", position.mechanism)
+    plan = plan_of(position, what, omega, alpha)
     images = np.array(list(plan.images.values()))
     if not np.isfinite(images).all():
-        message = f"no plan: {one.explain()}"
+        message = f"no plan: {position.explain()}"
         raise InputError(message)
     if not images.any():
         message = f"every {what} is zero at omega = {omega}: there is no plan to draw"
@@ -65,7 +65,7 @@ def polygon_picture(
     ends = [point for vector in plan.vectors for point in (vector.start, vector.end)]
     corners = np.array([np.zeros(2), *images, *ends])
     style = style_of(dark)
-    lines = heading(one, plan, what, omega, alpha)
+    lines = heading(position, plan, what, omega, alpha)
     on = canvas(
         ax,
         (corners.min(axis=0), corners.max(axis=0)),
@@ -73,7 +73,7 @@ def polygon_picture(
         np.inf,
         head=LINE_HEIGHT * len(lines),
     )
-    _Drawing(on, plan, what, link_numbers(one.mechanism)).draw()
+    _Drawing(on, plan, what, link_numbers(position.mechanism)).draw()
     write_heading(on, lines)
     unit = SYMBOLS[what][1]
     scale_bar(on, lambda length: f"{length:.6g} {unit}")
@@ -95,7 +95,7 @@ class _Drawing:
         lines = [*outlines, *(np.array([v.start, v.end]) for v in vectors)]
         beside = Beside(self._on, lines)
         self._name_images(lines, beside)
-        # Whole vectors first: what has no room is left out.
+        # Whole vectors first: names without room are left out.
         order = sorted(vectors, key=lambda v: (v.part not in ("absolute", "sliding"), -_size(v)))
         for vector in order:
             colour = self._colour(vector)
@@ -171,8 +171,8 @@ class _Drawing:
         names = [self._points_names[p] for p in (vector.point, vector.other) if p is not None]
         if vector.part in ("sliding", "coriolis"):
             # Motion of the sliding link relative to its guide.
-            own = self._plan.under[vector.other or ""]
-            names[0] = numbered(own.point, self._numbers[own.sliding])
+            under = self._plan.under[vector.other or ""]
+            names[0] = numbered(under.point, self._numbers[under.sliding])
         is_whole = vector.part == "sliding" and self._what == "velocity"
         return symbol(self._letter, names, "" if is_whole else UPPER.get(vector.part, ""))
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
-    """Return what is drawn of a mechanism; `frames` are those of its whole motion."""
+    """Return the scene of a mechanism; `frames` are those of its whole motion."""
     angles, sliding = _drivers(mechanism)
     driven = frozenset(link for link, _ in angles)
     slides = Slides(mechanism, frames, driven, frozenset(sliding))
@@ -50,8 +50,8 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
     for joint, links in at_joint.items():
         point = frames.local[links[0]][joint]
         joints.append(joint_part(joint, links[0], point, len(links), "ground" in links))
-        own = [(link, *frames.local[link][joint].tolist()) for link in links]
-        radius = sizes.BLOCK_LENGTH / 2.0 if blocks.intersection(own) else sizes.PIVOT
+        centres = [(link, *frames.local[link][joint].tolist()) for link in links]
+        radius = sizes.BLOCK_LENGTH / 2.0 if blocks.intersection(centres) else sizes.PIVOT
         names.append(Name(joint, links[0], at(point), radius))
     return Scene(
         frames.links,
@@ -66,21 +66,23 @@ def scene_of(mechanism: Mechanism, frames: Frames) -> Scene:
 def _drivers(mechanism: Mechanism) -> tuple[list[tuple[str, str]], list[str]]:
     """Return the driven links, each with the one it is measured from, and the driven slides."""
     drivers = mechanism.description.drivers
-    sliding = [one for one in drivers if isinstance(one, str) and one in mechanism.slides]
+    sliding = [
+        driver for driver in drivers if isinstance(driver, str) and driver in mechanism.slides
+    ]
     angles = [
-        (one, "ground") if isinstance(one, str) else (one.link, one.relative_to)
-        for one in drivers
-        if one not in sliding
+        (driver, "ground") if isinstance(driver, str) else (driver.link, driver.relative_to)
+        for driver in drivers
+        if driver not in sliding
     ]
     return angles, sliding
 
 
 def _turning(frames: Frames, link: str, relative_to: str) -> list[Part]:
     """Draw the arrow of a driven angle: about the joint of both links if they share one."""
-    own = frames.local[link]
-    shared = [joint for joint in own if joint in frames.local.get(relative_to, {})]
-    pivot: Float = own[shared[0]] if shared else next(iter(own.values()), np.zeros(2))
-    arms = [point - pivot for point in own.values()]
+    places = frames.local[link]
+    shared = [joint for joint in places if joint in frames.local.get(relative_to, {})]
+    pivot: Float = places[shared[0]] if shared else next(iter(places.values()), np.zeros(2))
+    arms = [point - pivot for point in places.values()]
     longest = max(arms, key=lambda arm: float(np.hypot(*arm)), default=np.zeros(2))
     toward = float(np.arctan2(longest[1], longest[0])) if longest.any() else 0.0
     return turning_arrow(link, pivot, toward)

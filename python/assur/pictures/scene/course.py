@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 # Every five degrees of a turn.
 ROWS = 73
-# A slide that nothing limits is moved by this part of the mechanism's size both ways.
+# A slide that nothing limits is moved by this fraction of the mechanism's size both ways.
 FREE_STROKE = 0.5
-# Next to the ends of an interval parts may move infinitely fast: so near them, relative to it.
+# Distance from the ends of an interval, relative to it: at them parts may move infinitely fast.
 END_GAP = 1e-6
 # A coordinate beyond an interval by no more than this is at its end.
 ROUNDING = 1e-9
@@ -31,7 +31,7 @@ def course(
     rows: int = ROWS,
     order: int = 0,
 ) -> Motion:
-    """Solve the driver's turn, or what of it can be reached; of several drivers the drawing alone.
+    """Solve the driver's turn, or the part of it in reach; with several drivers the drawing alone.
 
     Positions that do not exist are NaN.
     """
@@ -63,7 +63,7 @@ def _reachable(
 
 
 def interval_at(limits: Limits, q0: float, turns: bool) -> tuple[float, float]:
-    """Return the interval that holds q0; of an angle at the turn of q0."""
+    """Return the interval that holds q0; for an angle, at the turn of q0."""
     for first, last in limits.intervals.tolist():
         # Intervals lie about the drawing's coordinate, q0 wherever it was typed.
         middle = (first + last) / 2.0

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.pictures.scene.axis import Axis
 
-# The barrel is so much of the least length; the piston keeps so far from its ends.
+# The barrel, relative to the least length; how far the piston stays from its ends.
 BARREL_OF_LEAST, CLEARANCE = 0.86, 0.07
 # Between the joint and the barrel, px.
 EYE = 9.0
@@ -54,8 +54,8 @@ def cylinder(axis: Axis, base: Float) -> Cylinder:
 
 def cylinder_parts(axis: Axis, base: Float, driven: bool) -> list[Line]:
     """Draw a cylinder."""
-    own = cylinder(axis, base)
-    forward, rod_forward, barrel, rod = own.forward, own.rod_forward, own.barrel, own.rod
+    drawn = cylinder(axis, base)
+    forward, rod_forward, barrel, rod = drawn.forward, drawn.rod_forward, drawn.barrel, drawn.rod
     colour: Colour = "driver" if driven else "link"
     left = np.array([-forward[1], forward[0]])
     name = f"slide {axis.name}"

@@ -21,11 +21,11 @@ def corners(scene: Scene) -> set[tuple[str, float, float]]:
 def usual_link(frames: Frames) -> float:
     """Return the median length of the links, m."""
     lengths = [
-        float(np.hypot(*(one - other)))
+        float(np.hypot(*(first - second)))
         for link, joints in frames.local.items()
         if link != "ground"
-        for i, one in enumerate(joints.values())
-        for other in list(joints.values())[:i]
+        for i, first in enumerate(joints.values())
+        for second in list(joints.values())[:i]
     ]
     if lengths:
         return float(np.median(lengths))

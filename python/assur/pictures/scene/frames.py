@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur._faces import Motion
 
-# Joints farther from the middle of the drawing than so many times its size are out of sight.
+# Joints farther from the middle of the drawing than this multiple of its size are out of sight.
 FAR = 4.0
 
 
@@ -104,9 +104,9 @@ def frames_of(motion: Motion) -> Frames:
         # A link's frame is at its first joint; without one it takes another solution.
         origin = motion.joint(joints[0]) if joints else motion.reference_points[link]
         angle = motion.link(link)
-        for own, place, turned in zip(values, origin.arrays, angle.arrays, strict=False):
-            own[:, i, :2] = place.reshape(-1, 2)
-            own[:, i, 2] = turned.reshape(-1)
+        for columns, place, turned in zip(values, origin.arrays, angle.arrays, strict=False):
+            columns[:, i, :2] = place.reshape(-1, 2)
+            columns[:, i, 2] = turned.reshape(-1)
     frames = Frames(links, values, {})
     known = np.flatnonzero(frames.is_known)
     if not known.size:
@@ -130,7 +130,7 @@ def _local(frame: Float, places: dict[str, Float]) -> dict[str, Float]:
 
 
 def nearby(whole: Frames, at: Frames, drawing: Float) -> Frames:
-    """Return the positions of both; of the whole motion those near the joints of the drawing.
+    """Return the positions of both; from the whole motion only those near the drawing's joints.
 
     Where a joint goes toward infinity no picture can follow.
     """

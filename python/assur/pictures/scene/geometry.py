@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
 
-# Points nearer to a line than this part of the link's size lie on it.
+# Points nearer to a line than this fraction of the link's size lie on it.
 ON_LINE = 1e-6
 
 

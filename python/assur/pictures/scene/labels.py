@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 PLACES = 16
 # Between a symbol and its name, points.
 GAP = 3.0
-# A name in motion stays until another place is better by so much.
+# A name in motion stays until another place is better by this.
 WORSE = 4.5
 # Beyond this distance nothing is better for being farther.
 ENOUGH = 14.0
-# What a place that is not above or right of its point loses: reading habits, in points.
+# Cost of a place that is not above or right of its point: reading habits, in points.
 HABIT = 1.5
 # How much worse it is to cover a line, or a name or joint, than a light line.
 ON_LINE, ON_NAME = 4.0, 12.0
@@ -30,11 +30,11 @@ def placed(
     radius: Float,
     obstacles: Float,
     bounds: tuple[Float, Float],
-    others: Float | None = None,
+    taken: Float | None = None,
     light: Float | None = None,
 ) -> Float:
     """Return the middles of names' boxes: see `chosen`."""
-    return chosen(points, sizes, radius, obstacles, bounds, others, light)[0]
+    return chosen(points, sizes, radius, obstacles, bounds, taken, light)[0]
 
 
 def chosen(
@@ -43,7 +43,7 @@ def chosen(
     radius: Float,
     obstacles: Float,
     bounds: tuple[Float, Float],
-    others: Float | None = None,
+    taken: Float | None = None,
     light: Float | None = None,
     kept: npt.NDArray[np.intp] | None = None,
 ) -> tuple[Float, npt.NDArray[np.intp]]:
@@ -61,7 +61,7 @@ def chosen(
         (m, 2): points along lines and outlines, no farther apart than about half a box.
     bounds : (ndarray, ndarray)
         Corners of the picture, which the boxes stay within.
-    others : ndarray, optional
+    taken : ndarray, optional
         (k, 2, 2): middles and halves of boxes that are there already.
     light : ndarray, optional
         (l, 2): points along light lines, which a box covers rather than anything else.
@@ -80,8 +80,8 @@ def chosen(
     habit = HABIT * (1.0 - directions.sum(axis=1) / np.sqrt(2.0)) / 2.0
     count = len(points)
     middles, places = np.empty_like(points), np.zeros(count, dtype=np.intp)
-    boxes = np.zeros((0, 2, 2)) if others is None else others
-    # Whatever is in the way, a row each: its middle, half its size, how bad it is to cover it.
+    boxes = np.zeros((0, 2, 2)) if taken is None else taken
+    # One row per obstacle: its middle, half its size, and the cost of covering it.
     symbols = np.column_stack([points, np.full((count, 2), radius.max()), np.full(count, ON_NAME)])
     things = np.concatenate(
         [
@@ -146,7 +146,7 @@ def within(centres: Float, half: Float, bounds: tuple[Float, Float]) -> Float:
 def along(polylines: list[Float], step: float, bounds: tuple[Float, Float] | None = None) -> Float:
     """Return points along lines, no farther apart than a step, (m, 2).
 
-    With `bounds`, corners of a picture, only of what is in or near it.
+    With `bounds`, the corners of a picture, only those in or near it.
     """
     starts = np.concatenate([np.zeros((0, 2)), *(line[:-1] for line in polylines)])
     ends = np.concatenate([np.zeros((0, 2)), *(line[1:] for line in polylines)])

@@ -1,7 +1,7 @@
 """What a scene is made of: strokes, discs and hatched lines, each fixed to a link.
 
 A scene knows no drawing library. Whoever draws it places the frame of each link, and decides how
-many px a metre has; sizes of symbols are in px, whatever the zoom.
+many px a metre has; sizes of symbols are in px at any zoom.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from assur._faces import Mechanism
     from assur.pictures.scene.frames import Frames
 
-# What of a guide is seen beyond the block at the ends of its stroke, px.
+# Length of a guide beyond the block at the ends of its stroke, px.
 BEYOND = 8.0
 # Length of a driven slide whose stroke is not known both ways, relative to the mechanism's size.
 FREE_STROKE = 0.15
@@ -83,7 +83,7 @@ class Slides:
         return ON_LINE * self._size
 
     def parts(self) -> list[Line]:
-        """Return what is drawn."""
+        """Return the lines to draw."""
         return [part for name in self._mechanism.slides for part in self._of(name)]
 
     def axis(self, name: str) -> Axis:
@@ -94,8 +94,8 @@ class Slides:
 
     def _found_axis(self, name: str) -> Axis:
         slide = self._mechanism.slides[name]
-        own = list(self._joints(slide.link).values())
-        block = own[0] if own else np.zeros(2)
+        places = list(self._joints(slide.link).values())
+        block = places[0] if places else np.zeros(2)
         stroke = self._strokes.get(name)
         axis = _axis(self._frames, name, slide.link, slide.on, block, self._angle(name), stroke)
         if name not in self._sliding or axis.low < axis.high:
@@ -112,8 +112,8 @@ class Slides:
 
     def _angle(self, name: str) -> Float:
         """Return the direction of the guide at every position, rad."""
-        own = float(self._mechanism.dimensions.get(f"{name}.angle", 0.0))
-        return self._frames.angle(self._mechanism.slides[name].on) + own
+        guide_angle = float(self._mechanism.dimensions.get(f"{name}.angle", 0.0))
+        return self._frames.angle(self._mechanism.slides[name].on) + guide_angle
 
     def _joints(self, link: str) -> dict[str, Float]:
         return self._frames.local[link]
@@ -146,10 +146,10 @@ class Slides:
     def _is_cylinder(self, name: str, axis: Axis) -> bool:
         """Whether barrel and rod have a joint each, and nothing else."""
         pair = {axis.sliding, axis.guide}
-        others = [s for n, s in self._mechanism.slides.items() if n != name]
+        slides = [s for n, s in self._mechanism.slides.items() if n != name]
         return (
             len(self._joints(axis.sliding)) == 1
-            and not any(pair & {s.link, s.on} for s in others)
+            and not any(pair & {s.link, s.on} for s in slides)
             and not pair & self._turning
         )
 
@@ -191,7 +191,7 @@ class Slides:
         yield Stroke(axis.guide, name, ends, sizes.DRIVEN_BAR if driven else sizes.BAR)
         if off_axis and len(off_axis) == len(self._joints(axis.guide) or "1"):
             along, joint = min(
-                off_axis, key=lambda one: max(low[0] - one[0], one[0] - high[0], 0.0)
+                off_axis, key=lambda aside: max(low[0] - aside[0], aside[0] - high[0], 0.0)
             )
             foot = axis.on_guide(min(max(along, low[0]), high[0]))
             yield Stroke(axis.guide, name, (at(joint), at(foot)), sizes.BAR)

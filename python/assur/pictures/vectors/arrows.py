@@ -180,7 +180,7 @@ def path_vectors(
     scale : float, optional
         Points to a unit; by default the longest vector gets `LONGEST`.
     lines : sequence of ndarray
-        Lines of the picture, m, of which texts keep clear.
+        Lines of the picture, m, which texts avoid.
     texts : bool
         Whether sizes are written.
     names : sequence of str
@@ -205,7 +205,9 @@ def path_vectors(
         letter, unit = SYMBOLS[kind]
         symbols = [symbol(letter, [names[i]] if names else []) for i in known]
         sizes = [float(np.hypot(*vectors[i])) for i in known]
-        written = [f"{one} {number(size)} {unit}" for one, size in zip(symbols, sizes, strict=True)]
+        written = [
+            f"{letters} {number(size)} {unit}" for letters, size in zip(symbols, sizes, strict=True)
+        ]
         font = formula_font(TEXT)
         halves = np.array([formula_size(text, font) for text in written]) / 2.0
         artists = write_names(

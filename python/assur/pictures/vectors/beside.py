@@ -54,7 +54,7 @@ class Beside:
     ) -> Text | None:
         """Write the first of some texts, long ones first, that has room along a line, m.
 
-        One that has none there may stand level beside the line's end.
+        A text without room there may stand level beside the line's end.
         """
         first, last = self._on.points(start), self._on.points(end)
         length = float(np.hypot(*(last - first)))

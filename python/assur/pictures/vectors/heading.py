@@ -31,7 +31,7 @@ def link_numbers(mechanism: Mechanism) -> dict[str, int]:
 
 
 def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
-    """Return finite rates of the drivers: a number, of several drivers one each."""
+    """Return finite rates of the drivers: a number, or one for each of several drivers."""
     drivers = mechanism.driver
     count = len(drivers) if isinstance(drivers, tuple) else 0
     shape = (count,) if count else ()
@@ -43,11 +43,11 @@ def checked_rates(value: Any, what: str, mechanism: Mechanism) -> Any:
     return rates
 
 
-def place_text(one: Motion) -> str:
+def place_text(position: Motion) -> str:
     """Write the coordinates of a position."""
-    mechanism = one.mechanism
+    mechanism = position.mechanism
     drivers = mechanism.description.drivers
-    q = np.atleast_1d(np.asarray(one.coordinate(())))
+    q = np.atleast_1d(np.asarray(position.coordinate(())))
     places = [
         f"{number(float(x))} m"
         if driver in mechanism.slides

@@ -53,7 +53,7 @@ def formula_size(text: str, font: FontProperties) -> tuple[float, float]:
         if pieces[i]:
             width += text_size(pieces[i].replace(r"\$", "$"), font)[0]
         if i + 1 < len(pieces):
-            letter, above, below, later = (one or "" for one in pieces[i + 1 : i + 5])
+            letter, above, below, later = (piece or "" for piece in pieces[i + 1 : i + 5])
             above = (above or later).replace(r"\infty", "∞")
             sides = [text_size(side.replace("\\", ""), small)[0] for side in (above, below) if side]
             width += text_size(letter, big)[0] + max(sides, default=0.0) + 0.15 * size

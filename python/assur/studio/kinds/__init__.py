@@ -47,7 +47,7 @@ KINDS: dict[str, Callable[[dict[str, Any], Session], Answer]] = {
     "save": save,
     "export": export,
 }
-# What may take long is computed beside the others; some of it warns.
+# Slow kinds are computed beside the others; some of them warn.
 LONG = ("assemblies", "run", "flywheel", "steady", "map", "find", "export")
 # Only the newest of these that waits is computed; kinds of one place replace each other.
 LIVE = {

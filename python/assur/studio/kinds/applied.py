@@ -15,16 +15,16 @@ if TYPE_CHECKING:
     from assur.dynamics.machine import Machine
 
 
-def applied_forces(machine: Machine, found: Reactions) -> tuple[list[dict[str, Any]], Float]:
+def applied_forces(machine: Machine, solved: Reactions) -> tuple[list[dict[str, Any]], Float]:
     """Return which load acts on which link, and place and force, [row][of them][x, y, Fx, Fy]."""
-    rows = np.size(found.status)
+    rows = np.size(solved.status)
     names: list[dict[str, Any]] = []
     columns: list[Float] = []
-    for one in loads_of(found):
-        # What pulls at the ground moves nothing.
-        is_anchor = one.link == "ground" and not isinstance(machine.loads[one.load], Force)
-        if one.place is None or is_anchor or not np.any(one.force):
+    for force in loads_of(solved):
+        # A load that pulls at the ground moves nothing.
+        is_anchor = force.link == "ground" and not isinstance(machine.loads[force.load], Force)
+        if force.place is None or is_anchor or not np.any(force.force):
             continue
-        names.append({"load": one.load, "on": one.link, "joint": one.joint})
-        columns.append(np.concatenate([one.place, one.force], axis=-1).reshape(rows, 4))
+        names.append({"load": force.load, "on": force.link, "joint": force.joint})
+        columns.append(np.concatenate([force.place, force.force], axis=-1).reshape(rows, 4))
     return names, np.stack(columns, axis=1) if columns else np.zeros((rows, 0, 4))

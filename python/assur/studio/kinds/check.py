@@ -1,4 +1,4 @@
-"""``check``: what a document says while it is drawn: it moves, or what is missing or too much."""
+"""``check``: the state of a document while it is drawn: it moves, lacks or has too much."""
 
 from __future__ import annotations
 
@@ -22,37 +22,37 @@ COUNTS = ("No", "One", "Two", "Three", "Four", "Five", "Six")
 
 
 def check(data: dict[str, Any], session: Session) -> Answer:
-    """Return the state of a document, with the names of all that is concerned."""
+    """Return the state of a document, with the names of the parts concerned."""
     fields = Fields(data, ("document",), ("document",))
     node = document.checked(fields["document"])
-    own = {"joints": {}, "links": {"ground": []}, **node.value}
-    node = document.checked(own)
+    drawing = {"joints": {}, "links": {"ground": []}, **node.value}
+    node = document.checked(drawing)
     links = node.table()["links"].table()
     if not set(links) - {"ground"}:
-        return _state(own, "empty", "Draw a link, or open an example.")
-    if own.get("driver") in (None, "", []):
-        return _without_driver(own, session)
+        return _state(drawing, "empty", "Draw a link, or open an example.")
+    if drawing.get("driver") in (None, "", []):
+        return _without_driver(drawing, session)
     try:
-        mechanism = document.read_mechanism(own)
+        mechanism = document.read_mechanism(drawing)
     except AssurError as error:
-        return _refused(own, error)
-    return _moves(own, mechanism)
+        return _refused(drawing, error)
+    return _moves(drawing, mechanism)
 
 
-def _moves(own: dict[str, Any], mechanism: Mechanism) -> Answer:
+def _moves(drawing: dict[str, Any], mechanism: Mechanism) -> Answer:
     mobility = mechanism.structure.mobility
-    return _state(own, "moves", f"Moves: mobility {mobility}.", **described(mechanism))
+    return _state(drawing, "moves", f"Moves: mobility {mobility}.", **described(mechanism))
 
 
-def _without_driver(own: dict[str, Any], session: Session) -> Answer:
+def _without_driver(drawing: dict[str, Any], session: Session) -> Answer:
     """Say what could drive it, each tried."""
     candidates: list[str] = []
     first: AssurError | None = None
     structure: dict[str, Any] | None = None
-    for name in _on_ground(own)[:MOST_CANDIDATES]:
+    for name in _on_ground(drawing)[:MOST_CANDIDATES]:
         session.deadline.check()
         try:
-            mechanism = document.read_mechanism({**own, "driver": name})
+            mechanism = document.read_mechanism({**drawing, "driver": name})
         except AssurError as error:
             # Another link may drive where this one cannot.
             if first is None or first.kind == "cannot_drive":
@@ -63,13 +63,13 @@ def _without_driver(own: dict[str, Any], session: Session) -> Answer:
     if candidates or first is None or first.kind == "cannot_drive":
         message = "Nothing drives it yet. Click the link that is driven."
         more = {"candidates": candidates, "structure": structure}
-        return _state(own, "no_driver", message, **more, remedies=_drives(own))
-    return _refused(own, first)
+        return _state(drawing, "no_driver", message, **more, remedies=_drives(drawing))
+    return _refused(drawing, first)
 
 
-def _drives(own: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return what would drive it, as remedies."""
-    undriven = {**own, "driver": []}
+def _drives(drawing: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return possible drivers, as remedies."""
+    undriven = {**drawing, "driver": []}
     try:
         document.read_mechanism(undriven)
     except AssurError as error:
@@ -78,10 +78,10 @@ def _drives(own: dict[str, Any]) -> list[dict[str, Any]]:
     return []
 
 
-def _on_ground(own: dict[str, Any]) -> list[str]:
+def _on_ground(drawing: dict[str, Any]) -> list[str]:
     """Return the links at a joint of the ground, then the slides on it."""
-    node = document.checked(own).table()
-    links = {name: one.names() for name, one in node["links"].table().items()}
+    node = document.checked(drawing).table()
+    links = {name: entry.names() for name, entry in node["links"].table().items()}
     fixed = set(links.get("ground", ()))
     turning = [n for n, joints in links.items() if n != "ground" and fixed & set(joints)]
     if "slides" not in node:
@@ -89,11 +89,11 @@ def _on_ground(own: dict[str, Any]) -> list[str]:
     return [*turning, *node["slides"].table()]
 
 
-def _refused(own: dict[str, Any], error: AssurError) -> Answer:
+def _refused(drawing: dict[str, Any], error: AssurError) -> Answer:
     """Return what a linkage lacks, or has too much of, in the words of the studio."""
     cause = error.__cause__ if isinstance(error.__cause__, AssurError) else error
     text, kind = str(cause), error.kind
-    known = {key: own.get(key) for key in ("joints", "links", "slides")}
+    known = {key: drawing.get(key) for key in ("joints", "links", "slides")}
     concerned = {
         key: [n for n in cause.names if isinstance(entries, dict) and n in entries]
         for key, entries in known.items()
@@ -115,7 +115,7 @@ def _refused(own: dict[str, Any], error: AssurError) -> Answer:
     elif kind is None or kind in ("bad_name", "doubled_name", "not_finite", "out_of_range"):
         state = "invalid"
     return _state(
-        own,
+        drawing,
         state,
         message,
         reason=kind,
@@ -125,23 +125,23 @@ def _refused(own: dict[str, Any], error: AssurError) -> Answer:
         link=error.link,
         slide=error.slide,
         concerned=concerned,
-        remedies=remedied(own, cause.remedies) if isinstance(cause, StructureError) else [],
+        remedies=remedied(drawing, cause.remedies) if isinstance(cause, StructureError) else [],
         **extra,
     )
 
 
-def _state(own: dict[str, Any], state: str, message: str, **more: Any) -> Answer:
-    counts: dict[str, Any] = {"counted": _counted(own), "structure": None, "remedies": []}
+def _state(drawing: dict[str, Any], state: str, message: str, **more: Any) -> Answer:
+    counts: dict[str, Any] = {"counted": _counted(drawing), "structure": None, "remedies": []}
     return Answer({"state": state, "message": message, **counts, **more})
 
 
-def _counted(own: dict[str, Any]) -> dict[str, int]:
-    """Count as Chebyshev and Grübler do, also what is not yet a mechanism."""
-    links = {n: on for n, on in own["links"].items() if isinstance(on, list)}
-    slides = own.get("slides")
+def _counted(drawing: dict[str, Any]) -> dict[str, int]:
+    """Count as Chebyshev and Grübler do, even before it is a mechanism."""
+    links = {n: on for n, on in drawing["links"].items() if isinstance(on, list)}
+    slides = drawing.get("slides")
     slides = slides if isinstance(slides, dict) else {}
-    cylinders = [one for one in slides.values() if isinstance(one, dict) and "base" in one]
-    made = [[one[end]] for one in cylinders for end in ("base", "end") if end in one]
+    cylinders = [slide for slide in slides.values() if isinstance(slide, dict) and "base" in slide]
+    made = [[slide[end]] for slide in cylinders for end in ("base", "end") if end in slide]
     everywhere = [name for on in (*links.values(), *made) for name in dict.fromkeys(map(str, on))]
     turning = len(everywhere) - len(set(everywhere))
     moving = len(links) - ("ground" in links) + len(made)

@@ -38,7 +38,7 @@ def dead_ends(turn: Turn) -> list[dict[str, Any]]:
 
 
 def _shape(motion: Motion, row: int, name: str, inner: str | None) -> str | None:
-    """Say how a dyad of three turning pairs lies at a row: others have no such words."""
+    """Say how a dyad of three turning pairs lies at a row: there are no words for others."""
     outer = _outer_joints(motion.mechanism, name, inner)
     if inner is None or outer is None:
         return None

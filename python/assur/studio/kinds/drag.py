@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.description.dotted_names import is_angle
 from assur.errors import AssurError
 from assur.kinematics.table import driven_angles
 from assur.pictures.scene.course import TURN
 from assur.studio import document
-from assur.studio.kinds.structure import unit_of
 from assur.studio.kinds.turn import SHOWN, turn_answer
 from assur.studio.request import Fields
 from assur.studio.session import Answer
@@ -42,54 +42,54 @@ def drag(data: dict[str, Any], session: Session) -> Answer:
     joint = fields.word("joint", mechanism.joints)
     q = fields.drivers("q", mechanism)
     motion = mechanism.solve(q, order=0)
-    wanted = {name: motion.joint(name).value for name in mechanism.joints}
-    wanted[joint] = np.array(fields.pair("to"))
-    again = redrawn(fields["document"], mechanism, motion, wanted)
+    targets = {name: motion.joint(name).value for name in mechanism.joints}
+    targets[joint] = np.array(fields.pair("to"))
+    again = redrawn(fields["document"], mechanism, motion, targets)
     drawn = document.read_mechanism(again)
-    own, place, made = again, drawn.q0, drawn
+    shown, place, made = again, drawn.q0, drawn
     changed = _changed(mechanism, drawn)
     for dimensions, near in _ways(mechanism, drawn, changed, q):
-        sized = _led_there(mechanism, dimensions, near, wanted)
+        sized = _led_there(mechanism, dimensions, near, targets)
         if sized is not None:
-            own, changed = _with_dimensions(fields["document"], dimensions), dimensions
+            shown, changed = _with_dimensions(fields["document"], dimensions), dimensions
             place, made = near, sized
             break
-    document.remember(own, made)
+    document.remember(shown, made)
     answer = turn_answer(made, place, fields)
-    header = {"document": own, "q": place, "changed": list(changed)}
+    header = {"document": shown, "q": place, "changed": list(changed)}
     return Answer({**header, **answer.header}, answer.arrays)
 
 
 def _with_dimensions(data: dict[str, Any], changed: dict[str, float]) -> dict[str, Any]:
-    given = dict(document.flat(data.get("dimensions", {})))
-    return {**data, "dimensions": {**given, **changed}} if given or changed else data
+    dimensions = dict(document.flat(data.get("dimensions", {})))
+    return {**data, "dimensions": {**dimensions, **changed}} if dimensions or changed else data
 
 
 def redrawn(
     data: dict[str, Any], mechanism: Mechanism, motion: Motion, joints: dict[str, Float]
 ) -> dict[str, Any]:
     """Return the document with another drawing: joints as given, guides as they are there."""
-    own = {k: v for k, v in data.items() if k not in ("dimensions", "assembly", "drawn")}
-    own["joints"] = {name: joints[name].tolist() for name in data["joints"]}
+    moved = {k: v for k, v in data.items() if k not in ("dimensions", "assembly", "drawn")}
+    moved["joints"] = {name: joints[name].tolist() for name in data["joints"]}
     if "slides" not in data:
-        return own
-    own["slides"], dimensions = {}, mechanism.dimensions
+        return moved
+    moved["slides"], dimensions = {}, mechanism.dimensions
     for name, slide in data["slides"].items():
-        own["slides"][name] = slide
+        moved["slides"][name] = slide
         if "angle" in slide:
             carrier = 0.0 if slide["on"] == "ground" else float(motion.link(slide["on"]).value)
             angle = carrier + float(dimensions.get(f"{name}.angle", 0.0))
-            own["slides"][name] = {**slide, "angle": angle}
-    return own
+            moved["slides"][name] = {**slide, "angle": angle}
+    return moved
 
 
 def _changed(mechanism: Mechanism, drawn: Mechanism) -> dict[str, float]:
     """Return the dimensions that another drawing has and the mechanism has not."""
     size = float(np.ptp(np.array(list(drawn.joints.values())), axis=0).max())
-    own, changed = mechanism.dimensions, {}
+    dimensions, changed = mechanism.dimensions, {}
     for name, value in drawn.dimensions.items():
-        difference, scale = value - own[name], size
-        if unit_of(name) == "rad":
+        difference, scale = value - dimensions[name], size
+        if is_angle(name):
             difference, scale = difference - TURN * round(difference / TURN), 1.0
         if abs(difference) > SAME * scale:
             changed[name] = float(value)
@@ -101,36 +101,36 @@ def _ways(
 ) -> Iterator[tuple[dict[str, float], Any]]:
     """Yield dimensions and the coordinate to try with them.
 
-    Zero of a slide without origin is the place of its drawing; first as if that had not moved.
+    A slide without origin has its zero where it is drawn; first as if that had not moved.
     """
     slides = mechanism.slides
     zeros = {f"{name}.origin.{axis}" for name in slides for axis in ("x", "y")}
     floating = [
-        isinstance(one, str) and one in slides and slides[one].origin is None
-        for one in mechanism.description.drivers
+        isinstance(driver, str) and driver in slides and slides[driver].origin is None
+        for driver in mechanism.description.drivers
     ]
-    own, given = np.atleast_1d(drawn.q0), np.atleast_1d(q)
+    redrawn_q, present = np.atleast_1d(drawn.q0), np.atleast_1d(q)
     angles = np.array(driven_angles(drawn))
     # Angles are those of the turn that the present one is in.
-    near = np.where(angles, own + TURN * np.round((given - own) / TURN), own)
+    near = np.where(angles, redrawn_q + TURN * np.round((present - redrawn_q) / TURN), redrawn_q)
     several = drawn.driver_count > 1
     if any(floating) or zeros & set(changed):
-        kept = np.where(floating, given, near)
-        others = {name: value for name, value in changed.items() if name not in zeros}
-        yield others, kept if several else float(kept[0])
+        kept = np.where(floating, present, near)
+        lengths = {name: value for name, value in changed.items() if name not in zeros}
+        yield lengths, kept if several else float(kept[0])
     yield changed, near if several else float(near[0])
 
 
 def _led_there(
-    mechanism: Mechanism, changed: dict[str, float], q: Any, wanted: dict[str, Float]
+    mechanism: Mechanism, changed: dict[str, float], q: Any, targets: dict[str, Float]
 ) -> Mechanism | None:
-    """Return the mechanism with other dimensions if its joints are at q where they are wanted."""
+    """Return the mechanism with other dimensions if its joints are at their targets at q."""
     try:
         sized = mechanism.with_dimensions(changed)
         motion = sized.solve(q, order=0)
     except AssurError:
         return None
-    there = np.array([motion.joint(name).value for name in wanted])
-    target = np.array(list(wanted.values()))
+    there = np.array([motion.joint(name).value for name in targets])
+    target = np.array(list(targets.values()))
     size = float(np.ptp(target, axis=0).max())
     return sized if bool((np.abs(there - target) <= IN_PLACE * size).all()) else None

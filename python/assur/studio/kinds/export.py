@@ -124,7 +124,7 @@ def _title(fields: Fields) -> str:
 
 
 def _written(ending: str, write: Callable[[Path], Any]) -> bytes:
-    """Return what is written to a file, in a folder that nobody else can read."""
+    """Return the bytes written to a file, in a folder that nobody else can read."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, f"mechanism{ending}")
         write(path)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 # Positions of a turn: extremes are found among them.
 ROWS = 721
-# Values between low and high, then between the two about the wanted one, so many times.
+# Values between low and high, then between the two about the target, this many times.
 VALUES, FINER, TIMES = 61, 21, 4
 
 
@@ -31,14 +31,16 @@ def find(data: dict[str, Any], session: Session) -> Answer:
     mechanism = contents.mechanism
     name, along = axis(fields.node("x"), mechanism, VALUES)
     metric = metric_of(fields.node("metric"))
-    wanted = fields.number("value")
+    target = fields.number("value")
     q = measured_coordinates(fields, mechanism, ROWS)
     present = float(mechanism.dimensions[name])
 
     def measured(values: Float) -> Float:
         session.deadline.check()
-        found = sweep(contents.machine or mechanism, {name: values}, q, metrics={"value": metric})
-        return np.asarray(found["value"], float)
+        measures = sweep(
+            contents.machine or mechanism, {name: values}, q, metrics={"value": metric}
+        )
+        return np.asarray(measures["value"], float)
 
     values = measured(along)
     finite = values[np.isfinite(values)]
@@ -49,24 +51,24 @@ def find(data: dict[str, Any], session: Session) -> Answer:
         "least": float(finite.min()) if finite.size else None,
         "greatest": float(finite.max()) if finite.size else None,
     }
-    at = _crossing(along, values, wanted, present)
+    at = _crossing(along, values, target, present)
     if at is None:
         return Answer(header, {})
     for _ in range(TIMES):
         along = np.linspace(along[at], along[at + 1], FINER)
         values = measured(along)
-        at = _crossing(along, values, wanted, present)
+        at = _crossing(along, values, target, present)
         if at is None:
             # Between the two there are designs that do not work.
             return Answer(header, {})
-    nearest = at + int(abs(values[at + 1] - wanted) < abs(values[at] - wanted))
+    nearest = at + int(abs(values[at + 1] - target) < abs(values[at] - target))
     return Answer({**header, "value": float(along[nearest]), "metric": float(values[nearest])}, {})
 
 
-def _crossing(along: Float, values: Float, wanted: float, present: float) -> int | None:
+def _crossing(along: Float, values: Float, target: float, present: float) -> int | None:
     """Return after which place the wanted value lies between two, nearest to the present place."""
     # NaN is neither below nor above.
-    below, above = values <= wanted, values >= wanted
+    below, above = values <= target, values >= target
     places = np.flatnonzero((below[:-1] & above[1:]) | (above[:-1] & below[1:]))
     if not len(places):
         return None

@@ -35,43 +35,43 @@ def reactions(data: dict[str, Any], session: Session) -> Answer:
     mechanism = _mechanism(machine)
     q = _rows(fields, mechanism)
     speed = fields.drivers("speed", mechanism, 0.0)
-    found = machine.reactions(
+    solved = machine.reactions(
         q,
         speed,
         fields.drivers("acceleration", mechanism, 0.0),
         sense=fields.optional("sense"),
         on_error="nan",
     )
-    header, arrays = forces_of(mechanism, found)
-    header["applied"], arrays["applied"] = applied_forces(machine, found)
+    header, arrays = forces_of(mechanism, solved)
+    header["applied"], arrays["applied"] = applied_forces(machine, solved)
     return Answer(header, {"q": q, **arrays})
 
 
-def forces_of(mechanism: Mechanism, found: Reactions) -> tuple[dict[str, Any], dict[str, Float]]:
-    """Return which forces there are, and the forces over the rows."""
+def forces_of(mechanism: Mechanism, solved: Reactions) -> tuple[dict[str, Any], dict[str, Float]]:
+    """Return the list of forces, and the forces over the rows."""
     joints = list(_pins(mechanism))
-    rows = np.asarray(found.status).size
-    forces = [found.joint(joint, on=on).reshape(rows, 2) for joint, on, _ in joints]
-    slides = [found.slide(name) for name in mechanism.slides]
+    rows = np.asarray(solved.status).size
+    forces = [solved.joint(joint, on=on).reshape(rows, 2) for joint, on, _ in joints]
+    slides = [solved.slide(name) for name in mechanism.slides]
     along = [
         np.stack([np.reshape(part, rows) for part in (s.normal, s.moment, s.along)], axis=-1)
         for s in slides
     ]
     header = {
-        "joints": [{"joint": joint, "on": on, "from": other} for joint, on, other in joints],
+        "joints": [{"joint": joint, "on": on, "from": source} for joint, on, source in joints],
         "slides": [
             {"slide": name, "on": slide.link, "from": slide.on}
             for name, slide in mechanism.slides.items()
         ],
-        "undetermined": found.undetermined,
+        "undetermined": solved.undetermined,
     }
     arrays = {
         "forces": _stacked(forces, (rows, 0, 2)),
         "slide_forces": _stacked(along, (rows, 0, 3)),
-        "drive": np.asarray(found.driver, dtype=float),
-        "shaking_force": np.asarray(found.shaking_force),
-        "shaking_moment": np.asarray(found.shaking_moment),
-        "status": np.asarray(found.status),
+        "drive": np.asarray(solved.driver, dtype=float),
+        "shaking_force": np.asarray(solved.shaking_force),
+        "shaking_moment": np.asarray(solved.shaking_moment),
+        "status": np.asarray(solved.status),
     }
     return header, arrays
 
@@ -81,7 +81,7 @@ def _stacked(parts: list[Float], empty: tuple[int, ...]) -> Float:
 
 
 def _pins(mechanism: Mechanism) -> Any:
-    """Yield joints with the link that the force is on; of two links the other is where it is from.
+    """Yield joints with the link that the force acts on; of two links the other exerts it.
 
     The force on that one is the opposite.
     """
@@ -89,8 +89,8 @@ def _pins(mechanism: Mechanism) -> Any:
         links = [link for link, on in mechanism.links.items() if joint in on]
         if len(links) == 2:
             # On the moving one.
-            on, other = links if links[0] != "ground" else links[::-1]
-            yield joint, on, other
+            on, source = links if links[0] != "ground" else links[::-1]
+            yield joint, on, source
         elif len(links) > 2:
             for link in links:
                 yield joint, link, None
@@ -110,27 +110,27 @@ def flywheel(data: dict[str, Any], session: Session) -> Answer:
     fields = Fields(data, known, ("document", "fluctuation"))
     machine = document.read_machine(fields["document"])
     turns, rows = fields.whole("turns", 1, 1, MOST_TURNS), fields.rows(ROWS)
-    found = machine.flywheel(
+    wheel = machine.flywheel(
         fields.number("fluctuation"),
         fields.optional("mean_speed"),
         "period" if fields.word("mean", MEANS, "extremes") == "period" else "extremes",
         turns=turns,
     )
     q = np.linspace(0.0, TURN * turns, rows)
-    inertia, energy = found.energy_mass(rows)
+    inertia, energy = wheel.energy_mass(rows)
     names = ("inertia", "delta", "speed0", "mean_speed", "mean", "motor_moment", "power", "period")
-    header = {name: getattr(found, name) for name in names}
-    header |= {name: getattr(found, name)._asdict() for name in ("greatest", "least")}
+    header = {name: getattr(wheel, name) for name in names}
+    header |= {name: getattr(wheel, name)._asdict() for name in ("greatest", "least")}
     arrays = {
         "q": q,
-        "speed": found.speed(q),
-        "time": found.time(q),
-        "moment": found.reduced_moment(q),
-        "reduced_inertia": found.reduced_inertia(q),
-        "work": found.work(q),
+        "speed": wheel.speed(q),
+        "time": wheel.time(q),
+        "moment": wheel.reduced_moment(q),
+        "reduced_inertia": wheel.reduced_inertia(q),
+        "work": wheel.work(q),
         "diagram": np.stack([inertia, energy], axis=-1),
     }
-    return Answer(header, {name: np.asarray(one, dtype=float) for name, one in arrays.items()})
+    return Answer(header, {name: np.asarray(array, dtype=float) for name, array in arrays.items()})
 
 
 def steady(data: dict[str, Any], session: Session) -> Answer:
@@ -138,18 +138,18 @@ def steady(data: dict[str, Any], session: Session) -> Answer:
     known = ("document", "speed", "turns", "flywheel", "mean", "rows")
     fields = Fields(data, known, ("document",))
     machine = document.read_machine(fields["document"])
-    found = machine.steady_state(
+    motion = machine.steady_state(
         fields.optional("speed"),
         turns=fields.whole("turns", 1, 1, MOST_TURNS),
         flywheel=fields.number("flywheel", 0.0),
         mean="period" if fields.word("mean", MEANS, "extremes") == "period" else "extremes",
         max_seconds=session.deadline.left(),
     )
-    q = np.linspace(found.q[0], found.q[-1], fields.rows(ROWS))
-    state = found.at(q)
+    q = np.linspace(motion.q[0], motion.q[-1], fields.rows(ROWS))
+    state = motion.at(q)
     names = ("period", "delta", "mean_speed", "multiplier", "motor_work", "power", "motor_moment")
-    header = {name: getattr(found, name) for name in names}
-    header |= {name: getattr(found, name)._asdict() for name in ("greatest", "least")}
+    header = {name: getattr(motion, name) for name in names}
+    header |= {name: getattr(motion, name)._asdict() for name in ("greatest", "least")}
     return Answer(
         header,
         {"q": q, "t": state.t, "speed": state.speed, "acceleration": state.acceleration},

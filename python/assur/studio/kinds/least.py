@@ -1,4 +1,4 @@
-"""The least transmission angle of each dyad over what is played."""
+"""The least transmission angle of each dyad over the turn that is played."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ def transmission_angles(motion: Motion) -> Iterator[tuple[str, Float]]:
 def least_transmission(mechanism: Mechanism, line: Float, place: Float) -> list[dict[str, Any]]:
     """Return the least angle, rad, of each dyad at these coordinates, and where it is.
 
-    `place` is what the page calls the coordinate: of several drivers the one that moves.
+    `place` is what the page calls the coordinate: with several drivers that of the one that moves.
     """
     motion = mechanism.solve(line, order=0, on_error="nan")
-    found = []
+    listed = []
     for name, angles in transmission_angles(motion):
         if np.isfinite(angles).any():
             row = int(np.nanargmin(angles))
-            found.append({"at": name, "least": float(angles[row]), "q": float(place[row])})
-    return found
+            listed.append({"at": name, "least": float(angles[row]), "q": float(place[row])})
+    return listed

@@ -55,7 +55,7 @@ def lesson(data: dict[str, Any], session: Session) -> Answer:
     ground_speed = fields.number("ground_speed", 0.0)
     header = _conditions(lengths, least)
     instant = crank_rocker.solve(phi1, l1, l2, l3, l4, speed, ground_speed)
-    names = [one.name for one in fields_of(instant)]
+    names = [field.name for field in fields_of(instant)]
     header["instant"] = {"phi1": phi1, **{name: getattr(instant, name) for name in names}}
     turn = np.linspace(0.0, TURN, fields.rows(ROWS))
     over = crank_rocker.solve(turn, l1, l2, l3, l4, speed)
@@ -67,10 +67,10 @@ def lesson(data: dict[str, Any], session: Session) -> Answer:
     if fields.flag("motion"):
         session.deadline.check()
         held = _needed(fields, least, "a motion")
-        found = lesson_motion.stretches(lengths, held)
-        header["stretches"] = [one._asdict() for one in found]
-        header["position"] = lesson_motion.position(lengths, found, phi1, speed, ground_speed)
-        arrays |= lesson_motion.tables(lengths, found, len(turn))
+        stretches = lesson_motion.stretches(lengths, held)
+        header["stretches"] = [stretch._asdict() for stretch in stretches]
+        header["position"] = lesson_motion.position(lengths, stretches, phi1, speed, ground_speed)
+        arrays |= lesson_motion.tables(lengths, stretches, len(turn))
     if fields.flag("run"):
         session.deadline.check()
         header["run"], moved = _run(fields, lengths, least, phi1, speed)
@@ -112,7 +112,9 @@ def _conditions(lengths: tuple[float, float, float, float], least: float | None)
     turns, margins = crank_rocker.crank_turns(*lengths)
     named = dict(zip(LENGTHS, lengths, strict=True))
     l1, l2, l3, l4 = lengths
-    failed = [one for one, margin in zip(CONDITIONS, margins, strict=True) if margin <= 0.0]
+    failed = [
+        condition for condition, margin in zip(CONDITIONS, margins, strict=True) if margin <= 0.0
+    ]
     header: dict[str, Any] = {
         "type": crank_rocker.grashof(*lengths),
         "turns": turns,
@@ -166,15 +168,16 @@ def _run(
     ground: float | Callable[[float], float] = l4
     if "support" in fields:
         ground = _support(fields.node("support"))
-    found = crank_rocker.run(
+    jammed = crank_rocker.run(
         l1, l2, l3, ground, gamma_min=least, speed=speed, phi0=phi1, turns=turns
     )
     events = [
-        {one.name: getattr(event, one.name) for one in fields_of(event)} for event in found.events
+        {field.name: getattr(event, field.name) for field in fields_of(event)}
+        for event in jammed.events
     ]
-    rows = _thinned(len(found.t), [float(event.t) for event in found.events], found.t)
+    rows = _thinned(len(jammed.t), [float(event.t) for event in jammed.events], jammed.t)
     names = ("t", "phi1", "l4", "gamma", "sliding", "B", "C", "D")
-    arrays = {f"run_{name}": np.asarray(getattr(found, name), dtype=float)[rows] for name in names}
+    arrays = {f"run_{name}": np.asarray(getattr(jammed, name), dtype=float)[rows] for name in names}
     return {"events": events, "assumption": "C locks and D slides"}, arrays
 
 

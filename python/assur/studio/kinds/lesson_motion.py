@@ -1,8 +1,8 @@
 """The motion of the lesson: the crank-rocker over a turn, and the slider-crank while C is jammed.
 
 The transmission angle depends on BD alone, so C is jammed exactly where the ground would make BD
-longer than the outer rod, or shorter than the inner one, whatever came before. A turn is therefore
-a row of stretches, each of them smooth: the rocker swings, or D slides.
+longer than the outer rod, or shorter than the inner one, regardless of what came before. A turn is
+therefore a row of stretches, each of them smooth: the rocker swings, or D slides.
 """
 
 from __future__ import annotations
@@ -52,31 +52,31 @@ def stretches(lengths: Lengths, least: float) -> list[Stretch]:
     blocked = crank_rocker.blocked(*lengths, least)
     if not blocked:
         return [Stretch(0.0, TURN)]
-    found = []
+    parts = []
     for (start, end), after in zip(blocked, [*blocked[1:], blocked[0]], strict=True):
         # Around φ₁ = 0 coupler and rocker are nearly stretched, around π nearly folded.
         sign, side = (1.0, "outer") if start < 0.0 else (-1.0, "inner")
         cosine = float(sin_cos(least)[1])
         square = lengths.l2**2 + lengths.l3**2 + sign * 2.0 * lengths.l2 * lengths.l3 * cosine
-        found.append(Stretch(start, end, side, math.sqrt(square)))
+        parts.append(Stretch(start, end, side, math.sqrt(square)))
         begin = after[0] + TURN if after is blocked[0] else after[0]
         if begin > end:
-            found.append(Stretch(end, begin))
-    return found
+            parts.append(Stretch(end, begin))
+    return parts
 
 
-def tables(lengths: Lengths, found: list[Stretch], rows: int) -> dict[str, Float]:
+def tables(lengths: Lengths, parts: list[Stretch], rows: int) -> dict[str, Float]:
     """Return each stretch in even rows.
 
     `frames` has value, first and second derivative by φ₁ of the links, `by_ground` the derivatives
     by l₄ of the angles of coupler and rocker: none while D slides.
     """
     frames, by_ground = [], []
-    for one in found:
-        phi = np.linspace(one.start, one.end, rows)
-        frames.append(_swing(lengths, phi) if one.rod is None else _slide(lengths, one.rod, phi))
+    for part in parts:
+        phi = np.linspace(part.start, part.end, rows)
+        frames.append(_swing(lengths, phi) if part.rod is None else _slide(lengths, part.rod, phi))
         rates = np.zeros((rows, 2))
-        if one.rod is None:
+        if part.rod is None:
             moved = crank_rocker.solve(phi, *lengths, speed=0.0, ground_speed=1.0)
             rates = np.stack([moved.dphi2, moved.dphi3], axis=-1)
         by_ground.append(rates)
@@ -84,11 +84,11 @@ def tables(lengths: Lengths, found: list[Stretch], rows: int) -> dict[str, Float
 
 
 def position(
-    lengths: Lengths, found: list[Stretch], phi1: float, speed: float, ground_speed: float
+    lengths: Lengths, parts: list[Stretch], phi1: float, speed: float, ground_speed: float
 ) -> dict[str, Any]:
-    """Return the figures at φ₁ of what moves there: crank-rocker or slider-crank."""
+    """Return the figures at φ₁ of the mechanism that moves there: crank-rocker or slider-crank."""
     *held, by_ground = _with_moving_support(lengths, phi1, speed, ground_speed)
-    here = next((one for one in found if _is_within(phi1, one)), found[0])
+    here = next((part for part in parts if _is_within(phi1, part)), parts[0])
     value, first, second = held
     if here.rod is not None:
         frames = _slide(lengths, here.rod, np.array([phi1]))[:, 0]
@@ -131,17 +131,17 @@ def _joints(
 ) -> dict[str, tuple[Float, Float, Float]]:
     """Return place, velocity and acceleration of B, C and D by the frames that begin there."""
     origins = {"B": 1, "D": 3}
-    found = {name: (value[i, :2], first[i, :2], second[i, :2]) for name, i in origins.items()}
+    states = {name: (value[i, :2], first[i, :2], second[i, :2]) for name, i in origins.items()}
     # C is on the rocker.
-    sine, cosine = (float(one) for one in sin_cos(value[2, 2]))
+    sine, cosine = (float(number) for number in sin_cos(value[2, 2]))
     along, across = lengths.l3 * np.array([cosine, sine]), lengths.l3 * np.array([-sine, cosine])
     rate, growth = first[2, 2], second[2, 2]
-    found["C"] = (
+    states["C"] = (
         value[2, :2] + along,
         first[2, :2] + rate * across,
         second[2, :2] + growth * across - rate**2 * along,
     )
-    return {name: found[name] for name in JOINTS}
+    return {name: states[name] for name in JOINTS}
 
 
 def _drawing(lengths: Lengths, phi1: float) -> tuple[dict[str, tuple[float, float]], Solution]:
@@ -172,7 +172,7 @@ def _swing(lengths: Lengths, phi: Float) -> Float:
     # the other.
     right = _right_angle(lengths)
     drawn = next(
-        (one for one in (right, -right) if (one - phi[0]) % TURN <= phi[-1] - phi[0]), right
+        (angle for angle in (right, -right) if (angle - phi[0]) % TURN <= phi[-1] - phi[0]), right
     )
     before = TURN * math.ceil((phi[0] - drawn) / TURN)
     places, angles = _drawing(lengths, drawn)
@@ -236,9 +236,9 @@ def _continuous(angles: Float) -> Float:
 
 def _slide(lengths: Lengths, rod: float, phi: Float) -> Float:
     """Return value, first and second derivative by φ₁ of the frames of a slider-crank."""
-    # The crank towards D: there the rod reaches the line of centres whatever its length is.
-    own = lengths._replace(l4=lengths.l1 + rod)
-    places, angles = _drawing(own, math.pi)
+    # The crank towards D: there a rod of any length reaches the line of centres.
+    widened = lengths._replace(l4=lengths.l1 + rod)
+    places, angles = _drawing(widened, math.pi)
     links = {
         "ground": ["A"],
         "crank": ["A", "B"],

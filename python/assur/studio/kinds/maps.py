@@ -28,7 +28,7 @@ AXIS = ("dimension", "low", "high")
 
 
 def map_of(data: dict[str, Any], session: Session) -> Answer:
-    """Return the metric at each cell, row by row from low y; where there is none, why."""
+    """Return the metric at each cell, row by row from low y; where it is missing, why."""
     known = ("document", "x", "y", "metric", "n", "rows", "low", "high")
     fields = Fields(data, known, ("document", "x", "y", "metric"))
     contents = document.read(fields["document"])
@@ -45,16 +45,16 @@ def map_of(data: dict[str, Any], session: Session) -> Answer:
         del done, every
         session.deadline.check()
 
-    found = sweep(
+    measures = sweep(
         contents.machine or mechanism,
         {x: across.ravel(), y: upward.ravel()},
         q,
         metrics={"value": metric},
         progress=report,
     )
-    values = found["value"]
+    values = measures["value"]
     words, reason = [], np.zeros(values.size, np.uint8)
-    for text, which in reasons(found, values):
+    for text, which in reasons(measures, values):
         words.append(text)
         reason[which] = len(words)
     dimensions = mechanism.dimensions

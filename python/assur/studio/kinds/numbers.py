@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from assur.description.dotted_names import split_name, unit_of
 from assur.studio import document
 from assur.studio.kinds.least import transmission_angles
-from assur.studio.kinds.structure import unit_of
 from assur.studio.request import Fields
 from assur.studio.session import Answer
 
@@ -58,8 +58,8 @@ def sensitivity(data: dict[str, Any], session: Session) -> Answer:
     by: dict[str, Any] = {}
     for dimension in mechanism.dimensions:
         session.deadline.check()
-        one = getattr(motion.sensitivity(dimension), kind)(name)
-        by[dimension] = _component(one, order, component)
+        derivative = getattr(motion.sensitivity(dimension), kind)(name)
+        by[dimension] = _component(derivative, order, component)
     value = _component(getattr(motion, kind)(name), order, component)
     unit = "rad" if kind == "link" else "m"
     units = {name: f"{unit}/{unit_of(name)}" for name in by}
@@ -69,12 +69,12 @@ def sensitivity(data: dict[str, Any], session: Session) -> Answer:
 def _output(fields: Fields, mechanism: Mechanism) -> tuple[str, str, int | None]:
     """Return what "rocker", "bore" or "P.x" names: a kind, its name, a component."""
     text = fields.text("of")
-    name, dot, component = text.partition(".")
-    if dot and name in mechanism.joints and component in COMPONENTS:
+    name, component = split_name(text)
+    if name in mechanism.joints and component in COMPONENTS:
         return "joint", name, COMPONENTS.index(component)
-    if not dot and name in mechanism.links and name != "ground":
+    if text in mechanism.links and name != "ground":
         return "link", name, None
-    if not dot and name in mechanism.slides:
+    if text in mechanism.slides:
         return "slide", name, None
     raise fields.error("of", 'the name of a link or slide, or a joint with .x or .y ("P.x")')
 

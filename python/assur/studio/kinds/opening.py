@@ -1,4 +1,4 @@
-"""``start``: what there is to open. ``open``: an example, a text, or the file given."""
+"""``start``: what can be opened. ``open``: an example, a text, or the file given."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LONGEST_TITLE = 200
 def start(data: dict[str, Any], session: Session) -> Answer:
     """Say what can be opened, and the limits."""
     Fields(data, ())
-    given = session.given
+    opened = session.given
     return Answer(
         {
             "version": version(),
@@ -38,12 +38,12 @@ def start(data: dict[str, Any], session: Session) -> Answer:
                 for name, make in examples.ALL.items()
             ],
             "file": None
-            if given is None
+            if opened is None
             else {
-                "title": given.title,
-                "saves": given.is_saved,
+                "title": opened.title,
+                "saves": opened.is_saved,
                 "others": session.others,
-                "id": given.id,
+                "id": opened.id,
             },
             "limits": {
                 "up": limits.MOST_UP,
@@ -78,19 +78,19 @@ def _example(fields: Fields) -> Answer:
 
 
 def _file(fields: Fields, session: Session) -> Answer:
-    given = session.given
-    if given is None or not fields.flag("file"):
+    opened = session.given
+    if opened is None or not fields.flag("file"):
         raise fields.error("file", "the studio was started without a file")
-    if given.example is not None:
-        return _opened(examples.ALL[given.example](), (), None, title=given.title)
-    raw = given.bytes()
-    answer = _opened(*read_text(given.title, raw), title=PurePath(given.title).stem)
-    own = {"stamp": stamp_of(raw), "saves": given.is_saved, "others": session.others}
-    return Answer({**answer.header, **own})
+    if opened.example is not None:
+        return _opened(examples.ALL[opened.example](), (), None, title=opened.title)
+    raw = opened.bytes()
+    answer = _opened(*read_text(opened.title, raw), title=PurePath(opened.title).stem)
+    saved = {"stamp": stamp_of(raw), "saves": opened.is_saved, "others": session.others}
+    return Answer({**answer.header, **saved})
 
 
 def read_text(name: str, raw: bytes) -> tuple[Contents, tuple[str, ...], Any]:
-    """Return what a text holds, what was left out of it, and its speed."""
+    """Return the contents of a text, what was left out, and its speed."""
     try:
         text = raw.decode("utf-8")
     except UnicodeDecodeError:
@@ -105,9 +105,9 @@ def read_text(name: str, raw: bytes) -> tuple[Contents, tuple[str, ...], Any]:
     source = Text(text.removeprefix("\ufeff"), name)
     if len(text) > LARGEST_FILE:
         raise source.error("", f"more than {LARGEST_FILE} letters: not the file of a linkage")
-    found = importers.read(source)
-    contents = Contents(found.mechanism, input_speed=known_speed(found.input_speed))
-    return contents, found.omitted, found.input_speed
+    imported = importers.read(source)
+    contents = Contents(imported.mechanism, input_speed=known_speed(imported.input_speed))
+    return contents, imported.omitted, imported.input_speed
 
 
 def _opened(
@@ -115,11 +115,11 @@ def _opened(
 ) -> Answer:
     mechanism = what if isinstance(what, Mechanism) else what.mechanism
     assert mechanism is not None
-    own = document.document_of(what)
-    document.checked(own)
+    data = document.document_of(what)
+    document.checked(data)
     return Answer(
         {
-            "document": own,
+            "document": data,
             "title": title,
             "omitted": omitted,
             "speed": speed,

@@ -19,13 +19,13 @@ Table = dict[str, Any]
 WITHOUT_MOTOR: Table = {"type": NO_MOTOR}
 
 
-def remedied(own: Table, remedies: Collection[Remedy]) -> list[Table]:
-    """Return each remedy with the whole document as it is then; only what can be read."""
-    found = []
+def remedied(table: Table, remedies: Collection[Remedy]) -> list[Table]:
+    """Return each remedy with the whole resulting document, if that can be read."""
+    documents = []
     for remedy in remedies:
-        edited = next(_readable(_edited(own, remedy)), None)
+        edited = next(_readable(_edited(table, remedy)), None)
         if edited is not None:
-            found.append(
+            documents.append(
                 {
                     "text": remedy.text,
                     "detail": remedy.detail,
@@ -34,63 +34,63 @@ def remedied(own: Table, remedies: Collection[Remedy]) -> list[Table]:
                     "document": edited,
                 }
             )
-    return found
+    return documents
 
 
 def _readable(edited: Table) -> Iterator[Table]:
     """Yield the document with as much of the old one as it takes, beginning with all."""
     geometry = {key: value for key, value in edited.items() if key != "dimensions"}
-    for one in (edited, geometry):
+    for candidate in (edited, geometry):
         try:
-            document.read(one)
+            document.read(candidate)
         except AssurError:
             continue
-        yield one
-    # Masses or loads that were wrong before are none of the remedy's business.
-    for one in (edited, geometry):
+        yield candidate
+    # Masses or loads that were wrong before do not concern the remedy.
+    for candidate in (edited, geometry):
         try:
-            document.read_mechanism(one)
+            document.read_mechanism(candidate)
         except AssurError:
             continue
-        yield one
+        yield candidate
 
 
-def _edited(own: Table, remedy: Remedy) -> Table:
-    """Return the document with the change, without what belongs to things that are gone."""
+def _edited(table: Table, remedy: Remedy) -> Table:
+    """Return the document with the change, without data of parts that are gone."""
     parts = remedy.arguments
     joints, links, slides = parts["joints"], parts["links"], parts["slides"]
-    entries = _slides(own.get("slides") or {}, parts)
+    entries = _slides(table.get("slides") or {}, parts)
     made = {end for name, entry in entries.items() for end in _cylinder_links(name, entry)}
-    edited: Table = {key: value for key, value in own.items() if key not in ("drawn", "assembly")}
+    edited: Table = {key: value for key, value in table.items() if key not in ("drawn", "assembly")}
     edited["driver"] = _driver(parts["driver"])
     # Another driver has a speed of its own, and perhaps another unit.
-    if edited["driver"] != own.get("driver"):
+    if edited["driver"] != table.get("driver"):
         edited.pop("input_speed", None)
     edited["joints"] = {name: list(at) for name, at in joints.items()}
     edited["links"] = {name: list(on) for name, on in links.items() if name not in made}
     edited["slides"] = entries
     edited["assembly"] = parts["assembly"]
     for key in ("slides", "assembly"):
-        if not edited[key] and key not in own:
+        if not edited[key] and key not in table:
             del edited[key]
     there = {*joints, *links, *slides}
-    gone = _names(own) - there
-    if isinstance(own.get("bodies"), dict):
-        edited["bodies"] = {name: one for name, one in own["bodies"].items() if name in links}
-    if isinstance(own.get("friction"), dict):
-        pairs = own["friction"].items()
-        edited["friction"] = {name: one for name, one in pairs if name not in gone}
-    if "motor" in own:
-        edited["motor"] = _motor(own["motor"], _listed(own.get("driver")), edited["driver"])
+    gone = _names(table) - there
+    if isinstance(table.get("bodies"), dict):
+        edited["bodies"] = {name: body for name, body in table["bodies"].items() if name in links}
+    if isinstance(table.get("friction"), dict):
+        pairs = table["friction"].items()
+        edited["friction"] = {name: friction for name, friction in pairs if name not in gone}
+    if "motor" in table:
+        edited["motor"] = _motor(table["motor"], _listed(table.get("driver")), edited["driver"])
         if edited["motor"] == WITHOUT_MOTOR:
             del edited["motor"]
-    if isinstance(own.get("loads"), list):
-        edited["loads"] = [one for one in own["loads"] if not _mentions(one, gone)]
-    if isinstance(own.get("dimensions"), dict):
-        same = _unchanged(own, parts)
+    if isinstance(table.get("loads"), list):
+        edited["loads"] = [load for load in table["loads"] if not _mentions(load, gone)]
+    if isinstance(table.get("dimensions"), dict):
+        same = _unchanged(table, parts)
         edited["dimensions"] = {
             name: value
-            for name, value in own["dimensions"].items()
+            for name, value in table["dimensions"].items()
             if name.partition(".")[0] in same and not gone & set(name.split("."))
         }
     return edited
@@ -136,30 +136,30 @@ def _entry(slide: Slide) -> Table:
 
 def _driver(driver: DriverLike | list[DriverLike]) -> Any:
     if isinstance(driver, list):
-        return [_driver(one) for one in driver]
+        return [_driver(drive) for drive in driver]
     if isinstance(driver, Drive):
         return {"link": driver.link, "relative_to": driver.relative_to}
     return driver
 
 
-def _listed(one: Any) -> list[Any]:
-    return one if isinstance(one, list) else [one]
+def _listed(entry: Any) -> list[Any]:
+    return entry if isinstance(entry, list) else [entry]
 
 
 def _motor(motor: Any, old: list[Any], driver: Any) -> Any:
-    """Return the motor, or the motors of several drivers: what did not drive before has none."""
+    """Return the motor, or the motors of several drivers: new drivers have none."""
     drivers = _listed(driver)
     if len(drivers) == len(old) or not old:
         return motor
     known = list(zip(old, _listed(motor), strict=False))
-    motors = [next((m for d, m in known if d == own), WITHOUT_MOTOR) for own in drivers]
+    motors = [next((m for d, m in known if d == drive), WITHOUT_MOTOR) for drive in drivers]
     return motors if isinstance(driver, list) else motors[0]
 
 
-def _names(own: Table) -> set[str]:
+def _names(table: Table) -> set[str]:
     """Return the names of everything in a document."""
-    names = {name for key in ("joints", "links", "slides") for name in own.get(key) or {}}
-    for name, entry in (own.get("slides") or {}).items():
+    names = {name for key in ("joints", "links", "slides") for name in table.get(key) or {}}
+    for name, entry in (table.get("slides") or {}).items():
         names.update(_cylinder_links(name, entry))
     return names
 
@@ -167,16 +167,16 @@ def _names(own: Table) -> set[str]:
 def _mentions(load: Any, names: Collection[str]) -> bool:
     """Whether a load names something."""
     if isinstance(load, dict):
-        return any(_mentions(one, names) for one in load.values())
+        return any(_mentions(part, names) for part in load.values())
     if isinstance(load, list):
-        return any(_mentions(one, names) for one in load)
+        return any(_mentions(part, names) for part in load)
     return isinstance(load, str) and load in names
 
 
-def _unchanged(own: Table, parts: Table) -> set[str]:
+def _unchanged(table: Table, parts: Table) -> set[str]:
     """Return the links and slides whose dimensions mean what they did."""
-    links = {name for name, on in own["links"].items() if parts["links"].get(name) == tuple(on)}
-    old = own.get("slides") or {}
+    links = {name for name, on in table["links"].items() if parts["links"].get(name) == tuple(on)}
+    old = table.get("slides") or {}
     slides = {
         name
         for name, slide in parts["slides"].items()

@@ -58,11 +58,11 @@ def run(data: dict[str, Any], session: Session) -> Answer:
         # The sense of a run is known where its speed is 0.
         if by == "machine":
             state = State(t, q, speed, acceleration)
-            found = machine.reactions(state, on_error="nan")
+            solved = machine.reactions(state, on_error="nan")
         else:
-            found = machine.reactions(q, speed, acceleration, t=t, on_error="nan")
-        named, forces = forces_of(mechanism, found)
-        applied, forces["applied"] = applied_forces(machine, found)
+            solved = machine.reactions(q, speed, acceleration, t=t, on_error="nan")
+        named, forces = forces_of(mechanism, solved)
+        applied, forces["applied"] = applied_forces(machine, solved)
         header["reactions"] = {**named, "applied": applied}
         arrays |= forces
     return Answer({**header, **played.header}, {**played.arrays, **arrays})
@@ -82,13 +82,15 @@ def _by_laws(mechanism: Mechanism, fields: Fields) -> tuple[Float, Float, Float,
     laws: Any
     if mechanism.driver_count > 1:
         laws = [
-            one.number() if isinstance(one.value, int | float) else law(one)
-            for one in node.entries()
+            entry.number() if isinstance(entry.value, int | float) else law(entry)
+            for entry in node.entries()
         ]
     else:
         laws = law(node)
     spans = [
-        one.span for one in np.atleast_1d(np.array(laws, dtype=object)) if hasattr(one, "span")
+        each_law.span
+        for each_law in np.atleast_1d(np.array(laws, dtype=object))
+        if hasattr(each_law, "span")
     ]
     t = _times(fields, *(max(spans, key=lambda span: span[1]) if spans else (0.0, 1.0)))
     with node.refusing():
@@ -112,7 +114,7 @@ def _integrated(
     arrays: dict[str, Float],
 ) -> tuple[Float, Float, Float, Float]:
     """Integrate the equation of motion; say how it ended, and its energies."""
-    found = machine.run(
+    integrated = machine.run(
         fields.optional("t_end"),
         fields.drivers("q0", mechanism),
         fields.drivers("speed", mechanism, 0.0),
@@ -121,14 +123,14 @@ def _integrated(
         max_seconds=session.deadline.left() / 2.0,
     )
     header |= {
-        "end": found.end,
-        "message": found.message,
+        "end": integrated.end,
+        "message": integrated.message,
         "events": [
-            {"event": str(one.event), "t": one.t, "q": one.q, "speed": one.speed}
-            for one in found.events
+            {"event": str(event.event), "t": event.t, "q": event.q, "speed": event.speed}
+            for event in integrated.events
         ],
     }
-    energy = found.energy
+    energy = integrated.energy
     names = ("kinetic", "potential", "work", "balance")
-    arrays |= {"steps": found.t, **{name: getattr(energy, name) for name in names}}
-    return course_of_run(found, fields.rows(ROWS))
+    arrays |= {"steps": integrated.t, **{name: getattr(energy, name) for name in names}}
+    return course_of_run(integrated, fields.rows(ROWS))

@@ -21,18 +21,20 @@ if TYPE_CHECKING:
 def save(data: dict[str, Any], session: Session) -> Answer:
     """Write the document to the file, if it is still what was opened."""
     fields = Fields(data, ("document", "stamp", "force"), ("document",))
-    given = session.given
-    if given is None or given.path is None or not given.is_saved:
+    opened = session.given
+    if opened is None or opened.path is None or not opened.is_saved:
         message = "there is no TOML file to save to: export one"
         raise InputError(message, kind="no_file")
     raw = document.toml_of(fields["document"]).encode()
-    target = Path(os.path.realpath(given.path))
-    stamp = stamp_of(given.bytes()) if target.exists() else None
+    target = Path(os.path.realpath(opened.path))
+    stamp = stamp_of(opened.bytes()) if target.exists() else None
     if stamp is not None and stamp != fields["stamp"] and not fields.flag("force"):
-        message = f"{given.title} has been changed by another window or program since it was opened"
+        message = (
+            f"{opened.title} has been changed by another window or program since it was opened"
+        )
         raise InputError(message, kind="changed", hint="save all the same, or open it again")
-    _write(target, raw, given.title)
-    return Answer({"stamp": stamp_of(raw), "title": given.title})
+    _write(target, raw, opened.title)
+    return Answer({"stamp": stamp_of(raw), "title": opened.title})
 
 
 def _write(target: Path, raw: bytes, name: str) -> None:

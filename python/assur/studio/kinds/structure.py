@@ -1,9 +1,10 @@
-"""What is said of a mechanism's structure and dimensions."""
+"""The structure and dimensions of a mechanism, for the page."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from assur.description.dotted_names import unit_of
 from assur.description.structure import roman
 from assur.pictures.page.payload import ARROW
 
@@ -13,17 +14,17 @@ if TYPE_CHECKING:
 
 def structure_of(mechanism: Mechanism) -> dict[str, Any]:
     """Return mobility, formula and groups."""
-    own = mechanism.structure
+    structure = mechanism.structure
     return {
-        "mobility": own.mobility,
-        "mobility_at_drawing": own.mobility_at_drawing,
-        "counted": own.mobility_counted,
-        "moving_links": own.moving_links,
-        "turning_pairs": own.turning_pairs,
-        "sliding_pairs": own.sliding_pairs,
-        "class": roman(own.cls),
-        "formula": own.formula.split(ARROW),
-        "redundant": own.redundant,
+        "mobility": structure.mobility,
+        "mobility_at_drawing": structure.mobility_at_drawing,
+        "counted": structure.mobility_counted,
+        "moving_links": structure.moving_links,
+        "turning_pairs": structure.turning_pairs,
+        "sliding_pairs": structure.sliding_pairs,
+        "class": roman(structure.cls),
+        "formula": structure.formula.split(ARROW),
+        "redundant": structure.redundant,
         "groups": [
             {
                 "class": roman(group.cls),
@@ -33,7 +34,7 @@ def structure_of(mechanism: Mechanism) -> dict[str, Any]:
                 "joints": group.joints,
                 "slides": group.slides,
             }
-            for group in own.groups
+            for group in structure.groups
         ],
     }
 
@@ -44,11 +45,6 @@ def dimensions_of(mechanism: Mechanism) -> list[dict[str, Any]]:
         {"name": name, "value": float(value), "unit": unit_of(name)}
         for name, value in mechanism.dimensions.items()
     ]
-
-
-def unit_of(name: str) -> str:
-    """Return the unit of a dimension."""
-    return "rad" if name.endswith("angle") else "m"
 
 
 def described(mechanism: Mechanism) -> dict[str, Any]:

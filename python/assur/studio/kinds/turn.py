@@ -47,39 +47,39 @@ def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
     """Return a turn with the scene, as the fields want it, that begins at q."""
     rows, orders = fields.rows(ROWS), fields.whole("orders", 3, 2, 3)
     axis = fields.whole("axis", 0, 0, mechanism.driver_count - 1)
-    one = mechanism.driver_count == 1
-    own = passing_turn(mechanism, q, rows) if one and orders < 3 else None
-    if own is None:
-        own = (
+    is_single = mechanism.driver_count == 1
+    turn = passing_turn(mechanism, q, rows) if is_single and orders < 3 else None
+    if turn is None:
+        turn = (
             reached_turn(mechanism, q, rows)
-            if one
+            if is_single
             else _along(mechanism, np.asarray(q), axis, rows)
         )
-    answer = played_answer(own, fields, orders)
+    answer = played_answer(turn, fields, orders)
     if orders < 3:
         return answer
     # At rest there is time for more.
-    place = own.coordinates()
-    line = place if one else np.repeat(np.asarray(q, float)[None, :], len(place), axis=0)
-    if not one:
+    place = turn.coordinates()
+    line = place if is_single else np.repeat(np.asarray(q, float)[None, :], len(place), axis=0)
+    if not is_single:
         line[:, axis] = place
-    reach = None if one else [_reach(mechanism, np.asarray(q), i) for i in range(len(q))]
+    reach = None if is_single else [_reach(mechanism, np.asarray(q), i) for i in range(len(q))]
     more = {"transmission": least_transmission(mechanism, line, place), "reach": reach}
     return Answer({**answer.header, **more}, answer.arrays)
 
 
-def played_answer(own: Turn, fields: Fields, orders: int, speed: float | None = None) -> Answer:
-    """Return what is played with its scene."""
+def played_answer(turn: Turn, fields: Fields, orders: int, speed: float | None = None) -> Answer:
+    """Return the turn to play with its scene."""
     kept: list[Float] = []
     shown = payload(
-        played_of(own), "", speed, fields["paths"], fields["diagrams"], encode=kept.append
+        played_of(turn), "", speed, fields["paths"], fields["diagrams"], encode=kept.append
     )
     shown["turn"] |= {
         "orders": orders,
-        "limits": None if own.limits is None else reach_of(own.limits),
-        "dead": dead_ends(own),
+        "limits": None if turn.limits is None else reach_of(turn.limits),
+        "dead": dead_ends(turn),
     }
-    header = {"payload": shown, "dimensions": dimensions_of(own.mechanism)}
+    header = {"payload": shown, "dimensions": dimensions_of(turn.mechanism)}
     values = kept[0][:orders]
     # Pictures that pass need no more digits than the screen has.
     return Answer(header, {"values": values if orders > 2 else values.astype(np.float32)})
@@ -132,7 +132,7 @@ def _reach(mechanism: Mechanism, q: Float, axis: int) -> tuple[float, float]:
 
 
 def _end(mechanism: Mechanism, q: Float, axis: int, reach: float) -> float:
-    """Return how far a driver can go: step by step, for what is out of reach is slow to show."""
+    """Return how far a driver can go, step by step: positions out of reach are slow to show."""
 
     def holds(way: float) -> bool:
         at = q.copy()

@@ -19,25 +19,25 @@ LAWS: dict[str, type[Law]] = {
     for name in laws.__all__
     if name not in ("Law", "Sequence") and inspect.isclass(getattr(laws, name))
 }
-# What is measured without masses and with them; each takes what its function does.
+# Metrics without masses and with them; each takes its function's arguments.
 METRICS: dict[str, Callable[..., Metric]] = {
     name: getattr(metric, name) for name in metric.__all__ if name.islower() and name != "function"
 }
 
 
 def law(node: Node) -> Law:
-    """Return an input law, of a list one after another."""
+    """Return an input law; a list makes a sequence."""
     if isinstance(node.value, list):
-        every = tuple(law(one) for one in node.entries())
+        every = tuple(law(entry) for entry in node.entries())
         with node.refusing():
             return laws.Sequence(every)
     entries = node.table()
     cls = LAWS[_named(node, "law", LAWS)]
     known = list(inspect.signature(cls).parameters)
-    given = {key: one for key, one in node.keys(("law", *known)).items() if key != "law"}
+    arguments = {key: entry for key, entry in node.keys(("law", *known)).items() if key != "law"}
     _require(node, cls, entries)
     with node.refusing():
-        return cls(**{key: _number_or_word(one) for key, one in given.items()})
+        return cls(**{key: _number_or_word(entry) for key, entry in arguments.items()})
 
 
 def metric_of(node: Node) -> Metric:
@@ -46,9 +46,9 @@ def metric_of(node: Node) -> Metric:
     known = list(inspect.signature(make).parameters)
     entries = node.keys(("metric", *known))
     _require(node, make, entries)
-    given = {key: one for key, one in entries.items() if key != "metric"}
+    arguments = {key: entry for key, entry in entries.items() if key != "metric"}
     with node.refusing():
-        return make(**{key: _argument(one) for key, one in given.items()})
+        return make(**{key: _argument(entry) for key, entry in arguments.items()})
 
 
 def _named(node: Node, key: str, known: Any) -> str:
@@ -77,4 +77,4 @@ def _argument(node: Node) -> Any:
     if len(node.value) != 2:
         message = f"has {len(node.value)} entries: two are needed"
         raise node.error(message)
-    return tuple(_argument(one) for one in node.entries())
+    return tuple(_argument(entry) for entry in node.entries())

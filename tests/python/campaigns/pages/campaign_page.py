@@ -125,10 +125,10 @@ TEXT = f"""What is checked of every mechanism:
   and at steps {cases.FINER} times finer: values, analogues and statuses of shared positions agree
   to the bit.
 - **No jump.** Between neighbours no joint, slide or angle goes farther than its first analogues at
-  both ends carry it; where these do not tell it to {checks.JUMP:g} of the drawing (or rad), the
-  step is halved until they do. With change points the first analogues are carried by the second
-  likewise: the motion goes on smoothly.
-- **No false OK.** Whatever has values satisfies every pin, guide and driver of the description to
+  both ends predict; where they do not predict it to {checks.JUMP:g} of the drawing (or rad), the
+  step is halved until they do. With change points the second analogues predict the first in
+  the same way: the motion stays smooth.
+- **No false OK.** Every position with values satisfies every pin, guide and driver of the description to
   the law's 8 u κ of the size; the equations share no code with `assur`.
 - **Every gap is real.** Where a motion ends, the end is bisected to neighbouring numbers. There
   the Jacobian of the bodies, which shares no code either, is singular, and its square falls

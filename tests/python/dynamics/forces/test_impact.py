@@ -212,7 +212,7 @@ def test_an_elastic_stop_of_a_linkage() -> None:
     [
         (assur.events.Obstacle(assur.events.Position(1.0), 0.5), "from which side"),
         (assur.events.Obstacle(assur.events.Position(1.0, direction="rising"), 1.5), "is 1.5"),
-        (assur.events.Obstacle(assur.events.Rest(), 0.5), "is no Position"),  # type: ignore[arg-type]
+        (assur.events.Obstacle(assur.events.Rest(), 0.5), "is not a Position"),  # type: ignore[arg-type]
     ],
 )
 def test_obstacles_that_are_refused(obstacle: Any, said: str) -> None:

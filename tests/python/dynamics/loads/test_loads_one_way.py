@@ -269,7 +269,7 @@ def test_self_locking_has_the_loads_of_its_sense() -> None:
 
 def test_an_impact_has_no_direction() -> None:
     machine = Machine(slider(), {"crank": Body(inertia=1.0)})
-    with pytest.raises(assur.InputError, match=r"an impact is no motion in one direction"):
+    with pytest.raises(assur.InputError, match=r"an impact is not a motion in one direction"):
         machine.impact(Force("B", (1.0, 0.0), while_="forward"), 1.0, 3.0)
 
 

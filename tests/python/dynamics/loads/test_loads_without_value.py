@@ -137,6 +137,38 @@ def test_a_speed_beyond_all_numbers() -> None:
         machine(Gravity()).reactions(0.5, speed=1e200)
 
 
+def test_one_driver_without_a_moment_is_enough() -> None:
+    """The torques overflow at the first driver; the moment of the second is zero."""
+    five = assur.examples.five_bar()
+    left = str(five.description.drivers[0])
+    overloaded = Machine(five, {}, [Torque(left, 1e308), Torque(left, 1e308)])
+    drawn: Any = five.q0
+    turned = np.add(drawn, 0.1)
+    assert np.array_equal(overloaded.reduced_moment(drawn, on_error="nan"), [np.inf, 0.0])
+    places: list[Any] = [drawn, [turned, drawn]]
+    for q in places:
+        for ask in (overloaded.reduced_moment, overloaded.effort):
+            with pytest.raises(assur.MotionError, match="a mass is too great there") as raised:
+                ask(q)
+            assert raised.value.q == tuple(np.atleast_2d(q)[0])
+
+
+@pytest.mark.parametrize("driver", [0, 1])
+def test_one_driver_without_a_number_is_enough(driver: int) -> None:
+    """Whichever driver's coordinate or speed is NaN, nothing is computed."""
+    five = assur.examples.five_bar()
+    loaded = Machine(five, {}, [Torque(str(five.description.drivers[0]), 1.0)])
+    wrong = np.where(np.arange(2) == driver, np.nan, five.q0)
+    for ask in (loaded.reduced_moment, loaded.effort):
+        with pytest.raises(assur.InputError, match="a finite coordinate is needed"):
+            ask(wrong, 1.0)
+        with pytest.raises(assur.InputError, match="speed"):
+            ask(five.q0, wrong)
+    for of_place in (loaded.reduced_inertia, loaded.potential):
+        with pytest.raises(assur.InputError, match="a finite coordinate is needed"):
+            of_place(wrong)
+
+
 @pytest.mark.parametrize("way", [1.0, -1.0])
 @pytest.mark.parametrize("over_q", [False, True])
 def test_a_run_that_starts_outside_a_table_names_load_value_and_range(

@@ -254,10 +254,10 @@ def test_refusals() -> None:
     own = batch.solve(np.stack([Q, Q + 0.1]))
     several = assur.examples.five_bar()
     cases: tuple[tuple[Any, str], ...] = (
-        (lambda: motion.diagram("X"), r"'X'.*nothing is called so"),
+        (lambda: motion.diagram("X"), r"'X'.*no joint, link or slide has this name"),
         (lambda: motion.diagram([]), "not a name"),
         (lambda: motion.diagram(["C", "rocker"]), "different units"),
-        (lambda: motion.diagram("C.z"), "nothing is called so"),
+        (lambda: motion.diagram("C.z"), "no joint, link or slide has this name"),
         (lambda: motion.diagram("rocker", orders=3), r"order=3"),
         (lambda: motion.diagram("rocker", orders=4), "orders"),
         (lambda: motion.diagram("rocker", orders=[]), "orders is empty"),
