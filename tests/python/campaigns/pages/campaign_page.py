@@ -128,8 +128,8 @@ TEXT = f"""What is checked of every mechanism:
   both ends predict; where they do not predict it to {checks.JUMP:g} of the drawing (or rad), the
   step is halved until they do. With change points the second analogues predict the first in
   the same way: the motion stays smooth.
-- **No false OK.** Every position with values satisfies every pin, guide and driver of the description to
-  the law's 8 u κ of the size; the equations share no code with `assur`.
+- **No false OK.** Every position with values satisfies every pin, guide and driver of the
+  description to the law's 8 u κ of the size; the equations share no code with `assur`.
 - **Every gap is real.** Where a motion ends, the end is bisected to neighbouring numbers. There
   the Jacobian of the bodies, which shares no code either, is singular, and its square falls
   linearly: a dead point, beyond which this assembly does not exist; where two dyads fold together
