@@ -166,7 +166,9 @@ class Ends(Findings):
         kept = inside & ~beside & good
         value = self.values(motion, kind, own, name, order)
         known = condition[kept]
-        return value[kept], self.size * (64 * U * known**2 if order else 8 * U * known)
+        # A joint that stands has no size of its own, to which 64 u κ² would be relative.
+        error = 8 * U * known ** (order + 1)
+        return value[kept], self.size * (np.maximum(error, 64 * U * known**2) if order else error)
 
     def values(self, motion: assur.Motion, kind: str, own: str, name: str, order: int) -> Array:
         found = getattr(getattr(motion, kind)(own), f"d{order}" if order else "value")

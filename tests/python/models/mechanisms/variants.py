@@ -115,6 +115,17 @@ def framed(v: Variant, frame: Frame) -> Variant:
     return replace(v.then("framed", frame.of(v.description)), frame=frame)
 
 
+def drawn_angle(d: Description, link: str, solved: float) -> float:
+    """The angle of a link as it is drawn: what is solved there may have fewer digits."""
+    if len(d.links[link]) > 1:
+        (ax, ay), (bx, by) = (d.joints[name] for name in d.links[link][:2])
+        angles = [math.atan2(by - ay, bx - ax)]
+    else:
+        angles = [slide.angle for slide in d.slides.values() if link in (slide.link, slide.on)]
+    near = [angle + math.tau * round((solved - angle) / math.tau) for angle in angles]
+    return min(near, key=lambda angle: abs(angle - solved))
+
+
 def redrawn(d: Description, m: assur.Mechanism, q: NDArray[np.float64]) -> Variant:
     """Drawn at another position of the same motion."""
     motion = m.solve(q if q.size > 1 else float(q[0]), order=0)
@@ -126,7 +137,7 @@ def redrawn(d: Description, m: assur.Mechanism, q: NDArray[np.float64]) -> Varia
     def turned(link: str) -> float:
         if link == GROUND:
             return 0.0
-        return float(motion.link(link).value) - float(drawn.link(link).value)
+        return float(motion.link(link).value) - drawn_angle(d, link, float(drawn.link(link).value))
 
     slides = {n: replace(s, angle=s.angle + turned(s.on)) for n, s in d.slides.items()}
     same = Variant.same(d)
