@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 
 # Second analogues a few percent beyond the law of digits: lengths and guides are those of a drawing
-# at another position, in another frame, each of whose numbers is rounded. In 17536 the first drawing
-# has few digits.
+# at another position, in another frame, each of whose numbers is rounded. The first drawing of
+# 17536 has few digits.
 @pytest.mark.parametrize("seed", [9411, 15261, 17536])
 def test_a_drawing_at_another_position_is_rounded(seed: int) -> None:
     assert not Variants(random_case(seed)).report.failures
