@@ -194,7 +194,7 @@ def _shaking(machine: Machine, motion: tuple[Any, ...], weight: float) -> Float:
 
 
 def _unknowns(mechanism: Mechanism, link: Any, place: Any, most: Any) -> Iterator[_Unknown]:
-    mechanism.core.require("link", checked_name(link, "places"))
+    mechanism.core.index_of("link", checked_name(link, "places"))
     if link == "ground":
         message = "places has the ground, which rests: name a link that moves"
         raise InputError(message, link=link)

@@ -54,7 +54,7 @@ def coordinates(
             message = f"--q is given {len(flags)} times: the mechanism has one driver"
         raise InputError(message)
     for values, is_angle in zip(flags, angles, strict=True):
-        values.require(ANGLE if is_angle else LENGTH, "--q")
+        values.index_of(ANGLE if is_angle else LENGTH, "--q")
     if len(flags) == 1:
         return {"q": flags[0].values}
     return {"q": _together([values.values for values in flags])}
@@ -83,7 +83,7 @@ def speeds(mechanism: Mechanism, flag: Numbers | None, what: str) -> Any:
         raise InputError(message)
     if flag.unit is not None:
         for is_angle in angles:
-            flag.require(ROTARY if is_angle else LINEAR, what)
+            flag.index_of(ROTARY if is_angle else LINEAR, what)
     return float(flag.values.ravel()[0]) if len(angles) == 1 else flag.values
 
 

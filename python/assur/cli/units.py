@@ -48,7 +48,7 @@ class Numbers(NamedTuple):
     values: Float
     unit: str | None
 
-    def require(self, kind: str, what: str) -> None:
+    def index_of(self, kind: str, what: str) -> None:
         """Refuse a unit of another kind; no kind ("") means no unit."""
         if self.unit is None or UNITS[self.unit][0] == kind:
             return
@@ -60,7 +60,7 @@ class Numbers(NamedTuple):
 
     def one(self, kind: str, what: str) -> float:
         """Return the one number."""
-        self.require(kind, what)
+        self.index_of(kind, what)
         if self.values.ndim:
             message = f"{what} is {short(self.values.tolist())}: one number is needed"
             raise InputError(message)

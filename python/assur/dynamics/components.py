@@ -61,7 +61,7 @@ def body(mechanism: Mechanism, link: Any, body: Any) -> tuple[str, Body]:
 
 def _in_its_frame(mechanism: Mechanism, link: str, body: Body) -> Body:
     """Return a body whose centre of mass is given in the drawing, with its place in the link."""
-    mechanism.core.require("link", link)
+    mechanism.core.index_of("link", link)
     if mechanism.shape:
         message = (
             f"bodies[{link!r}]: drawn is in the drawing of one design, this is a batch "

@@ -16,7 +16,7 @@ from assur.dynamics import components
 from assur.dynamics.loads.friction import checked_friction
 from assur.dynamics.loads.load_coordinate import check_over
 from assur.dynamics.loads.load_functions import check_functions
-from assur.dynamics.loads.loaded_link import warn_of_open_takers
+from assur.dynamics.loads.loaded_link import warn_of_ambiguous_loads
 from assur.dynamics.loads.loads import checked_load
 from assur.errors import InputError
 from assur.flywheel import SPLINES
@@ -55,7 +55,7 @@ class MachineModel:
     ) -> None:
         self._make(mechanism, bodies, loads, motor, friction)
         # Not for machines derived from this one.
-        warn_of_open_takers(mechanism, self.loads, self.friction)
+        warn_of_ambiguous_loads(mechanism, self.loads, self.friction)
 
     def _make(
         self,

@@ -59,7 +59,7 @@ def _pose_at(mechanism: MechanismModel, q: npt.ArrayLike) -> Pose:
             "take one with design(i)"
         )
         raise InputError(message)
-    motion = solve(mechanism, q, order=0, is_typed=True)
+    motion = solve(mechanism, q, order=0, from_user=True)
     if motion.shape:
         message = f"q has shape {motion.shape}: one position is needed"
         raise InputError(message)

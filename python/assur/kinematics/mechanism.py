@@ -400,10 +400,10 @@ class Mechanism(MechanismModel):
         >>> assur.SliderCrank(0.05, 0.2).solve(deg=[0, 180]).slide("bore").value.round(4)
         array([0.25, 0.15])
         """
-        is_typed = deg is None and q is not None
+        from_user = deg is None and q is not None
         if deg is not None or q is None:
             q = in_radians(self, q, deg)
-        return solver.solve(self, q, order, outputs, assembly, on_error, threads, out, is_typed)
+        return solver.solve(self, q, order, outputs, assembly, on_error, threads, out, from_user)
 
     def follow(
         self,

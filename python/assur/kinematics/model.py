@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 # Four units in the last place: rounding moves a solved place this far from the drawing's.
-TYPED = 1e-15
+ROUND_TRIP = 1e-15
 
 AnyMechanism = TypeVar("AnyMechanism", bound="MechanismModel")
 
@@ -382,6 +382,6 @@ def _as_typed(solved: Float, drawn: tuple[float, float]) -> tuple[float, ...]:
     """Return a place; coordinates that differ by rounding alone become the drawing's."""
     size = float(np.abs(solved).max())
     return tuple(
-        typed if abs(x - typed) <= TYPED * size else x
+        typed if abs(x - typed) <= ROUND_TRIP * size else x
         for x, typed in zip(solved.tolist(), drawn, strict=True)
     )

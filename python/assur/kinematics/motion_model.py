@@ -124,7 +124,7 @@ class MotionModel:
     ) -> tuple[Float, ...]:
         name = checked_name(name, kind)
         if name not in held:
-            self.request.mechanism.core.require(kind, name)
+            self.request.mechanism.core.index_of(kind, name)
             message = f"{kind} {name!r} was not among the outputs of this motion"
             raise InputError(message, **{kind: name})  # type: ignore[arg-type]
         return held[name]
@@ -231,9 +231,9 @@ class MotionModel:
         :meta private:
         """
         held = (self._results.joints, self._results.links, self._results.slides)
-        require = self.request.mechanism.core.require
+        index_of = self.request.mechanism.core.index_of
         joints, links, slides = (
-            {name: require(kind, name) for name in of}
+            {name: index_of(kind, name) for name in of}
             for kind, of in zip(("joint", "link", "slide"), held, strict=True)
         )
         return joints, links, slides

@@ -69,7 +69,7 @@ class SolveRequest:
 
     def reference_point(self, link: str) -> tuple[Float, ...]:
         """Solve for a link's reference point, the origin of its frame."""
-        index = self.mechanism.core.require("link", link)
+        index = self.mechanism.core.index_of("link", link)
         buffers, _ = self._solve(([], [], [index], []))
         # Its columns are as those of a joint.
         return self.layout({link: index}, {}, {}).held("joint", buffers)[link]

@@ -45,9 +45,9 @@ def solve(
     on_error: str = "raise",
     threads: Any = None,
     out: Motion | None = None,
-    is_typed: bool = False,
+    from_user: bool = False,
 ) -> Motion:
-    """See `Mechanism.solve`; `is_typed`: whether a user wrote the coordinates, in rad."""
+    """See `Mechanism.solve`; `from_user`: whether a user wrote the coordinates, in rad."""
     policy: object = on_error
     if isinstance(policy, str) and policy == "drop":
         message = 'on_error is "drop": that is for assur.sweep; one of "raise", "nan" is needed'
@@ -59,7 +59,7 @@ def solve(
         mechanism, assembly = (drawn, None) if drawn is not mechanism else (mechanism, assembly)
     coordinates, positions, per_design = checked_coordinates(mechanism, q)
     coordinates.flags.writeable = False
-    if is_typed:
+    if from_user:
         warn_if_degrees(mechanism, coordinates)
     own_signs = assembly is None
     signs = mechanism.signs if own_signs else checked_assembly(mechanism, assembly)

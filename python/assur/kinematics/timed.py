@@ -310,7 +310,7 @@ def follow(
         each[0][k] if drivers == 1 else np.stack([course[k] for course in each], axis=-1)
         for k in range(4)
     )
-    motion = solve(mechanism, q, order=3, on_error=on_error, is_typed=True)
+    motion = solve(mechanism, q, order=3, on_error=on_error, from_user=True)
     return TimedMotion(times, (q, speed, acceleration, jerk), motion)
 
 

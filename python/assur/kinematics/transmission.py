@@ -52,12 +52,12 @@ def lines(mechanism: MechanismModel, name: str, between: Any) -> tuple[list[Line
             message = f"between={short(between)}: two joints are needed, neither of them {name!r}"
             raise InputError(message, joint=name)
         for joint in joints:
-            mechanism.core.require("joint", joint)
+            mechanism.core.index_of("joint", joint)
         return [JointLine(name, end) for end in joints[1:]], False
     slide = name if name in mechanism.slides else _slide_at(mechanism, name)
     if slide is not None:
         return _at_slide(mechanism, slide), True
-    mechanism.core.require("joint", name)
+    mechanism.core.index_of("joint", name)
     meeting = [link for link, on in mechanism.links.items() if name in on]
     if len(meeting) == 1:
         message = f"joint {name!r} is on link {meeting[0]!r} alone: pass between=(joint, joint)"

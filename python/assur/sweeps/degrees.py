@@ -23,7 +23,7 @@ IN_ITS_UNIT = ("span", "least", "greatest", "mean", "rms")
 PLACES = ("place_of_least", "place_of_greatest")
 
 
-def doubt_degrees(mechanism: Mechanism, q: Float, measuring: Measuring | None = None) -> None:
+def warn_of_degrees(mechanism: Mechanism, q: Float, measuring: Measuring | None = None) -> None:
     """Warn of angles in rad that look like degrees; `sweep` calls it."""
     warn_if_degrees(mechanism, q)
     if measuring is None:

@@ -9,7 +9,7 @@ from assur.description.words import has_analogues
 from assur.dynamics.machine import Machine
 from assur.errors import InputError
 from assur.kinematics import solve as solver
-from assur.sweeps.degrees import doubt_degrees
+from assur.sweeps.degrees import warn_of_degrees
 from assur.sweeps.designs import Designs
 from assur.sweeps.engine import checked_engine
 from assur.sweeps.measuring import Measuring
@@ -175,7 +175,7 @@ def sweep(
             raise InputError(message)
         every = checked_order(2 if order is None else order)
         solving = Solving(every, outputs, threads)
-        doubt_degrees(designs.mechanism, real_array(q, "q", copy=False))
+        warn_of_degrees(designs.mechanism, real_array(q, "q", copy=False))
         with reporter(progress, designs.count) as report:
             return _motions(designs, q, solving, on_error, out, report, engine)
     _refuse_for_metrics(outputs=outputs, order=order, out=out)
@@ -186,7 +186,7 @@ def sweep(
         )
         raise InputError(message)
     measuring = Measuring(designs.mechanism, machine, q, metrics, where, threads)
-    doubt_degrees(designs.mechanism, measuring.q, measuring)
+    warn_of_degrees(designs.mechanism, measuring.q, measuring)
     with reporter(progress, designs.count) as report:
         return measuring.run(designs, report, engine)
 

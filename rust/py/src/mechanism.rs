@@ -261,7 +261,7 @@ impl Mechanism {
     }
 
     /// Index of a joint, link or slide. Raises `InputError` if the name is unknown.
-    fn require(&self, kind: Word<Named>, name: &str) -> PyResult<usize> {
+    fn index_of(&self, kind: Word<Named>, name: &str) -> PyResult<usize> {
         let index = || match kind.0 {
             Named::Joint => self.inner.joint(name),
             Named::Link => self.inner.link(name),
@@ -277,13 +277,13 @@ impl Mechanism {
 
     /// The link that takes a load at a joint, and whether another link could take it too: several links
     /// have the joint, and a single block is not among them. Raises `InputError` if the name is unknown.
-    fn taker(&self, joint: &str) -> PyResult<(String, bool)> {
+    fn loaded_link(&self, joint: &str) -> PyResult<(String, bool)> {
         catch_panic(|| {
             let (linkage, joint) = (self.inner.linkage(), self.inner.joint(joint));
             let joint = joint.map_err(error_map::solve)?;
             let several = linkage.links_at(joint).nth(1).is_some();
             let is_open = several && linkage.block_at(joint).is_none();
-            Ok((linkage.links[linkage.taker(joint)].name.clone(), is_open))
+            Ok((linkage.links[linkage.loaded_link(joint)].name.clone(), is_open))
         })
     }
 

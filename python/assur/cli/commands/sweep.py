@@ -161,7 +161,7 @@ def _dimensions(arguments: argparse.Namespace, known: Sequence[str]) -> Mapping[
         arguments.parser.error("the designs are missing: --vary, or --designs")
     axes: dict[str, Float] = {}
     for name, values in arguments.vary:
-        values.require(kind_of(name), f"--vary {name}")
+        values.index_of(kind_of(name), f"--vary {name}")
         if name in axes:
             message = f"--vary {name} is given twice"
             raise InputError(message)

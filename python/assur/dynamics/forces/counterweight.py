@@ -148,7 +148,7 @@ def with_counterweights(machine: AnyMachine, weights: Any) -> AnyMachine:
             message = f"{short(weight)} is not an assur.balance.Counterweight"
             raise InputError(message)
         link = weight.link
-        mechanism.core.require("link", link)
+        mechanism.core.index_of("link", link)
         if weight.mass is None:
             message = (
                 f"the counterweight on {link!r} has a moment of {weight.moment:g} kg·m but no "

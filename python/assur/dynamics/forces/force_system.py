@@ -121,7 +121,7 @@ def _checked_links(mechanism: Mechanism, links: str | Sequence[str] | None) -> t
         return tuple(moving)
     chosen = checked_names(links, "links")
     for link in chosen:
-        mechanism.core.require("link", link)
+        mechanism.core.index_of("link", link)
     if not chosen or "ground" in chosen:
         message = f"links is {short(links)}: moving links are needed, some of {', '.join(moving)}"
         raise InputError(message)

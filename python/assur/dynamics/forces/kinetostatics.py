@@ -43,10 +43,10 @@ def _keys(mechanism: Mechanism) -> list[Key]:
     is_redundant = any(core.redundant)
     keys: list[Key] = []
     for joint, links in links_at(mechanism).items():
-        index = core.require("joint", joint)
+        index = core.index_of("joint", joint)
         # The force on the last link follows from the others, unless these are undetermined.
         asked = links if is_redundant and len(links) > 1 else links[:-1]
-        keys += [Key("joint", index, core.require("link", link)) for link in asked]
+        keys += [Key("joint", index, core.index_of("link", link)) for link in asked]
     for slide in range(len(mechanism.slides)):
         keys += [Key(kind, slide) for kind in ("normal", "moment", "along")]
     keys += [Key("driver", driver) for driver in range(int(np.size(mechanism.q0)))]
@@ -60,11 +60,11 @@ def _keys_of_friction(machine: MachineModel) -> list[Key]:
     keys: list[Key] = []
     for name, friction in machine.friction.items():
         if isinstance(friction, SlideFriction):
-            slide = core.require("slide", name)
+            slide = core.index_of("slide", name)
             keys += [Key("friction", slide), Key("slide loss", slide)]
             continue
-        joint = core.require("joint", name)
-        links = [core.require("link", link) for link in links_of[name]]
+        joint = core.index_of("joint", name)
+        links = [core.index_of("link", link) for link in links_of[name]]
         keys += [*(Key("joint moment", joint, link) for link in links), Key("joint loss", joint)]
     return [*keys, SOLUTIONS, RESIDUAL] if keys else []
 

@@ -349,7 +349,7 @@ class Reactions(Tabular):
             return np.where(np.isnan(self.shaking_force), np.nan, 0.0)
         if key in self.by_key:
             return self.by_key[key]
-        indices = [core.require("link", link) for link in links[:-1]]
+        indices = [core.index_of("link", link) for link in links[:-1]]
         total = self.by_key[Key("joint", joint, indices[0])]
         for index in indices[1:]:
             total = total + self.by_key[Key("joint", joint, index)]
@@ -418,7 +418,7 @@ class Reactions(Tabular):
         >>> machine.reactions(np.pi / 2).slide("bore").normal.round(6)  # N: 1000 · 3/4
         np.float64(750.0)
         """
-        index = self.mechanism.core.require("slide", checked_name(name, "slide"))
+        index = self.mechanism.core.index_of("slide", checked_name(name, "slide"))
         normal, moment, along = (
             self.by_key[Key(kind, index)][()] for kind in ("normal", "moment", "along")
         )
@@ -524,13 +524,13 @@ class Reactions(Tabular):
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:
     """Return the force at a joint on a link; with `on=None` on either of two links."""
     core = mechanism.core
-    joint, links = core.require("joint", name), links_at(mechanism)[name]
+    joint, links = core.index_of("joint", name), links_at(mechanism)[name]
     if on is None:
         if len(links) != 2:
             message = f'joint "{name}" is one of {", ".join(links)}: say on which link, on='
             raise InputError(message, joint=name)
         on = links[0]
-    link = core.require("link", on)
+    link = core.index_of("link", on)
     if on not in links:
         message = f'link "{on}" has no joint "{name}", which is one of {", ".join(links)}'
         raise InputError(message, joint=name, link=on)

@@ -93,7 +93,7 @@ def straight_rod(
 ) -> Rod:
     """Return a link of a machine of one design as a rod, checked; see `Machine.internal_loads`."""
     link = checked_name(link, "link")
-    mechanism.core.require("link", link)
+    mechanism.core.index_of("link", link)
     joints = mechanism.links[link]
     if link == "ground" or len(joints) < 2:
         message = f"link {link!r} is not a rod: loads inside it need a moving link of two joints"

@@ -132,7 +132,7 @@ def checked_friction(mechanism: Mechanism, friction: Any) -> dict[str, PairFrict
 
 def _of_pair(mechanism: Mechanism, name: str, friction: Any) -> PairFriction:
     if isinstance(friction, SlideFriction):
-        mechanism.core.require("slide", name)
+        mechanism.core.index_of("slide", name)
         return friction
     if not isinstance(friction, JointFriction):
         message = (
@@ -140,7 +140,7 @@ def _of_pair(mechanism: Mechanism, name: str, friction: Any) -> PairFriction:
             "needed"
         )
         raise InputError(message)
-    mechanism.core.require("joint", name)
+    mechanism.core.index_of("joint", name)
     links = [link for link, joints in mechanism.links.items() if name in joints]
     if len(links) < 2:
         message = f'friction[{name!r}]: the joint belongs to "{links[0]}" alone, so nothing rubs'

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from assur.kinematics.mechanism import Mechanism
 
 
-def warn_of_open_takers(
+def warn_of_ambiguous_loads(
     mechanism: Mechanism, loads: Iterable[Load], friction: Container[str]
 ) -> None:
     """Warn of loads at joints with friction whose link is a guess that affects the friction."""
@@ -33,7 +33,7 @@ def warn_of_open_takers(
         for joint in _joints_without_a_link(load):
             if joint not in friction:
                 continue
-            link, is_open = mechanism.core.taker(joint)
+            link, is_open = mechanism.core.loaded_link(joint)
             # An end of a spring at a fixed joint is fastened to the ground.
             is_anchor = link == "ground" and not isinstance(load, Force)
             if is_open and not is_anchor:

@@ -79,7 +79,7 @@ def _located(curve: ConfigurationCurve, q: float, assembly: Assembly) -> tuple[i
     """Return the branch of a position, and its q in the branch's counted turns."""
     mechanism = curve.mechanism
     size = size_of(mechanism)
-    place = places_along(solve(mechanism, q, order=0, assembly=assembly, is_typed=True), size)
+    place = places_along(solve(mechanism, q, order=0, assembly=assembly, from_user=True), size)
     is_angle = has_driven_angle(mechanism)
     for number, branch in enumerate(curve.branches):
         low, high = ends_of(branch, mechanism) if is_angle else (branch.low, branch.high)

@@ -65,7 +65,7 @@ def design_defects(
         raise InputError(message)
     coordinates = real_array(q, "q")
     for name in joints:
-        mechanism.core.require("joint", checked_name(name, "joints"))
+        mechanism.core.index_of("joint", checked_name(name, "joints"))
     places_of = {name: real_array(places, name) for name, places in joints.items()}
     unknown = next((name for name, at in places_of.items() if not np.isfinite(at).all()), None)
     if unknown is not None:

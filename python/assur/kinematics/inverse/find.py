@@ -101,7 +101,7 @@ def _driven_by(
         checked_coordinate(mechanism, name)
     else:
         joint, axes = name, "xy"
-        mechanism.core.require("joint", joint)
+        mechanism.core.index_of("joint", joint)
     inverse = _redriven(mechanism, _with_cross_slide(_to_size(mechanism), joint, axes), name)
     base = dict(zip("xy", _base(inverse), strict=True))
     steps = [float(value - base[axis]) for value, axis in zip(target, axes, strict=True)]

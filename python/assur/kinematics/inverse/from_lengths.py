@@ -58,7 +58,7 @@ def _checked(sketch: MechanismModel, lengths: Any) -> dict[frozenset[str], tuple
             )
             raise InputError(message)
         for name in names:
-            sketch.core.require("joint", name)
+            sketch.core.index_of("joint", name)
         link = next((link for link, on in sketch.links.items() if set(names) <= set(on)), None)
         if link is None or names[0] == names[1]:
             slide = _between(sketch, names)

@@ -142,7 +142,7 @@ class SingularLocus:
         from assur.pictures.maps.loci import locus_picture
 
         if joint is not None:
-            self.mechanism.core.require("joint", checked_name(joint, "plot"))
+            self.mechanism.core.index_of("joint", checked_name(joint, "plot"))
         return locus_picture(self, joint, ax, dark)
 
     def __repr__(self) -> str:
@@ -291,7 +291,7 @@ def singular_loci(
 ) -> tuple[SingularLocus, ...]:
     """See `Mechanism.singular_loci`."""
     if joint is not None:
-        mechanism.core.require("joint", checked_name(joint, "singular_loci"))
+        mechanism.core.index_of("joint", checked_name(joint, "singular_loci"))
     surface, grid = _over_drivers(mechanism, "singular_loci", drivers, positions)
     loci = _loci(surface, mechanism, grid, 2)
     if joint is not None and grid.counts.any():
@@ -303,7 +303,7 @@ def workspace(
     mechanism: MechanismModel, joint: str, drivers: Sequence[DriverLike] | None, positions: int
 ) -> Workspace:
     """See `Mechanism.workspace`."""
-    mechanism.core.require("joint", checked_name(joint, "workspace"))
+    mechanism.core.index_of("joint", checked_name(joint, "workspace"))
     surface, grid = _over_drivers(mechanism, "workspace", drivers, positions)
     return _workspace_of(surface, grid, joint)
 

@@ -82,7 +82,7 @@ def centrodes(
     motion = checked_motion(motion)
     require_one_driver(motion.driver_count, "centrodes")
     for name in (link, other):
-        motion.mechanism.core.require("link", checked_name(name, "link"))
+        motion.mechanism.core.index_of("link", checked_name(name, "link"))
     if link == other:
         message = f"link and other are both {link!r}: give two links"
         raise InputError(message, link=link)

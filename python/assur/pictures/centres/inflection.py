@@ -90,7 +90,7 @@ def inflection_circle(
     """
     motion, second = checked_motion(motion), flag(bresse, "bresse")
     require_one_driver(motion.driver_count, "inflection_circle")
-    motion.mechanism.core.require("link", checked_name(link, "link"))
+    motion.mechanism.core.index_of("link", checked_name(link, "link"))
     position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
     pole, change, ratio = _pole_motion(position, link)
     diameter = float(np.hypot(*change))

@@ -122,7 +122,7 @@ def _checked_links(position: Motion, links: Sequence[str] | None) -> list[str]:
         return known
     chosen = checked_names(links, "links")
     for link in chosen:
-        position.mechanism.core.require("link", link)
+        position.mechanism.core.index_of("link", link)
     if len(set(chosen)) < 2:
         message = f"links is {chosen}: instant centres need two links"
         raise InputError(message)

@@ -116,7 +116,7 @@ def _checked_links(mechanism: Mechanism, link: Any, q: Any) -> list[str] | None:
         shaped = [name for name in mechanism.links if _has_shape(mechanism, name)]
         return shaped or list(mechanism.links)
     link = checked_name(link, "link")
-    mechanism.core.require("link", link)
+    mechanism.core.index_of("link", link)
     if not _has_shape(mechanism, link):
         message = f"link {link!r} has no joint and no slide: there is nothing to draw"
         raise InputError(message)

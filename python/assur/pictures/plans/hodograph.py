@@ -81,7 +81,7 @@ def hodograph(
     True
     """
     motion = checked_motion(motion)
-    motion.mechanism.core.require("joint", checked_name(joint, "joint"))
+    motion.mechanism.core.index_of("joint", checked_name(joint, "joint"))
     order = whole_number(order, "order", 1, 2, needed="1 for velocities, 2 for accelerations")
     omega, alpha = finite_array(omega, "omega"), finite_array(alpha, "alpha")
     rows, steps = refined(motion, "a hodograph", order)

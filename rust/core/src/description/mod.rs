@@ -274,7 +274,7 @@ impl Linkage {
     /// The link that takes a load at a joint, unless the load names another: the only block that has the
     /// joint, or else the first link.
     #[must_use]
-    pub fn taker(&self, joint: usize) -> usize {
+    pub fn loaded_link(&self, joint: usize) -> usize {
         let first = || self.links_at(joint).next();
         self.block_at(joint).or_else(first).unwrap_or(self.ground)
     }

@@ -25,7 +25,7 @@ class Wrench:
     couple: Any = 0.0
 
 
-def taker(mechanism: assur.Mechanism, joint: str) -> str:
+def loaded_link(mechanism: assur.Mechanism, joint: str) -> str:
     """Of several links at a pin the only block takes the load, or else the first."""
     links = [name for name, own in mechanism.links.items() if joint in own]
     sliding = [name for slide in mechanism.slides.values() for name in (slide.link, slide.on)]
@@ -39,7 +39,7 @@ class Point:
     def __init__(self, of: Reactions, at: Any, link: str | None = None) -> None:
         places = of.places
         if isinstance(at, str):
-            self.link = link or taker(places.mechanism, at)
+            self.link = link or loaded_link(places.mechanism, at)
             self.place = places.joints[at]
         else:
             self.link, (x, y) = at

@@ -43,7 +43,7 @@ impl Load {
     fn acts_on(&self, linkage: &Linkage) -> [Option<(usize, Option<Point>)>; 2] {
         match *self {
             Self::Force { at, on, .. } => {
-                [Some((on.unwrap_or_else(|| taker(linkage, at)), Some(at))), None]
+                [Some((on.unwrap_or_else(|| loaded_link(linkage, at)), Some(at))), None]
             }
             Self::Pressure { slide, .. } => {
                 let slide = &linkage.slides[slide];
@@ -53,7 +53,7 @@ impl Load {
                 [slide.link, slide.on].map(|link| Some((link, Some(sliding_point))))
             }
             Self::Spring { ends, .. } | Self::Damper { ends, .. } => {
-                ends.map(|end| Some((taker(linkage, end), Some(end))))
+                ends.map(|end| Some((loaded_link(linkage, end), Some(end))))
             }
             Self::Torque { link, on, .. }
             | Self::TorsionSpring { link, on, .. }
@@ -63,9 +63,9 @@ impl Load {
 }
 
 /// The link that takes a load on a point, unless the load names another.
-fn taker(linkage: &Linkage, point: Point) -> usize {
+fn loaded_link(linkage: &Linkage, point: Point) -> usize {
     match point {
-        Point::Joint(joint) => linkage.taker(joint),
+        Point::Joint(joint) => linkage.loaded_link(joint),
         Point::Link { link, .. } => link,
     }
 }
