@@ -187,6 +187,10 @@ LARGE = {
 }
 
 
+def test_every_format_has_a_large_file() -> None:
+    assert {own for own, _ in LARGE.values()} == set(importers.FORMATS)
+
+
 @pytest.mark.parametrize("kind", LARGE)
 def test_large_files(kind: str) -> None:
     own, text = LARGE[kind]

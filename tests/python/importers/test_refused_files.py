@@ -252,6 +252,11 @@ def test_refused_with_the_place_and_the_reason(name: str) -> None:
     assert wanted in str(raised.value)
 
 
+def test_every_format_has_refusals() -> None:
+    own = {importers.detect(None, text) for text, _ in REFUSED.values()}
+    assert own >= set(importers.FORMATS)
+
+
 MECHANICALLY_WRONG = {
     "a truss": (BAR + "a c R 1 2", "mobility"),
     "too loose": (

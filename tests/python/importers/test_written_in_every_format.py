@@ -182,6 +182,10 @@ def pmks_plus(linkage: Linkage) -> str:
 WRITERS = (pmks, pyslvs, pylinkage, linkage2, pmks_plus)
 
 
+def test_every_format_has_a_writer() -> None:
+    assert {write.__name__ for write in WRITERS} == set(importers.FORMATS)
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_the_same_motion_from_every_format(seed: int) -> None:
     linkage = random_linkage(seed)
