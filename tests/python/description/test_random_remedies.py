@@ -1,4 +1,4 @@
-"""Remedies of random mechanisms that were broken: each moves as NumPy's rank says."""
+"""Remedies of each kind of error and of random broken mechanisms: all move as NumPy's rank says."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
+from models.errors.error_cases import CASES
 from models.mechanisms import dyad_models, mixed_models
 from models.mechanisms.mechanism_data import GROUND, Description, DriverSpec, SlideSpec, arguments
 from oracles.kinematics.pair_jacobian import jacobian
@@ -21,6 +22,12 @@ if TYPE_CHECKING:
 
 # Singular values of the Jacobian below this are zero, above the next they are not.
 ZERO, NOT_ZERO = 1e-11, 1e-9
+# Kinds whose case offers nothing.
+WITHOUT_REMEDY = {
+    "bad_name", "doubled_name", "doubled_joint", "unknown", "not_finite", "out_of_range",
+    "zero_length", "no_ground", "same_link", "origin_not_on_link", "slides_only", "flat_dyad",
+    "no_length", "bad_sign",
+}  # fmt: skip
 
 
 def plain(parts: dict[str, Any]) -> Description:
@@ -101,6 +108,14 @@ def parted(own: Description, rng: random.Random) -> Description:
     used = {joint for on in links.values() for joint in on}
     joints = {name: at for name, at in own.joints.items() if name in used}
     return Description(joints, links, slides, own.drivers)
+
+
+@pytest.mark.parametrize("kind", CASES["structure"])
+def test_every_kind_of_error(kind: str) -> None:
+    error = CASES["structure"][kind].raised()
+    assert isinstance(error, assur.StructureError)
+    assert bool(error.remedies) == (kind not in WITHOUT_REMEDY)
+    check(error.remedies)
 
 
 seeds = st.integers(0, 2**32 - 1)

@@ -71,6 +71,13 @@ def test_names_are_all_names_that_the_message_quotes(kind: str) -> None:
     assert error.names == tuple(dict.fromkeys(quoted))
 
 
+@pytest.mark.parametrize("kind", [kind for origin, kind in KINDS if origin == "structure"])
+def test_one_of_the_names_is_a_field(kind: str) -> None:
+    error = raised("structure", kind)
+    fields = {error.joint, error.link, error.slide, error.driver}
+    assert not error.names or fields & set(error.names)
+
+
 def test_names_of_a_position_and_of_an_argument() -> None:
     assert raised("position", "parallel_guides").names == ("s1", "s2")
     assert raised("position", "not_closed").names == ("C",)

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import copy
+import math
 import pickle
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import assur
-from models.errors.refusals import FIVE, FIVE_LINKS, build, engine, joint, link, twice
+from models.errors.refusals import FIVE, FIVE_LINKS, build, engine, joint, link, slide, twice
+
+ROOT = Path(__file__).parents[3]
+ENUM = (ROOT / "rust/core/src/remedies/remedy.rs").read_text(encoding="utf-8")
+VARIANTS = re.findall(r"^    (\w+),$", ENUM, re.MULTILINE)
+KINDS = {re.sub(r"\B(?=[A-Z])", "_", variant).lower() for variant in VARIANTS}
 
 BRACED: dict[str, Any] = {
     "joints": {
@@ -32,6 +40,16 @@ PENDULUM: dict[str, Any] = {
     "joints": {"A": (0, 0), "B": (1, 2), "C": (4, 2.5)},
     "links": {"ground": "A", "upper": "AB", "lower": "BC"},
     "driver": "upper",
+}
+# A crank and a rocker, each with a block; the blocks are pinned to each other.
+SLOTS: dict[str, Any] = {
+    "joints": {"O": (0, 0), "C": (2, 1), "D": (4, 0)},
+    "links": {"ground": "OD", "crank": "O", "rocker": "D", "b1": "C", "b2": "C"},
+    "slides": {
+        "s1": slide("b1", "crank", math.atan2(1, 2), "O"),
+        "s2": slide("b2", "rocker", math.atan2(1, -2), "D"),
+    },
+    "driver": "crank",
 }
 
 
@@ -72,49 +90,59 @@ def test_a_brace() -> None:
         assert mechanism.joints["C"] == BRACED["joints"]["C"]
 
 
-@pytest.mark.parametrize(
-    ("changed", "wanted"),
-    [
-        (
-            TRUSS,
-            [
-                "Let l2 slide on the ground at C",
-                "Take out l2",
-                "Add a link between B and l2",
-            ],
-        ),
-        (
-            PENDULUM,
-            [
-                "Add a link between C and the ground",
-                "Let C slide on the ground",
-                "Drive lower too",
-            ],
-        ),
-        (
-            engine() | {"slides": {}},
-            [
-                "Let piston slide on the ground",
-                "Drive rod and piston too",
-                "Take out piston and rod",
-            ],
-        ),
-        (twice(driver="crank"), ["Drive crank2 too"]),
-        (twice(driver=["crank", "rocker"]), ["Drive crank2 instead of rocker"]),
-        ({"joints": FIVE, "links": FIVE_LINKS, "driver": "left"}, ["Drive right too"]),
-        ({"driver": ["crank", "rocker"]}, ["Leave rocker undriven", "Leave crank undriven"]),
-        ({"driver": "cranck"}, ["Drive crank instead of cranck"]),
-        ({"driver": "ground"}, ["Drive crank instead of ground"]),
-        ({"driver": []}, ["Drive crank", "Drive rocker", "Drive coupler"]),
-        (engine("piston"), ["Drive crank instead of piston", "Drive bore instead of piston"]),
-        (joint(Q=(9, 9)), ["Fix Q to coupler", "Fix Q to rocker", "Take out Q"]),
-        (joint(Q=(9, 9), R=(1, 9)) | link(x="QR"), ["Take out x"]),
-        (link(ground=[]), ["Hold A and D on the ground"]),
-        (link(ground="A"), ["Hold D on the ground"]),
-    ],
-)
+IN_PLAIN_WORDS: list[tuple[dict[str, Any], list[str]]] = [
+    (
+        TRUSS,
+        [
+            "Let l2 slide on the ground at C",
+            "Take out l2",
+            "Add a link between B and l2",
+        ],
+    ),
+    (
+        PENDULUM,
+        [
+            "Add a link between C and the ground",
+            "Let C slide on the ground",
+            "Drive lower too",
+        ],
+    ),
+    (
+        engine() | {"slides": {}},
+        [
+            "Let piston slide on the ground",
+            "Drive rod and piston too",
+            "Take out piston and rod",
+        ],
+    ),
+    (twice(driver="crank"), ["Drive crank2 too"]),
+    (twice(driver=["crank", "rocker"]), ["Drive crank2 instead of rocker"]),
+    ({"joints": FIVE, "links": FIVE_LINKS, "driver": "left"}, ["Drive right too"]),
+    ({"driver": ["crank", "rocker"]}, ["Leave rocker undriven", "Leave crank undriven"]),
+    ({"driver": "cranck"}, ["Drive crank instead of cranck"]),
+    ({"driver": "ground"}, ["Drive crank instead of ground"]),
+    ({"driver": []}, ["Drive crank", "Drive rocker", "Drive coupler"]),
+    (engine("piston"), ["Drive crank instead of piston", "Drive bore instead of piston"]),
+    (joint(Q=(9, 9)), ["Fix Q to coupler", "Fix Q to rocker", "Take out Q"]),
+    (joint(Q=(9, 9), R=(1, 9)) | link(x="QR"), ["Take out x"]),
+    (link(ground=[]), ["Hold A and D on the ground"]),
+    (link(ground="A"), ["Hold D on the ground"]),
+    (
+        SLOTS,
+        ["Drive rocker too", "Add a link between D and C", "Make b1 and b2 one link"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("changed", "wanted"), IN_PLAIN_WORDS)
 def test_in_plain_words(changed: dict[str, Any], wanted: list[str]) -> None:
     assert texts(error_of(**changed))[: len(wanted)] == wanted
+
+
+def test_every_kind_is_offered_and_in_the_docstring() -> None:
+    offered = {one.kind for parts, _ in IN_PLAIN_WORDS for one in error_of(**parts).remedies}
+    assert offered == KINDS
+    assert set(re.findall(r"``\"(\w+)\"``", assur.Remedy.__doc__ or "")) == KINDS
 
 
 def test_nothing_for_names_and_numbers() -> None:
