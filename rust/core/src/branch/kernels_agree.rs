@@ -72,6 +72,25 @@ fn whitworth() -> Description {
         .driver("crank")
 }
 
+/// A four-bar, and a leg on a block that slides on its rocker.
+fn block_on_rocker() -> Description {
+    Description::new()
+        .joint("O", [0.0, 0.0])
+        .joint("A", [0.3, 0.2])
+        .joint("B", [2.5, 2.0])
+        .joint("C", [3.0, 0.0])
+        .joint("G", [5.0, 1.0])
+        .joint("H", [5.5, 3.0])
+        .link("ground", ["O", "C", "H"])
+        .link("crank", ["O", "A"])
+        .link("coupler", ["A", "B"])
+        .link("rocker", ["B", "C"])
+        .link("leg", ["G", "H"])
+        .link("block", ["G"])
+        .slide("guide", "block", "rocker", 1.0_f64.atan2(2.0), Some("C"))
+        .driver("crank")
+}
+
 fn scotch_yoke() -> Description {
     Description::new()
         .joint("O", [0.0, 0.0])
@@ -121,6 +140,22 @@ fn has_kernels(mechanism: &Mechanism) -> bool {
     !plan.tape.ops.iter().all(is_general) || plan.groups().any(|g| g.binary_loops.is_some())
 }
 
+/// The number of a dyad's kernel; a new one is tried, too.
+fn kernel_of_dyad(op: &Op) -> Option<usize> {
+    match op {
+        Op::TwoLegs(_) => Some(0),
+        Op::StandingGuide(_) => Some(1),
+        Op::MovingGuide(_) => Some(2),
+        Op::TurningGuide(_) => Some(3),
+        Op::StandingGuides(_) => Some(4),
+        Op::Dyad { .. }
+        | Op::Place(_)
+        | Op::Group { .. }
+        | Op::Redundant { .. }
+        | Op::Length { .. } => None,
+    }
+}
+
 /// Asserts that two solutions of a position agree.
 fn compare(name: &str, kernel: &State, general: &State) {
     assert_eq!(kernel.status, general.status, "{name}");
@@ -149,10 +184,12 @@ fn compare(name: &str, kernel: &State, general: &State) {
 #[test]
 fn kernels_agree_with_the_general_formulas() {
     let derivatives = DerivativeTables::new(1, ORDER);
+    let mut tried = [false; 5];
     for (name, description) in [
         ("two legs", FourBar::description(FourBarMode::Open)),
         ("standing guide", SliderCrank::description()),
         ("turning guide", whitworth()),
+        ("moving guide", block_on_rocker()),
         ("standing guides", scotch_yoke()),
         ("two loops", triad_and_dyad()),
         ("three loops", class_iv()),
@@ -160,6 +197,9 @@ fn kernels_agree_with_the_general_formulas() {
         let kernels = mechanism(&description);
         let general = mechanism(&description).with_general_kernels();
         assert!(has_kernels(&kernels) && !has_kernels(&general), "{name}");
+        for kernel in kernels.plan().tape.ops.iter().filter_map(kernel_of_dyad) {
+            tried[kernel] = true;
+        }
         let mut solved = 0;
         for design in 0..DESIGNS {
             let values = dimensions(&kernels, design);
@@ -171,4 +211,5 @@ fn kernels_agree_with_the_general_formulas() {
         }
         assert!(solved > 100, "{name}: {solved} positions");
     }
+    assert_eq!(tried, [true; 5], "a kernel has no mechanism here");
 }
