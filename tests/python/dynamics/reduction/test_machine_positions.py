@@ -48,3 +48,19 @@ def test_a_position_lost_beside_a_fold_has_no_moment(before: float) -> None:
         found = machine.reduced_moment(asked, on_error="nan")
         assert np.isnan(found[asked.index(q)]) == lost
         assert np.isnan(found).sum() == lost
+
+
+def test_positions_after_a_change_point_are_those_alone() -> None:
+    """There a state is interpolated: even the ground in it is rounded."""
+    m = assur.FourBar(1.0, 3.0, 1.0, 3.0)
+    body, about = assur.Body(2.0, 0.5, at=(0.3, 0.1)), assur.Body(1.0, 0.2)
+    machine = assur.Machine(m, {"crank": body, "coupler": about, "rocker": body}, [assur.Gravity()])
+    beside = np.pi + np.array([0.0, 1e-12, -3e-9, 2e-6, -1e-4, 5e-4])
+    q = np.ravel(np.column_stack([beside, np.linspace(0.4, 2.9, len(beside))]))
+
+    def numbers(at: np.ndarray) -> np.ndarray:
+        inertia = machine.reduced_inertia(at)
+        return np.stack([inertia.value, inertia.d1, machine.reduced_moment(at, 3.0)])
+
+    alone = np.hstack([numbers(q[i : i + 1]) for i in range(len(q))])
+    assert np.array_equal(numbers(q), alone)
