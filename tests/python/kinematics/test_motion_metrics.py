@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import assur
+from models.mechanisms.textbook_four_bars import mechanism_of
 from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
@@ -36,15 +37,8 @@ def four_bars() -> tuple[assur.Mechanism, textbook.FourBars]:
     crank = rng.uniform(0.4, 1.0, COUNT)
     coupler, rocker = rng.uniform(2.6, 3.2, (2, COUNT))
     ground = rng.uniform(2.2, 3.0, COUNT)
-    one = assur.Mechanism(
-        joints={"A": (0, 0), "B": (0, 1), "C": (2.5, 2), "D": (3, 0), "P": (1.5, 3)},
-        links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
-        driver="crank",
-    )
-    lengths = {"crank.length": crank, "coupler.length": coupler, "rocker.length": rocker}
-    places = {"ground.D.x": ground, "coupler.P.x": POINT[0], "coupler.P.y": POINT[1]}
     four_bars = textbook.FourBars(crank, coupler, rocker, ground, POINT)
-    return one.with_dimensions({**lengths, **places}), four_bars
+    return mechanism_of(four_bars), four_bars
 
 
 class Textbook:

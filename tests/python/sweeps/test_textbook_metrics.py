@@ -10,6 +10,7 @@ import pytest
 
 import assur
 from assur import metric
+from models.mechanisms.textbook_four_bars import mechanism_of
 from oracles.kinematics import textbook
 
 if TYPE_CHECKING:
@@ -28,15 +29,8 @@ def four_bars(count: int = 200) -> tuple[assur.Mechanism, textbook.FourBars]:
     rng = np.random.default_rng(8)
     crank = rng.uniform(0.3, 1.5, count)
     coupler, rocker, ground = rng.uniform(1.0, 4.0, (3, count))
-    one = assur.Mechanism(
-        joints={"A": (0, 0), "B": (0, 1), "C": (2.5, 2), "D": (3, 0), "P": (1.5, 3)},
-        links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
-        driver="crank",
-    )
-    lengths = {"crank.length": crank, "coupler.length": coupler, "rocker.length": rocker}
-    places = {"ground.D.x": ground, "coupler.P.x": POINT[0], "coupler.P.y": POINT[1]}
     four_bars = textbook.FourBars(crank, coupler, rocker, ground, POINT)
-    return one.with_dimensions({**lengths, **places}), four_bars
+    return mechanism_of(four_bars), four_bars
 
 
 REDUCTIONS: dict[str, tuple[Any, Callable[[Float], Float]]] = {
