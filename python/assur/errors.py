@@ -145,8 +145,8 @@ class StructureError(AssurError, ValueError):
     def remedies(self) -> tuple[Remedy, ...]:
         """Up to three changes that make a mechanism of the linkage, the likeliest first.
 
-        Each was built before it is offered. Empty if there are none, or if the error is not about
-        the structure but about a name or a number.
+        Each was built before it is offered. Empty if nothing was found, or if the error is about a
+        name or a number, not about the structure.
 
         Examples
         --------

@@ -105,7 +105,7 @@ impl ChangeInterpolant {
         Some(Self { reach, nodes, states, condition2 })
     }
 
-    /// Distance from the motion between nodes, near the ends. (The change point itself is no test: a flat dyad
+    /// Distance from the motion between nodes, near the ends. (The change point itself tests nothing: a flat dyad
     /// closes at any angle.)
     fn error(&self, solve: impl Fn(f64) -> Option<State>) -> Option<FitError> {
         let count = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);

@@ -205,7 +205,7 @@ def _places(p: Pairing, m: assur.Mechanism, q: Any, assembly: Any, second: bool)
 
 
 def same_finds(p: Pairing, kind: str, name: str, value: float) -> Iterator[str]:
-    """All coordinates at which a link or a slide has a value; of one that rests there are none."""
+    """All coordinates at which a link or a slide has a value; none for one that rests."""
     if not float(np.abs(getattr(p.at_first, kind)(name).d1).max()) > RESTS:
         return
     a = [q for q, _ in p.one.find(name, value)]
