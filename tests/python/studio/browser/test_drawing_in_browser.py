@@ -354,6 +354,25 @@ def test_escape_leaves_no_trace(browser: Browser) -> None:
         assert one.page.locator(".tool[data-tool=select]").get_attribute("aria-pressed") == "true"
 
 
+def test_what_an_undo_takes_away_while_it_is_dragged_leaves_no_trace(browser: Browser) -> None:
+    with window(browser) as one:
+        hand = Hand(one)
+        for tool in ("slide", "link", "cylinder"):
+            hand.take("joint")
+            hand.click((0.05, 0.05))
+            hand.take(tool)
+            one.page.mouse.move(*one.px(0.05, 0.05))
+            one.page.mouse.down()
+            one.page.mouse.move(*one.px(0.12, 0.12), steps=4)
+            one.page.evaluate("assurStudio.model.undo()")
+            hand.settle()
+            assert one.document == EMPTY
+            one.page.mouse.move(*one.px(0.15, 0.1), steps=4)
+            one.page.mouse.up()
+            hand.settle()
+            assert one.document == EMPTY, tool
+
+
 def test_keys_alone_draw_and_edit(browser: Browser) -> None:
     with window(browser) as one:
         hand = Hand(one)

@@ -45,6 +45,8 @@ class Stretch extends Tool {
 
   up(spot, isDrag) {
     super.move(spot);
+    // An undo, another document or another tool meanwhile: nothing is begun any more.
+    if (!this.isBegun) return null;
     const to = endOf(spot);
     // A drag is a link of its own, a click goes on.
     this.goesOn = this.chains && !isDrag;
@@ -116,6 +118,7 @@ class Slide extends Stretch {
 
   up(spot, isDrag) {
     super.move(spot);
+    if (!this.isBegun) return null;
     const [from] = this.ends;
     if (from.link) {
       const to = isDrag || !this.isFirst ? endOf(spot) : { at: from.at };
