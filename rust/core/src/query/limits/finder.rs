@@ -20,7 +20,7 @@ const OFF: f64 = 0.123_456_7;
 /// Beside this coordinate (in sizes) of a driven length the branch of a group ends at length 0.
 const AT_ZERO: f64 = 1.0e-6;
 /// Number of widenings of the range of a slide that nothing ends, and their factor.
-const WIDENINGS: usize = 3;
+const WIDENINGS: i32 = 3;
 const WIDENING: f64 = 8.0;
 
 /// Where an assembly of a design exists.
@@ -167,7 +167,8 @@ impl<'m> LimitsFinder<'m> {
         let cell = if is_turn { TAU / f64::from(CELLS_PER_TURN) } else { 1.0 / 16.0 };
         let design = &self.design;
         let state = design.state(design.tracing_derivatives());
-        let mut search = Search { design, state, cell };
+        let core = if is_turn { f64::INFINITY } else { reach };
+        let mut search = Search { design, state, cell, core };
         if is_periodic {
             within.ends = [q0 - half + OFF, q0 + half + OFF];
         } else {
@@ -187,18 +188,23 @@ impl<'m> LimitsFinder<'m> {
                 }
             }
         }
-        let mut stretches = search.stretches(within);
         if !is_turn && !design.has_groups() {
             // Guides that are nearly parallel carry a slide farther than all lengths together.
-            for _ in 0..WIDENINGS {
-                if !stretches.iter().any(|stretch| touches(stretch, &within).contains(&true)) {
+            for widening in 1..=WIDENINGS {
+                let first = search.stretches_of_first(within);
+                let mut is_wider = false;
+                for (side, far) in [-reach, reach].into_iter().enumerate() {
+                    if first.iter().any(|stretch| touches(stretch, &within)[side]) {
+                        within.ends[side] = q0 + far * WIDENING.powi(widening);
+                        is_wider = true;
+                    }
+                }
+                if !is_wider {
                     break;
                 }
-                let beyond = WIDENING * (within.ends[1] - within.ends[0]);
-                within.ends = [q0 - 0.5 * beyond, q0 + 0.5 * beyond];
-                stretches = search.stretches(within);
             }
         }
+        let mut stretches = search.stretches(within);
         if is_periodic {
             join(&mut stretches, within);
         }

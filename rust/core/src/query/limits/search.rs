@@ -3,11 +3,11 @@
 
 use std::f64::consts::PI;
 
+use super::chart::Chart;
 use super::stretch::Stretch;
 use crate::branch::design::Design;
 use crate::math::angle::whole_part;
 use crate::math::root::all_roots::{Sample, all_roots};
-use crate::math::trig::{asin, sin_cos};
 use crate::plan::dyad::{Dyad, Form};
 use crate::plan::plan::Step;
 use crate::query::folding::solve;
@@ -44,11 +44,24 @@ pub(super) struct Search<'d, 'm> {
     pub state: State,
     /// Width of a cell of the branch.
     pub cell: f64,
+    /// How far from the drawing's coordinate cells have this width.
+    pub core: f64,
 }
 
 impl<'d> Search<'d, '_> {
     /// The parts of a stretch over which all dyads close.
     pub(super) fn stretches(&mut self, within: Stretch) -> Vec<Stretch> {
+        self.parts_of_dyads(within, usize::MAX)
+    }
+
+    /// The parts of a stretch over which the first dyad closes. It closes over one interval, or over
+    /// some of them near the drawing: each further dyad may have gaps wherever another one ends.
+    pub(super) fn stretches_of_first(&mut self, within: Stretch) -> Vec<Stretch> {
+        self.parts_of_dyads(within, 1)
+    }
+
+    /// The parts of a stretch over which so many dyads close.
+    fn parts_of_dyads(&mut self, within: Stretch, mut count: usize) -> Vec<Stretch> {
         let plan = self.design.mechanism.plan();
         let mut closing = vec![within];
         for (step, kind) in plan.steps.iter().enumerate() {
@@ -61,6 +74,10 @@ impl<'d> Search<'d, '_> {
             let Step::Dyad(dyad) = kind else { continue };
             // Two guides never fold, but where they are parallel their point is at infinity.
             if dyad.sign.is_some() || dyad.form == Form::TwoLines {
+                if count == 0 {
+                    break;
+                }
+                count -= 1;
                 closing =
                     closing.iter().flat_map(|stretch| self.parts(*stretch, dyad, step)).collect();
             }
@@ -120,20 +137,18 @@ impl<'d> Search<'d, '_> {
         mut sample: impl FnMut(&mut Self, f64) -> Option<Sampled>,
     ) -> Vec<Stretch> {
         let [from, to] = within.ends;
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        // Square roots at the ends, where earlier dyads are flat, are smooth in this angle.
-        let at = |angle: f64| middle - half * sin_cos(angle).1;
-        let nodes = self.nodes(within);
+        let chart = Chart::new(within.ends, self.design.q0[0], self.core);
+        let nodes = self.nodes(within, &chart);
         let roots = all_roots(&nodes, |angle| {
-            let sampled = sample(self, at(angle))?;
-            let slope = sampled.rate * half * sin_cos(angle).0;
+            let sampled = sample(self, chart.at(angle))?;
+            let slope = sampled.rate * chart.slope(angle);
             let finite = sampled.value.is_finite() && slope.is_finite();
             finite.then_some(Sample { x: angle, value: sampled.value, slope, noise: sampled.noise })
         });
         let crossings = roots.isolated.iter().filter(|root| root.signs[0] != root.signs[1]);
         // A change of sign is an end, also where the value beside it is more than its rounding.
         let places = crossings.map(|root| root.at).chain(roots.jumps);
-        let mut inner: Vec<f64> = places.map(at).collect();
+        let mut inner: Vec<f64> = places.map(|angle| chart.at(angle)).collect();
         inner.sort_by(f64::total_cmp);
         let mut ends: Vec<(f64, Option<usize>)> = vec![(from, within.folds[0])];
         ends.extend(inner.into_iter().map(|end| (end, fold)));
@@ -146,16 +161,15 @@ impl<'d> Search<'d, '_> {
     }
 
     /// Nodes of a search over a stretch, as angles: evenly, and the drawing, which is on the branch.
-    fn nodes(&self, within: Stretch) -> Vec<f64> {
+    fn nodes(&self, within: Stretch, chart: &Chart) -> Vec<f64> {
         let [from, to] = within.ends;
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let count = (NODES_PER_CELL * 2.0 * half / self.cell).max(LEAST_NODES).ceil();
+        let count = (NODES_PER_CELL * chart.length() / self.cell).max(LEAST_NODES).ceil();
         let nearest = NEAR_END_ULPS * f64::EPSILON * from.abs().max(to.abs());
-        let near_end = (2.0 * nearest / half).sqrt().min(FARTHEST_NODE);
+        let near_end = (2.0 * nearest / (0.5 * (to - from))).sqrt().min(FARTHEST_NODE);
         let inner = PI - 2.0 * near_end;
         let mut nodes: Vec<f64> =
             (0..=whole_part(count)).map(|node| near_end + inner * node as f64 / count).collect();
-        let drawing = 0.5 * PI - asin((middle - self.design.q0[0]) / half);
+        let drawing = chart.angle(self.design.q0[0]);
         if let Some(after) = nodes.iter().position(|&node| drawing <= node)
             && after > 0
             && drawing < nodes[after]
