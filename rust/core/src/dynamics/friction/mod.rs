@@ -11,5 +11,6 @@ mod rest;
 pub(crate) mod reversals;
 pub(crate) mod rows;
 pub(crate) mod solutions;
+mod unloaded;
 mod work;
 pub(crate) mod workspace;

@@ -142,6 +142,7 @@ impl<'m> FrictionMotion<'m> {
         scene.apply_bodies(plan, bodies);
         scene.start(plan);
         let per_acceleration = scene.pair_reactions(plan, pairs);
+        let force_per_acceleration = scene.greatest_force(self.unit);
         let inertia = scene.driver[0] + drive.inertia;
         let speed = [state.speed];
         let still = moving(&speed, &[0.0]);
@@ -153,6 +154,7 @@ impl<'m> FrictionMotion<'m> {
         friction.drag(scene, plan, pairs);
         scene.start(plan);
         let base = scene.pair_reactions(plan, pairs);
+        let force = scene.greatest_force(self.unit);
         let effort = scene.driver[0];
         let mut per_friction = Vec::new();
         friction.respond(scene, plan, pairs, |scene| per_friction.push(scene.driver[0]));
@@ -163,6 +165,10 @@ impl<'m> FrictionMotion<'m> {
             .zip(&per_acceleration)
             .map(|(&base, &rate)| base + rate.scale(free))
             .collect();
+        friction.force = force + force_per_acceleration * free.abs();
+        for (force, effort) in friction.forces_per_unit.iter_mut().zip(&per_friction) {
+            *force += force_per_acceleration * (effort / inertia).abs();
+        }
         for (slopes, effort) in friction.slopes.iter_mut().zip(&per_friction) {
             for (slope, &rate) in slopes.iter_mut().zip(&per_acceleration) {
                 *slope = *slope - rate.scale(effort / inertia);

@@ -70,6 +70,7 @@ impl<R: Real> FrictionWorkspace<R> {
         for &[speed, _] in &scene.drive {
             speeds.push(speed);
         }
+        self.length = size;
         let mut turning = R::ZERO;
         for (driver, &way) in ways.iter().enumerate() {
             let is_angle = plan.driven_links[driver].is_some();
@@ -120,6 +121,7 @@ impl<R: Real> FrictionWorkspace<R> {
         let loads = (scene.link_force.clone(), scene.link_moment.clone());
         scene.start(plan);
         self.base = scene.pair_reactions(plan, pairs);
+        self.force = scene.greatest_force(size);
         self.respond(scene, plan, pairs, |_| ());
         let undetermined = scene.undetermined(plan, pairs, size);
         (scene.link_force, scene.link_moment) = loads;
@@ -203,6 +205,7 @@ impl<R: Real> FrictionWorkspace<R> {
     ) {
         self.find_edge_errors(scene, plan);
         self.slopes.clear();
+        self.forces_per_unit.clear();
         for (index, pair) in pairs.iter().enumerate() {
             scene.link_force.fill(Vector::ZERO);
             scene.link_moment.fill(R::ZERO);
@@ -210,6 +213,7 @@ impl<R: Real> FrictionWorkspace<R> {
             scene.start(plan);
             let slopes = scene.pair_reactions(plan, pairs);
             self.slopes.push(slopes);
+            self.forces_per_unit.push(scene.greatest_force(self.length));
             let still = self.still[index] + self.rate_rounding(scene);
             // At a singular position nothing is known: the pair does not count as at rest.
             let is_known = still.lt(R::splat(f64::INFINITY));
@@ -218,7 +222,7 @@ impl<R: Real> FrictionWorkspace<R> {
         }
     }
 
-    /// The pairs that slide in a lane, and their indices. At rest they have their static law.
+    /// The pairs that slide under load in a lane, and their indices. At rest they have their static law.
     pub(crate) fn problem(
         &self,
         scene: &Scene<R>,
@@ -227,7 +231,7 @@ impl<R: Real> FrictionWorkspace<R> {
     ) -> (FrictionProblem<'static>, Vec<usize>) {
         let way = |pair: usize| self.speeds[pair][1].lane(lane);
         let slides_here = |&pair: &usize| way(pair).abs() > self.still[pair].lane(lane);
-        let used: Vec<usize> = (0..pairs.len()).filter(slides_here).collect();
+        let used = self.loaded((0..pairs.len()).filter(slides_here).collect(), pairs, lane);
         let rests = scene.drive.iter().all(|[speed, _]| speed.lane(lane) == 0.0);
         let is_static = self.is_static.unwrap_or(rests);
         let in_lane = |vector: Vector<R>| [vector.x.lane(lane), vector.y.lane(lane)];

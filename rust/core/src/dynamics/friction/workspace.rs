@@ -20,6 +20,11 @@ pub(crate) struct FrictionWorkspace<R: Real> {
     /// Reactions without friction, and per unit of friction in every pair.
     pub base: Vec<Vector<R>>,
     pub slopes: Vec<Vec<Vector<R>>>,
+    /// The greatest force without friction, and per unit of friction in every pair; moments are divided by
+    /// `length`, the unit of length.
+    pub force: R,
+    pub forces_per_unit: Vec<R>,
+    pub length: f64,
     /// Moments or forces of friction, with the viscous part.
     pub efforts: Vec<R>,
     /// Number of solutions.
