@@ -139,6 +139,27 @@ def test_slots_and_cylinders(tmp_path: Path) -> None:
     assert len(read(tmp_path / "barrel.dxf").modelspace().query("LWPOLYLINE")) >= 2
 
 
+def rectangle(path: Path, layer: str) -> Any:
+    """Return length and width of the only rectangle of a layer, mm."""
+    (one,) = [
+        np.array([v[:2] for v in p])
+        for p in read(path).modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')
+        if len(p) == 4 and not any(v[4] for v in p)
+    ]
+    return np.ptp(one, axis=0)
+
+
+@pytest.mark.parametrize("width", [0.02, 0.05])
+def test_a_slot_is_longer_than_its_stroke_by_the_block(tmp_path: Path, width: float) -> None:
+    stroke = np.sqrt(0.25**2 - 0.01**2) - np.sqrt(0.15**2 - 0.01**2)
+    for link in ("ground", "piston"):
+        ENGINE.to_drawing(tmp_path / f"{link}.dxf", link=link, width=width)
+    slot = rectangle(tmp_path / "ground.dxf", "GROUND")
+    block = rectangle(tmp_path / "piston.dxf", "LINK_piston")
+    assert block == pytest.approx([1200.0 * width, 600.0 * width], abs=1e-9)
+    assert slot == pytest.approx([1000.0 * stroke + block[0], block[1]], abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("lengths", "stroke"),
     [

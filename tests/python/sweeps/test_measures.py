@@ -169,6 +169,9 @@ def test_a_dataset() -> None:
     assert data["swing"].dims == data["coupler.length"].dims == ("design",)
     assert data["ground.D.y"].dims == ()
     assert np.array_equal(data["metric kept"].values, data["swing"].values)
+    across = {"coupler.length": [[3.0], [2.0]], "rocker.length": [[2.4]]}
+    data = assur.sweep(four_bar(), across, Q, metrics=asked).to_xarray()
+    assert data["swing"].dims == ("coupler.length", "design1")
     one = assur.sweep(four_bar(), {"coupler.length": 3.0}, Q, metrics=asked).to_xarray()
     assert dict(one.sizes) == {}
 
