@@ -28,7 +28,10 @@ RTOL = 1e-9
 def drawn(seed: int) -> tuple[dict[str, complex], float]:
     """Joints, and the small angle between the guides."""
     rng = random.Random(seed)
-    place = lambda size: complex(rng.uniform(-size, size), rng.uniform(-size, size))  # noqa: E731
+
+    def place(size: float) -> complex:
+        return complex(rng.uniform(-size, size), rng.uniform(-size, size))
+
     angle = 10.0 ** rng.uniform(-2.0, -0.7) * rng.choice([-1, 1])
     joints = {"O": 0j, "G": place(1.0), "A": complex(rng.uniform(-1.0, 1.0), 0.0)}
     joints |= {"P": joints["A"] + place(0.5)}
@@ -55,7 +58,7 @@ def order_of_links(order: tuple[str, ...]) -> list[str]:
 
 
 def closing(joints: dict[str, complex], angle: float) -> list[list[float]]:
-    """Where the rod reaches the guide, and the two links reach each other: intervals of the carriage's way."""
+    """Where the rod reaches the guide and the two links meet: intervals of the carriage's way."""
     a, p, b, c, g = (joints[name] for name in "APBCG")
     along = np.exp(1j * angle)
     rod, front, rear = abs(b - a), abs(c - b), abs(c - p)

@@ -235,7 +235,9 @@ class InUnits(Findings):
 
     def by_rounding(self) -> int:
         """How far apart the numbers of steps are in units that hardly differ, these among them."""
-        units = [Units(*(self.rng.choice(NEARLY) for _ in range(3))) for _ in range(2 * len(NEARLY))]
+        units = [
+            Units(*(self.rng.choice(NEARLY) for _ in range(3))) for _ in range(2 * len(NEARLY))
+        ]
         runs = ((self.run_of(in_units(self.d, self.machine, u), u), u) for u in (Units(), *units))
         return int(np.ptp([self.steps(run, self.coordinate(u)) for run, u in runs]))
 

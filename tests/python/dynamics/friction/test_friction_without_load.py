@@ -1,4 +1,4 @@
-"""A dyad without masses and loads hangs on a loaded machine: its friction is 0, however strong it is."""
+"""A dyad without masses and loads hangs on a loaded machine: it has no friction."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CLOSE = 1e-12
 
 
 def check(seed: int) -> bool:
-    """Compare with the machine without friction; False where all pairs of the last dyad are loaded."""
+    """Compare with the machine without friction; False where the last dyad is loaded."""
     m = assur.Mechanism(**arguments(random_case(seed).description))
     last = m.structure.groups[-1]
     bodies = {
@@ -56,13 +56,15 @@ def test_strong_friction_without_load_takes_nothing(first: int) -> None:
 
 
 def test_rounding_locks_nothing() -> None:
-    """A chain past self-locking turns with the crank: only the rounding of a moment passes through it."""
+    """A chain past self-locking: only the rounding of a moment passes through it."""
     case = resting_case(1182)
-    q = float(case.machine.mechanism.q0) + np.linspace(-3.0, 3.0, 41)
+    m = case.machine.mechanism
+    assert m is not None
+    q = float(m.q0) + np.linspace(-3.0, 3.0, 41)
     found = case.machine.reactions(q, speed=case.speed0, on_error="nan")
     assert not np.asarray(found.locked).any()
     assert (np.asarray(found.safety) >= 1.0).all()
-    bare = assur.Machine(case.machine.mechanism, case.machine.bodies, loads=case.machine.loads)
+    bare = assur.Machine(m, case.machine.bodies, loads=case.machine.loads)
     np.testing.assert_allclose(
         found.driver, bare.reactions(q, speed=case.speed0).driver, rtol=1e-12
     )
