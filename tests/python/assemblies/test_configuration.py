@@ -166,12 +166,12 @@ def test_refusals() -> None:
     four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
     batch = four_bar.with_dimensions({"coupler.length": [3.0, 3.1]})
     refused(assur.InputError, "one design", batch.configuration_curve)
-    refused(assur.InputError, "from 2 to 100000", lambda: four_bar.configuration_curve(1))
+    refused(assur.InputError, "from 2 to 100000", lambda: four_bar.configuration_curve(positions=1))
     refused(assur.InputError, "circuit", lambda: four_bar.configuration_curve().motion(7))
     curve = four_bar.configuration_curve()
     strange: list[Any] = ["x", 2.5, math.nan, True]
     for count in strange:
-        ask = partial(four_bar.configuration_curve, count)
+        ask = partial(four_bar.configuration_curve, positions=count)
         refused(assur.InputError, "positions", ask)
         refused(assur.InputError, "samples", partial(curve.motion, samples=count))
     places: Any = "abc"
@@ -182,3 +182,32 @@ def test_refusals() -> None:
     refused(assur.InputError, "limits", lambda: four_bar.limits()[0])
     part: Any = slice(0, 1)
     refused(assur.InputError, "limits", lambda: batch.limits()[part])
+
+
+@pytest.mark.parametrize("order", [("O", "A", "B", "C", "P"), ("P", "C", "B", "A", "O")])
+@pytest.mark.parametrize("turned", [1e-1, 1e-2, 1e-3, 3e-4])
+def test_a_joint_goes_to_infinity_beside_a_fold(turned: float, order: tuple[str, ...]) -> None:
+    """Guides on two links are parallel so little before the links are in line.
+
+    The links fold at both ends; of one of the two assemblies the fold is cut off by a joint that
+    goes to infinity, and what is left of it goes on through the fold into the other assembly.
+    """
+    joints = {"O": (-1.7, -0.5), "A": (-3.8, 0.7), "B": (-4.7, 1.4), "C": (-6.0, 2.7)}
+    places = {**joints, "P": (-6.0, -0.6)}
+    links = {"ground": "OC", "arm": "OA", "driven": "AB", "lever": "CB", "first": "P", "second": "P"}
+    on_arm = math.atan2(0.7 + 0.5, -3.8 + 1.7)
+    on_lever = math.atan2(1.4 - 2.7, -4.7 + 6.0)
+    # In line the arm and the lever are half a turn apart.
+    apart = math.remainder(on_arm - on_lever - math.pi, math.tau)
+    m = assur.Mechanism(
+        {name: places[name] for name in order},
+        {name: links[name] for name in sorted(links, key=lambda name: order.index(links[name][0]))},
+        "driven",
+        slides={
+            "left": assur.Slide("first", on="arm", angle=0.3, origin="O"),
+            "right": assur.Slide("second", on="lever", angle=0.3 - apart + turned, origin="C"),
+        },
+    )
+    curve = m.configuration_curve()
+    counts = len(curve.branches), len(curve.folds), len(curve.circuits)
+    assert counts == (4, 2, 2)

@@ -20,12 +20,13 @@ if TYPE_CHECKING:
 BESIDE = 1e-6
 # … and at least, in units of the coordinate: dead points are known to less.
 NEAREST = 1e-11
-# How far a place may go between these positions: the extrapolation leaves out the cube of it.
+# How far a place may go between these positions, as distances below: the extrapolation leaves out
+# the cube of it.
 STRAIGHT = 1e-3
 # Distances from it, as squares, for the roots go as 1, 2 and 3; their weights at a distance of 0.
 SQUARES = np.array([1.0, 4.0, 9.0])
 WEIGHTS = np.array([3.0, -3.0, 1.0])
-# Extrapolations nearer than this (relative to the size) are those of one fold.
+# Extrapolations nearer than this are those of one fold.
 SAME_FOLD = 1e-4
 
 
@@ -101,17 +102,25 @@ def _end(known: Branches, number: int, side: int, q: float) -> End:
     least = NEAREST * max(known.unit, abs(q))
     places = known.places(branch.assembly, q + inward * step * SQUARES)
     # Where joints nearly coincide a link turns fast.
-    while step > least and (far := float(np.abs(places[1] - places[0]).max())) > STRAIGHT:
+    while step > least and (far := _distance(places[0], places[1])) > STRAIGHT:
         step = max(least, step * min(0.5, (STRAIGHT / far) ** 2))
         places = known.places(branch.assembly, q + inward * step * SQUARES)
     return End(number, side, q, WEIGHTS @ places)
 
 
+def _distance(place: Float, other: Float) -> float:
+    """Return the distance of two places, in sizes; of joints farther away in their distance.
+
+    Guides that are nearly parallel carry a joint far away, and fast.
+    """
+    return float((np.abs(place - other) / np.maximum(np.abs(place), 1.0)).max())
+
+
 def _apart(known: Branches, end: End, other: End) -> float:
-    """Return how far apart the places of two ends are, in sizes; infinite if they cannot meet."""
+    """Return how far apart the places of two ends are; infinite if they cannot meet."""
     if end.side != other.side or end.branch == other.branch:
         return math.inf
     gap = end.q - other.q
     gap = math.remainder(gap, math.tau) if known.is_angle else gap
-    apart = float(np.abs(end.place - other.place).max())
+    apart = _distance(end.place, other.place)
     return apart if abs(gap) <= SAME * known.unit and apart <= SAME_FOLD else math.inf
