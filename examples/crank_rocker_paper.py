@@ -29,10 +29,10 @@ def jammed() -> cr.JammingRun:
 
 
 FIGURES: dict[str, Any] = {
-    "zone": lambda: cr.plot_zone(4.0, gamma_min=LEAST),
+    "zone": lambda: cr.plot_zone(coupler=4.0, gamma_min=LEAST),
     "push_and_pull": lambda: cr.plot_push_and_pull(CRANK, COUPLER, ROCKER, GROUNDS[0]),
     "least_angle": cr.plot_least_angle,
-    "transmission": lambda: cr.plot_transmission(CRANK, COUPLER, ROCKER, GROUNDS, LEAST),
+    "transmission": lambda: cr.plot_transmission(CRANK, COUPLER, ROCKER, GROUNDS, gamma_min=LEAST),
     "successive_positions": lambda: jammed().plot(),
     "support": lambda: jammed().plot("ground"),
     "jammed_angle": lambda: jammed().plot("angle"),

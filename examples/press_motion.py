@@ -15,7 +15,7 @@ import numpy as np
 import assur
 
 # Resistance of the work over the crank's angle, N: the piston presses on its way to the frame.
-WORK = assur.Table([0.0, 1.8, 2.9, 3.1, 2 * np.pi], [0.0, 0.0, 12000.0, 0.0, 0.0], "linear")
+WORK = assur.Table([0.0, 1.8, 2.9, 3.1, 2 * np.pi], [0.0, 0.0, 12000.0, 0.0, 0.0], spline="linear")
 # On the stroke of 0.16 m the work is some 400 J a turn; the motor turns 12 times as fast.
 MOTOR = assur.InductionMotor(
     breakdown=32.0, slip=0.25, synchronous=157.08, ratio=12.0, rotor_inertia=0.01
@@ -41,7 +41,7 @@ def draw(machine: assur.Machine) -> Any:
     start = machine.run(t_end=3.0, q0=0.0, events=[assur.events.Rest(stop=False)])
     evened = machine.flywheel(fluctuation=0.05)
     figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
-    start.plot("speed", axes[0])
+    start.plot("speed", ax=axes[0])
     axes[0].set_title("from rest", loc="right")
     steady = machine.steady_state()
     q = np.linspace(0.0, 2 * np.pi, 721)

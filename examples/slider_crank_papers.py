@@ -23,8 +23,8 @@ ANGLE = float(np.radians(60.0))
 FIGURES: dict[str, Any] = {
     "contour": lambda: sc.plot_contour(ANGLE, CRANK, ROD),
     "positions": lambda: sc.plot_positions(ANGLE, CRANK, ROD),
-    "stroke": lambda: sc.plot_motion("stroke", CRANK, ROD, SPEED),
-    "rod": lambda: sc.plot_motion("rod", CRANK, ROD, SPEED),
+    "stroke": lambda: sc.plot_motion("stroke", CRANK, ROD, speed=SPEED),
+    "rod": lambda: sc.plot_motion("rod", CRANK, ROD, speed=SPEED),
     "convergence": sc.plot_convergence,
     "deviations": sc.plot_deviation,
 }

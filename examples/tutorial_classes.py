@@ -22,7 +22,7 @@ print("bucket's tip, m per m of each cylinder:", motion.joint("tip").d1.round(3)
 lengths = {"crank": 0.2, "coupler": 0.5, "rocker": 0.4}
 four_bar = assur.FourBar(0.2, 0.5, 0.4, ground=0.5)
 bodies = {name: assur.Body(mass=length, at=(length / 2, 0)) for name, length in lengths.items()}
-machine = assur.Machine(four_bar, bodies, [assur.Gravity()])
+machine = assur.Machine(four_bar, bodies=bodies, loads=[assur.Gravity()])
 run = machine.run(t_end=2.0, q0=1.5, speed0=0.0)  # it falls from rest
 print(run, run.energy, sep="\n")
 print("fastest:", np.abs(run.speed).max().round(3), "rad/s; energy kept to", run.energy.error)

@@ -43,7 +43,13 @@ def sweeps(
 
     def run(out: assur.Motion | None = None) -> assur.Motion:
         return assur.sweep(
-            space.mechanism, space.columns, q, outputs, order, out=out, threads=threads
+            space.mechanism,
+            space.columns,
+            q,
+            outputs=outputs,
+            order=order,
+            out=out,
+            threads=threads,
         )
 
     def answer(motion: assur.Motion) -> list[Float]:
@@ -63,4 +69,4 @@ def sweeps(
 
 def _forget() -> None:
     """Leave no memory to be used again: a call takes it, and gives back what it does not need."""
-    assur.FourBar(1.0, 3.0, 2.5, 3.2).solve(0.0, 0, ["C"])
+    assur.FourBar(1.0, 3.0, 2.5, 3.2).solve(0.0, order=0, outputs=["C"])

@@ -5,12 +5,14 @@ Describe a linkage, solve it, make a batch of designs, add masses and loads (SI 
 >>> import assur
 >>> fourbar = assur.FourBar(crank=1.0, coupler=3.0, rocker=2.5, ground=3.0)   # or assur.Mechanism
 >>> motion = fourbar.solve([0.0, 1.0, 2.0], order=2)                          # crank angles, rad
->>> motion.link("rocker").velocity(omega=10.0).round(4)                       # rad/s
+>>> motion.link("rocker").velocity(speed=10.0).round(4)                       # rad/s
 array([-5.    ,  1.9536,  4.0563])
 >>> batch = fourbar.with_dimensions({"coupler.length": [2.8, 3.0, 3.2]})      # three designs
 >>> batch.solve([0.0, 1.0, 2.0]).joint("C").value.shape                       # (design, q, x and y)
 (3, 3, 2)
->>> machine = assur.Machine(fourbar, {"rocker": assur.Body(inertia=0.5)}, [assur.Gravity()])
+>>> machine = assur.Machine(
+...     fourbar, bodies={"rocker": assur.Body(inertia=0.5)}, loads=[assur.Gravity()]
+... )
 >>> machine.reduced_inertia(1.0).value.round(4)                               # kg·m²
 np.float64(0.0191)
 """

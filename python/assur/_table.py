@@ -166,7 +166,7 @@ class Tabular:
     def _columns(self, degrees: bool) -> Sequence[Column]:
         raise NotImplementedError
 
-    def to_dataframe(self, degrees: bool = False) -> Any:
+    def to_dataframe(self, *, degrees: bool = False) -> Any:
         """Return a pandas DataFrame (needs pandas); its ``attrs["units"]`` has the units.
 
         Parameters
@@ -182,7 +182,9 @@ class Tabular:
         Examples
         --------
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> table = machine.reactions([0.0, 1.0], speed=10.0).to_dataframe(degrees=True)
         >>> len(table), table.attrs["units"]["q"]
         (2, 'deg')
@@ -191,7 +193,7 @@ class Tabular:
         """
         return frame(self._columns(flag(degrees, "degrees")))
 
-    def to_excel(self, path: str | PathLike[str], degrees: bool = False) -> None:
+    def to_excel(self, path: str | PathLike[str], *, degrees: bool = False) -> None:
         """Write a workbook, a sheet for each quantity, units in the second row (needs openpyxl).
 
         Parameters
@@ -204,14 +206,16 @@ class Tabular:
         Examples
         --------
         >>> import assur, pathlib, tempfile
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> found = machine.reactions([0.0, 1.0], speed=10.0)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     found.to_excel(pathlib.Path(folder, "forces.xlsx"), degrees=True)
         """
         write_excel(path, self._columns(flag(degrees, "degrees")))
 
-    def to_parquet(self, path: str | PathLike[str], degrees: bool = False) -> None:
+    def to_parquet(self, path: str | PathLike[str], *, degrees: bool = False) -> None:
         """Write `to_dataframe` as a Parquet file (needs pandas and pyarrow).
 
         Parameters
@@ -224,14 +228,16 @@ class Tabular:
         Examples
         --------
         >>> import assur, pathlib, tempfile
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> found = machine.reactions([0.0, 1.0], speed=10.0)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     found.to_parquet(pathlib.Path(folder, "forces.parquet"))
         """
         write_parquet(path, self._columns(flag(degrees, "degrees")))
 
-    def to_xarray(self, degrees: bool = False) -> Any:
+    def to_xarray(self, *, degrees: bool = False) -> Any:
         """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units.
 
         Parameters
@@ -247,7 +253,9 @@ class Tabular:
         Examples
         --------
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> data = machine.reactions([0.0, 1.0], speed=10.0).to_xarray()
         >>> dict(data.sizes), data["driver"].attrs["units"]
         ({'row': 2}, 'N m')

@@ -59,7 +59,9 @@ class Position:
     Examples
     --------
     >>> import assur
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> run = machine.run(t_end=9.0, q0=0.0, speed0=2.0, events=[assur.events.Position(3.0)])
     >>> round(run.events[0].t, 6)  # s
     1.5
@@ -124,7 +126,7 @@ class TransmissionAngle:
     --------
     >>> import assur
     >>> linkage = assur.FourBar(1.0, 4.5, 1.5, 4.8)
-    >>> machine = assur.Machine(linkage, {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(linkage, bodies={"crank": assur.Body(inertia=0.5)})
     >>> event = assur.events.TransmissionAngle("C", limit=0.7)
     >>> run = machine.run(t_end=9.0, q0=1.0, speed0=1.0, events=[event])
     >>> linkage.solve(run.q[-1]).transmission_angle("C").round(6)  # rad
@@ -160,7 +162,7 @@ class Crossing:
     >>> press = assur.SliderCrank(0.1, 0.4)
     >>> def height(t, q, speed):
     ...     return float(press.solve(q).slide("bore").value) - 0.45
-    >>> machine = assur.Machine(press, {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(press, bodies={"crank": assur.Body(inertia=0.5)})
     >>> event = assur.events.Crossing(height, stop=True)
     >>> run = machine.run(t_end=9.0, q0=0.0, speed0=1.0, events=[event])
     >>> press.solve(run.q[-1]).slide("bore").value.round(6)  # m
@@ -198,7 +200,9 @@ class Obstacle:
     ...     links={"ground": ["O"], "rod": ["O", "A"]},
     ...     driver="rod",
     ... )
-    >>> machine = assur.Machine(pendulum, {"rod": assur.Body(1.0, at="A")}, [assur.Gravity()])
+    >>> machine = assur.Machine(
+    ...     pendulum, bodies={"rod": assur.Body(1.0, at="A")}, loads=[assur.Gravity()]
+    ... )
     >>> wall = assur.events.Obstacle(assur.events.Position(-1.5, direction="falling"), 0.5)
     >>> hit = machine.run(t_end=1.0, q0=0.0, events=[wall]).events[0]
     >>> round(hit.t, 6), round(hit.speed, 6)

@@ -14,6 +14,7 @@ import itertools
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -415,7 +416,9 @@ class Tabulated(ByValue, Law):
     spline: Spline
     _pieces: Float = field(repr=False, compare=False)
 
-    def __init__(self, t: npt.ArrayLike, value: npt.ArrayLike, spline: Spline = "clamped") -> None:
+    def __init__(
+        self, t: npt.ArrayLike, value: npt.ArrayLike, *, spline: Spline = "clamped"
+    ) -> None:
         one_of(spline, SPLINES, "Tabulated spline")
         t, value = real_array(t, "Tabulated t"), real_array(value, "Tabulated value")
         if t.ndim != 1 or t.shape != value.shape:
@@ -441,7 +444,7 @@ class Tabulated(ByValue, Law):
             object.__setattr__(self, name, part)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.t, self.value, self.spline)
+        return partial(type(self), spline=self.spline), (self.t, self.value)
 
     @property
     def span(self) -> tuple[float, float]:

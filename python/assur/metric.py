@@ -83,7 +83,7 @@ def _checked_part(over: Any) -> Part:
     return first, last
 
 
-def span(of: str, order: int = 0, over: Part = None) -> Metric:
+def span(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The greatest value of a coordinate less the least.
 
     Parameters
@@ -119,7 +119,7 @@ def span(of: str, order: int = 0, over: Part = None) -> Metric:
     return _leaf("span", of, order, over)
 
 
-def least(of: str, order: int = 0, over: Part = None) -> Metric:
+def least(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The least value of a coordinate.
 
     Parameters
@@ -155,7 +155,7 @@ def least(of: str, order: int = 0, over: Part = None) -> Metric:
     return _leaf("least", of, order, over)
 
 
-def greatest(of: str, order: int = 0, over: Part = None) -> Metric:
+def greatest(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The greatest value of a coordinate.
 
     Parameters
@@ -191,7 +191,7 @@ def greatest(of: str, order: int = 0, over: Part = None) -> Metric:
     return _leaf("greatest", of, order, over)
 
 
-def place_of_least(of: str, order: int = 0, over: Part = None) -> Metric:
+def place_of_least(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The position of q where a coordinate is least; the first of several.
 
     It is one of the positions, not interpolated: off by up to half a step.
@@ -231,7 +231,7 @@ def place_of_least(of: str, order: int = 0, over: Part = None) -> Metric:
     return _leaf("place_of_least", of, order, over)
 
 
-def place_of_greatest(of: str, order: int = 0, over: Part = None) -> Metric:
+def place_of_greatest(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The position of q where a coordinate is greatest; the first of several.
 
     It is one of the positions, not interpolated: off by up to half a step.
@@ -271,7 +271,7 @@ def place_of_greatest(of: str, order: int = 0, over: Part = None) -> Metric:
     return _leaf("place_of_greatest", of, order, over)
 
 
-def mean(of: str, order: int = 0, over: Part = None) -> Metric:
+def mean(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The arithmetic mean of a coordinate over the positions.
 
     Parameters
@@ -308,7 +308,7 @@ def mean(of: str, order: int = 0, over: Part = None) -> Metric:
     return _leaf("mean", of, order, over)
 
 
-def rms(of: str, order: int = 0, over: Part = None) -> Metric:
+def rms(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The root of the mean square of a coordinate.
 
     Parameters
@@ -384,7 +384,7 @@ def time_ratio(of: str) -> Metric:
 
 
 def least_transmission(
-    at: str, between: tuple[str, str] | None = None, over: Part = None
+    at: str, *, between: tuple[str, str] | None = None, over: Part = None
 ) -> Metric:
     """The least transmission angle, as `Motion.transmission_angle` defines it.
 
@@ -431,6 +431,7 @@ def _checked_pair(between: Any) -> tuple[str, ...]:
 def deviation(
     of: str,
     shape: Literal["line", "circle"] = "line",
+    *,
     part: float = 0.5,
     relative: bool = False,
     over: Part = None,
@@ -476,7 +477,7 @@ def deviation(
     ...     links={"ground": "AD", "crank": "AB", "coupler": "BCP", "rocker": "DC"},
     ...     driver="crank",
     ... )
-    >>> asked = {"a": assur.metric.deviation("P", "line", relative=True)}
+    >>> asked = {"a": assur.metric.deviation("P", shape="line", relative=True)}
     >>> bool(assur.sweep(chebyshev, {}, q, metrics=asked)["a"] < 0.01)
     True
     """
@@ -513,6 +514,7 @@ def full_rotation() -> Metric:
 
 def function(
     of_motion: Callable[[Motion], npt.ArrayLike] | Any,
+    *,
     outputs: Iterable[str] | None = None,
     order: int = 0,
 ) -> Metric:

@@ -25,7 +25,7 @@ def subject(dyads: int, designs: int, positions: int) -> Subject:
     space, q, tip = spaces.chain(dyads, designs), turn(positions), f"C{dyads}"
 
     def run(order: int, out: assur.Motion | None = None) -> assur.Motion:
-        return assur.sweep(space.mechanism, space.columns, q, [tip], order, out=out)
+        return assur.sweep(space.mechanism, space.columns, q, outputs=[tip], order=order, out=out)
 
     def answer(motion: assur.Motion) -> list[Float]:
         return [motion.joint(tip).value]

@@ -30,7 +30,9 @@ def one() -> Subject:
         return [np.array([inertia])]
 
     def run() -> float:
-        return float(flywheel.from_table(PHI, MOMENT, INERTIA, DELTA, MEAN).inertia)
+        return float(
+            flywheel.from_table(PHI, MOMENT, INERTIA, fluctuation=DELTA, mean_speed=MEAN).inertia
+        )
 
     contenders = {
         OURS: Contender(run, answer),
@@ -47,7 +49,9 @@ def tables(count: int) -> Subject:
     moments = MOMENT * np.random.default_rng(1).uniform(0.9, 1.1, (count, 1))
 
     def run(mean: Any) -> Float:
-        return flywheel.from_table(PHI, moments, INERTIA, DELTA, MEAN, mean=mean).inertia
+        return flywheel.from_table(
+            PHI, moments, INERTIA, fluctuation=DELTA, mean_speed=MEAN, mean=mean
+        ).inertia
 
     contenders = {
         OURS: Contender(partial(run, "extremes"), lambda inertias: [inertias]),

@@ -33,9 +33,9 @@ def subject(designs: int, positions: int) -> Subject:
     bodies = {link: assur.Body(m, inertia, at) for link, (m, inertia, *at) in links.items()}
     loads = [assur.Gravity(), assur.Force("C", FORCE, on="rocker")]
     batch = space.batch()
-    machine = assur.Machine(batch, bodies, loads)
-    drawn = assur.Machine(space.mechanism, bodies, loads)
-    asked = {joint: metric.peak_reaction(joint, on, speed=SPEED) for joint, on in PINS}
+    machine = assur.Machine(batch, bodies=bodies, loads=loads)
+    drawn = assur.Machine(space.mechanism, bodies=bodies, loads=loads)
+    asked = {joint: metric.peak_reaction(joint, on=on, speed=SPEED) for joint, on in PINS}
     asked["effort"] = metric.peak_effort(speed=SPEED)
     solved_forces = np.empty((designs, positions, 9))
     few = min(designs, 100)

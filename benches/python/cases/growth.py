@@ -33,7 +33,7 @@ def subject(designs: int, positions: int, units: int) -> Subject:
     space, q = spaces.turning_four_bars(designs), turn(positions)
 
     def run(out: assur.Motion | None = None) -> assur.Motion:
-        return assur.sweep(space.mechanism, space.columns, q, ["rocker"], 0, out=out)
+        return assur.sweep(space.mechanism, space.columns, q, outputs=["rocker"], order=0, out=out)
 
     contenders = {OURS: Contender(partial(run, run()), lambda m: [m.link("rocker").value])}
     columns = [row[:, None] for row in space.values]

@@ -104,7 +104,7 @@ def transmission(count: int) -> Subject:
     part = {name: values[:few] for name, values in dimensions.items()}
 
     def stored() -> dict[str, Float]:
-        motion = assur.sweep(mechanism, part, Q, ["B", "C", "D", "rocker"], 0)
+        motion = assur.sweep(mechanism, part, Q, outputs=["B", "C", "D", "rocker"], order=0)
         angles = motion.transmission_angle("C").min(axis=-1)
         return {"angle": angles, "span": np.ptp(motion.link("rocker").value, axis=-1)}
 

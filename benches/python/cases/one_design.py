@@ -43,7 +43,7 @@ def angles(positions: int) -> Subject:
         return ours.arrays(motion, outputs, 2)
 
     contenders = {
-        OURS: Contender(lambda: mechanism.solve(q, 2, outputs), answer),
+        OURS: Contender(lambda: mechanism.solve(q, order=2, outputs=outputs), answer),
         "NumPy": Contender(lambda: closed_form.angles(*LENGTHS, q), tuple),
     }
     if installed("numba"):
@@ -73,7 +73,9 @@ def path(positions: int) -> Subject:
     mechanism = assur.Mechanism(joints, links, "crank").with_dimensions({**lengths, **point})
     q = turn(positions)
     contenders = {
-        OURS: Contender(lambda: mechanism.solve(q, 0, ["P"]), lambda m: [m.joint("P").value]),
+        OURS: Contender(
+            lambda: mechanism.solve(q, order=0, outputs=["P"]), lambda m: [m.joint("P").value]
+        ),
         "NumPy": Contender(
             lambda: closed_form.four_bar_point(*LENGTHS, *POINT, q),
             lambda xy: [np.stack(xy, axis=-1)],
@@ -97,7 +99,9 @@ def path(positions: int) -> Subject:
 def one_joint() -> Subject:
     mechanism = four_bar()
     contenders = {
-        OURS: Contender(lambda: mechanism.solve(1.0, 0, ["C"]), lambda m: [m.joint("C").value]),
+        OURS: Contender(
+            lambda: mechanism.solve(1.0, order=0, outputs=["C"]), lambda m: [m.joint("C").value]
+        ),
         "NumPy": Contender(lambda: place(LENGTHS, 1.0), lambda c: [np.array(c)]),
     }
     return Subject(1, 1, contenders)
@@ -119,7 +123,7 @@ def new_lengths() -> Subject:
     lengths = dict(zip(("crank.length", "coupler.length"), (1.01, 3.01), strict=True))
 
     def run() -> assur.Motion:
-        return mechanism.with_dimensions(lengths).solve(1.0, 0, ["C"])
+        return mechanism.with_dimensions(lengths).solve(1.0, order=0, outputs=["C"])
 
     values = np.array([1.01, 3.01, *LENGTHS[2:]])
     contenders = {

@@ -40,7 +40,7 @@ def subject(designs: int, positions: int) -> Subject:
         contenders |= by_numba(lengths, point, q, out)
     if installed("jax"):
         contenders["JAX"] = by_jax(lengths, point, q)
-    motion = space.batch().solve(q, 0, ["P"], on_error="nan")
+    motion = space.batch().solve(q, order=0, outputs=["P"], on_error="nan")
     if installed("pylinkage", "numba"):
         contenders["pylinkage, ensemble"] = by_pylinkage(space, q)
     contenders |= memory.ceilings([out])
@@ -88,7 +88,7 @@ def by_pylinkage(space: spaces.Space, q: Float) -> Contender:
     from rivals import with_pylinkage
 
     few = spaces.Space(space.mechanism, space.names, space.values[:, :FEW])
-    condition = few.batch().solve(q, 0, ["P"], on_error="nan").condition
+    condition = few.batch().solve(q, order=0, outputs=["P"], on_error="nan").condition
     with np.errstate(invalid="ignore"):
         made = with_pylinkage.ensemble(few.values[:4], few.values[4:], q.size)
         # No gap, and the other assembly far away (NaN: a gap).

@@ -35,7 +35,7 @@ def subject(designs: int, positions: int) -> Subject:
     if installed("numba"):
         contenders |= by_numba(space.values, q, out)
     contenders |= memory.ceilings([out])
-    motion = space.batch().solve(q, 0, ["T"], on_error="nan")
+    motion = space.batch().solve(q, order=0, outputs=["T"], on_error="nan")
     turns = np.isfinite(motion.joint("T").value[..., 0]).all(axis=-1)
     return Subject(
         designs,

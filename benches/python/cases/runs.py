@@ -31,10 +31,10 @@ def case(quick: bool) -> Case:
 
 
 def press(turns: int) -> Subject:
-    evened = flywheel.from_table(PHI, MOMENT, INERTIA, DELTA, MEAN)
+    evened = flywheel.from_table(PHI, MOMENT, INERTIA, fluctuation=DELTA, mean_speed=MEAN)
     time, end, speed0 = turns * evened.period, 2 * np.pi * turns, evened.speed0
     motor = assur.ConstantTorque(evened.motor_moment)
-    machine = assur.Machine.from_table(PHI, MOMENT, INERTIA + evened.inertia, motor)
+    machine = assur.Machine.from_table(PHI, MOMENT, INERTIA + evened.inertia, motor=motor)
 
     def over_angle() -> assur.Run:
         return machine.run(q_end=end, q0=0.0, speed0=speed0, rtol=3e-10)
@@ -69,8 +69,8 @@ CRANK, ROD, WHEEL, PISTON, FORCE, SPEED = 0.1, 0.4, 0.5, 20.0, 300.0, 20.0
 def slider_crank(seconds: float) -> Subject:
     machine = assur.Machine(
         assur.SliderCrank(CRANK, ROD),
-        {"crank": assur.Body(inertia=WHEEL), "piston": assur.Body(PISTON)},
-        [assur.Force("B", (-FORCE, 0.0))],
+        bodies={"crank": assur.Body(inertia=WHEEL), "piston": assur.Body(PISTON)},
+        loads=[assur.Force("B", (-FORCE, 0.0))],
     )
 
     def run() -> assur.Run:

@@ -55,7 +55,13 @@ def sweeps(
 
     def run(threads: int, out: assur.Motion | None = None) -> assur.Motion:
         return assur.sweep(
-            space.mechanism, space.columns, q, outputs, order, out=out, threads=threads
+            space.mechanism,
+            space.columns,
+            q,
+            outputs=outputs,
+            order=order,
+            out=out,
+            threads=threads,
         )
 
     def answer(motion: assur.Motion) -> list[Float]:

@@ -133,7 +133,7 @@ def fit(
     >>> import assur
     >>> import numpy as np
     >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
-    >>> machine = assur.Machine(linkage, {"coupler": assur.Body(1.2, 3e-3, (0.08, 0.01))})
+    >>> machine = assur.Machine(linkage, bodies={"coupler": assur.Body(1.2, 3e-3, (0.08, 0.01))})
     >>> q = np.linspace(0.0, 2 * np.pi, 60, endpoint=False)
     >>> weights = assur.balance.fit(
     ...     machine, q, {"crank": (-0.04, 0.0), "rocker": (-0.06, 0.0)}, most=1.0
@@ -171,7 +171,7 @@ def fit(
         if unknown.axis is not None and unknown.link not in resting:
             _require_rest(mechanism, unknown.link, motion, weight)
             resting.add(unknown.link)
-        alone = Machine(mechanism, {unknown.link: Body(1.0, 0.0, unknown.place)})
+        alone = Machine(mechanism, bodies={unknown.link: Body(1.0, 0.0, unknown.place)})
         matrix[:, k] = _shaking(alone, motion, weight)
     lower, upper = (
         np.array([getattr(unknown, at) for unknown in unknowns]) for at in ("lower", "upper")
@@ -244,7 +244,7 @@ def _require_rest(mechanism: Mechanism, link: str, motion: tuple[Any, ...], weig
     if weight > 0.0:
         message = f"places[{link!r}]: with moment_weight its mass moment is not enough: give points"
         raise InputError(message, link=link)
-    if _shaking(Machine(mechanism, {link: Body(1.0)}), motion, 0.0).any():
+    if _shaking(Machine(mechanism, bodies={link: Body(1.0)}), motion, 0.0).any():
         message = (
             f"places[{link!r}]: its first joint moves, so the mass counts too and not only its "
             "moment: give points"

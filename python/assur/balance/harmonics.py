@@ -87,7 +87,7 @@ class RotatingParts:
     backward_angle: Float
 
 
-def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, count: int = 6) -> Harmonics:
+def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, *, count: int = 6) -> Harmonics:
     """Return the harmonics of a quantity over a turn, such as the shaking moment.
 
     Parameters
@@ -122,7 +122,7 @@ def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, count: int = 6) -> Harmon
 
     >>> import assur
     >>> import numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(1.0, 3.0), {"piston": assur.Body(1.0)})
+    >>> machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": assur.Body(1.0)})
     >>> q = np.arange(64) * (2 * np.pi / 64)
     >>> force = machine.reactions(q, speed=1.0).shaking_force
     >>> assur.balance.harmonics(q, force[:, 0], count=4).amplitude.round(6)
@@ -137,7 +137,7 @@ def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, count: int = 6) -> Harmon
         return _harmonics(first, step, series, count, "values")
 
 
-def rotating_parts(q: npt.ArrayLike, force: npt.ArrayLike, count: int = 6) -> RotatingParts:
+def rotating_parts(q: npt.ArrayLike, force: npt.ArrayLike, *, count: int = 6) -> RotatingParts:
     """Return the forward and backward rotating parts of a force over a turn.
 
     Parameters
@@ -172,7 +172,7 @@ def rotating_parts(q: npt.ArrayLike, force: npt.ArrayLike, count: int = 6) -> Ro
 
     >>> import assur
     >>> import numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(1.0, 3.0), {"piston": assur.Body(1.0)})
+    >>> machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": assur.Body(1.0)})
     >>> q = np.arange(64) * (2 * np.pi / 64)
     >>> parts = assur.balance.rotating_parts(q, machine.reactions(q, 1.0).shaking_force, count=2)
     >>> parts.forward.round(6), parts.backward.round(6)

@@ -92,7 +92,7 @@ def four_bar(machine: Machine) -> tuple[Counterweight, Counterweight]:
     --------
     >>> import assur
     >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
-    >>> machine = assur.Machine(linkage, {"coupler": assur.Body(1.2, 3e-3, (0.08, 0.01))})
+    >>> machine = assur.Machine(linkage, bodies={"coupler": assur.Body(1.2, 3e-3, (0.08, 0.01))})
     >>> weights = assur.balance.four_bar(machine)
     >>> [(w.link, round(w.moment, 4), round(w.angle, 4)) for w in weights]
     [('crank', 0.0283, 2.9997), ('rocker', 0.0774, -3.0172)]
@@ -110,7 +110,7 @@ def four_bar(machine: Machine) -> tuple[Counterweight, Counterweight]:
 
 
 def slider_crank(
-    machine: Machine, fraction: float = 1.0, *, rod_radius: float | None = None
+    machine: Machine, *, fraction: float = 1.0, rod_radius: float | None = None
 ) -> tuple[Counterweight, ...]:
     """Return the counterweights of a slider-crank.
 
@@ -158,7 +158,7 @@ def slider_crank(
     >>> import assur
     >>> engine = assur.Machine(
     ...     assur.SliderCrank(0.15, 0.6),
-    ...     {"piston": assur.Body(50.0), "crank": assur.Body(37.0, at="A")},
+    ...     bodies={"piston": assur.Body(50.0), "crank": assur.Body(37.0, at="A")},
     ... )
     >>> (weight,) = assur.balance.slider_crank(engine, fraction=2 / 3)
     >>> round(weight.with_radius(0.4).mass, 3), round(weight.angle, 4)

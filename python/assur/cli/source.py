@@ -100,7 +100,7 @@ def _imported(arguments: argparse.Namespace, source: Any) -> Contents:
 
     scale = None if arguments.scale is None else arguments.scale.one(LENGTH, "--scale")
     imported: Imported = importers.read(
-        source, arguments.format, scale=scale, drivers=arguments.drivers
+        source, format=arguments.format, scale=scale, drivers=arguments.drivers
     )
     for sentence in imported.omitted:
         note(f"note: {sentence}")

@@ -91,7 +91,7 @@ class Machine(MachineModel):
     np.float64(100.0)
     """
 
-    def reduced_inertia(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Reduced:
+    def reduced_inertia(self, q: npt.ArrayLike, *, on_error: OnError = "raise") -> Reduced:
         """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
 
         Parameters
@@ -118,7 +118,7 @@ class Machine(MachineModel):
         --------
         >>> import assur
         >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
-        >>> machine = assur.Machine(wheel, {"rocker": assur.Body(inertia=2.0)})
+        >>> machine = assur.Machine(wheel, bodies={"rocker": assur.Body(inertia=2.0)})
         >>> value, d1 = machine.reduced_inertia([0.0, 1.0])
         >>> value.round(6)
         array([0.5     , 0.015382])
@@ -126,7 +126,7 @@ class Machine(MachineModel):
         return reduce.reduced_inertia(self, q, on_error)
 
     def reduced_moment(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: OnError = "raise"
+        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, *, on_error: OnError = "raise"
     ) -> Any:
         """Return the reduced moment of all loads, without the motor.
 
@@ -167,7 +167,7 @@ class Machine(MachineModel):
         """
         return reduce.reduced_moment(self, q, speed, on_error)
 
-    def potential(self, q: npt.ArrayLike, on_error: OnError = "raise") -> Any:
+    def potential(self, q: npt.ArrayLike, *, on_error: OnError = "raise") -> Any:
         """Return the potential energy of weights, springs and closed gases.
 
         Parameters
@@ -319,7 +319,7 @@ class Machine(MachineModel):
         --------
         >>> import assur
         >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
-        >>> machine = assur.Machine(press, {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
         >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
         array([11.9002, -3.753 ])
         """
@@ -389,7 +389,7 @@ class Machine(MachineModel):
         >>> import assur
         >>> import numpy as np
         >>> bodies = {"rod": assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))}
-        >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies)
+        >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies)
         >>> inside = engine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=300.0)
         >>> peak = inside.peak("moment")
         >>> print(f"{peak.value:.4f} N·m at {peak.x:.4f} m, {np.degrees(peak.q):.3f}°")
@@ -421,7 +421,9 @@ class Machine(MachineModel):
         Examples
         --------
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> weights = assur.balance.slider_crank(machine, fraction=0.5)
         >>> machine.with_counterweights(w.with_radius(0.2) for w in weights).bodies["crank"].mass
         5.0
@@ -507,7 +509,7 @@ class Machine(MachineModel):
             duty.warn_of_jumps(self, motion)
         return duty.duty(self, motion, on_error)
 
-    def equilibria(self, between: npt.ArrayLike | None = None) -> Equilibria:
+    def equilibria(self, *, between: npt.ArrayLike | None = None) -> Equilibria:
         """Return the positions of rest under weights, springs and constant loads.
 
         Parameters
@@ -562,7 +564,9 @@ class Machine(MachineModel):
         ...     driver="disc",
         ... )
         >>> weight = assur.Body(mass=3.0, inertia=0.05, at="A")
-        >>> rest = assur.Machine(swing, {"disc": weight}, [assur.Gravity()]).equilibria()
+        >>> rest = assur.Machine(
+        ...     swing, bodies={"disc": weight}, loads=[assur.Gravity()]
+        ... ).equilibria()
         >>> rest.q.round(6), rest.stable, rest.frequency.round(6)
         (array([-1.570796,  1.570796]), array([ True, False]), array([5.884176,      nan]))
         """
@@ -570,8 +574,8 @@ class Machine(MachineModel):
 
     def self_locking(
         self,
-        sense: int = 1,
         *,
+        sense: int = 1,
         speed: float = 0.0,
         acceleration: float = 0.0,
         between: tuple[float, float] | None = None,
@@ -672,7 +676,9 @@ class Machine(MachineModel):
 
         >>> import assur
         >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
-        >>> machine = assur.Machine(linkage, {"rocker": assur.Body(0.8, 1.5e-3, (0.06, 0.0))})
+        >>> machine = assur.Machine(
+        ...     linkage, bodies={"rocker": assur.Body(0.8, 1.5e-3, (0.06, 0.0))}
+        ... )
         >>> stop = assur.Force(("rocker", (0.1, 0.0)), (0.0, -1.0), axes="rocker")
         >>> hit = machine.impact(stop, q=2.0, speed=20.0, restitution=0.4)
         >>> hit.speed.round(6), hit.energy_lost.round(6)
@@ -685,6 +691,7 @@ class Machine(MachineModel):
     def flywheel(
         self,
         fluctuation: npt.ArrayLike,
+        *,
         mean_speed: npt.ArrayLike | None = None,
         mean: Mean = "extremes",
         on_error: OnError = "raise",
@@ -735,7 +742,7 @@ class Machine(MachineModel):
         --------
         >>> import assur
         >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
-        >>> work = assur.Table([0, 5.5, 6.0, 6.283185307179586], [0, 0, 9000.0, 0], "linear")
+        >>> work = assur.Table([0, 5.5, 6.0, 6.283185307179586], [0, 0, 9000.0, 0], spline="linear")
         >>> machine = assur.Machine(
         ...     press,
         ...     bodies={"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
@@ -48,6 +49,7 @@ class MachineModel:
     def __init__(
         self,
         mechanism: Mechanism,
+        *,
         bodies: Mapping[str, Body] = MappingProxyType({}),
         loads: Sequence[Load] = (),
         motor: Motor | Sequence[Motor | None] | None = None,
@@ -121,7 +123,7 @@ class MachineModel:
         --------
         >>> import assur
         >>> press = assur.SliderCrank(0.1, 0.4)
-        >>> machine = assur.Machine(press, {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
         >>> machine.of(press.with_dimensions({"rod.length": [0.3, 0.5]})).shape
         (2,)
         """
@@ -133,6 +135,7 @@ class MachineModel:
         phi: npt.ArrayLike,
         moment: npt.ArrayLike,
         inertia: npt.ArrayLike = 0.0,
+        *,
         motor: Motor | None = None,
         spline: Spline = "not-a-knot",
         periodic: bool = True,
@@ -179,7 +182,8 @@ class MachineModel:
         periodic = flag(periodic, "periodic")
         warn_if_degrees(float(x[-1] - x[0]), periodic)
         table = x, columns["moment"], columns["inertia"]
-        self._rebuild_with = cls.from_table, (*table, motor, spline, periodic)
+        options: dict[str, Any] = {"motor": motor, "spline": spline, "periodic": periodic}
+        self._rebuild_with = partial(cls.from_table, **options), table
         motors = components.motors(motor, 1)
         self.core = _core.Machine.from_table(
             x, columns["moment"], columns["inertia"], spline, periodic, *motors
@@ -209,14 +213,16 @@ class MachineModel:
         --------
         >>> import assur, pathlib, tempfile
         >>> path = pathlib.Path(tempfile.mkdtemp()) / "press.toml"
-        >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> press = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> press.save(path)
         >>> assur.load(path)
         <assur.Machine I(crank) → II(rod, piston), 1 body, 0 loads>
         """
         save(self, path)
 
-    def explore(self, height: int = 640) -> Any:
+    def explore(self, *, height: int = 640) -> Any:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: changes there reach ``view.machine``, assigning ``view.machine`` redraws.
@@ -240,7 +246,9 @@ class MachineModel:
         Examples
         --------
         >>> import assur
-        >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> press = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> press.explore().machine
         <assur.Machine I(crank) → II(rod, piston), 1 body, 0 loads>
         """
@@ -263,7 +271,8 @@ class MachineModel:
     def _key(self) -> tuple[Any, ...]:
         """All that the machine was made of."""
         if self.mechanism is None:
-            return tuple(map(key_of, self._rebuild_with[1]))
+            rebuild, table = self._rebuild_with
+            return tuple(map(key_of, (*table, *rebuild.keywords.values())))
         pairs = (frozenset(of.items()) for of in (self.bodies, self.friction))
         return self.mechanism, self.loads, self.motor, *pairs
 
@@ -306,7 +315,7 @@ class MachineModel:
         --------
         >>> import assur
         >>> press = assur.SliderCrank(0.1, [0.3, 0.5])
-        >>> machine = assur.Machine(press, {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
         >>> machine.design(1).mechanism.dimensions["rod.length"]
         0.5
         """

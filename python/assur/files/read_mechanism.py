@@ -38,7 +38,7 @@ def read_mechanism(root: Node) -> Mechanism:
         assembly = {name: _sign(node) for name, node in sections["assembly"].table().items()}
     driver = read_driver(sections["driver"])
     with root.refusing(lambda error: key_of(error, root.value)):
-        mechanism = Mechanism(joints, links, driver, slides, assembly)
+        mechanism = Mechanism(joints, links, driver, slides=slides, assembly=assembly)
     sized = mechanism
     if "dimensions" in sections:
         sized = with_dimensions(mechanism, sections["dimensions"])

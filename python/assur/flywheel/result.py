@@ -252,7 +252,9 @@ class Flywheel(Tabular, ABC):
         >>> import numpy as np
         >>> from assur import flywheel
         >>> phi = np.linspace(0.0, 2 * np.pi, 49)
-        >>> f = flywheel.evaluate(phi, 100 * np.sin(phi), np.full(49, 2.0), 8.0, mean_speed=10.0)
+        >>> f = flywheel.evaluate(
+        ...     phi, 100 * np.sin(phi), np.full(49, 2.0), flywheel=8.0, mean_speed=10.0
+        ... )
         >>> round(f.reduced_inertia(1.0), 6)  # kg·m², without the flywheel's 8
         2.0
         """
@@ -311,7 +313,7 @@ class Flywheel(Tabular, ABC):
         inertia = np.asarray(self.inertia)[entry]
         return f"a flywheel of {inertia:.9g} kg·m², δ = {np.asarray(self.delta)[entry]:.6g}"
 
-    def energy_mass(self, points: int = PLOT_POINTS) -> tuple[Float, Float]:
+    def energy_mass(self, *, points: int = PLOT_POINTS) -> tuple[Float, Float]:
         """Return Wittenbauer's diagram of one turn.
 
         Parameters
@@ -331,7 +333,9 @@ class Flywheel(Tabular, ABC):
         >>> import numpy as np
         >>> from assur import flywheel
         >>> phi = np.linspace(0.0, 2 * np.pi, 49)
-        >>> f = flywheel.evaluate(phi, 100 * np.sin(phi), np.full(49, 2.0), 8.0, mean_speed=10.0)
+        >>> f = flywheel.evaluate(
+        ...     phi, 100 * np.sin(phi), np.full(49, 2.0), flywheel=8.0, mean_speed=10.0
+        ... )
         >>> inertia, energy = f.energy_mass(points=5)
         >>> inertia.round(6), (energy - energy[0]).round(2)  # kg·m², J
         (array([2., 2., 2., 2., 2.]), array([  0., 100., 200., 100.,   0.]))
@@ -373,8 +377,8 @@ class Flywheel(Tabular, ABC):
     def plot(
         self,
         what: Literal["speed", "time", "moment", "energy", "energy-mass", "reduced"] = "speed",
-        ax: Any = None,
         *,
+        ax: Any = None,
         degrees: bool = False,
         dark: bool = False,
     ) -> Any:

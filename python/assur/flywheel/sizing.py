@@ -70,6 +70,7 @@ def from_table(
     phi: npt.ArrayLike,
     moment: npt.ArrayLike,
     inertia: npt.ArrayLike,
+    *,
     fluctuation: npt.ArrayLike,
     mean_speed: npt.ArrayLike,
     mean: Mean = ...,
@@ -98,6 +99,7 @@ def from_table(
     phi: npt.ArrayLike,
     moment: npt.ArrayLike,
     inertia: npt.ArrayLike = 0.0,
+    *,
     fluctuation: npt.ArrayLike | None = None,
     mean_speed: npt.ArrayLike | None = None,
     mean: Mean = "extremes",
@@ -195,6 +197,7 @@ def evaluate(
     phi: npt.ArrayLike,
     moment: npt.ArrayLike,
     inertia: npt.ArrayLike,
+    *,
     flywheel: npt.ArrayLike = 0.0,
     speed0: npt.ArrayLike | None = None,
     mean_speed: npt.ArrayLike | None = None,
@@ -236,7 +239,9 @@ def evaluate(
     >>> from assur import flywheel
     >>> import numpy as np
     >>> phi = np.linspace(0.0, 2 * np.pi, 49)
-    >>> f = flywheel.evaluate(phi, 100 * np.sin(phi), np.full(49, 2.0), 8.0, mean_speed=10.0)
+    >>> f = flywheel.evaluate(
+    ...     phi, 100 * np.sin(phi), np.full(49, 2.0), flywheel=8.0, mean_speed=10.0
+    ... )
     >>> round(f.delta, 4)
     0.2
     """

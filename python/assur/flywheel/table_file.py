@@ -57,7 +57,7 @@ class ReducedTable(NamedTuple):
         return hash(tuple(map(key_of, self)))
 
 
-def read_table(path: str | PathLike[str], degrees: bool = False) -> ReducedTable:
+def read_table(path: str | PathLike[str], *, degrees: bool = False) -> ReducedTable:
     """Read a table from a file of comma-separated values.
 
     Parameters

@@ -57,8 +57,8 @@ FORMATS = ("pmks", "pmks_plus", "pylinkage", "pyslvs", "linkage2")
 
 def read(
     source: SourceLike,
-    format: str | None = None,  # noqa: A002
     *,
+    format: str | None = None,  # noqa: A002
     scale: float | None = None,
     drivers: Sequence[tuple[int, int]] | None = None,
     assembly: Mapping[str, int] | None = None,
@@ -111,7 +111,7 @@ def read(
     unit = 1.0 if scale is None else scale
     if kind == "pyslvs":
         pairs = () if drivers is None else drivers
-        return pyslvs.read(opened, pairs, scale=unit, assembly=assembly)
+        return pyslvs.read(opened, drivers=pairs, scale=unit, assembly=assembly)
     if drivers is not None:
         raise opened.error("", f"drivers are for pyslvs: a file of {kind} names its own")
     readers = {

@@ -122,7 +122,9 @@ def _build(
     }
     driver = drivers[0] if len(drivers) == 1 else drivers
     known_to = tolerance_of(sketch, scale)
-    mechanism = Mechanism(joints, links, driver, slides, assembly, known_to)
+    mechanism = Mechanism(
+        joints, links, driver, slides=slides, assembly=assembly, tolerance=known_to
+    )
     _say_adjustment(sketch, mechanism, known_to)
     speeds = tuple(_speed(driven, scale) for driven in sketch.inputs)
     is_known = any(speed is not None for speed in speeds)

@@ -24,8 +24,8 @@ __all__ = ["read"]
 
 def read(
     source: SourceLike,
-    drivers: Sequence[tuple[int, int]] = (),
     *,
+    drivers: Sequence[tuple[int, int]] = (),
     scale: float = 1.0,
     assembly: Mapping[str, int] | None = None,
 ) -> Imported:

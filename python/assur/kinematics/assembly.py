@@ -277,7 +277,7 @@ class Assemblies(list[Assembly]):
         self.failures = tuple(failures)
         self.is_complete = is_complete
 
-    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, *, ax: Any = None, dark: bool = False) -> Any:
         """Draw all assemblies side by side in one scale (needs matplotlib).
 
         Parameters

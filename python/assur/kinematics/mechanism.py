@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._later import explorer, save
+from assur._other_names import renamed_rates
 from assur._validate import checked_index, checked_signs
 from assur.description import encode
 from assur.description.words import Cylinder
@@ -95,6 +96,7 @@ class Mechanism(MechanismModel):
         joints: Mapping[str, Sequence[float]],
         links: Mapping[str, Iterable[str]],
         driver: DriverLike | Sequence[DriverLike],
+        *,
         slides: Mapping[str, Slide | Cylinder] | None = None,
         assembly: Mapping[str, int] | None = None,
         tolerance: float | tuple[float, float] | None = None,
@@ -129,6 +131,7 @@ class Mechanism(MechanismModel):
         links: Mapping[str, Iterable[str]],
         driver: DriverLike | Sequence[DriverLike],
         lengths: Mapping[Any, float],
+        *,
         slides: Mapping[str, Slide | Cylinder] | None = None,
         assembly: Mapping[str, int] | None = None,
     ) -> Mechanism:
@@ -175,7 +178,7 @@ class Mechanism(MechanismModel):
         """
         from assur.kinematics.inverse.from_lengths import sized
 
-        return sized(Mechanism(joints, links, driver, slides, assembly), lengths)
+        return sized(Mechanism(joints, links, driver, slides=slides, assembly=assembly), lengths)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_rebuild, (self.description, np.array(self.values), self.place, self._moved))
@@ -256,6 +259,7 @@ class Mechanism(MechanismModel):
     def with_driver(
         self,
         driver: DriverLike | Sequence[DriverLike],
+        *,
         assembly: Mapping[str, int] | None = None,
         q: npt.ArrayLike | None = None,
     ) -> Mechanism:
@@ -341,13 +345,13 @@ class Mechanism(MechanismModel):
     def solve(
         self,
         q: npt.ArrayLike | None = None,
+        *,
         order: int = 2,
         outputs: Iterable[str] | None = None,
         assembly: Mapping[str, int] | None = None,
         on_error: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
         out: Motion | None = None,
-        *,
         deg: npt.ArrayLike | None = None,
     ) -> Motion:
         """Solve positions and analogues.
@@ -409,6 +413,7 @@ class Mechanism(MechanismModel):
         self,
         laws: Law | Sequence[Law | float],
         t: npt.ArrayLike,
+        *,
         on_error: Literal["raise", "nan"] = "raise",
     ) -> TimedMotion:
         """Solve positions over time, the driver moving by an input law.
@@ -442,7 +447,7 @@ class Mechanism(MechanismModel):
 
         return follow(self, laws, t, on_error)
 
-    def assemblies(self, q: npt.ArrayLike, threads: int | None = None) -> Any:
+    def assemblies(self, q: npt.ArrayLike, *, threads: int | None = None) -> Any:
         """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.
 
         Dyads are solved in closed form. For a group above class II, all complex assemblies with
@@ -482,7 +487,7 @@ class Mechanism(MechanismModel):
         return assembly_search.assemblies(self, q, threads)
 
     def limits(
-        self, assembly: Mapping[str, int] | None = None, threads: int | None = None
+        self, *, assembly: Mapping[str, int] | None = None, threads: int | None = None
     ) -> Limits:
         """Return where an assembly exists.
 
@@ -512,7 +517,7 @@ class Mechanism(MechanismModel):
         return limit_search.limits(self, assembly, threads)
 
     def extremes(
-        self, name: str, order: int = 0, assembly: Mapping[str, int] | None = None
+        self, name: str, *, order: int = 0, assembly: Mapping[str, int] | None = None
     ) -> Extremes:
         """Return the least and the greatest value of a coordinate, over all q of an assembly.
 
@@ -568,7 +573,7 @@ class Mechanism(MechanismModel):
 
         return find(self, name, value)
 
-    def configuration_curve(self, positions: int = 32) -> ConfigurationCurve:
+    def configuration_curve(self, *, positions: int = 32) -> ConfigurationCurve:
         """Return all positions of a design as a curve: branches, folds, circuits.
 
         All assemblies are found at a fan of coordinates, and followed to the dead points; where
@@ -633,6 +638,7 @@ class Mechanism(MechanismModel):
     def singular_loci(
         self,
         joint: str | None = None,
+        *,
         drivers: Sequence[DriverLike] | None = None,
         positions: int = 48,
     ) -> tuple[SingularLocus, ...]:
@@ -685,7 +691,7 @@ class Mechanism(MechanismModel):
         return singular_loci(self, joint, drivers, positions)
 
     def workspace(
-        self, joint: str, drivers: Sequence[DriverLike] | None = None, positions: int = 48
+        self, joint: str, *, drivers: Sequence[DriverLike] | None = None, positions: int = 48
     ) -> Workspace:
         """Return where a joint of a mechanism with two drivers or more can be.
 
@@ -720,7 +726,7 @@ class Mechanism(MechanismModel):
         return workspace(self, joint, drivers, positions)
 
     def map(
-        self, of: str, dimensions: Mapping[str, npt.ArrayLike], q: npt.ArrayLike | None = None
+        self, of: str, dimensions: Mapping[str, npt.ArrayLike], *, q: npt.ArrayLike | None = None
     ) -> DesignMap:
         """Return a count for every design over two dimensions, and where it changes.
 
@@ -791,6 +797,7 @@ class Mechanism(MechanismModel):
     def plot(
         self,
         q: npt.ArrayLike | None = None,
+        *,
         ax: Any = None,
         assembly: Assembly | None = None,
         labels: Literal["first", "all", "none"] = "first",
@@ -842,11 +849,13 @@ class Mechanism(MechanismModel):
 
         return mechanism_picture(self, q, ax, assembly, labels, groups, dark)
 
+    @renamed_rates
     def to_html(
         self,
         path: str | PathLike[str],
+        *,
         q: npt.ArrayLike | None = None,
-        omega: float | None = None,
+        speed: float | None = None,
         paths: Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
@@ -866,7 +875,7 @@ class Mechanism(MechanismModel):
         q : float or array_like, optional
             Where to begin, rad or m: the drawing by default. Several coordinates are played in
             their order, as by `Motion.to_html`.
-        omega : float, optional
+        speed : float, optional
             Speed of the driver, rad/s or m/s: for arrows, diagrams and the clock.
         paths : sequence of str, optional
             Joints whose paths and vectors are shown at first.
@@ -890,17 +899,17 @@ class Mechanism(MechanismModel):
         >>> import assur, pathlib, tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     page = pathlib.Path(folder, "press.html")
-        ...     assur.SliderCrank(0.05, 0.2).to_html(page, omega=10.0, diagrams=["bore", "bore.v"])
+        ...     assur.SliderCrank(0.05, 0.2).to_html(page, speed=10.0, diagrams=["bore", "bore.v"])
         ...     page.stat().st_size < 150_000
         True
         """
         from assur.pictures.page.html import write_page
 
         write_page(
-            self, path, q=q, speed=omega, paths=paths, diagrams=diagrams, title=title, dark=dark
+            self, path, q=q, speed=speed, paths=paths, diagrams=diagrams, title=title, dark=dark
         )
 
-    def explore(self, height: int = 640) -> Any:
+    def explore(self, *, height: int = 640) -> Any:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: dragging changes ``view.mechanism``, assigning ``view.mechanism`` redraws. Needs
@@ -933,10 +942,10 @@ class Mechanism(MechanismModel):
     def to_drawing(
         self,
         path: str | PathLike[str],
+        *,
         q: npt.ArrayLike | None = None,
         link: str | None = None,
         scale: float | str | None = None,
-        *,
         paper: Literal["A4", "A3", "A2", "A1", "A0"] | None = None,
         title: str | None = None,
         outlines: bool = False,

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import flag, short
+from assur._other_names import renamed_rates
 from assur._validate import (
     checked_index,
     checked_name,
@@ -212,7 +213,7 @@ class Motion(MotionModel):
             ratio: Float = 1.0 / output.d1
         return ratio
 
-    def transmission_angle(self, name: str, between: tuple[str, str] | None = None) -> Float:
+    def transmission_angle(self, name: str, *, between: tuple[str, str] | None = None) -> Float:
         """Return the transmission angle, rad, in 0..π/2.
 
         Parameters
@@ -356,10 +357,13 @@ class Motion(MotionModel):
         coordinates = [q] if isinstance(q, float) else list(q)
         return mechanism.core.explain(values.tolist(), coordinates, self.request.signs)
 
+    @renamed_rates
     def to_dataframe(
         self,
-        omega: npt.ArrayLike | None = None,
-        alpha: npt.ArrayLike = 0.0,
+        *,
+        speed: npt.ArrayLike | None = None,
+        acceleration: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
         degrees: bool = False,
         moving: bool = False,
     ) -> Any:
@@ -367,9 +371,10 @@ class Motion(MotionModel):
 
         Parameters
         ----------
-        omega, alpha : array_like, optional
-            Speed and acceleration of the driver, as for `Analogues.velocity`. With them velocities
-            and accelerations stand in place of the analogues; without `omega`, `alpha` must be 0.
+        speed, acceleration, jerk : array_like, optional
+            Speed, acceleration and jerk of the driver, as for `Analogues.jerk`. With them
+            velocities, accelerations and jerks stand in place of the analogues; without `speed`
+            the others must be 0.
         degrees : bool
             Angles in degrees; angular velocities remain rad/s, analogues per rad.
         moving : bool
@@ -379,7 +384,7 @@ class Motion(MotionModel):
         -------
         pandas.DataFrame
             The design's index, q, status, and everything held: values ``C.x``, ``coupler``,
-            ``bore``; their analogues ``C.x.d1``, ``coupler.d2`` or, with `omega`, ``C.vx``,
+            ``bore``; their analogues ``C.x.d1``, ``coupler.d2`` or, with `speed`, ``C.vx``,
             ``C.ax``, ``coupler.omega``, ``coupler.alpha``, ``bore.v``. A link or slide whose name
             is one of the first columns appears as ``link q``. ``attrs["units"]`` has the units.
 
@@ -387,21 +392,24 @@ class Motion(MotionModel):
         --------
         >>> import assur
         >>> motion = assur.SliderCrank(0.05, 0.2).solve([0.0, 1.0], outputs=["A", "bore"])
-        >>> list(motion.to_dataframe(omega=10.0, degrees=True))
+        >>> list(motion.to_dataframe(speed=10.0, degrees=True))
         ['q', 'status', 'A.x', 'A.y', 'A.vx', 'A.vy', 'A.ax', 'A.ay', 'bore', 'bore.v', 'bore.a']
         """
         from assur._table import frame
         from assur.kinematics.table import Options, motion_columns
 
-        return frame(motion_columns(self, Options(omega, alpha, degrees, moving)))
+        return frame(motion_columns(self, Options(speed, acceleration, jerk, degrees, moving)))
 
+    @renamed_rates
     def to_excel(
         self,
         path: str | PathLike[str],
-        omega: npt.ArrayLike | None = None,
-        alpha: npt.ArrayLike = 0.0,
+        *,
+        speed: npt.ArrayLike | None = None,
+        acceleration: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
         degrees: bool = False,
-        moving: bool = True,
+        moving: bool = False,
     ) -> None:
         """Write a workbook, a sheet for each joint, link and slide (needs openpyxl).
 
@@ -412,7 +420,7 @@ class Motion(MotionModel):
         ----------
         path : path-like
             The file.
-        omega, alpha, degrees, moving
+        speed, acceleration, jerk, degrees, moving
             As for `to_dataframe`.
 
         Examples
@@ -420,18 +428,21 @@ class Motion(MotionModel):
         >>> import assur, pathlib, tempfile
         >>> motion = assur.SliderCrank(0.05, 0.2).solve([0.0, 1.0])
         >>> with tempfile.TemporaryDirectory() as folder:
-        ...     motion.to_excel(pathlib.Path(folder, "press.xlsx"), omega=10.0, degrees=True)
+        ...     motion.to_excel(pathlib.Path(folder, "press.xlsx"), speed=10.0, degrees=True)
         """
         from assur._table import write_excel
         from assur.kinematics.table import Options, motion_columns
 
-        write_excel(path, motion_columns(self, Options(omega, alpha, degrees, moving)))
+        write_excel(path, motion_columns(self, Options(speed, acceleration, jerk, degrees, moving)))
 
+    @renamed_rates
     def to_parquet(
         self,
         path: str | PathLike[str],
-        omega: npt.ArrayLike | None = None,
-        alpha: npt.ArrayLike = 0.0,
+        *,
+        speed: npt.ArrayLike | None = None,
+        acceleration: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
         degrees: bool = False,
         moving: bool = False,
     ) -> None:
@@ -441,7 +452,7 @@ class Motion(MotionModel):
         ----------
         path : path-like
             The file.
-        omega, alpha, degrees, moving
+        speed, acceleration, jerk, degrees, moving
             As for `to_dataframe`.
 
         Examples
@@ -449,12 +460,14 @@ class Motion(MotionModel):
         >>> import assur, pathlib, tempfile
         >>> motion = assur.SliderCrank(0.05, 0.2).solve([0.0, 1.0])
         >>> with tempfile.TemporaryDirectory() as folder:
-        ...     motion.to_parquet(pathlib.Path(folder, "press.parquet"), omega=10.0)
+        ...     motion.to_parquet(pathlib.Path(folder, "press.parquet"), speed=10.0)
         """
         from assur._table import write_parquet
         from assur.kinematics.table import Options, motion_columns
 
-        write_parquet(path, motion_columns(self, Options(omega, alpha, degrees, moving)))
+        write_parquet(
+            path, motion_columns(self, Options(speed, acceleration, jerk, degrees, moving))
+        )
 
     def to_xarray(self) -> Any:
         """Return an xarray Dataset with named dimensions and units (needs xarray).
@@ -480,14 +493,15 @@ class Motion(MotionModel):
 
         return dataset(self)
 
+    @renamed_rates
     def diagram(
         self,
         name: str | Sequence[str],
-        ax: Any = None,
         *,
-        omega: npt.ArrayLike | None = None,
-        alpha: npt.ArrayLike = 0.0,
-        beta: npt.ArrayLike = 0.0,
+        ax: Any = None,
+        speed: npt.ArrayLike | None = None,
+        acceleration: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
         orders: int | Sequence[int] | None = None,
         degrees: bool = False,
         dark: bool = False,
@@ -504,8 +518,8 @@ class Motion(MotionModel):
             several in the same diagrams.
         ax : matplotlib axes or array of them, optional
             Where to draw, one for each order; a new figure by default.
-        omega, alpha, beta : array_like, optional
-            Speed, acceleration and jerk of the driver, as for `Analogues.jerk`; without `omega`
+        speed, acceleration, jerk : array_like, optional
+            Speed, acceleration and jerk of the driver, as for `Analogues.jerk`; without `speed`
             analogues are drawn, and the others must be 0.
         orders : int or sequence of int, optional
             0 the value, 1 velocity, 2 acceleration, 3 jerk; all that the motion has by default.
@@ -529,7 +543,7 @@ class Motion(MotionModel):
         --------
         >>> import assur, numpy as np
         >>> motion = assur.SliderCrank(0.05, 0.2).solve(np.linspace(0.0, 2 * np.pi, 181))
-        >>> axes = motion.diagram("bore", omega=10.0, degrees=True)
+        >>> axes = motion.diagram("bore", speed=10.0, degrees=True)
         >>> [ax.get_title(loc="left") for ax in axes.flat]
         ['Displacement, m', 'Velocity, m/s', 'Acceleration, m/s²']
         >>> [text.get_text() for text in axes.flat[1].texts]
@@ -537,25 +551,26 @@ class Motion(MotionModel):
         """
         from assur.pictures.diagrams.diagram import motion_diagram
 
-        refuse_without_speed(omega, "omega", alpha=alpha, beta=beta)
+        refuse_without_speed(speed, "speed", acceleration=acceleration, jerk=jerk)
         speeds = None
-        if omega is not None:
+        if speed is not None:
             speeds = (
-                real_array(omega, "omega"),
-                real_array(alpha, "alpha"),
-                real_array(beta, "beta"),
+                real_array(speed, "speed"),
+                real_array(acceleration, "acceleration"),
+                real_array(jerk, "jerk"),
             )
         return motion_diagram(self, name, ax, speeds, orders, flag(degrees, "degrees"), dark)
 
+    @renamed_rates
     def plot(
         self,
         joint: str | Sequence[str] | None = None,
+        *,
         ax: Any = None,
         at: int | None = None,
-        *,
         vectors: str | Sequence[str] | None = None,
-        omega: npt.ArrayLike = 1.0,
-        alpha: npt.ArrayLike = 0.0,
+        speed: npt.ArrayLike = 1.0,
+        acceleration: npt.ArrayLike = 0.0,
         groups: bool = False,
         dark: bool = False,
     ) -> Any:
@@ -571,7 +586,7 @@ class Motion(MotionModel):
             Index of the position; the first that exists by default.
         vectors : {"velocity", "acceleration"} or both, optional
             Arrows along the paths, with the value at the position that is drawn.
-        omega, alpha : array_like
+        speed, acceleration : array_like
             Speed and acceleration of the driver, as for `Analogues.velocity`.
         groups : bool
             Each Assur group in a colour of its own, and the structural formula.
@@ -598,11 +613,12 @@ class Motion(MotionModel):
         """
         from assur.pictures.linkage.path import path_picture
 
-        return path_picture(self, joint, ax, at, vectors, (omega, alpha), groups, dark)
+        return path_picture(self, joint, ax, at, vectors, (speed, acceleration), groups, dark)
 
     def animate(
         self,
         path: str | PathLike[str],
+        *,
         joint: str | Sequence[str] | None = None,
         frames: int = 72,
         seconds: float = 3.0,
@@ -638,7 +654,7 @@ class Motion(MotionModel):
         >>> import assur, numpy as np, pathlib, tempfile
         >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0, 2 * np.pi, 13))
         >>> path = pathlib.Path(tempfile.mkdtemp()) / "four_bar.gif"
-        >>> motion.animate(path, "C")
+        >>> motion.animate(path, joint="C")
         >>> path.read_bytes()[:6]
         b'GIF89a'
         """
@@ -646,10 +662,12 @@ class Motion(MotionModel):
 
         animate(self, path, joint, frames, seconds, groups, dark)
 
+    @renamed_rates
     def to_html(
         self,
         path: str | PathLike[str],
-        omega: float | None = None,
+        *,
+        speed: float | None = None,
         duration: float | None = None,
         paths: Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
@@ -665,7 +683,7 @@ class Motion(MotionModel):
         ----------
         path : path-like
             The file; one that exists is replaced.
-        omega : float, optional
+        speed : float, optional
             Speed along the coordinate, rad/s or m/s.
         duration : float, optional
             Duration of all positions, s: they are then played along time; 4 s for several drivers.
@@ -695,7 +713,7 @@ class Motion(MotionModel):
         write_page(
             self,
             path,
-            speed=omega,
+            speed=speed,
             duration=duration,
             paths=paths,
             diagrams=diagrams,
@@ -709,12 +727,14 @@ class Motion(MotionModel):
 
         return notebook_html(self)
 
+    @renamed_rates
     def polygon(
         self,
         what: str,
+        *,
         at: int | tuple[int, ...] = (),
-        omega: npt.ArrayLike = 1.0,
-        alpha: npt.ArrayLike = 0.0,
+        speed: npt.ArrayLike = 1.0,
+        acceleration: npt.ArrayLike = 0.0,
         ax: Any = None,
         dark: bool = False,
     ) -> Any:
@@ -731,7 +751,7 @@ class Motion(MotionModel):
             part (solid) and relative acceleration (dashed).
         at : int or tuple of int
             Index of the position into `shape`.
-        omega, alpha : array_like
+        speed, acceleration : array_like
             Speed and acceleration of the driver, as for `Analogues.velocity`: rad/s and rad/s² or
             m/s and m/s².
         ax : matplotlib.axes.Axes, optional
@@ -754,11 +774,11 @@ class Motion(MotionModel):
         --------
         >>> import assur, numpy as np
         >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(np.linspace(0.0, 6.0, 7))
-        >>> axes = motion.polygon("velocity", at=2, omega=10.0)
+        >>> axes = motion.polygon("velocity", at=2, speed=10.0)
         >>> tip = next(a for a in axes.patches if a.get_gid() == "velocity C head")
         >>> bool(np.allclose(tip.get_path().vertices[0], motion.joint("C").velocity(10.0)[2]))
         True
         """
         from assur.pictures.plans.polygon import polygon_picture
 
-        return polygon_picture(self, what, at, omega, alpha, ax, dark)
+        return polygon_picture(self, what, at, speed, acceleration, ax, dark)

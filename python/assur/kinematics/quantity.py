@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, in_range, real_array
+from assur._other_names import renamed_rates
 from assur.errors import InputError
 
 __all__ = ["Analogues"]
@@ -78,12 +79,13 @@ class Analogues:
     ) -> npt.NDArray[Any]:
         return np.array(self.value, dtype=dtype, copy=copy)
 
-    def velocity(self, omega: npt.ArrayLike) -> Float:
+    @renamed_rates
+    def velocity(self, speed: npt.ArrayLike) -> Float:
         """Return the velocity for a driver's speed: ``d1 ω``.
 
         Parameters
         ----------
-        omega : array_like
+        speed : array_like
             dq/dt, rad/s or m/s; broadcasts against S + (N,). With n drivers the
             last axis is n.
 
@@ -100,16 +102,17 @@ class Analogues:
         >>> pin.acceleration(np.array([1.0, 2.0, 3.0])).shape
         (3, 2)
         """
-        (w,) = self._speeds(omega=omega)
+        (w,) = self._speeds(speed=speed)
         with in_range("velocity"):
             return self._contract(self.d1, w)
 
-    def acceleration(self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0) -> Float:
+    @renamed_rates
+    def acceleration(self, speed: npt.ArrayLike, acceleration: npt.ArrayLike = 0.0) -> Float:
         """Return the acceleration for a driver's speed and acceleration: ``d2 ω² + d1 α``.
 
         Parameters
         ----------
-        omega, alpha : array_like
+        speed, acceleration : array_like
             Speed and acceleration of the driver, as for `velocity`: rad/s, rad/s² or m/s, m/s².
 
         Returns
@@ -123,21 +126,22 @@ class Analogues:
 
         >>> import assur
         >>> pin = assur.SliderCrank(crank=0.1, rod=0.4).solve(0.0).joint("A")
-        >>> pin.acceleration(omega=10.0)
+        >>> pin.acceleration(speed=10.0)
         array([-10.,   0.])
         """
-        w, a = self._speeds(omega=omega, alpha=alpha)
+        w, a = self._speeds(speed=speed, acceleration=acceleration)
         with in_range("acceleration"):
             return self._contract(self.d2, w, w) + self._contract(self.d1, a)
 
+    @renamed_rates
     def jerk(
-        self, omega: npt.ArrayLike, alpha: npt.ArrayLike = 0.0, beta: npt.ArrayLike = 0.0
+        self, speed: npt.ArrayLike, acceleration: npt.ArrayLike = 0.0, jerk: npt.ArrayLike = 0.0
     ) -> Float:
         """Return the jerk: ``d3 ω³ + 3 d2 ω α + d1 β``, with β the driver's jerk.
 
         Parameters
         ----------
-        omega, alpha, beta : array_like
+        speed, acceleration, jerk : array_like
             Speed, acceleration and jerk of the driver, as for `velocity`.
 
         Returns
@@ -149,10 +153,10 @@ class Analogues:
         --------
         >>> import assur
         >>> pin = assur.SliderCrank(crank=0.1, rod=0.4).solve(0.0, order=3).joint("A")
-        >>> pin.jerk(omega=10.0)
+        >>> pin.jerk(speed=10.0)
         array([   0., -100.])
         """
-        w, a, b = self._speeds(omega=omega, alpha=alpha, beta=beta)
+        w, a, b = self._speeds(speed=speed, acceleration=acceleration, jerk=jerk)
         with in_range("jerk"):
             mixed = self._contract(self.d2, w, a)
             return self._contract(self.d3, w, w, w) + 3.0 * mixed + self._contract(self.d1, b)

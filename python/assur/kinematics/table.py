@@ -31,11 +31,11 @@ SLIDE = ("{}", "{}.v", "{}.a", "{}.j")
 class Options(NamedTuple):
     """What a table of a motion shows."""
 
-    omega: npt.ArrayLike | None = None
-    alpha: npt.ArrayLike = 0.0
+    speed: npt.ArrayLike | None = None
+    acceleration: npt.ArrayLike = 0.0
+    jerk: npt.ArrayLike = 0.0
     degrees: bool = False
     moving: bool = False
-    beta: npt.ArrayLike = 0.0
 
 
 class _Quantity(NamedTuple):
@@ -49,13 +49,15 @@ def motion_columns(motion: MotionModel, options: Options) -> list[Column]:
     """Return the columns of a motion's table, rows over designs and positions."""
     flag(options.degrees, "degrees")
     flag(options.moving, "moving")
-    refuse_without_speed(options.omega, "omega", alpha=options.alpha, beta=options.beta)
+    refuse_without_speed(
+        options.speed, "speed", acceleration=options.acceleration, jerk=options.jerk
+    )
     columns = _rows(motion, options.degrees)
     taken = {column.name for column in columns}
     for quantity in _quantities(motion, taken):
         if options.moving and not _moves(quantity.analogues):
             continue
-        if options.omega is None:
+        if options.speed is None:
             columns.extend(_analogues(motion, quantity, options.degrees))
         else:
             columns.extend(_velocities(motion, quantity, options))
@@ -138,20 +140,20 @@ def _velocities(motion: MotionModel, quantity: _Quantity, options: Options) -> I
     forms = {"joint": POINT, "link": ANGLE, "slide": SLIDE}[quantity.kind]
     unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
-    of, omega, alpha = quantity.analogues, options.omega, options.alpha
-    assert omega is not None
+    of, speed, acceleration = quantity.analogues, options.speed, options.acceleration
+    assert speed is not None
     rates: list[Float] = [of.value]
     if motion.order >= 1:
-        rates.append(of.velocity(omega))
+        rates.append(of.velocity(speed))
     if motion.order >= 2:
-        rates.append(of.acceleration(omega, alpha))
+        rates.append(of.acceleration(speed, acceleration))
     if motion.order >= 3:
-        rates.append(of.jerk(omega, alpha, options.beta))
+        rates.append(of.jerk(speed, acceleration, options.jerk))
     for order, rate in enumerate(rates):
         if rate.shape != of.value.shape:
             message = (
-                f"omega and alpha give the shape {rate.shape}: a table has one speed at each "
-                f"position {motion.shape}"
+                f"speed and acceleration give the shape {rate.shape}: a table has one speed at "
+                f"each position {motion.shape}"
             )
             raise InputError(message)
         per = ["", "/s", "/s2", "/s3"][order]

@@ -224,17 +224,17 @@ class TimedMotion(Tabular):
         return timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
 
     def _in_time(self, of: Analogues) -> InTime:
-        omega, alpha, beta = self.speed, self.acceleration, self.jerk
+        speed, acceleration, jerk = self.speed, self.acceleration, self.jerk
         return InTime(
             of.value,
-            of.velocity(omega),
-            of.acceleration(omega, alpha),
-            of.jerk(omega, alpha, beta),
+            of.velocity(speed),
+            of.acceleration(speed, acceleration),
+            of.jerk(speed, acceleration, jerk),
         )
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return time, and values, velocities, accelerations and jerks of what moves."""
-        options = Options(self.speed, self.acceleration, degrees, moving=True, beta=self.jerk)
+        options = Options(self.speed, self.acceleration, self.jerk, degrees=degrees, moving=True)
         first, *rest = motion_columns(self.motion, options)
         return [Column("t", self.t, "s", None), first, *rest]
 

@@ -55,6 +55,7 @@ class FourBar(Mechanism):
         coupler: npt.ArrayLike,
         rocker: npt.ArrayLike,
         ground: npt.ArrayLike,
+        *,
         mode: Literal["open", "crossed"] = "open",
         point: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
     ) -> None:
@@ -127,7 +128,9 @@ class SliderCrank(Mechanism):
 def from_drawing(drawing: Any) -> Mechanism:
     """Return the mechanism of a drawing that the core made."""
     slides = {name: Slide(**fields) for name, fields in drawing["slides"]}
-    return Mechanism(dict(drawing["joints"]), dict(drawing["links"]), drawing["driver"], slides)
+    return Mechanism(
+        dict(drawing["joints"]), dict(drawing["links"]), drawing["driver"], slides=slides
+    )
 
 
 def _copy_from(mechanism: Mechanism, drawing: Any, dimensions: dict[str, npt.ArrayLike]) -> None:

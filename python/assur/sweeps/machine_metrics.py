@@ -204,14 +204,16 @@ class FlywheelInertia(ByValue, OfMachine):
     def why(self, machine: Machine, _q: Float) -> AssurError | str:
         """Why a design has no such flywheel."""
         try:
-            machine.flywheel(self.fluctuation, self.mean_speed, self.mean)
+            machine.flywheel(self.fluctuation, mean_speed=self.mean_speed, mean=self.mean)
         except AssurError as error:
             return error
         return "there is no such flywheel"
 
     def values(self, machine: Machine, _q: Float, _threads: int | None) -> Float:
         """Its values for the designs of a machine."""
-        flywheel = machine.flywheel(self.fluctuation, self.mean_speed, self.mean, on_error="nan")
+        flywheel = machine.flywheel(
+            self.fluctuation, mean_speed=self.mean_speed, mean=self.mean, on_error="nan"
+        )
         return np.asarray(flywheel.inertia)
 
     def __repr__(self) -> str:
@@ -231,6 +233,7 @@ def _joint_force(measure: Measure, joint: str, on: str | None, *motion: npt.Arra
 
 def peak_reaction(
     joint: str,
+    *,
     on: str | None = None,
     speed: npt.ArrayLike = 0.0,
     acceleration: npt.ArrayLike = 0.0,
@@ -274,6 +277,7 @@ def peak_reaction(
 
 def rms_reaction(
     joint: str,
+    *,
     on: str | None = None,
     speed: npt.ArrayLike = 0.0,
     acceleration: npt.ArrayLike = 0.0,
@@ -305,7 +309,7 @@ def rms_reaction(
     return _joint_force("rms", joint, on, speed, acceleration)
 
 
-def peak_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
+def peak_effort(*, speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
     """The greatest size of the torque or force of the drive, N·m or N.
 
     With several drivers it is the greatest of all, regardless of their units.
@@ -333,7 +337,7 @@ def peak_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -
     return Effort("peak", *_motion(speed, acceleration))
 
 
-def rms_effort(speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
+def rms_effort(*, speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
     """The root of the mean square of the torque or force of the drive, N·m or N.
 
     See `peak_effort`.
@@ -373,7 +377,9 @@ def greatest_inertia() -> Metric:
     Examples
     --------
     >>> import assur, numpy as np
-    >>> press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> press = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> asked = {"J": assur.metric.greatest_inertia()}
     >>> assur.sweep(press, {"rod.length": [0.3, 0.4]}, q, metrics=asked)["J"]  # kg·m²
@@ -383,7 +389,7 @@ def greatest_inertia() -> Metric:
 
 
 def flywheel_inertia(
-    fluctuation: float, mean_speed: float | None = None, mean: Mean = "extremes"
+    fluctuation: float, *, mean_speed: float | None = None, mean: Mean = "extremes"
 ) -> Metric:
     """The inertia of the flywheel that limits the speed fluctuation, kg·m².
 

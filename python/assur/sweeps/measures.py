@@ -88,7 +88,7 @@ class Measures(Mapping[str, Float]):
         rest[self.kept] = False
         return np.flatnonzero(rest)
 
-    def best(self, n: int, by: str, greatest: bool = False) -> npt.NDArray[np.intp]:
+    def best(self, n: int, by: str, *, greatest: bool = False) -> npt.NDArray[np.intp]:
         """Return the indices of the n designs with the least values of a metric, best first.
 
         Parameters
@@ -242,9 +242,9 @@ class Measures(Mapping[str, Float]):
     def plot(
         self,
         name: str,
+        *,
         ax: Any = None,
         dark: bool = False,
-        *,
         at: Mapping[str, float] | None = None,
         best: Literal["least", "greatest", "both", "none"] = "both",
         degrees: bool = False,

@@ -36,9 +36,9 @@ def sweep(
     mechanism: Mechanism,
     dimensions: Mapping[str, npt.ArrayLike] | Any,
     q: npt.ArrayLike,
+    *,
     outputs: Iterable[str] | None = ...,
     order: int | None = ...,
-    *,
     assembly: Mapping[str, int] | None = ...,
     metrics: None = ...,
     where: None = ...,
@@ -65,9 +65,9 @@ def sweep(
     mechanism: Mechanism | Machine,
     dimensions: Mapping[str, npt.ArrayLike] | Any,
     q: npt.ArrayLike,
+    *,
     outputs: Iterable[str] | None = None,
     order: int | None = None,
-    *,
     assembly: Mapping[str, int] | None = None,
     metrics: Mapping[str, Metric] | None = None,
     where: Iterable[Condition] | None = None,
@@ -154,7 +154,7 @@ def sweep(
     >>> space = {name: rng.uniform(1.5, 5, 2000) for name in ("coupler.length", "rocker.length")}
     >>> found = assur.sweep(
     ...     four_bar, space, q,
-    ...     metrics={"off": assur.metric.deviation("P", "line", relative=True)},
+    ...     metrics={"off": assur.metric.deviation("P", shape="line", relative=True)},
     ...     where=[assur.metric.least_transmission("C") > np.radians(40)],
     ... )
     >>> bool(0.0 < np.nanmin(found["off"]) < 0.02)

@@ -25,7 +25,7 @@ def slider_crank(
         {"O": (0, 0), "A": (crank.real, crank.imag), "B": (pin.real, pin.imag)},
         {"ground": ["O"], "crank": ["O", "A"], "coupler": ["A", "B"], "piston": ["B"]},
         driver,
-        {"way": assur.Slide("piston", "ground", angle, "O", length=length)},
+        slides={"way": assur.Slide("piston", "ground", angle, "O", length=length)},
     )
 
 
@@ -151,7 +151,7 @@ def test_a_driven_cylinder_that_nearly_reaches_length_0(least: float) -> None:
         {"foot": (0, 0), "eye": (0.6, 0.8), "base": (1.0 + least, 0)},
         {"ground": ["foot", "base"], "boom": ["foot", "eye"]},
         "lift",
-        {"lift": assur.Cylinder("base", "eye")},
+        slides={"lift": assur.Cylinder("base", "eye")},
     )
     curve = mechanism.configuration_curve()
     assert len(curve.branches) == 2

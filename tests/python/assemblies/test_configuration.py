@@ -194,7 +194,14 @@ def test_a_joint_goes_to_infinity_beside_a_fold(turned: float, order: tuple[str,
     """
     joints = {"O": (-1.7, -0.5), "A": (-3.8, 0.7), "B": (-4.7, 1.4), "C": (-6.0, 2.7)}
     places = {**joints, "P": (-6.0, -0.6)}
-    links = {"ground": "OC", "arm": "OA", "driven": "AB", "lever": "CB", "first": "P", "second": "P"}
+    links = {
+        "ground": "OC",
+        "arm": "OA",
+        "driven": "AB",
+        "lever": "CB",
+        "first": "P",
+        "second": "P",
+    }
     on_arm = math.atan2(0.7 + 0.5, -3.8 + 1.7)
     on_lever = math.atan2(1.4 - 2.7, -4.7 + 6.0)
     # In line the arm and the lever are half a turn apart.

@@ -43,7 +43,7 @@ def test_inverted_slider_crank_swings_by_a_third_of_half_a_turn() -> None:
         {"A": (0, 0), "B": (0, 1), "D": (2, 0)},
         {"ground": "AD", "crank": "AB", "block": "B", "rod": "D"},
         "crank",
-        {"slot": assur.Slide("block", on="rod", angle=math.atan2(1, -2), origin="D")},
+        slides={"slot": assur.Slide("block", on="rod", angle=math.atan2(1, -2), origin="D")},
     )
     rod = mechanism.extremes("rod")
     assert rod.stroke == pytest.approx(math.pi / 3, abs=1e-10)

@@ -30,7 +30,7 @@ def boom(turn: float) -> assur.Mechanism:
             "rod": ["eye"],
         },
         "boom",
-        {
+        slides={
             "lift": assur.Slide(
                 "rod", on="barrel", along=("base", "eye"), origin="base", length=True
             )

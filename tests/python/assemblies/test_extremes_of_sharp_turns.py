@@ -29,7 +29,7 @@ def whitworth(crank: float, at: float) -> assur.Mechanism:
         {"O": (0, 0), "A": pin, "D": (1, 0)},
         {"ground": "OD", "crank": "OA", "lever": "D", "block": "A"},
         "crank",
-        {"s": assur.Slide("block", on="lever", along=("A", "D"))},
+        slides={"s": assur.Slide("block", on="lever", along=("A", "D"))},
     )
 
 

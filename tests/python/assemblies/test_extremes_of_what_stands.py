@@ -25,7 +25,7 @@ def bar_on_the_coupler() -> assur.Mechanism:
     links["coupler"] = ["B", "C", "P"]
     links |= {"bar": ["B"], "block": ["P"]}
     slide = assur.Slide("block", on="bar", along=("B", "P"))
-    return assur.Mechanism(joints, links, "crank", {"s": slide})
+    return assur.Mechanism(joints, links, "crank", slides={"s": slide})
 
 
 def parallelogram_on(pivot: str, pin: str, x: float) -> assur.Mechanism:

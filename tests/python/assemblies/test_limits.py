@@ -51,7 +51,7 @@ def test_four_bars_of_every_class(
     crank, coupler, rocker, ground = lengths
     modes: tuple[Literal["open", "crossed"], ...] = ("open", "crossed")
     for mode in modes:
-        limits = assur.FourBar(crank, coupler, rocker, ground, mode).limits()
+        limits = assur.FourBar(crank, coupler, rocker, ground, mode=mode).limits()
         intervals(limits, wanted)
         turns = wanted == [(-INF, INF)]
         assert limits.full_rotation is turns
@@ -272,7 +272,7 @@ def test_every_position_within_the_limits_exists_and_none_outside() -> None:
         found = mechanism.assemblies(0.6)
         assert len(found) == count
         for assembly in found:
-            limits = mechanism.limits(assembly)
+            limits = mechanism.limits(assembly=assembly)
             q = rng.uniform(-math.pi, math.pi, 300)
             motion = mechanism.solve(q, order=0, assembly=assembly, on_error="nan")
             reached = motion.status <= assur.Status.SINGULAR

@@ -111,7 +111,7 @@ def test_slider_cranks_in_every_order(driver: str | assur.Drive) -> None:
             joints,
             listed,
             driver,
-            {"bore": assur.Slide("piston", on="ground", angle=0.1, origin="G")},
+            slides={"bore": assur.Slide("piston", on="ground", angle=0.1, origin="G")},
         )
         agrees_with_positions(m)
         known.append(m.limits().intervals - m.q0)

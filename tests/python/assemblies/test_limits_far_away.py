@@ -48,7 +48,7 @@ def mechanism(joints: dict[str, complex], angle: float, order: tuple[str, ...]) 
     }
     places = {name: (joints[name].real, joints[name].imag) for name in order}
     links = {name: LINKS[name] for name in (*order_of_links(order), "block")}
-    return assur.Mechanism(places, links, "drive", slides)
+    return assur.Mechanism(places, links, "drive", slides=slides)
 
 
 def order_of_links(order: tuple[str, ...]) -> list[str]:

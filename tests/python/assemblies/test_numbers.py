@@ -99,7 +99,7 @@ def test_two_slides_with_six_real_assemblies() -> None:
             "block": "V",
         },
         "crank",
-        {
+        slides={
             "bore": assur.Slide("piston", on="ground", angle=0.68, origin="U"),
             "slot": assur.Slide("block", on="plate", angle=-0.82, origin="P"),
         },

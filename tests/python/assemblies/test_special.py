@@ -26,7 +26,7 @@ def one_pin_rocker() -> assur.Mechanism:
         {"A": (0, 0), "B": b, "D": (2, 0)},
         {"ground": "AD", "crank": "AB", "block": ["B"], "rock": ["D"]},
         "crank",
-        {"s": Slide("block", on="rock", angle=angle, origin="D")},
+        slides={"s": Slide("block", on="rock", angle=angle, origin="D")},
     )
 
 
@@ -73,7 +73,7 @@ def test_a_slide_carried_farther_than_all_lengths() -> None:
         {"A": (-1.0, 3.0), "B": (-2.0, 3.0), "C": (2.0, 3.0)},
         {"ground": "A", "k": "AB", "b": "B", "o": "C"},
         "t",
-        {
+        slides={
             "s": Slide("b", on="o", angle=0.3, origin="C"),
             "t": Slide("o", on="ground", angle=0.45202189551171257, origin="A"),
         },
@@ -93,7 +93,7 @@ def test_a_slide_that_nothing_stops() -> None:
         {"A": (0, 0), "B": (1, 1), "C": (3, 1)},
         {"ground": "A", "k": "AB", "b": "B", "o": "C"},
         "t",
-        {
+        slides={
             "s": Slide("b", on="o", angle=0.0, origin="C"),
             "t": Slide("o", on="ground", angle=0.0, origin="A"),
         },
@@ -112,7 +112,7 @@ def test_a_coordinate_that_goes_to_infinity() -> None:
         {"A": (0, 0), "B": (1, 0.7)},
         {"ground": "A", "k": "A", "blk": "B", "sl": "B"},
         "k",
-        {
+        slides={
             "a": Slide("blk", on="k", angle=math.atan2(0.7, 1.0)),
             "b": Slide("sl", on="ground", angle=math.pi / 2),
         },
@@ -128,7 +128,7 @@ def test_a_dead_point_half_a_turn_from_the_drawing() -> None:
         {"A": (2.0, 1.0), "B": (2.0, -1.0), "D": (3.0, 2.0), "E": (1.0, -2.0)},
         {"ground": "AD", "k": "AB", "b": "B", "r": "DE"},
         "r",
-        {"s": Slide("b", on="r", angle=math.pi / 2, origin="D")},
+        slides={"s": Slide("b", on="r", angle=math.pi / 2, origin="D")},
     )
     assert {one.group for one in m.limits().dead_points} == {"II(k, b)"}
     assert m.extremes("s").greatest.value == pytest.approx(1.0, abs=1e-9)
@@ -140,7 +140,7 @@ def test_assemblies_lead_where_they_were_found() -> None:
         {"A": (1, 2), "B": (1, 0), "C": (2, 0), "D": (2, 2), "E": (0, 2), "F": (-3, -3)},
         {"ground": "AD", "k": "AB", "c": "BC", "r": "DCE", "l": "EF", "b": "F"},
         "s",
-        {"s": Slide("b", on="ground", angle=0.0, origin="A")},
+        slides={"s": Slide("b", on="ground", angle=0.0, origin="A")},
     )
     for q in np.linspace(-4.2, -3.4, 17).tolist():
         found = m.assemblies(q)
@@ -186,7 +186,7 @@ def test_the_drawing_belongs_to_its_curve() -> None:
     }
     links = {"ground": "AD", "k": "AB", "c": "BC", "r": "DCE", "l": "EF", "b": "F"}
     guide = Slide("b", on="ground", angle=-1.3678132290110292, origin="A")
-    m = Mechanism(at, links, "k", {"s": guide})
+    m = Mechanism(at, links, "k", slides={"s": guide})
     assert not m.configuration_curve().defects([(float(np.array(m.q0)), m.assembly)]).circuit
 
 
@@ -230,8 +230,8 @@ def test_messages() -> None:
     refused(assur.InputError, "P.x", partial(two.find, "P.x", [1.0, 1.0]))
     refused(assur.InputError, "positions 2000", partial(two.workspace, "P", positions=10**9))
     over = {"rocker.length": [1.0, 2.0], "ground.D.x": [1.0, 2.0]}
-    refused(assur.InputError, "q one position", partial(m.map, "assemblies", over, [0.5, 1.0]))
-    refused(assur.InputError, "full rotation", partial(m.map, "full_rotation", over, 1.0))
+    refused(assur.InputError, "q one position", partial(m.map, "assemblies", over, q=[0.5, 1.0]))
+    refused(assur.InputError, "full rotation", partial(m.map, "full_rotation", over, q=1.0))
     refused(assur.InputError, "C finite", partial(m.defects, [1.0], {"C": [[np.nan, 1.0]]}))
     refused(assur.InputError, "B determine", partial(m.defects, [1.0], {"B": m.solve([1.0])["B"]}))
     space = two.workspace("P", positions=6)

@@ -38,7 +38,7 @@ def four_bar() -> assur.Machine:
         "coupler": Body(1.2, 3e-3, polar(0.08, 0.15)),
         "rocker": Body(0.8, 1.5e-3, polar(0.06, -0.2)),
     }
-    return assur.Machine(assur.FourBar(0.05, 0.15, 0.12, 0.16), bodies)
+    return assur.Machine(assur.FourBar(0.05, 0.15, 0.12, 0.16), bodies=bodies)
 
 
 def test_counterweights_of_a_four_bar() -> None:
@@ -84,7 +84,7 @@ def chain(rng: random.Random, sliding: bool) -> assur.Machine:
         if rng.random() < 0.8
     }
     bodies[coupler] = Body(1.0, 0.1, rng.choice(["T", None, (0.4, -0.3)]))
-    return assur.Machine(assur.Mechanism(joints, links, crank, slides), bodies)
+    return assur.Machine(assur.Mechanism(joints, links, crank, slides=slides), bodies=bodies)
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -115,8 +115,8 @@ def test_any_slider_crank_is_balanced_by_two_weights(seed: int) -> None:
 )
 def test_partly_balanced_engine(fraction: float, greatest: float) -> None:
     """The greatest force of a turn in parts of m ω² r, a rod of three cranks."""
-    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), {"piston": Body(1.0)})
-    weights = balance.slider_crank(machine, fraction)
+    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(1.0)})
+    weights = balance.slider_crank(machine, fraction=fraction)
     after = machine.with_counterweights(one.with_radius(0.5) for one in weights)
     found = after.reactions(np.linspace(0.0, math.tau, 1441), 1.0).shaking_force
     size = np.hypot(found[:, 0], found[:, 1])
@@ -132,8 +132,8 @@ def test_half_is_the_least_mean_square() -> None:
 
     def rms(fraction: float) -> float:
         bodies = {"piston": Body(1.0), "rod": Body(0.6, 0.1, (1.0, 0.7)), "crank": Body(0.2)}
-        machine = assur.Machine(assur.SliderCrank(1.0, 3.5), bodies)
-        (weight,) = balance.slider_crank(machine, fraction)
+        machine = assur.Machine(assur.SliderCrank(1.0, 3.5), bodies=bodies)
+        (weight,) = balance.slider_crank(machine, fraction=fraction)
         after = machine.with_counterweights([weight.with_radius(0.5)])
         return float(np.sqrt(np.mean(after.reactions(TURN, 1.0).shaking_force ** 2)))
 
@@ -155,7 +155,7 @@ def test_published_partial_balance(
 ) -> None:
     """Two examples of textbooks: two thirds of the reciprocating masses are balanced."""
     bodies = {"piston": Body(reciprocating), "crank": Body(rotating, at="A")}
-    machine = assur.Machine(assur.SliderCrank(crank, 4 * crank), bodies)
+    machine = assur.Machine(assur.SliderCrank(crank, 4 * crank), bodies=bodies)
     (weight,) = balance.slider_crank(machine, fraction=2 / 3)
     mass = weight.with_radius(radius).mass
     assert mass is not None
@@ -166,7 +166,7 @@ def test_published_partial_balance(
 def test_published_residue_of_partial_balance() -> None:
     """At 30° and 250 rev/min, of the first harmonic: 3263.971 N in print, with π to few digits."""
     bodies = {"piston": Body(120.0), "crank": Body(70.0, at="A")}
-    machine = assur.Machine(assur.SliderCrank(0.09, 0.36), bodies)
+    machine = assur.Machine(assur.SliderCrank(0.09, 0.36), bodies=bodies)
     (weight,) = balance.slider_crank(machine, fraction=2 / 3)
     after = machine.with_counterweights([weight.with_radius(0.15)])
     found = after.reactions(TURN, 250.0 * math.tau / 60.0).shaking_force
@@ -187,7 +187,7 @@ def test_weights_count_as_bodies() -> None:
     both = machine.with_counterweights([weight, balance.Counterweight("rocker", 0.0, mass=0.0)])
     coupler = mechanism.dimensions["coupler.length"]
     at = coupler + 0.3 / 1.7 * math.cos(2.0), 0.3 / 1.7 * math.sin(2.0)
-    alone = assur.Machine(mechanism, {"coupler": Body(1.7, 0.0, at)})
+    alone = assur.Machine(mechanism, bodies={"coupler": Body(1.7, 0.0, at)})
     found = [one.reactions(TURN, 20.0, 5.0) for one in (both, machine, alone)]
     for name in ("shaking_force", "shaking_moment", "driver"):
         whole, first, second = (getattr(one, name) for one in found)
@@ -197,14 +197,14 @@ def test_weights_count_as_bodies() -> None:
 
 def test_machine_keeps_loads_and_motor() -> None:
     loads, motor = [assur.Gravity()], assur.ConstantTorque(3.0)
-    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), {}, loads, motor)
+    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={}, loads=loads, motor=motor)
     after = machine.with_counterweights([balance.Counterweight("crank", 2.0, mass=1.0)])
     assert (after.loads, after.motor) == (machine.loads, machine.motor)
     assert dict(after.bodies) == {"crank": Body(1.0, 0.0, (2.0, 0.0))}
 
 
 FOUR_BAR = four_bar()
-ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), {"piston": Body(1.0)})
+ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"piston": Body(1.0)})
 BATCH = assur.Machine(assur.FourBar([0.04, 0.05], 0.15, 0.12, 0.16))
 TABLE = assur.Machine.from_table([0.0, 3.0, math.tau], [0.0, 1.0, 0.0], 1.0)
 NAN: Any = math.nan
@@ -230,9 +230,9 @@ THREE_AT_A_PIN = assur.Mechanism(
         (lambda: balance.four_bar(BATCH), "design"),
         (lambda: balance.four_bar(TABLE), "table"),
         (lambda: balance.four_bar(None), "None"),  # type: ignore[arg-type]
-        (lambda: balance.slider_crank(ENGINE, NAN), "fraction"),
-        (lambda: balance.slider_crank(ENGINE, -0.1), "fraction is -0.1"),
-        (lambda: balance.slider_crank(ENGINE, 0.5, rod_radius=0.1), "fraction is 0.5"),
+        (lambda: balance.slider_crank(ENGINE, fraction=NAN), "fraction"),
+        (lambda: balance.slider_crank(ENGINE, fraction=-0.1), "fraction is -0.1"),
+        (lambda: balance.slider_crank(ENGINE, fraction=0.5, rod_radius=0.1), "fraction is 0.5"),
         (lambda: balance.slider_crank(ENGINE, rod_radius=0.0), "rod_radius"),
         (lambda: balance.slider_crank(ENGINE, rod_radius=math.inf), "rod_radius"),
         (lambda: balance.Counterweight("rod", -1.0), "moment"),

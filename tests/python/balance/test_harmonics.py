@@ -17,7 +17,7 @@ TURN = np.arange(N) * (math.tau / N)
 
 def test_slider_crank() -> None:
     """The printed series of the piston's force: 4 n² A_2n of cos 2nq, a rod of three cranks."""
-    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), {"piston": Body(1.0)})
+    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(1.0)})
     force = machine.reactions(TURN, 1.0).shaking_force
     found = balance.harmonics(TURN, force[:, 0], count=8)
     wanted = [1.0, 0.343108577285, -0.0100990791524, 3.34432153297e-4]
@@ -38,7 +38,7 @@ def test_any_series(n: int, start: float) -> None:
     spectrum = np.fft.rfft(values)[..., : count + 1] / n * np.where(np.arange(count + 1), 2, 1)
     for sign in (1, -1):
         q = start + sign * np.arange(n) * (math.tau / n)
-        found = balance.harmonics(q, values, count)
+        found = balance.harmonics(q, values, count=count)
         turned = np.conj(spectrum) * np.exp(1j * np.arange(count + 1) * start * sign)
         shifted = turned.real + 1j * sign * turned.imag
         if n == 1:
@@ -56,7 +56,9 @@ def test_any_series(n: int, start: float) -> None:
 def test_rotating_parts() -> None:
     """The force is the sum of its rotating parts, for a batch of designs."""
     m = assur.FourBar(0.05, [0.15, 0.16], 0.12, 0.16)
-    machine = assur.Machine(m, {"coupler": Body(1.2, 3e-3, (0.08, 0.01)), "rocker": Body(1.0)})
+    machine = assur.Machine(
+        m, bodies={"coupler": Body(1.2, 3e-3, (0.08, 0.01)), "rocker": Body(1.0)}
+    )
     force = machine.reactions(TURN + 0.3, 20.0).shaking_force
     parts = balance.rotating_parts(TURN + 0.3, force, count=31)
     turn = np.arange(32) * (TURN[:, np.newaxis] + 0.3)
@@ -77,7 +79,7 @@ def test_rotating_parts() -> None:
 def test_one_weight_rotates_forward_only() -> None:
     crank = assur.SliderCrank(0.1, 0.3)
     for turn, speed in ((TURN, 7.0), (-TURN, -7.0)):
-        machine = assur.Machine(crank, {"crank": Body(2.0, 0.0, (0.0, 0.05))})
+        machine = assur.Machine(crank, bodies={"crank": Body(2.0, 0.0, (0.0, 0.05))})
         parts = balance.rotating_parts(turn, machine.reactions(turn, speed).shaking_force, count=3)
         np.testing.assert_allclose(parts.forward, [0.0, 4.9, 0.0, 0.0], atol=1e-14)
         assert parts.backward.max() < 1e-14
@@ -125,10 +127,10 @@ ONES = np.ones(N)
 )
 def test_refusals(q: Any, values: Any, count: Any, said: str) -> None:
     with pytest.raises(assur.InputError, match=said):
-        balance.harmonics(q, values, count)
+        balance.harmonics(q, values, count=count)
     if np.shape(values) == (N,):
         with pytest.raises(assur.InputError, match=said):
-            balance.rotating_parts(q, np.stack([values, values], -1), count)
+            balance.rotating_parts(q, np.stack([values, values], -1), count=count)
 
 
 @pytest.mark.parametrize("force", [np.ones((N, 3)), ONES, np.ones((2, N)), 1.0])

@@ -79,7 +79,7 @@ def crank(load: Any = None, motor: Any = None) -> Balance:
         driver="crank",
     )
     body = {"crank": assur.Body(2.0, 0.5, (1.0, 0.25))}
-    machine = assur.Machine(m, body, [load] if load else [], motor)
+    machine = assur.Machine(m, bodies=body, loads=[load] if load else [], motor=motor)
     return Balance(machine, [0.3], [[Q]], [[SPEED]])
 
 
@@ -147,7 +147,7 @@ def test_a_load(name: str) -> None:
     [
         (assur.ConstantTorque(5.0, ratio=-3.0), 5.0),
         (assur.LinearMotor(4.0, 9.0, ratio=-3.0), 4.0 * (1.0 + 3.0 * SPEED / 9.0)),
-        (assur.Table([-10.0, 10.0], [-20.0, 20.0], "linear", ratio=-3.0), -6.0 * SPEED),
+        (assur.Table([-10.0, 10.0], [-20.0, 20.0], spline="linear", ratio=-3.0), -6.0 * SPEED),
     ],
 )
 def test_a_motor(motor: Any, torque: float) -> None:
@@ -161,7 +161,7 @@ def test_an_induction_motor_has_its_greatest_torque_at_its_slip() -> None:
 
 
 def test_a_periodic_table_goes_on_in_either_direction() -> None:
-    table = assur.Table([1.0, 2.0, 3.0], [0.0, 4.0, 0.0], "linear")
+    table = assur.Table([1.0, 2.0, 3.0], [0.0, 4.0, 0.0], spline="linear")
     assert spline(table, periodic=True)(np.array([1.25, 3.25, -0.75])) == pytest.approx([1.0] * 3)
 
 

@@ -190,7 +190,7 @@ def test_an_extreme_that_is_beaten_is_found(monkeypatch: pytest.MonkeyPatch) -> 
     own = assur.Mechanism.extremes
 
     def extremes(self: assur.Mechanism, name: str, order: int = 0, **more: Any) -> Any:
-        found = own(self, name, order, **more)
+        found = own(self, name, order=order, **more)
         least = found.least._replace(value=found.least.value + 1e-4)
         return replace(found, least=least)
 

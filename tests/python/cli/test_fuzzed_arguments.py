@@ -115,7 +115,7 @@ def test_random_words() -> None:
 @pytest.mark.filterwarnings("ignore::assur.AssurWarning")
 def test_each_flag_with_each_value() -> None:
     """Of one good command; every status is possible."""
-    for flag in ("--q", "--set", "--outputs", "--omega", "--out", "--design", "--drivers"):
+    for flag in ("--q", "--set", "--outputs", "--speed", "--out", "--design", "--drivers"):
         for value in VALUES:
             done = assur_command("solve", "example:engine", "--q=1", f"{flag}={value}")
             lines = done.err.splitlines()

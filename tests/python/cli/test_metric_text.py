@@ -22,9 +22,9 @@ DEG = math.pi / 180
     [
         ("span(B.x)", metric.span("B.x")),
         ("least( 'bore' , order = 1)", metric.least("bore", order=1)),
-        ("greatest(rocker, 2)", metric.greatest("rocker", 2)),
+        ("greatest(rocker, order=2)", metric.greatest("rocker", order=2)),
         ("mean(10.x, over=(0, 90deg))", metric.mean("10.x", over=(0.0, 90 * DEG))),
-        ("rms(B.y, 0, (1, 2))", metric.rms("B.y", 0, (1.0, 2.0))),
+        ("rms(B.y, order=0, over=(1, 2))", metric.rms("B.y", order=0, over=(1.0, 2.0))),
         ("least_transmission(C)", metric.least_transmission("C")),
         (
             "least_transmission(C, between=(B, D))",
@@ -32,13 +32,16 @@ DEG = math.pi / 180
         ),
         (
             "deviation(P, circle, part=0.25, relative=True)",
-            metric.deviation("P", "circle", part=0.25, relative=True),
+            metric.deviation("P", shape="circle", part=0.25, relative=True),
         ),
         ("time_ratio(bore)", metric.time_ratio("bore")),
         ("full_rotation()", metric.full_rotation()),
-        ("peak_reaction(B, on=rod, speed=2)", metric.peak_reaction("B", "rod", 2.0)),
+        ("peak_reaction(B, on=rod, speed=2)", metric.peak_reaction("B", on="rod", speed=2.0)),
         ("peak_effort(speed=(1, 2))", metric.peak_effort(speed=[1.0, 2.0])),
-        ("flywheel_inertia(0.05, 20, period)", metric.flywheel_inertia(0.05, 20.0, "period")),
+        (
+            "flywheel_inertia(0.05, mean_speed=20, mean=period)",
+            metric.flywheel_inertia(0.05, mean_speed=20.0, mean="period"),
+        ),
         ("span(B.x) - 0.1*rms(r)", metric.span("B.x") - 0.1 * metric.rms("r")),
         ("-span(B.x)", -metric.span("B.x")),
         ("--span(B.x)", metric.span("B.x")),

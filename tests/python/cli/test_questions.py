@@ -146,11 +146,11 @@ def test_flywheel_of_a_machine(tmp_path: Path) -> None:
     written = columns((tmp_path / "speed.csv").read_text())
     assert same(written["speed"], own.speed(written["q"]))
     mechanism = assur.files.read(PRESS).mechanism
-    free = assur.Machine(mechanism, press().bodies, press().loads)
+    free = assur.Machine(mechanism, bodies=press().bodies, loads=press().loads)
     free.save(tmp_path / "free.toml")
     words = "flywheel", tmp_path / "free.toml", "--fluctuation", 0.05, "--mean-speed"
     given = figures(printed(*words, "200rpm", "--mean", "period"))
-    other = free.flywheel(0.05, 200 * np.pi / 30, "period")
+    other = free.flywheel(0.05, mean_speed=200 * np.pi / 30, mean="period")
     assert given["flywheel"] == pytest.approx(other.inertia, rel=1e-8)
     assert "mean_speed is needed: no motor" in refused(*words[:-1])
     assert "no fluctuation is given" in refused(*words[:2])
@@ -166,7 +166,7 @@ def test_flywheel_of_a_table(tmp_path: Path) -> None:
     np.savetxt(path, np.transpose([phi, moment, np.full(25, 2.0)]), delimiter=",", fmt="%.17g")
     words = "flywheel", path, "--degrees", "--mean-speed", "15rad/s"
     rows = assur.flywheel.read_table(path, degrees=True)
-    own = assur.flywheel.from_table(*rows, 0.1, 15.0, spline="natural")
+    own = assur.flywheel.from_table(*rows, fluctuation=0.1, mean_speed=15.0, spline="natural")
     found = figures(printed(*words, "--fluctuation", 0.1, "--spline", "natural"))
     assert found["flywheel"] == pytest.approx(own.inertia, rel=1e-8)
     given = figures(printed(*words, "--flywheel", repr(own.inertia), "--spline", "natural"))
@@ -287,7 +287,7 @@ def test_extremes_of_a_link_that_only_slides(tmp_path: Path) -> None:
         {"O": (0.0, 0.0), "A": (0.03, 0.04)},
         {"ground": "O", "crank": "OA", "block": "A", "yoke": ""},
         "crank",
-        {
+        slides={
             "block_slide": assur.Slide("block", on="yoke", angle=np.pi / 2),
             "yoke_slide": assur.Slide("yoke", on="ground", angle=0.0, origin="O"),
         },

@@ -63,7 +63,7 @@ def test_a_speed_gives_velocities_and_degrees_turn_angles() -> None:
     omega = 3000 * (np.pi / 30)
     found = table(
         *("solve", "example:engine", "--set", "rod.length=220mm", "--q", "10,20deg"),
-        *("--omega", "3000rpm", "--alpha", "5", "--degrees", "--moving"),
+        *("--speed", "3000rpm", "--acceleration", "5", "--degrees", "--moving"),
     )
     assert "O.x" not in found
     assert same(found["q"], np.degrees(motion.q))
@@ -194,9 +194,9 @@ def test_what_is_left_out_is_said(tmp_path: Path) -> None:
         (("example:engine", "--set", "rod.length=1deg"), "--set rod.length is a length"),
         (("example:engine", "--set", "rod.length=-1"), "a length must be positive"),
         (("example:engine", "--set", "rod.length=1,2"), "one number is needed"),
-        (("example:engine", "--omega", "1,2"), "--omega has 2 numbers: one number is needed"),
-        (("example:engine", "--omega", "1m/s"), "--omega is an angular speed"),
-        (("example:engine", "--omega", "1", "--alpha", "1rpm"), "write no unit"),
+        (("example:engine", "--speed", "1,2"), "--speed has 2 numbers: one number is needed"),
+        (("example:engine", "--speed", "1m/s"), "--speed is an angular speed"),
+        (("example:engine", "--speed", "1", "--acceleration", "1rpm"), "write no unit"),
         (("://",), "the text is of no known format"),
         (("",), "cannot be read"),
     ],

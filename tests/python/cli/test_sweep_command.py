@@ -55,7 +55,7 @@ def test_the_best_and_conditions() -> None:
         (("--by", "span(P.x)"), "span(P.x)", False),
     ):
         found = table(*words, *where, *flags)
-        best = own.best(3, by, greatest)
+        best = own.best(3, by, greatest=greatest)
         assert len(best) == 3
         assert same(found[by], own[by].ravel()[best])
         assert same(found["design0"] * 3 + found["design1"], best)

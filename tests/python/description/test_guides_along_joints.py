@@ -19,7 +19,7 @@ LINKS = {"ground": "OD", "crank": "OA", "lever": "DE", "block": "A"}
 
 def shaper(**guide: Any) -> assur.Mechanism:
     slot = assur.Slide("block", on="lever", origin="D", **guide)
-    return assur.Mechanism(JOINTS, LINKS, "crank", {"slot": slot})
+    return assur.Mechanism(JOINTS, LINKS, "crank", slides={"slot": slot})
 
 
 def test_a_guide_along_two_joints_has_their_direction(tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ def on_two_guides(apart: float) -> assur.Mechanism:
         "s0": assur.Slide("a", on="b", angle=1.0),
         "s1": assur.Slide("b", on="ground", angle=1.0 + apart),
     }
-    return assur.Mechanism(JOINTS, LINKS, "crank", slides)
+    return assur.Mechanism(JOINTS, LINKS, "crank", slides=slides)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -48,7 +48,7 @@ def bed_on_rails(apart: float) -> assur.Mechanism:
         {"A": (0, 0), "B": (1, 0.3), "C": (3, 1), "D": (4, 1.5), "E": (0, 1), "F": (0, 1.5)},
         {"ground": "AEF", "crank": "AB", "rod": "BC", "bed": "CD"},
         "crank",
-        {
+        slides={
             "s0": assur.Slide("bed", on="ground", angle=0.0, origin="E"),
             "s1": assur.Slide("bed", on="ground", angle=apart, origin="F"),
         },
@@ -119,7 +119,7 @@ def test_chains_with_a_nearly_singular_dyad_have_one_freedom() -> None:
         if drawn is None:
             continue
         joints, links, slides = drawn
-        structure = assur.Mechanism(joints, links, "crank", slides).structure
+        structure = assur.Mechanism(joints, links, "crank", slides=slides).structure
         assert (structure.mobility, structure.adjustment) == (1, 0.0)
         assert not structure.redundant
         built += 1

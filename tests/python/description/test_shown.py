@@ -72,13 +72,13 @@ def test_equilibria_print_line_by_line() -> None:
         {"O": (0, 0), "A": (0.2, 0)}, {"ground": ["O"], "rod": ["O", "A"]}, "rod"
     )
     bob = {"rod": assur.Body(mass=3.0, at="A")}
-    rest = assur.Machine(pendulum, bob, [assur.Gravity()]).equilibria()
+    rest = assur.Machine(pendulum, bodies=bob, loads=[assur.Gravity()]).equilibria()
     assert repr(rest).splitlines() == [
         "<assur.Equilibria>",
         "q = -1.5708: stable, 7.00357 rad/s",
         "q = 1.5708: not stable",
     ]
-    free = assur.Machine(pendulum, bob).equilibria()
+    free = assur.Machine(pendulum, bodies=bob).equilibria()
     assert repr(free).splitlines()[1].endswith(": indifferent")
-    pushed = assur.Machine(pendulum, bob, [assur.Torque("rod", 5.0)]).equilibria()
+    pushed = assur.Machine(pendulum, bodies=bob, loads=[assur.Torque("rod", 5.0)]).equilibria()
     assert repr(pushed) == "<assur.Equilibria: none>"

@@ -85,7 +85,7 @@ def test_guides_are_turned_within_the_angle(off: float) -> None:
             {"A": (0, 0), "B": (1, 0.3), "C": (3, 1), "D": (4, 1.5), "E": (0, 1), "F": (0, 1.5)},
             {"ground": "AEF", "crank": "AB", "rod": "BC", "bed": "CD"},
             "crank",
-            {
+            slides={
                 "s0": assur.Slide("bed", on="ground", angle=0.0, origin="E"),
                 "s1": assur.Slide("bed", on="ground", angle=off, origin="F"),
             },

@@ -34,7 +34,7 @@ def local(link: str, at: tuple[float, float]) -> complex:
 
 @pytest.mark.parametrize("link", PLACES)
 def test_the_place_in_the_frame(link: str) -> None:
-    machine = Machine(four_bar(), {link: Body(2.0, 0.1, drawn=PLACES[link])})
+    machine = Machine(four_bar(), bodies={link: Body(2.0, 0.1, drawn=PLACES[link])})
     body = machine.bodies[link]
     assert (body.mass, body.inertia, body.drawn) == (2.0, 0.1, None)
     assert body.at == pytest.approx(
@@ -46,7 +46,7 @@ def test_the_place_in_the_frame(link: str) -> None:
 def test_its_weight_acts_there() -> None:
     """By the work of the weights, for a small turn."""
     bodies = {link: Body(3.0, drawn=at) for link, at in PLACES.items()}
-    machine = Machine(four_bar(), bodies, [Gravity()])
+    machine = Machine(four_bar(), bodies=bodies, loads=[Gravity()])
     own = four_bar()
     assert own.q0 == pytest.approx(math.atan2(-0.6, -0.8))
     heights = sum(at[1] for at in PLACES.values())
@@ -64,7 +64,7 @@ def test_a_link_of_no_joints_and_the_ground() -> None:
         },
     )
     bodies = {link: Body(1.0, drawn=(1.5, 2.5)) for link in ("ground", "crank", "block", "bar")}
-    machine = Machine(own, bodies, [Gravity()])
+    machine = Machine(own, bodies=bodies, loads=[Gravity()])
     assert machine.bodies["ground"].at == (1.5, 2.5)
     assert machine.potential(own.q0) == pytest.approx(4.0 * 9.81 * 2.5)
 
@@ -76,14 +76,14 @@ def test_the_drawing_is_that_of_the_design() -> None:
     for mechanism in (own, other):
         joints = mechanism.joints
         middle = tuple(np.mean([joints["B"], joints["C"]], axis=0))
-        machine = Machine(mechanism, {"coupler": Body(1.0, drawn=middle)})
+        machine = Machine(mechanism, bodies={"coupler": Body(1.0, drawn=middle)})
         assert machine.bodies["coupler"].at == pytest.approx((2.25, 0.0), abs=1e-14)
     batch = machine.of(other.with_dimensions({"coupler.length": [4.4, 4.6]}))
     assert batch.bodies == machine.bodies
 
 
 def test_copies_and_files(tmp_path: Path) -> None:
-    machine = Machine(four_bar(), {link: Body(3.0, drawn=at) for link, at in PLACES.items()})
+    machine = Machine(four_bar(), bodies={link: Body(3.0, drawn=at) for link, at in PLACES.items()})
     assert pickle.loads(pickle.dumps(machine)) == machine
     path = tmp_path / "machine.toml"
     machine.save(path)
@@ -112,8 +112,8 @@ def test_refused() -> None:
     batch = four_bar().with_dimensions({"coupler.length": [4.4, 4.6]})
     body = {"coupler": Body(1.0, drawn=(0.0, 1.0))}
     with pytest.raises(assur.InputError, match=r"this is a batch \(2,\): make the machine of one"):
-        Machine(batch, body)
+        Machine(batch, bodies=body)
     with pytest.raises(assur.InputError, match="cannot be assembled at its q0: give at"):
-        Machine(four_bar().with_dimensions({"coupler.length": 40.0}), body)
+        Machine(four_bar().with_dimensions({"coupler.length": 40.0}), bodies=body)
     with pytest.raises(assur.InputError, match="couplr"):
-        Machine(four_bar(), {"couplr": Body(1.0, drawn=(0.0, 1.0))})
+        Machine(four_bar(), bodies={"couplr": Body(1.0, drawn=(0.0, 1.0))})

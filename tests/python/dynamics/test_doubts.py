@@ -17,7 +17,9 @@ TURN = math.tau
 
 
 def press(*loads: Any) -> assur.Machine:
-    return assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(20.0)}, loads)
+    return assur.Machine(
+        assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(20.0)}, loads=loads
+    )
 
 
 CALLS: dict[str, Callable[[Any], Any]] = {
@@ -40,26 +42,26 @@ def test_degrees(name: str) -> None:
 def test_a_spline_that_leaves_its_rows() -> None:
     rows = np.radians([0, 330, 350, 360]), [0, -9000, -9000, 0]
     with pytest.warns(assur.AssurWarning, match='between rows of -9000 … 0: spline="pchip"'):
-        table = assur.Table(*rows, "not-a-knot")
+        table = assur.Table(*rows, spline="not-a-knot")
     assert table.at(np.linspace(0.0, TURN, 1000)).max() > 9000.0
-    assur.Table(*rows, "linear")
+    assur.Table(*rows, spline="linear")
     assur.Table(*rows)
     # Enough rows of a smooth curve do not leave their range by far.
     q = np.linspace(0.0, TURN, 13)
-    assur.Table(q, np.append(np.sin(q)[:-1], 0.0), "not-a-knot")
+    assur.Table(q, np.append(np.sin(q)[:-1], 0.0), spline="not-a-knot")
 
 
 @pytest.mark.parametrize("q", [[0.0, 5e-324, 1e-323], [0.0, 1.0, 2.0]])
 def test_a_spline_beyond_all_numbers_is_not_doubted(q: list[float]) -> None:
     """No warning of NumPy: what reads the curve says that it is not finite."""
-    assur.Table(q, [0.0, 1e308, 0.0], "not-a-knot")
+    assur.Table(q, [0.0, 1e308, 0.0], spline="not-a-knot")
     assur.Table(q, [0.0, 1e308, 0.0])
 
 
 def test_a_table_wider_than_all_numbers() -> None:
     for spline in ("linear", "natural"):
         with pytest.raises(assur.InputError, match="from -1e\\+308 to 1e\\+308 is wider"):
-            assur.Table([-1e308, 0.0, 1e308], [0.0, 1.0, 0.0], spline)
+            assur.Table([-1e308, 0.0, 1e308], [0.0, 1.0, 0.0], spline=spline)
 
 
 @pytest.mark.parametrize("size", [1e-9, 1.0, 1e14])
@@ -69,7 +71,7 @@ def test_links_of_any_size_turn(size: float) -> None:
         {"A": (0, 0), "B": (1.1 * size, 0.9 * size), "R": (0.9 * size, 0)},
         {"ground": "AR", "arm": "AB"},
         "ram",
-        {"ram": assur.Cylinder("R", "B")},
+        slides={"ram": assur.Cylinder("R", "B")},
     )
     assur.Machine(m, loads=[assur.Torque("arm", 1.0, while_="forward", over="arm")])
 
@@ -90,15 +92,17 @@ def test_a_link_that_never_turns(load: Any) -> None:
 def test_the_flywheel_of_four_strokes() -> None:
     """The same as from the table over two turns, which one turn does not fit."""
     q = np.linspace(0.0, 2.0 * TURN, 25)
-    gas = assur.Table(q, np.append(np.sin(q / 2.0)[:-1] ** 2 * 900.0, 0.0), "linear")
+    gas = assur.Table(q, np.append(np.sin(q / 2.0)[:-1] ** 2 * 900.0, 0.0), spline="linear")
     machine = press(assur.Force("B", (gas, 0.0)))
     with pytest.raises(assur.InputError, match="pass turns="):
-        machine.flywheel(0.05, 20.0)
-    own = machine.flywheel(0.05, 20.0, turns=2)
+        machine.flywheel(0.05, mean_speed=20.0)
+    own = machine.flywheel(0.05, mean_speed=20.0, turns=2)
     at = np.linspace(0.0, 2.0 * TURN, 24 * 200 + 1)
     moment, inertia = machine.reduced_moment(at, 20.0), machine.reduced_inertia(at).value
     moment[-1], inertia[-1] = moment[0], inertia[0]
-    table = assur.flywheel.from_table(at, moment, inertia, 0.05, 20.0, spline="linear")
+    table = assur.flywheel.from_table(
+        at, moment, inertia, fluctuation=0.05, mean_speed=20.0, spline="linear"
+    )
     assert own.inertia == pytest.approx(table.inertia, rel=1e-4)
     assert own.delta == pytest.approx(0.05, rel=1e-12)
 
@@ -114,7 +118,9 @@ def test_periods_far_too_short_are_refused() -> None:
     short = 1e-10
     rows = [0.0, short / 2, short / 2, short], [0.0, 1.0, 2.0, 0.0]
     with pytest.raises(assur.InputError, match="over 'bore' has a period of 1e-10"):
-        press(assur.Force("B", (assur.Table(*rows, "linear", True, over="bore"), 0.0)))
-    machine = press(assur.Torque("crank", assur.Table(*rows, "linear")))
+        press(
+            assur.Force("B", (assur.Table(*rows, spline="linear", periodic=True, over="bore"), 0.0))
+        )
+    machine = press(assur.Torque("crank", assur.Table(*rows, spline="linear")))
     with pytest.raises(assur.InputError, match="too many jumps"):
         machine.duty(np.linspace(0.0, 6.0, 50), 3.0)

@@ -46,7 +46,7 @@ def machine(ground: str = "AD", shift: tuple[float, float] = (0.0, 0.0)) -> assu
         "coupler": Body(3.0, 0.2, (1.2, 0.3)),
         "ground": Body(7.0, 0.0, (11.0 + shift[0], 3.0 + shift[1])),
     }
-    return assur.Machine(four_bar(ground, shift), bodies, loads(shift))
+    return assur.Machine(four_bar(ground, shift), bodies=bodies, loads=loads(shift))
 
 
 def test_a_spring_to_a_place_on_the_ground_has_the_length_of_the_drawing() -> None:
@@ -54,7 +54,7 @@ def test_a_spring_to_a_place_on_the_ground_has_the_length_of_the_drawing() -> No
     for ground in ("AD", "DA"):
         spring = Spring("B", ("ground", (10.0, 3.0)), 100.0, 0.0)
         m = four_bar(ground)
-        own = assur.Machine(m, {"crank": Body(inertia=1.0)}, [spring])
+        own = assur.Machine(m, bodies={"crank": Body(inertia=1.0)}, loads=[spring])
         assert own.potential(m.q0) == pytest.approx(200.0, rel=1e-14)
 
 
@@ -63,7 +63,9 @@ def test_a_place_on_a_link_turns_with_it() -> None:
     motion = m.solve(Q)
     anchor = np.array([9.5, 4.0])
     for link, first in (("crank", "A"), ("coupler", "B"), ("rocker", "D")):
-        own = assur.Machine(m, {}, [Spring((link, (0.6, -0.4)), ("ground", (9.5, 4.0)), 80.0, 1.5)])
+        own = assur.Machine(
+            m, bodies={}, loads=[Spring((link, (0.6, -0.4)), ("ground", (9.5, 4.0)), 80.0, 1.5)]
+        )
         angle = motion.link(link).value
         turn = np.stack([np.cos(angle), np.sin(angle), -np.sin(angle), np.cos(angle)], -1)
         place = motion.joint(first).value + 0.6 * turn[..., :2] - 0.4 * turn[..., 2:]
@@ -80,7 +82,9 @@ def test_a_place_on_a_link_of_one_joint_is_along_its_guide() -> None:
     m = assur.Mechanism(joints=joints, links=links, slides={"bore": bore}, driver="crank")
     along = np.array([math.cos(slope), math.sin(slope)])
     across = np.array([-along[1], along[0]])
-    own = assur.Machine(m, {}, [Spring(("piston", (0.2, 0.1)), ("ground", (1.0, -2.0)), 10.0, 0.0)])
+    own = assur.Machine(
+        m, bodies={}, loads=[Spring(("piston", (0.2, 0.1)), ("ground", (1.0, -2.0)), 10.0, 0.0)]
+    )
     place = m.solve(Q).joint("B").value + 0.2 * along + 0.1 * across
     squared = np.square(place - [1.0, -2.0]).sum(axis=-1)
     np.testing.assert_allclose(own.potential(Q), 5.0 * squared, rtol=1e-13)
@@ -95,7 +99,9 @@ def test_a_place_on_a_disc_without_joints_is_where_its_guides_cross() -> None:
         "tongue2": assur.Slide("disc", on="shaft2", angle=0.4 + math.pi / 2, origin="O2"),
     }
     m = assur.Mechanism(joints=joints, links=links, slides=slides, driver="shaft1")
-    own = assur.Machine(m, {}, [Spring(("disc", (0.3, 0.0)), ("ground", (2.5, 2.5)), 10.0, 0.0)])
+    own = assur.Machine(
+        m, bodies={}, loads=[Spring(("disc", (0.3, 0.0)), ("ground", (2.5, 2.5)), 10.0, 0.0)]
+    )
     motion = m.solve(Q)
     angle = motion.link("disc").value
     along = np.stack([np.cos(angle), np.sin(angle)], -1)
@@ -128,7 +134,7 @@ def test_moving_the_drawing_changes_only_positions() -> None:
 def test_springs_push_as_their_energy_falls() -> None:
     springs = [load for load in loads() if isinstance(load, Spring | TorsionSpring | Gravity)]
     bodies = {"coupler": Body(3.0, 0.2, (1.2, 0.3)), "ground": Body(7.0, 0.0, (11.0, 3.0))}
-    own = assur.Machine(four_bar("DA"), bodies, springs)
+    own = assur.Machine(four_bar("DA"), bodies=bodies, loads=springs)
     step = 1e-4
     rise = (own.potential(Q + step) - own.potential(Q - step)) / (2.0 * step)
     # Differences are good to their curvature, step² of it, and to rounding, 1e-16 / step.
@@ -137,12 +143,14 @@ def test_springs_push_as_their_energy_falls() -> None:
 
 def test_a_force_on_the_ground_does_no_work() -> None:
     force = Force(("ground", (12.0, 1.0)), (40.0, 7.0))
-    own = assur.Machine(four_bar("DA"), {}, [force])
+    own = assur.Machine(four_bar("DA"), bodies={}, loads=[force])
     np.testing.assert_array_equal(own.reduced_moment(Q), np.zeros(Q.size))
 
 
 def test_a_damper_to_the_ground_dissipates_by_its_rate_of_length() -> None:
-    own = assur.Machine(four_bar("DA"), {}, [Damper(("ground", (14.0, 2.0)), "B", 5.0)])
+    own = assur.Machine(
+        four_bar("DA"), bodies={}, loads=[Damper(("ground", (14.0, 2.0)), "B", 5.0)]
+    )
     pin = four_bar().solve(Q).joint("B")
     span = pin.value - [14.0, 2.0]
     rate = (span * pin.velocity(2.0)).sum(axis=-1) / np.linalg.norm(span, axis=-1)

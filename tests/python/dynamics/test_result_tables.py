@@ -41,7 +41,7 @@ def test_a_run_of_two_drivers() -> None:
     at = {"A": (0.0, 0.0), "B": (1.0, 0.0), "C": (1.5, 0.8)}
     arm = assur.Mechanism(at, {"ground": "A", "upper": "AB", "lower": "BC"}, ["upper", "lower"])
     bodies = {"upper": assur.Body(1.0, 0.1, at="B"), "lower": assur.Body(1.0, 0.1, at="C")}
-    run = assur.Machine(arm, bodies, loads=[assur.Gravity((0.0, -9.81))]).run(
+    run = assur.Machine(arm, bodies=bodies, loads=[assur.Gravity((0.0, -9.81))]).run(
         0.1, arm.q0, np.zeros(2)
     )
     table = run.to_dataframe()
@@ -54,7 +54,7 @@ def test_a_steady_state_and_a_flywheel() -> None:
     np.testing.assert_array_equal(steady.to_dataframe()["speed"], steady.speed)
     plain = assur.Machine(
         assur.SliderCrank(0.05, 0.2), bodies={"piston": assur.Body(mass=2.0)}
-    ).flywheel(1 / 8, 20.0)
+    ).flywheel(1 / 8, mean_speed=20.0)
     table = plain.to_dataframe(degrees=True)
     assert table["q"].iloc[-1] == 360.0
     q = np.radians(table["q"].to_numpy())
@@ -62,7 +62,9 @@ def test_a_steady_state_and_a_flywheel() -> None:
     assert table.attrs["units"]["reduced_inertia"] == "kg m2"
     phi = np.linspace(0.0, 2.0 * np.pi, 25)
     moments = np.stack([300.0 * np.sin(phi), 400.0 * np.sin(phi)])
-    batch = assur.flywheel.from_table(phi, moments, np.full(25, 2.0), 1 / 8, 15.0)
+    batch = assur.flywheel.from_table(
+        phi, moments, np.full(25, 2.0), fluctuation=1 / 8, mean_speed=15.0
+    )
     several = batch.to_dataframe()
     assert several["design"].unique().tolist() == [0, 1]
     assert several["work"].max() > batch.work(1.0).min()
@@ -77,7 +79,7 @@ def test_reactions() -> None:
     np.testing.assert_array_equal(table["bore.normal"], found.slide("bore").normal)
     np.testing.assert_array_equal(table["shaking_moment"], found.shaking_moment)
     assert table.attrs["units"]["bore.along"] == "m"
-    driven = assur.SliderCrank(0.05, 0.2).with_driver("bore", {"A": 1})
+    driven = assur.SliderCrank(0.05, 0.2).with_driver("bore", assembly={"A": 1})
     machine = assur.Machine(driven, bodies={"piston": assur.Body(mass=2.0)})
     table = machine.reactions(0.2, 1.0, 0.0).to_dataframe(degrees=True)
     assert (table["q"][0], table.attrs["units"]["driver"]) == (0.2, "N")

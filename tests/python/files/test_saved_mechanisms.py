@@ -198,7 +198,7 @@ def test_cylinders_stay_cylinders(tmp_path: Path) -> None:
         {"A": (0, 0), "B": (1.1, 0.9), "R": (0.9, 0.0)},
         {"ground": "AR", "lift_barrel": "R", "lift_rod": "B", "arm": "AB"},
         "lift",
-        {"lift": assur.Slide("lift_rod", "lift_barrel", math.atan2(0.9, 1.1 - 0.9), "R")},
+        slides={"lift": assur.Slide("lift_rod", "lift_barrel", math.atan2(0.9, 1.1 - 0.9), "R")},
     )
     assert "angle" in text_of(plain)
     again(plain, tmp_path / "m.toml")
@@ -210,7 +210,7 @@ def test_a_slide_keeps_whether_it_is_a_length(tmp_path: Path) -> None:
             {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
             {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
             "lift",
-            {"lift": assur.Slide("ram", "tube", math.pi / 4, "foot", length=length)},
+            slides={"lift": assur.Slide("ram", "tube", math.pi / 4, "foot", length=length)},
         )
 
     for mechanism, low in ((held(length=False), -2.0), (held(length=True), 0.0)):

@@ -164,7 +164,7 @@ def test_arguments_of_numpy(tmp_path: Path) -> None:
         "run": {"t_end": np.float64(0.1), "max_steps": 7, "atol": (1e-9, np.float64(1e-9))},
         "reactions": {"q": np.array([0.1, 0.2]), "sense": np.int64(1)},
     }
-    own = assur.Machine(four_bar(), {"crank": assur.Body(inertia=1.0)})
+    own = assur.Machine(four_bar(), bodies={"crank": assur.Body(inertia=1.0)})
     assur.files.save(Contents(own.mechanism, own, wanted), tmp_path / "m.toml")  # type: ignore[arg-type]
     after = assur.files.read(tmp_path / "m.toml")
     assert after.wanted["solve"]["deg"] == Range(0.1, 0.5, count=3)
@@ -175,7 +175,7 @@ def test_arguments_of_numpy(tmp_path: Path) -> None:
 def test_motors_of_files_drive(tmp_path: Path) -> None:
     """A result with a motor of each kind is that of the machine in memory."""
     for motor in MOTORS.values():
-        own = assur.Machine(four_bar(), {"crank": assur.Body(inertia=1.0)}, motor=motor)
+        own = assur.Machine(four_bar(), bodies={"crank": assur.Body(inertia=1.0)}, motor=motor)
         own.save(tmp_path / "m.toml")
         runs = [
             m.run(t_end=0.02, q0=0.5, speed0=1.0) for m in (own, assur.load(tmp_path / "m.toml"))

@@ -79,7 +79,8 @@ def test_p3_without_a_flywheel() -> None:
 def test_errata_of_p3() -> None:
     """The motor's sign, the fifth knot of two printings, the ends of the spline."""
     first, second = (
-        flywheel.from_table(PHI, moment, INERTIA, 1 / 8, 15.0) for moment in (MOMENT, SECOND)
+        flywheel.from_table(PHI, moment, INERTIA, fluctuation=1 / 8, mean_speed=15.0)
+        for moment in (MOMENT, SECOND)
     )
     # The motor is printed without its minus: it is against the mean of the loads.
     assert first.motor_moment > 0 > np.mean(MOMENT)
@@ -88,7 +89,7 @@ def test_errata_of_p3() -> None:
     # The printed 19.92 is that of -300.0.
     assert (round(first.inertia, 2), round(second.inertia, 2)) == (19.92, 19.91)
     # Printed 15.003 with the printed flywheel and speed; 15.0035 with the numbers as printed.
-    printed = flywheel.evaluate(PHI, MOMENT, INERTIA, 19.92, speed0=15.52)
+    printed = flywheel.evaluate(PHI, MOMENT, INERTIA, flywheel=19.92, speed0=15.52)
     assert printed.mean_speed == pytest.approx(15.0035057, abs=5e-8)
     ends = {"natural": 193.79536727, "clamped": 192.97125, "periodic": 192.97125}
     for spline, motor in ends.items():
@@ -120,7 +121,9 @@ def test_random_tables_at_fifty_digits(
     seed: int, rows: int, delta: float, spline: Any, mean: Any
 ) -> None:
     phi, moment, inertia = (PHI, MOMENT, INERTIA) if seed == 0 else table(seed, rows)
-    f = flywheel.from_table(phi, moment, inertia, delta, 15.0, mean=mean, spline=spline)
+    f = flywheel.from_table(
+        phi, moment, inertia, fluctuation=delta, mean_speed=15.0, mean=mean, spline=spline
+    )
     machine = oracle.from_table(exact(phi), exact(moment), exact(inertia), spline)
     assert f.motor_moment == pytest.approx(float(machine.motor), rel=CLOSE)
     # What was found has, at 50 digits, the fluctuation and the mean asked for.
@@ -155,7 +158,9 @@ def test_khurmi_and_gupta() -> None:
     q = np.linspace(0.0, TURN, 1441)
     omega = 180 * TURN / 60
     torque = 20000 + 9500 * np.sin(2 * q) - 5700 * np.cos(2 * q)
-    f = flywheel.from_table(q, torque - 20000, np.full_like(q, 100.0), 0.01, omega)
+    f = flywheel.from_table(
+        q, torque - 20000, np.full_like(q, 100.0), fluctuation=0.01, mean_speed=omega
+    )
     assert f.inertia + 100.0 == pytest.approx(3118.1055575550, rel=1e-9)
     work = f.work(q)
     assert np.ptp(work) == pytest.approx(11078.8086, abs=5e-2)
@@ -195,7 +200,9 @@ def test_curves_belong_together() -> None:
 def test_tables_whose_period_is_not_a_turn() -> None:
     """An engine of four strokes repeats after two turns; beginnings may be anywhere."""
     q = np.linspace(1.0, 1.0 + 2 * TURN, 97)
-    f = flywheel.from_table(q, 50 * np.cos((q - 1) / 2), 2 + 0.1 * np.cos(q - 1), 0.02, 100.0)
+    f = flywheel.from_table(
+        q, 50 * np.cos((q - 1) / 2), 2 + 0.1 * np.cos(q - 1), fluctuation=0.02, mean_speed=100.0
+    )
     assert f.period == pytest.approx(2 * TURN / 100.0, rel=2e-2)
     assert f.time(1.0) == 0.0
     assert f.speed(1.0 + 2 * TURN) == pytest.approx(f.speed0, rel=1e-14)
@@ -203,25 +210,31 @@ def test_tables_whose_period_is_not_a_turn() -> None:
 
 def test_degrees_are_doubted() -> None:
     with pytest.warns(assur.AssurWarning, match=r"phi covers 360 rad, 57\.2958 turns.*degrees"):
-        flywheel.from_table(np.rad2deg(PHI), MOMENT, INERTIA, 1 / 8, 15.0)
+        flywheel.from_table(np.rad2deg(PHI), MOMENT, INERTIA, fluctuation=1 / 8, mean_speed=15.0)
     for turns in (0.25, 0.5, 1.0, 2.0, 6.283 / TURN):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            flywheel.from_table(PHI * turns, MOMENT, INERTIA, 0.02, 15.0)
+            flywheel.from_table(PHI * turns, MOMENT, INERTIA, fluctuation=0.02, mean_speed=15.0)
 
 
 def test_batches_have_the_bits_of_single_tables() -> None:
     rng = np.random.default_rng(5)
     factors = rng.uniform(0.5, 2.0, (40, 5, 1))
     deltas = rng.uniform(0.02, 0.2, 5)
-    many = flywheel.from_table(PHI, factors * MOMENT, INERTIA, deltas, 15.0, threads=2)
+    many = flywheel.from_table(
+        PHI, factors * MOMENT, INERTIA, fluctuation=deltas, mean_speed=15.0, threads=2
+    )
     assert many.shape == (40, 5)
-    again = flywheel.from_table(PHI, factors * MOMENT, INERTIA, deltas, 15.0, threads=1)
+    again = flywheel.from_table(
+        PHI, factors * MOMENT, INERTIA, fluctuation=deltas, mean_speed=15.0, threads=1
+    )
     q = np.array([0.3, 4.0])
     assert many.speed(q).shape == (40, 5, 2)
     assert np.array_equal(many.inertia, again.inertia)
     for i, j in ((0, 0), (17, 3), (39, 4)):
-        one = flywheel.from_table(PHI, factors[i, j] * MOMENT, INERTIA, deltas[j], 15.0)
+        one = flywheel.from_table(
+            PHI, factors[i, j] * MOMENT, INERTIA, fluctuation=deltas[j], mean_speed=15.0
+        )
         assert one.inertia == many.inertia[i, j]
         assert one.period == many.period[i, j]
         assert np.array_equal(one.speed(q), many.speed(q)[i, j])
@@ -231,14 +244,14 @@ def test_batches_have_the_bits_of_single_tables() -> None:
 
 def test_a_bad_table_of_a_batch_is_nan_in_its_place() -> None:
     moments = np.array([1.0, 0.01, np.nan])[:, np.newaxis] * MOMENT
-    f = flywheel.from_table(PHI, moments, INERTIA, 0.1, 15.0, on_error="nan")
+    f = flywheel.from_table(PHI, moments, INERTIA, fluctuation=0.1, mean_speed=15.0, on_error="nan")
     assert np.isnan(f.inertia).tolist() == [False, True, True]
     assert np.isnan(f.speed(1.0)).tolist() == [False, True, True]
     assert "none is needed" in f.explain(1)
     assert "row 0 of the table: moment is NaN" in f.explain(2)
     assert "a flywheel of" in f.explain(0)
     with pytest.raises(assur.InputError, match=r"table \(1,\) \(and 1 more\)"):
-        flywheel.from_table(PHI, moments, INERTIA, 0.1, 15.0)
+        flywheel.from_table(PHI, moments, INERTIA, fluctuation=0.1, mean_speed=15.0)
 
 
 @pytest.mark.parametrize(

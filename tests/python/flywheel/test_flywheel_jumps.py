@@ -30,7 +30,7 @@ def test_a_punch(spline: Spline) -> None:
     assert found.inertia == pytest.approx(exact, rel=1e-13)
     assert found.motor_moment == pytest.approx(700.0 / TURN, rel=1e-14)
     assert (found.greatest.at, found.least.at) == (0.0, 1.0)
-    again = flywheel.evaluate(*PUNCH, 0.0, found.inertia, mean_speed=20.0, spline=spline)
+    again = flywheel.evaluate(*PUNCH, 0.0, flywheel=found.inertia, mean_speed=20.0, spline=spline)
     assert again.delta == pytest.approx(0.1, rel=1e-12)
 
 
@@ -42,10 +42,12 @@ def test_as_the_machine_of_a_shaft(seed: int) -> None:
     phi = np.concatenate([[0.0], inner[:2], inner[1:5], inner[4:], [TURN]])
     moment = rng.uniform(-300.0, 300.0, phi.size)
     moment[-1] = moment[0]
-    short = flywheel.from_table(phi, moment, 1.5, 0.05, 30.0, spline="linear")
-    load = Torque("crank", Table(phi, moment, "linear"))
+    short = flywheel.from_table(
+        phi, moment, 1.5, fluctuation=0.05, mean_speed=30.0, spline="linear"
+    )
+    load = Torque("crank", Table(phi, moment, spline="linear"))
     bodies = {"crank": assur.Body(inertia=1.5)}
-    long = Machine(shaft(), bodies, [load]).flywheel(0.05, mean_speed=30.0)
+    long = Machine(shaft(), bodies=bodies, loads=[load]).flywheel(0.05, mean_speed=30.0)
     assert short.inertia == pytest.approx(long.inertia, rel=1e-8)
     assert short.motor_moment == pytest.approx(long.motor_moment, rel=1e-9)
     assert short.delta == pytest.approx(0.05, rel=1e-10)
@@ -60,9 +62,14 @@ def test_a_jump_at_the_seam() -> None:
 
 def test_a_batch_of_tables() -> None:
     phi, moment = np.array(PUNCH[0]), np.array([PUNCH[1], [-300.0, -500.0, 20.0, -300.0]])
-    batch = flywheel.from_table(phi, moment, 0.0, 0.1, 20.0, spline="linear")
+    batch = flywheel.from_table(phi, moment, 0.0, fluctuation=0.1, mean_speed=20.0, spline="linear")
     for own, row in zip(batch.inertia, moment, strict=True):
-        assert own == flywheel.from_table(phi, row, 0.0, 0.1, 20.0, spline="linear").inertia
+        assert (
+            own
+            == flywheel.from_table(
+                phi, row, 0.0, fluctuation=0.1, mean_speed=20.0, spline="linear"
+            ).inertia
+        )
 
 
 def test_a_machine_of_a_table_runs_over_jumps() -> None:
@@ -86,8 +93,8 @@ def test_the_inertia_is_one_curve() -> None:
     twice = np.insert(inertia, 4, inertia[4])
     moment = np.where(np.arange(14) < 5, -100.0, 20.0)
     moment[-1] = moment[0]
-    cut = flywheel.evaluate(rows, moment, twice, 1.0, speed0=10.0)
-    plain = flywheel.evaluate(phi, np.zeros(13), inertia, 1.0, speed0=10.0)
+    cut = flywheel.evaluate(rows, moment, twice, flywheel=1.0, speed0=10.0)
+    plain = flywheel.evaluate(phi, np.zeros(13), inertia, flywheel=1.0, speed0=10.0)
     x = np.linspace(0.0, TURN, 50)
     np.testing.assert_array_equal(cut.reduced_inertia(x), plain.reduced_inertia(x))
 

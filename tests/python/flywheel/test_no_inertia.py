@@ -36,18 +36,18 @@ def test_the_flywheel_of_a_turning_moment_diagram_is_the_textbooks() -> None:
 @pytest.mark.parametrize("zero", [0.0, 0, 0.0 * PHI, np.zeros((2, 1441))])
 def test_zero_inertia_is_zero_however_it_is_written(zero: Any) -> None:
     one = flywheel.from_table(PHI, MOMENT, fluctuation=DELTA, mean_speed=SPEED)
-    made = flywheel.from_table(PHI, MOMENT, zero, DELTA, SPEED)
+    made = flywheel.from_table(PHI, MOMENT, zero, fluctuation=DELTA, mean_speed=SPEED)
     assert np.unique(made.inertia).tolist() == [one.inertia]
 
 
 @pytest.mark.parametrize("mean", ["extremes", "period"])
 def test_an_inertia_of_its_own_is_taken_off_the_flywheel(mean: Any) -> None:
     """A constant one: the flywheel is less by as much."""
-    bare = flywheel.from_table(PHI, MOMENT, 0.0, DELTA, SPEED, mean)
-    own = flywheel.from_table(PHI, MOMENT, 70.0, DELTA, SPEED, mean)
+    bare = flywheel.from_table(PHI, MOMENT, 0.0, fluctuation=DELTA, mean_speed=SPEED, mean=mean)
+    own = flywheel.from_table(PHI, MOMENT, 70.0, fluctuation=DELTA, mean_speed=SPEED, mean=mean)
     assert own.inertia + 70.0 == pytest.approx(bare.inertia, rel=1e-12)
     assert own.greatest.value == pytest.approx(bare.greatest.value, rel=1e-12)
-    again = flywheel.evaluate(PHI, MOMENT, 0.0, bare.inertia, mean_speed=SPEED, mean=mean)
+    again = flywheel.evaluate(PHI, MOMENT, 0.0, flywheel=bare.inertia, mean_speed=SPEED, mean=mean)
     assert again.delta == pytest.approx(DELTA, rel=1e-10)
 
 
@@ -64,7 +64,9 @@ def test_the_inertia_may_be_zero_in_a_part_of_the_turn(spline: Any) -> None:
     """ω² (I + K) gains twice the work, and the wanted extremes are met."""
     smooth = np.clip(np.sin(PHI), 0.0, None) ** 2
     inertia = 400.0 * (smooth if spline == "linear" else smooth**2)
-    made = flywheel.from_table(PHI, MOMENT, inertia, DELTA, SPEED, spline=spline)
+    made = flywheel.from_table(
+        PHI, MOMENT, inertia, fluctuation=DELTA, mean_speed=SPEED, spline=spline
+    )
     assert made.delta == pytest.approx(DELTA, rel=1e-10)
     q = np.linspace(0.0, TURN, 97)
     gain = np.square(made.speed(q)) * (made.reduced_inertia(q) + made.inertia)
@@ -76,9 +78,9 @@ def test_a_machine_without_inertia_is_refused() -> None:
     wheels: list[Any] = [0.0, [5000.0, 0.0]]
     for wheel in wheels:
         with pytest.raises(InputError, match=r"flywheel of 0 kg·m².*give the machine an inertia"):
-            flywheel.evaluate(PHI, MOMENT, 0.0, wheel, speed0=SPEED)
+            flywheel.evaluate(PHI, MOMENT, 0.0, flywheel=wheel, speed0=SPEED)
         with pytest.raises(InputError, match=r"flywheel of 0 kg·m².*give the machine an inertia"):
-            flywheel.evaluate(PHI, MOMENT, 0.0, wheel, mean_speed=SPEED)
+            flywheel.evaluate(PHI, MOMENT, 0.0, flywheel=wheel, mean_speed=SPEED)
     part = np.where(PHI < 1.0, 0.0, 5000.0)
     part[-1] = 0.0
     with pytest.raises(InputError, match="at phi = 0 rad with a flywheel of 0"):
@@ -97,20 +99,24 @@ def test_negative_inertia_is_refused_where_it_is() -> None:
             make(PHI, MOMENT, inertia, mean_speed=SPEED, **more)
     with pytest.raises(InputError, match=r"-1e-09 kg·m² at phi = 3\.05"):
         Machine.from_table(PHI, MOMENT, inertia)
-    refused(InputError, "inertia -2", lambda: flywheel.from_table(PHI, MOMENT, -2.0, DELTA, SPEED))
+    refused(
+        InputError,
+        "inertia -2",
+        lambda: flywheel.from_table(PHI, MOMENT, -2.0, fluctuation=DELTA, mean_speed=SPEED),
+    )
     # A coarse spline beside rows of zero goes far below them.
     coarse = [0.0, 0.0, 0.0, 9.0, 9.0, 0.0, 0.0]
     phi, moment = np.linspace(0.0, TURN, 7), np.zeros(7)
     refused(
         InputError,
         'negative spline="linear"',
-        lambda: flywheel.from_table(phi, moment, coarse, DELTA, SPEED),
+        lambda: flywheel.from_table(phi, moment, coarse, fluctuation=DELTA, mean_speed=SPEED),
     )
 
 
 def test_both_fluctuation_and_mean_speed_are_needed() -> None:
     make: Any = flywheel.from_table
-    refused(InputError, "mean_speed missing", lambda: make(PHI, MOMENT, 0.01, SPEED))
+    refused(InputError, "mean_speed missing", lambda: make(PHI, MOMENT, fluctuation=0.01))
     refused(InputError, "fluctuation missing", lambda: make(PHI, MOMENT, mean_speed=SPEED))
 
 
@@ -128,7 +134,7 @@ def test_a_machine_of_a_table_may_have_its_rotor_alone() -> None:
     steady = machine.steady_state(SPEED)
     assert abs(steady.motor_work) == pytest.approx(work_of_turn, rel=1e-9)
     assert steady.mean_speed == pytest.approx(SPEED, rel=1e-11)
-    wheel = machine.flywheel(DELTA, SPEED)
+    wheel = machine.flywheel(DELTA, mean_speed=SPEED)
     assert isinstance(wheel, flywheel.Flywheel)
     assert wheel.inertia == pytest.approx(ENERGY / (DELTA * SPEED**2) - 200.0, rel=1e-9)
 
@@ -139,7 +145,7 @@ def test_a_machine_of_a_table_may_have_its_flywheel_alone() -> None:
     steady = machine.steady_state(SPEED, flywheel=wheel)
     assert steady.delta == pytest.approx(DELTA, rel=1e-9)
     assert steady.found_moment == pytest.approx(-20000.0, rel=1e-9)
-    made = machine.flywheel(DELTA, SPEED)
+    made = machine.flywheel(DELTA, mean_speed=SPEED)
     assert made.inertia == pytest.approx(wheel, rel=1e-9)
     # A motor whose torque falls with the speed, without a rotor: the flywheel is found.
     linear = Machine.from_table(PHI, -MOMENT, motor=assur.LinearMotor(40000.0, 2.0 * SPEED))
@@ -160,12 +166,12 @@ def test_without_any_inertia_a_machine_of_a_table_does_not_move() -> None:
 
 def test_a_place_without_inertia_is_named() -> None:
     """A piston alone: at its dead points nothing resists the crank, but for rounding."""
-    press = Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(20.0)})
+    press = Machine(assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(20.0)})
     for q0 in (0.0, math.pi):
         with pytest.raises(InputError, match=r"the reduced inertia is \S+ kg·m² at q = .*positive"):
             press.steady_state(5.0, q0=q0)
     # With a flywheel it runs, and the flywheel is found.
-    wheel = press.flywheel(0.05, 20.0)
+    wheel = press.flywheel(0.05, mean_speed=20.0)
     assert isinstance(wheel, flywheel.Flywheel)
     steady = press.steady_state(20.0, flywheel=wheel.inertia)
     assert steady.delta == pytest.approx(0.05, rel=1e-9)

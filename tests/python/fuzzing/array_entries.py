@@ -41,8 +41,8 @@ FIVE_BAR = assur.Mechanism(
 )
 MACHINE = assur.Machine(
     FOUR_BAR,
-    {"crank": assur.Body(inertia=2.0), "rocker": assur.Body(1.0, 0.5)},
-    [assur.Gravity(), assur.TorsionDamper("rocker", 0.5)],
+    bodies={"crank": assur.Body(inertia=2.0), "rocker": assur.Body(1.0, 0.5)},
+    loads=[assur.Gravity(), assur.TorsionDamper("rocker", 0.5)],
 )
 OF_TABLE = assur.Machine.from_table(PHI * (TURN / 6.0), MOMENT, INERTIA, spline="linear")
 RUN = MACHINE.run(4.0, 0.5, 5.0, rtol=1e-6)
@@ -50,7 +50,7 @@ ALONG = MACHINE.run(q_end=8.0, q0=0.5, speed0=5.0, rtol=1e-6)
 STEADY = OF_TABLE.steady_state(9.0, mean="period")
 EVEN = np.arange(8.0) * (TURN / 8.0)
 FORCE = np.stack([np.arange(8.0), np.arange(8.0)[::-1]], axis=-1)
-WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, 20.0, speed0=9.0)
+WHEEL = flywheel.evaluate(PHI * (TURN / 6.0), MOMENT, INERTIA, flywheel=20.0, speed0=9.0)
 
 
 def reactions(
@@ -80,7 +80,7 @@ def inside(
 def inside_rod(x: npt.ArrayLike) -> Any:
     density = x, [2.0] * 4
     rod = {"coupler": assur.Body(6.0, 4.5, (1.5, 0.0))}
-    return assur.Machine(FOUR_BAR, rod).internal_loads("coupler", 0.3, density=density)
+    return assur.Machine(FOUR_BAR, bodies=rod).internal_loads("coupler", 0.3, density=density)
 
 
 @dataclass(frozen=True)
@@ -141,15 +141,15 @@ def with_lengths(value: Any) -> Any:
 def written(kind: str) -> Callable[..., Any]:
     """A table of a motion, from a file too."""
 
-    def table(omega: npt.ArrayLike, alpha: npt.ArrayLike) -> Any:
+    def table(speed: npt.ArrayLike, acceleration: npt.ArrayLike, jerk: npt.ArrayLike) -> Any:
         if kind == "frame":
-            return MOTION.to_dataframe(omega, alpha).to_numpy()
+            return MOTION.to_dataframe(speed=speed, acceleration=acceleration, jerk=jerk).to_numpy()
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"motion.{kind}"
             if kind == "xlsx":
-                MOTION.to_excel(path, omega, alpha)
+                MOTION.to_excel(path, speed=speed, acceleration=acceleration, jerk=jerk)
                 return pd.read_excel(path, "C", skiprows=[1]).to_numpy()
-            MOTION.to_parquet(path, omega, alpha)
+            MOTION.to_parquet(path, speed=speed, acceleration=acceleration, jerk=jerk)
             return pd.read_parquet(path).to_numpy()
 
     return table
@@ -203,16 +203,16 @@ ENTRIES: dict[str, Entry] = {
         (np.array([1.0, 2.0, 3.0]),),
     ),
     "Mechanism.map.q": Entry(
-        lambda q: FOUR_BAR.map("assemblies", {"rocker.length": ENDS, "ground.D.x": ENDS}, q),
+        lambda q: FOUR_BAR.map("assemblies", {"rocker.length": ENDS, "ground.D.x": ENDS}, q=q),
         (np.array(1.0),),
     ),
     "Workspace.contains.points": Entry(SPACE.contains, (np.ones((3, 2)), np.ones(2))),
     "Motion.point.local": Entry(
         lambda at: MOTION.point("coupler", at).arrays, (np.ones(2), np.ones((3, 2)))
     ),
-    **each_of("Motion.to_dataframe", written("frame"), omega=2.0, alpha=1.0),
-    **each_of("Motion.to_excel", written("xlsx"), omega=2.0, alpha=1.0),
-    **each_of("Motion.to_parquet", written("parquet"), omega=2.0, alpha=1.0),
+    **each_of("Motion.to_dataframe", written("frame"), speed=2.0, acceleration=1.0, jerk=0.5),
+    **each_of("Motion.to_excel", written("xlsx"), speed=2.0, acceleration=1.0, jerk=0.5),
+    **each_of("Motion.to_parquet", written("parquet"), speed=2.0, acceleration=1.0, jerk=0.5),
     "FourBar.__init__.point": Entry(
         lambda point: assur.FourBar(1.0, 3.0, 2.5, 3.2, point=point),
         (np.ones(2), np.ones((2, 3))),
@@ -222,9 +222,11 @@ ENTRIES: dict[str, Entry] = {
     ),
     **each_of("FourBar.__init__", assur.FourBar, crank=1.0, coupler=3.0, rocker=2.0, ground=3.0),
     **each_of("SliderCrank.__init__", assur.SliderCrank, crank=1.0, rod=5.0, offset=0.0),
-    **each_of("Analogues.velocity", MOTION.joint("C").velocity, omega=1.0),
-    **each_of("Analogues.acceleration", MOTION.joint("C").acceleration, omega=1.0, alpha=2.0),
-    **each_of("Analogues.jerk", MOTION.link("rocker").jerk, omega=1.0, alpha=2.0, beta=3.0),
+    **each_of("Analogues.velocity", MOTION.joint("C").velocity, speed=1.0),
+    **each_of(
+        "Analogues.acceleration", MOTION.joint("C").acceleration, speed=1.0, acceleration=2.0
+    ),
+    **each_of("Analogues.jerk", MOTION.link("rocker").jerk, speed=1.0, acceleration=2.0, jerk=3.0),
     **each_of("Machine.reduced_inertia", MACHINE.reduced_inertia, q=0.0),
     **each_of("Machine.reduced_moment", MACHINE.reduced_moment, q=0.0, speed=1.0),
     **each_of("Machine.potential", MACHINE.potential, q=0.0),
@@ -248,7 +250,7 @@ ENTRIES: dict[str, Entry] = {
     ),
     **each_of("Machine.duty", MACHINE.duty, q=PHI, speed=1.0, acceleration=2.0, t=0.5),
     "Machine.equilibria.between": Entry(
-        MACHINE.equilibria, (np.array([-1.0, 4.0]), np.array([0.0, 5.0]))
+        lambda p: MACHINE.equilibria(between=p), (np.array([-1.0, 4.0]), np.array([0.0, 5.0]))
     ),
     **each_of("Machine.flywheel", OF_TABLE.flywheel, fluctuation=0.125, mean_speed=4.0),
     **each_of("Machine.run", MACHINE.run, t_end=0.5, q0=1.0, speed0=2.0, breaks=0.0, rtol=1e-6),

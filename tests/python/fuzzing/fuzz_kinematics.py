@@ -121,9 +121,9 @@ def _rates(c: Choices, motion: assur.Motion) -> object:
         lambda: motion.slide(c.argument(lambda: c.among([*m.slides, "bore"]))),
     )
     return c.either(
-        lambda: c.call(quantity.velocity, omega=c.numbers),
-        lambda: c.call(quantity.acceleration, omega=c.numbers, alpha=c.numbers),
-        lambda: c.call(quantity.jerk, omega=c.numbers, alpha=c.numbers, beta=c.numbers),
+        lambda: c.call(quantity.velocity, speed=c.numbers),
+        lambda: c.call(quantity.acceleration, speed=c.numbers, acceleration=c.numbers),
+        lambda: c.call(quantity.jerk, speed=c.numbers, acceleration=c.numbers, jerk=c.numbers),
         lambda: (quantity.value, quantity.d1),
         lambda: (quantity.d2, quantity.d3),
     )

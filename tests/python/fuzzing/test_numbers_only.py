@@ -16,19 +16,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 PRESS = assur.SliderCrank(0.1, 0.4)
-MACHINE = Machine(PRESS, {"crank": Body(inertia=0.5), "piston": Body(20.0)})
+MACHINE = Machine(PRESS, bodies={"crank": Body(inertia=0.5), "piston": Body(20.0)})
 ROCKER = {"l1": 1.0, "l2": 9.0, "l3": 6.0}
 
 
 def drawn(**changed: Any) -> assur.Mechanism:
     joints: dict[str, Any] = {"O": (0, 0), "A": (0.05, 0), "B": (0.25, 0), **changed}
-    return assur.Mechanism(joints, PRESS.links, "crank", PRESS.slides)
+    return assur.Mechanism(joints, PRESS.links, "crank", slides=PRESS.slides)
 
 
 def guided(angle: Any) -> assur.Mechanism:
     bore = assur.Slide("piston", on="ground", angle=angle, origin="O")
     joints = {"O": (0, 0), "A": (0.05, 0), "B": (0.25, 0)}
-    return assur.Mechanism(joints, PRESS.links, "crank", {"bore": bore})
+    return assur.Mechanism(joints, PRESS.links, "crank", slides={"bore": bore})
 
 
 def stopped(event: Any) -> assur.Run:
@@ -82,8 +82,8 @@ ASKS: dict[str, Callable[[Any], object]] = {
     "contour": lambda x: slider_crank.contour(x, 1.0, 3.0),
     "contour's crank": lambda x: slider_crank.contour(0.5, x, 3.0),
     "contour's rod": lambda x: slider_crank.contour(0.5, 0.125, x),
-    "tolerance": lambda x: crank_rocker.grashof(1, 4.5, 1.5, 4.8, x),
-    "margin": lambda x: crank_rocker.ground_range(9.0, 6.0, x),
+    "tolerance": lambda x: crank_rocker.grashof(1, 4.5, 1.5, 4.8, tolerance=x),
+    "margin": lambda x: crank_rocker.ground_range(9.0, 6.0, margin=x),
     "blocked": lambda x: crank_rocker.blocked(x, 9.0, 6.0, 10.0, 0.5),
     "ground": lambda x: crank_rocker.run(**ROCKER, ground=x, gamma_min=0.5),
     "crank": lambda x: crank_rocker.run(x, 9.0, 6.0, 10.0, 0.5),
@@ -130,11 +130,11 @@ def test_non_numbers_are_refused(name: str, what: str) -> None:
 def test_a_run_refuses_a_function_that_gives_no_number(what: str) -> None:
     value = NOT_NUMBERS[what]
     with pytest.raises(assur.InputError, match=r"gives .* at t = 0"):
-        Machine(PRESS, {}, [assur.Torque("crank", lambda *_: value)])
+        Machine(PRESS, bodies={}, loads=[assur.Torque("crank", lambda *_: value)])
     # At rest, where the machine tries it, it is one.
     load = assur.Torque("crank", lambda *given: value if given[2] else 0.0)
     with pytest.raises(assur.InputError, match=r"gave .* at t = 0"):
-        Machine(PRESS, {"crank": Body(inertia=1.0)}, [load]).run(0.1, speed0=1.0)
+        Machine(PRESS, bodies={"crank": Body(inertia=1.0)}, loads=[load]).run(0.1, speed0=1.0)
 
 
 def made(name: str, value: Any) -> type:
@@ -199,7 +199,7 @@ def test_infinite_speeds_are_the_callers_own() -> None:
 @pytest.mark.filterwarnings("error", "ignore::assur.AssurWarning")
 def test_a_run_of_infinite_energy_is_refused() -> None:
     linkage = assur.FourBar(1.0, 3.0, 2.5, 3.0)
-    machine = Machine(linkage, {"crank": Body(4.0), "coupler": Body(0.05)})
+    machine = Machine(linkage, bodies={"crank": Body(4.0), "coupler": Body(0.05)})
     with pytest.raises(assur.MotionError, match="energies of the run are infinite") as caught:
         machine.run(0.2, speed0=1e200, rtol=1e-6, max_steps=300)
     assert (caught.value.kind, caught.value.t) == ("not_finite", 0.0)
@@ -227,5 +227,5 @@ def test_a_flywheel_whose_period_is_rounding_is_refused_soon() -> None:
 
 def test_a_message_does_not_repeat_a_long_argument() -> None:
     with pytest.raises(assur.InputError) as caught:
-        Machine({"crank": "x" * 5000}, {})  # type: ignore[arg-type]
+        Machine({"crank": "x" * 5000}, bodies={})  # type: ignore[arg-type]
     assert len(str(caught.value)) < 500

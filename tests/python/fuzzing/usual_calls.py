@@ -89,13 +89,13 @@ def machine(rubs: bool = False) -> assur.Machine:
     force = assur.Force("B", (-100.0, 0.0), on="piston")
     rubbing = {"B": assur.JointFriction(0.1, 0.02)} if rubs else {}
     motor = None if rubs else assur.LinearMotor(50.0, 15.0)
-    return assur.Machine(press, bodies, [force], motor, friction=rubbing)
+    return assur.Machine(press, bodies=bodies, loads=[force], motor=motor, friction=rubbing)
 
 
 def _of_mechanisms() -> Iterable[tuple[str, Call]]:
     m, five, page = assur.FourBar(1.0, 3.0, 2.5, 3.0), assur.examples.five_bar(), {"path": "m.html"}
     (joint,) = set(five.links["left_rod"]) & set(five.links["right_rod"])
-    curve, space = m.configuration_curve(8), five.workspace(joint, positions=4)
+    curve, space = m.configuration_curve(positions=8), five.workspace(joint, positions=4)
     yield "Mechanism", call(assur.Mechanism, **DRAWN)
     yield "FourBar", call(assur.FourBar, crank=1.0, coupler=3.0, rocker=2.5, ground=3.0)
     yield "SliderCrank", call(assur.SliderCrank, **PRESS)
@@ -136,7 +136,7 @@ def _of_mechanisms() -> Iterable[tuple[str, Call]]:
 
 
 def _of_motions() -> Iterable[tuple[str, Call]]:
-    m, rates = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"omega": 1.0, "alpha": 1.0}
+    m, rates = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"speed": 1.0, "acceleration": 1.0}
     motion, press = m.solve(TURN, order=3), assur.SliderCrank(0.1, 0.4).solve(TURN)
     timed = m.follow(laws.Cycloidal(0.5, 1.5, 1.0), [0.0, 0.5, 1.0])
     point = {"link": "coupler", "local": (1.0, 0.0)}
@@ -215,7 +215,7 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         save={"path": "m.toml"},
     )
     run, steady = own.run(0.1, speed0=1.0), table.steady_state(9.0)
-    found, wheel = own.reactions(TURN, 2.0), table.flywheel(0.1, 9.0)
+    found, wheel = own.reactions(TURN, 2.0), table.flywheel(0.1, mean_speed=9.0)
     rod = {"name": "B", "on": "rod"}
     yield from named("Run", run, at={"t": 0.05}, plot={}, to_html={"path": "m.html"})
     yield from named("SteadyState", steady, at=AT, plot={})
@@ -242,7 +242,7 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         "balance",
         balance,
         fit={"machine": own, "q": TURN, "places": {"crank": (-0.1, 0.0)}, "speed": 1.0},
-        four_bar={"machine": assur.Machine(four_bar, {"coupler": assur.Body(1.0, 0.1)})},
+        four_bar={"machine": assur.Machine(four_bar, bodies={"coupler": assur.Body(1.0, 0.1)})},
         slider_crank={"machine": own},
         harmonics={"q": TURN[:-1], "values": MOMENT[:-1], "count": 2},
         rotating_parts={"q": TURN[:-1], "force": np.ones((6, 2)), "count": 2},
@@ -337,7 +337,7 @@ def _used(made: Callable[..., Any], use: Callable[[Any], Any]) -> Callable[..., 
 
 
 def _watched(event: Any) -> assur.Run:
-    m = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), {"crank": assur.Body(inertia=1.0)})
+    m = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies={"crank": assur.Body(inertia=1.0)})
     return m.run(0.1, speed0=1.0, events=[event])
 
 

@@ -31,7 +31,7 @@ class Case:
 
     def direct(self) -> assur.Mechanism:
         """The mechanism, written directly."""
-        return assur.Mechanism(self.joints, self.links, self.driver, self.slides)
+        return assur.Mechanism(self.joints, self.links, self.driver, slides=self.slides)
 
 
 FOUR_BAR = {

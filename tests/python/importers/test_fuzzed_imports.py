@@ -158,7 +158,7 @@ def test_broken_files(part: int) -> None:
         own = None if rng.random() < 0.3 else case.format
         drivers = None if own is None else case.drivers
         try:
-            found = importers.read(text, own, drivers=drivers)
+            found = importers.read(text, format=own, drivers=drivers)
         except (assur.InputError, assur.StructureError, assur.DimensionError) as error:
             messages.append(str(error))
         else:
@@ -196,7 +196,7 @@ def test_large_files(kind: str) -> None:
     own, text = LARGE[kind]
     for asked in (own, None):
         with pytest.raises(assur.AssurError) as raised:
-            importers.read(text, asked)
+            importers.read(text, format=asked)
         assert len(str(raised.value)) < 2000
 
 

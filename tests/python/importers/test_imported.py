@@ -90,7 +90,7 @@ def test_files_and_texts_are_the_same(name: str, tmp_path: Path) -> None:
     found, again = importers.read(path, drivers=case.drivers, scale=1.0), imported(case)
     assert found.mechanism == again.mechanism
     assert found.omitted == again.omitted
-    named = importers.read(str(path), case.format, drivers=case.drivers, scale=1.0)
+    named = importers.read(str(path), format=case.format, drivers=case.drivers, scale=1.0)
     assert named.mechanism == again.mechanism
     assert importers.detect(path, case.text) == importers.detect(None, case.text) == case.format
 

@@ -126,7 +126,7 @@ def test_ids_of_pmks_plus_may_have_any_letters() -> None:
         Joint("d", (4, 0), "frame"),
     ]
     links = [Link("1", ("a b", "B")), Link("2", ("B", "é")), Link("3", ("é", "d"))]
-    found = importers.read(written(joints, links), "pmks_plus")
+    found = importers.read(written(joints, links), format="pmks_plus")
     assert found.omitted[-1] == "Joint 'a b' is called a_b."
     assert found.mechanism.links["2"] == ("B", "é")
     # In an address blanks and letters are written with percents.

@@ -48,7 +48,7 @@ def test_a_four_bar(encoded: bool) -> None:
     for found in (
         importers.read(text),
         importers.pmks_plus.read(text),
-        importers.read(text, "pmks_plus"),
+        importers.read(text, format="pmks_plus"),
     ):
         assert found.format == "pmks_plus"
         assert found.mechanism.structure.formula == "I(AB) → II(BC, CD)"
@@ -164,7 +164,7 @@ def test_broken_addresses_raise_errors_of_assur() -> None:
             at = rng.randrange(30, len(text))
             text = text[:at] + rng.choice(letters) + text[at + rng.choice((0, 1, 3)) :]
         try:
-            found = importers.read(text, "pmks_plus")
+            found = importers.read(text, format="pmks_plus")
         except (assur.InputError, assur.StructureError):
             # Any other exception would fail the test.
             continue

@@ -302,9 +302,9 @@ def test_errors_name_the_file(tmp_path: Path) -> None:
 
 def test_options_are_checked() -> None:
     with pytest.raises(assur.InputError, match="format is 'sam': one of 'pmks'"):
-        importers.read(BAR, "sam")
+        importers.read(BAR, format="sam")
     with pytest.raises(assur.InputError, match="this is not JSON"):
-        importers.read(BAR, "pylinkage")
+        importers.read(BAR, format="pylinkage")
     for scale in (0.0, -1.0, 1e99):
         with pytest.raises(assur.InputError, match="scale is"):
             importers.read(BAR, scale=scale)

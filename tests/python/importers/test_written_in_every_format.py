@@ -44,7 +44,7 @@ class Linkage:
             slides[f"{guide.pin}_slide"] = assur.Slide(
                 f"{guide.pin}_block", on=guide.on, angle=guide.angle
             )
-        return assur.Mechanism(self.joints, links, "L1", slides)
+        return assur.Mechanism(self.joints, links, "L1", slides=slides)
 
 
 def random_linkage(seed: int) -> Linkage:

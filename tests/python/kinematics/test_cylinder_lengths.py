@@ -17,7 +17,7 @@ def door(driver: str = "lift", foot: tuple[float, float] = (0.0, -1.0)) -> assur
         {"H": (0, 0), "foot": foot, "eye": (1.0, 0)},
         {"ground": ["H", "foot"], "door": ["H", "eye"]},
         driver,
-        {"lift": assur.Cylinder("foot", "eye")},
+        slides={"lift": assur.Cylinder("foot", "eye")},
     )
 
 
@@ -29,7 +29,7 @@ def crane(driver: str | list[str], rng: np.random.Generator) -> assur.Mechanism:
         {**shaken, "F": tuple(rng.uniform(-1, 4, 2))},
         {"ground": "ADF", "crank": "AB", "coupler": "BCP", "rocker": "DCQ"},
         driver,
-        {"brace": assur.Cylinder("P", "Q"), "lift": assur.Cylinder("F", "P")},
+        slides={"brace": assur.Cylinder("P", "Q"), "lift": assur.Cylinder("F", "P")},
     )
 
 
@@ -108,7 +108,7 @@ def test_where_it_has_no_length_at_all_no_direction_is_made_up() -> None:
         {"A": (0, 0), "B": (1, 0)},
         {"ground": ["A"], "cart": ["B"]},
         "way",
-        {"way": assur.Slide("cart", "ground", 0.0, "A"), "lift": assur.Cylinder("A", "B")},
+        slides={"way": assur.Slide("cart", "ground", 0.0, "A"), "lift": assur.Cylinder("A", "B")},
     )
     motion = slider.solve([-1.0, 0.0, 1.0])
     assert motion.slide("lift").value.tolist() == [1.0, 0.0, 1.0]
@@ -129,8 +129,8 @@ def test_its_sign_cannot_be_chosen() -> None:
         {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
         {"ground": ["H", "foot"], "door": ["H", "eye"]},
         "door",
-        {"lift": assur.Cylinder("foot", "eye")},
-        {"lift": -1},
+        slides={"lift": assur.Cylinder("foot", "eye")},
+        assembly={"lift": -1},
     )
     refused(assur.StructureError, "lift length", drawn)
     assert opened.solve(0.3, assembly={"lift": 1}).slide("lift").value > 0.0
@@ -182,7 +182,7 @@ def test_two_drivers(seed: int) -> None:
         },
         {"ground": "OF", "upper": "OEG", "fore": "ET"},
         ["lift", "bend"],
-        {
+        slides={
             "lift": assur.Cylinder("F", "E"),
             "bend": assur.Cylinder("G", "T"),
             "rope": assur.Cylinder("F", "T"),
@@ -219,7 +219,9 @@ def test_platforms_of_class_iii() -> None:
 def coupler_over_a_foot(foot: tuple[float, float], driver: str) -> assur.Mechanism:
     at = {"B": (2.2, 0.1), "C": (1.0, 1.9), "D": (0.8, 0.7), "E": (1.5, 0.75), "F": (1.1, 1.25)}
     links = {"ground": "ABC", "r2": "BE", "r3": "CF", "platform": "DEF"}
-    return assur.Mechanism({"A": foot, **at}, links, driver, {"leg": assur.Cylinder("A", "D")})
+    return assur.Mechanism(
+        {"A": foot, **at}, links, driver, slides={"leg": assur.Cylinder("A", "D")}
+    )
 
 
 def test_a_group_of_class_iii_is_followed_to_length_0() -> None:
@@ -245,7 +247,7 @@ def test_a_passive_cylinder_on_a_group_of_class_iii() -> None:
     links = dict(cranks.links)
     base, end = links["ground"][0], links["platform"][1]
     m = assur.Mechanism(
-        dict(cranks.joints), links, cranks.driver, {"strut": assur.Cylinder(base, end)}
+        dict(cranks.joints), links, cranks.driver, slides={"strut": assur.Cylinder(base, end)}
     )
     q = np.array(m.q0) + np.random.default_rng(0).uniform(-0.4, 0.4, (40, 3))
     motion = m.solve(q, on_error="nan")
@@ -279,7 +281,7 @@ def test_a_barrel_that_something_slides_on() -> None:
         {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0.2), "K": (0.3, -1.6)},
         {"ground": ["H", "foot"], "crank": ["H", "eye"], "sleeve": ["K"]},
         ["crank", "move"],
-        {
+        slides={
             "lift": assur.Cylinder("foot", "eye"),
             "move": assur.Slide("sleeve", "lift_barrel", 0.4, "foot"),
         },
@@ -325,7 +327,9 @@ def test_what_a_length_may_not_be_is_found_nowhere() -> None:
 
 def test_a_run_ends_where_the_length_does() -> None:
     driven = door()
-    machine = assur.Machine(driven, {"door": assur.Body(mass=2.0, at=(0.5, 0.0), inertia=0.2)})
+    machine = assur.Machine(
+        driven, bodies={"door": assur.Body(mass=2.0, at=(0.5, 0.0), inertia=0.2)}
+    )
     run = machine.run(t_end=10.0, speed0=-0.3)
     assert run.end == "zero length"
     assert "lift" in run.message
@@ -338,7 +342,7 @@ def test_a_run_ends_where_the_length_does() -> None:
 
 def test_a_run_past_a_cylinder_without_mass_goes_on() -> None:
     body = {"door": assur.Body(mass=2.0, at=(0.5, 0.0), inertia=0.2)}
-    run = assur.Machine(door("door"), body).run(t_end=10.0, speed0=-1.0)
+    run = assur.Machine(door("door"), bodies=body).run(t_end=10.0, speed0=-1.0)
     assert run.end == "reached"
     assert abs(run.q[-1] + 10.0) < 1e-9
 
@@ -359,7 +363,7 @@ def test_a_slide_keeps_its_sign() -> None:
         {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
         {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
         "door",
-        {"lift": assur.Slide("ram", "tube", np.pi / 4, "foot")},
+        slides={"lift": assur.Slide("ram", "tube", np.pi / 4, "foot")},
     )
     assert plain.solve(-2.0).slide("lift").value < -0.4
     assert plain.with_driver("lift").limits().intervals.tolist() == [[-2.0, 2.0]]
@@ -371,6 +375,6 @@ def test_a_length_that_is_drawn_backward_is_refused() -> None:
         {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
         {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
         "door",
-        {"lift": assur.Slide("ram", "tube", -3 * np.pi / 4, "foot", length=True)},
+        slides={"lift": assur.Slide("ram", "tube", -3 * np.pi / 4, "foot", length=True)},
     )
     refused(assur.StructureError, "lift -1.414 length", backward)

@@ -77,7 +77,9 @@ def four_bar(rng: np.random.Generator) -> Linkage | None:
 
     cosines = clear([(a * a + d * d - (b + s * c) ** 2) / (2 * a * d) for s in (1, -1)])
     return Linkage(
-        assur.FourBar(*(float(a), float(b), float(c), float(d)), "open" if sign < 0 else "crossed"),
+        assur.FourBar(
+            *(float(a), float(b), float(c), float(d)), mode="open" if sign < 0 else "crossed"
+        ),
         float(a + b + c + d),
         [s * MP.acos(x) for x in cosines for s in (1, -1)],
         discriminant,

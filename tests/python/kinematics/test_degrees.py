@@ -35,13 +35,13 @@ def test_others_are_not(q: Any) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assur.FourBar(1.0, 3.0, 2.5, 3.2).solve(q, on_error="nan")
-        assur.SliderCrank(50.0, 200.0).with_driver("bore", {"A": 1}).solve(220.0)
+        assur.SliderCrank(50.0, 200.0).with_driver("bore", assembly={"A": 1}).solve(220.0)
 
 
 def test_refusals() -> None:
     m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
     refused(assur.InputError, "both", partial(m.solve, 1.0, deg=90.0))
     refused(assur.InputError, "neither", m.solve)
-    driven = assur.SliderCrank(1.0, 3.0).with_driver("bore", {"A": 1})
+    driven = assur.SliderCrank(1.0, 3.0).with_driver("bore", assembly={"A": 1})
     refused(assur.InputError, "slide bore", partial(driven.solve, deg=1.0))
     refused(assur.InputError, "deg", partial(m.solve, deg="right"))

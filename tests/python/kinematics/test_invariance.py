@@ -210,7 +210,7 @@ def drawn_larger(m: assur.Mechanism, scale: float) -> assur.Mechanism:
     """The same drawing, every coordinate times `scale`."""
     joints = {n: (x * scale, y * scale) for n, (x, y) in m.joints.items()}
     drivers = m.driver if isinstance(m.driver, (str, assur.Drive)) else list(m.driver)
-    return assur.Mechanism(joints, m.links, drivers, m.slides)
+    return assur.Mechanism(joints, m.links, drivers, slides=m.slides)
 
 
 def larger(m: assur.Mechanism, scale: float) -> assur.Mechanism:

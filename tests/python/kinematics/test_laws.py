@@ -145,7 +145,7 @@ def test_refusals() -> None:
 def test_a_table_is_the_spline_that_scipy_draws(ends: Literal["clamped", "natural"]) -> None:
     times = np.array([0.5, 0.9, 1.0, 1.8, 2.5, 3.0])
     places = np.array([0.2, 0.7, 0.6, -0.4, 0.1, 0.2])
-    law = laws.Tabulated(times, places, ends)
+    law = laws.Tabulated(times, places, spline=ends)
     spline = CubicSpline(times, places, bc_type=ends)
     t = np.linspace(0.5, 3.0, 101)[:-1]
     for order, found in enumerate(law.at(t)):
@@ -190,7 +190,7 @@ def test_bad_tables_are_refused(t: list[float], value: list[float], words: str) 
 
 def test_forces_along_a_law() -> None:
     engine = assur.SliderCrank(0.1, 0.4)
-    machine = assur.Machine(engine, {"piston": assur.Body(mass=20.0)})
+    machine = assur.Machine(engine, bodies={"piston": assur.Body(mass=20.0)})
     motion = engine.follow(laws.Cycloidal(0.3, 2.0, 0.5), np.linspace(0.0, 0.5, 11))
     of_law = machine.reactions(motion)
     numbers = motion.q, motion.speed, motion.acceleration

@@ -31,7 +31,7 @@ def test_a_coupler_point_is_a_joint() -> None:
     assert several.value.shape == (2, 3, 7, 2)
     np.testing.assert_allclose(several.value[0], motion.joint("B").value, atol=ROUNDING)
     plain = assur.FourBar(1.0, 3.0, 2.5, 3.2, mode="crossed").solve(1.0)
-    with_point = assur.FourBar(1.0, 3.0, 2.5, 3.2, "crossed", (1.2, 0.7)).solve(1.0)
+    with_point = assur.FourBar(1.0, 3.0, 2.5, 3.2, mode="crossed", point=(1.2, 0.7)).solve(1.0)
     np.testing.assert_array_equal(with_point["C"], plain["C"])
 
 

@@ -106,8 +106,8 @@ def test_a_batch_takes_speeds_of_more_axes() -> None:
 
 def test_speeds_that_do_not_fit_are_named() -> None:
     pin = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve([0.5, 1.0, 1.5]).joint("C")
-    refused(assur.InputError, "omega (2,) broadcast (3,)", lambda: pin.velocity([1.0, 2.0]))
+    refused(assur.InputError, "speed (2,) broadcast (3,)", lambda: pin.velocity([1.0, 2.0]))
     two = np.ones((2, 1)), np.ones((4, 1))
-    refused(assur.InputError, "omega alpha (2, (4, (3,)", lambda: pin.acceleration(*two))
+    refused(assur.InputError, "speed acceleration (2, (4, (3,)", lambda: pin.acceleration(*two))
     words: Any = ["fast"]
-    refused(assur.InputError, "alpha fast", lambda: pin.acceleration(1.0, words))
+    refused(assur.InputError, "acceleration fast", lambda: pin.acceleration(1.0, words))

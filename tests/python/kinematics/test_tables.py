@@ -28,7 +28,7 @@ def engine() -> assur.Motion:
 
 def test_velocities_in_place_of_analogues() -> None:
     motion = engine()
-    table = motion.to_dataframe(omega=30.0, alpha=5.0)
+    table = motion.to_dataframe(speed=30.0, acceleration=5.0)
     pin, rod, bore = motion.joint("A"), motion.link("rod"), motion.slide("bore")
     np.testing.assert_array_equal(table["A.vx"], pin.velocity(30.0)[:, 0])
     np.testing.assert_array_equal(table["A.ay"], pin.acceleration(30.0, 5.0)[:, 1])
@@ -47,14 +47,14 @@ def test_velocities_in_place_of_analogues() -> None:
 def test_a_speed_at_each_position() -> None:
     motion = engine()
     omega = np.linspace(1.0, 2.0, len(Q))
-    table = motion.to_dataframe(omega=omega)
+    table = motion.to_dataframe(speed=omega)
     np.testing.assert_array_equal(table["bore.v"], motion.slide("bore").d1 * omega)
-    refused(assur.InputError, "one speed", partial(motion.to_dataframe, omega=np.ones((3, 1))))
+    refused(assur.InputError, "one speed", partial(motion.to_dataframe, speed=np.ones((3, 1))))
 
 
 def test_degrees_are_of_angles_only() -> None:
     motion = engine()
-    table = motion.to_dataframe(omega=30.0, degrees=True)
+    table = motion.to_dataframe(speed=30.0, degrees=True)
     np.testing.assert_array_equal(table["q"], np.degrees(Q))
     np.testing.assert_array_equal(table["rod"], np.degrees(motion.link("rod").value))
     np.testing.assert_array_equal(table["rod.omega"], motion.link("rod").velocity(30.0))
@@ -69,19 +69,19 @@ def test_degrees_are_of_angles_only() -> None:
 
 
 def test_only_what_moves() -> None:
-    names = list(engine().to_dataframe(omega=1.0, moving=True))
+    names = list(engine().to_dataframe(speed=1.0, moving=True))
     assert not [n for n in names if n.startswith(("O.", "ground", "piston"))]
     assert {"A.x", "B.x", "crank", "rod", "bore"} <= set(names)
     one = assur.SliderCrank(0.05, 0.2).solve(1.0).to_dataframe(moving=True)
     assert "A.x" in one
     # One position without analogues does not tell what moves.
-    assert "O.x" in assur.SliderCrank(0.05, 0.2).solve(1.0, 0).to_dataframe(moving=True)
+    assert "O.x" in assur.SliderCrank(0.05, 0.2).solve(1.0, order=0).to_dataframe(moving=True)
     assert "O.x" not in one
 
 
 def test_a_workbook_has_a_sheet_for_each_quantity(tmp_path: Path) -> None:
     motion = assur.FourBar(3.0, 2.5, 2.0, 4.0).solve([0.0, 1.0, 3.0], on_error="nan")
-    motion.to_excel(tmp_path / "motion.xlsx", omega=10.0, degrees=True)
+    motion.to_excel(tmp_path / "motion.xlsx", speed=10.0, degrees=True, moving=True)
     book = load_workbook(tmp_path / "motion.xlsx")
     assert book.sheetnames == ["B", "C", "crank", "coupler", "rocker"]
     rows = list(book["C"].iter_rows(values_only=True))
@@ -99,7 +99,7 @@ def test_names_that_excel_refuses(tmp_path: Path) -> None:
         {"ground": "AD", f"{long}1": "AB", f"{long}2": "BC", "b": "DC"},
         f"{long}1",
     )
-    m.solve(Q).to_excel(tmp_path / "long.xlsx")
+    m.solve(Q).to_excel(tmp_path / "long.xlsx", moving=True)
     names = load_workbook(tmp_path / "long.xlsx").sheetnames
     # "b" and "B" are one name to Excel.
     assert names == ["B", "C", "a" * 31, "a" * 29 + "~2", "b~2"]
@@ -107,8 +107,8 @@ def test_names_that_excel_refuses(tmp_path: Path) -> None:
 
 def test_parquet_keeps_bits_and_units(tmp_path: Path) -> None:
     motion = engine()
-    motion.to_parquet(tmp_path / "motion.parquet", omega=30.0)
-    table, wanted = pd.read_parquet(tmp_path / "motion.parquet"), motion.to_dataframe(omega=30.0)
+    motion.to_parquet(tmp_path / "motion.parquet", speed=30.0)
+    table, wanted = pd.read_parquet(tmp_path / "motion.parquet"), motion.to_dataframe(speed=30.0)
     pd.testing.assert_frame_equal(table, wanted, check_exact=True)
     assert table.attrs["units"]["bore.v"] == "m/s"
 

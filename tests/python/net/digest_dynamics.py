@@ -87,21 +87,21 @@ def of_flywheel(own: Any) -> list[Any]:
             own.coordinate(own.time(phi)),
             own.reduced_moment(phi),
         ]
-        found += [own.work(phi), own.reduced_inertia(phi), *own.energy_mass(20)]
+        found += [own.work(phi), own.reduced_inertia(phi), *own.energy_mass(points=20)]
     return found
 
 
 def press(motor: Any = None, *loads: Any) -> assur.Machine:
-    work = assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -1500.0, 0.0], "linear")
+    work = assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -1500.0, 0.0], spline="linear")
     return assur.Machine(
         assur.SliderCrank(0.1, 0.4),
-        {
+        bodies={
             "crank": assur.Body(inertia=0.5),
             "rod": assur.Body(5.0, 0.1, (0.15, 0.0)),
             "piston": assur.Body(20.0),
         },
-        [assur.Gravity(), assur.Force("B", (work, 0.0)), *loads],
-        motor,
+        loads=[assur.Gravity(), assur.Force("B", (work, 0.0)), *loads],
+        motor=motor,
     )
 
 
@@ -109,7 +109,7 @@ def pumped() -> assur.Machine:
     """A mechanism of class III with bodies."""
     m = again(named_drawings.HIGHER["triad"]())
     bodies = {name: assur.Body(1.0, 0.2) for name in m.links if name != "ground"}
-    return assur.Machine(m, bodies, [assur.Gravity()])
+    return assur.Machine(m, bodies=bodies, loads=[assur.Gravity()])
 
 
 PAPER_PHI = np.arange(9) * (TURN / 8.0)
@@ -120,12 +120,14 @@ INDUCTION = assur.InductionMotor(30.0, 0.3, 300.0, ratio=10.0, rotor_inertia=0.0
 
 
 def table(spline: Any = "not-a-knot", motor: Any = None) -> assur.Machine:
-    return assur.Machine.from_table(PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, motor, spline)
+    return assur.Machine.from_table(
+        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, motor=motor, spline=spline
+    )
 
 
 def four_bar(loads: Any = ()) -> assur.Machine:
     bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(2.0, 2.0, (0.5, 0.2))}
-    return assur.Machine(assur.FourBar(1.0, 3.0, 3.0, 3.0), bodies, loads)
+    return assur.Machine(assur.FourBar(1.0, 3.0, 3.0, 3.0), bodies=bodies, loads=loads)
 
 
 def sprung() -> assur.Machine:
@@ -134,7 +136,7 @@ def sprung() -> assur.Machine:
 
 def parallelogram() -> assur.Machine:
     bodies = {"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=2.0)}
-    return assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), bodies, [assur.Gravity()])
+    return assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), bodies=bodies, loads=[assur.Gravity()])
 
 
 RUNS: dict[str, Callable[[], Any]] = {
@@ -147,11 +149,11 @@ RUNS: dict[str, Callable[[], Any]] = {
     "through change points": lambda: parallelogram().run(4.0, q0=1.0, speed0=2.0),
     "dead point": lambda: assur.Machine(
         assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker"),
-        {"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=1.0)},
+        bodies={"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=1.0)},
     ).run(50.0, q0=2.0, speed0=1.0),
     "near change point": lambda: assur.Machine(
         assur.FourBar(1.0, 3.0, 1.0, 3.0 + 1e-11),
-        {"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=1.0)},
+        bodies={"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=1.0)},
     ).run(9.0, q0=1.0, speed0=1.0),
     "events": lambda: press(LINEAR).run(
         3.0,
@@ -179,23 +181,30 @@ SPLINES: tuple[flywheel.Spline, ...] = ("not-a-knot", "natural", "clamped", "per
 
 
 def from_table(spline: flywheel.Spline) -> Any:
-    return flywheel.from_table(PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, 0.05, 15.0, spline=spline)
+    return flywheel.from_table(
+        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, fluctuation=0.05, mean_speed=15.0, spline=spline
+    )
 
 
 FLYWHEELS: dict[str, Callable[[], Any]] = {
     **{f"from a table, {spline}": partial(from_table, spline) for spline in SPLINES},
     "batch": lambda: flywheel.from_table(
-        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, np.array([0.02, 0.1, 1e-4]), 15.0, mean="period"
+        PAPER_PHI,
+        PAPER_MOMENT,
+        PAPER_INERTIA,
+        fluctuation=np.array([0.02, 0.1, 1e-4]),
+        mean_speed=15.0,
+        mean="period",
     ),
     "evaluated": lambda: flywheel.evaluate(
-        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, 19.918150, mean_speed=15.0, mean="period"
+        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, flywheel=19.918150, mean_speed=15.0, mean="period"
     ),
-    "of a machine": lambda: press().flywheel(0.05, 15.0),
+    "of a machine": lambda: press().flywheel(0.05, mean_speed=15.0),
     "of machines": lambda: assur.Machine(
         assur.SliderCrank(np.array([0.1, 0.12, 5.0]), 0.4),
-        {"crank": assur.Body(inertia=0.5), "piston": assur.Body(20.0)},
-        [assur.Force("B", (assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -9e3, 0.0]), 0.0))],
-    ).flywheel(0.05, 15.0, on_error="nan"),
+        bodies={"crank": assur.Body(inertia=0.5), "piston": assur.Body(20.0)},
+        loads=[assur.Force("B", (assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -9e3, 0.0]), 0.0))],
+    ).flywheel(0.05, mean_speed=15.0, on_error="nan"),
 }
 
 

@@ -42,7 +42,7 @@ def slider_cranks() -> Iterator[tuple[str, Any]]:
     yield "rod point", analogues(slider_crank.rod_point(PHI, 0.3, 1.2, 0.4, 0.1))
     yield "fourier", slider_crank.fourier(RATIOS)
     for method in ("exact", "series", "perpendicular"):
-        yield f"greatest speed, {method}", list(slider_crank.greatest_speed(RATIOS, method))
+        yield f"greatest speed, {method}", list(slider_crank.greatest_speed(RATIOS, method=method))
     yield "greatest acceleration", list(slider_crank.greatest_acceleration(RATIOS))
     for n in (1, 2, 3, 5):
         yield f"deviation {n}", list(slider_crank.deviation(1.0 / RATIOS, n))

@@ -45,30 +45,36 @@ CASES: dict[str, Callable[[], object]] = {
     "no slide": lambda: MOTION.slide("crank"),
     "design": lambda: BATCH.design(9),
     "driver": lambda: M.with_driver("cranck"),
-    "body": lambda: Machine(M, {"cranck": Body(1.0)}),
+    "body": lambda: Machine(M, bodies={"cranck": Body(1.0)}),
     "mass": lambda: Body(-1.0),
     "force": lambda: Machine(M, loads=[assur.Force("cranck", (1.0, 0.0))]),
     "spring": lambda: assur.Spring("A", "A", 1.0, 0.5),
     "motor": lambda: Machine(M, motor=WRONG),
     "no inertia": lambda: Machine(M).run(1.0),
     "run without an end": lambda: press(LINEAR).run(),
-    "run from nowhere": lambda: Machine(ROCKER, {"rocker": Body(inertia=1.0)}).run(1.0, q0=5.0),
-    "run outside": lambda: press(LINEAR).run(0.1, q0=0.0).at(5.0),
-    "reduced": lambda: Machine(ROCKER, {"rocker": Body(1.0)}).reduced_inertia([2.0, 5.0]),
-    "steady over a dead point": lambda: Machine(ROCKER, {"rocker": Body(inertia=1.0)}).steady_state(
-        3.0
+    "run from nowhere": lambda: Machine(ROCKER, bodies={"rocker": Body(inertia=1.0)}).run(
+        1.0, q0=5.0
     ),
+    "run outside": lambda: press(LINEAR).run(0.1, q0=0.0).at(5.0),
+    "reduced": lambda: Machine(ROCKER, bodies={"rocker": Body(1.0)}).reduced_inertia([2.0, 5.0]),
+    "steady over a dead point": lambda: Machine(
+        ROCKER, bodies={"rocker": Body(inertia=1.0)}
+    ).steady_state(3.0),
     "steady without a speed": lambda: press().steady_state(),
     "overloaded": lambda: press(assur.LinearMotor(5.0, 30.0)).steady_state(),
     "too slow": lambda: press().steady_state(0.1),
-    "half a mechanism": lambda: press().flywheel(0.05, -3.0),
-    "table": lambda: flywheel.from_table(PAPER_PHI[:2], PAPER_MOMENT[:2], PAPER_INERTIA[:2], 1, 1),
-    "falling table": lambda: flywheel.from_table(
-        PAPER_PHI[::-1], PAPER_MOMENT, PAPER_INERTIA, 0.05, 15.0
+    "half a mechanism": lambda: press().flywheel(0.05, mean_speed=-3.0),
+    "table": lambda: flywheel.from_table(
+        PAPER_PHI[:2], PAPER_MOMENT[:2], PAPER_INERTIA[:2], fluctuation=1, mean_speed=1
     ),
-    "fluctuation": lambda: flywheel.from_table(PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, 3.0, 15.0),
+    "falling table": lambda: flywheel.from_table(
+        PAPER_PHI[::-1], PAPER_MOMENT, PAPER_INERTIA, fluctuation=0.05, mean_speed=15.0
+    ),
+    "fluctuation": lambda: flywheel.from_table(
+        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, fluctuation=3.0, mean_speed=15.0
+    ),
     "fluctuations": lambda: flywheel.from_table(
-        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, np.array([0.05, -1.0]), 15.0
+        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, fluctuation=np.array([0.05, -1.0]), mean_speed=15.0
     ),
     "table without a motor": lambda: table().steady_state(),
     "crank-rocker": lambda: assur.crank_rocker.run(1, 4.5, 1.5, 4.995, gamma_min=0.2, phi0=0.0),

@@ -34,7 +34,7 @@ def metrics(m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
         asked.update(of_coordinate(name, m, is_turn))
     for name, shape, part, relative in product(joint, SHAPES, (0.25, 0.5, 1.0), (False, True)):
         asked[f"off {name} {shape} {part} {relative}"] = metric.deviation(
-            name, shape, part, relative
+            name, shape=shape, part=part, relative=relative
         )
     fixed = [name for name, slide in m.slides.items() if slide.on == "ground"]
     for name in (*joint, *fixed):
@@ -48,7 +48,9 @@ def metrics(m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
 def of_coordinate(name: str, m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
     single = np.ndim(m.q0) == 0
     makes, orders = (*COORDINATES, *(PLACES if single else ())), range(4 if single else 1)
-    asked = {f"{k.__name__} {name} {order}": k(name, order) for k in makes for order in orders}
+    asked = {
+        f"{k.__name__} {name} {order}": k(name, order=order) for k in makes for order in orders
+    }
     if single:
         asked[f"part {name}"] = metric.mean(name, over=(float(m.q0), float(m.q0) + 1.0))
     if is_turn:

@@ -37,8 +37,8 @@ class Request:
         return bits.bits(
             batch.solve(
                 self.q,
-                self.order,
-                self.outputs,
+                order=self.order,
+                outputs=self.outputs,
                 assembly=self.assembly,
                 threads=self.threads,
                 on_error="nan",

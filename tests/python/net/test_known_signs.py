@@ -28,10 +28,10 @@ def answers(batch: assur.Mechanism, q: bits.Float) -> list[bits.Bits]:
     joints = [name for name in batch.joints if name not in batch.links["ground"]]
     mirrored = {name: -sign for name, sign in batch.assembly.items()}
     motions = [
-        batch.solve(q, ORDER, joints, on_error="nan"),
-        batch.solve(q, ORDER, on_error="nan"),
-        batch.solve(q, ORDER, joints, on_error="nan"),
-        batch.solve(q, ORDER, joints, assembly=mirrored, on_error="nan"),
+        batch.solve(q, order=ORDER, outputs=joints, on_error="nan"),
+        batch.solve(q, order=ORDER, on_error="nan"),
+        batch.solve(q, order=ORDER, outputs=joints, on_error="nan"),
+        batch.solve(q, order=ORDER, outputs=joints, assembly=mirrored, on_error="nan"),
     ]
     return [bits.bits(motion) for motion in motions]
 
@@ -67,7 +67,9 @@ def test_a_design_with_a_change_point_is_traced_every_time() -> None:
     """A parallelogram goes on as one through its change points, alone and in a batch."""
     batch = assur.FourBar(1.0, 3.0, 1.0, [3.0, 3.2])
     q = np.linspace(0.1, 12.0, 50)
-    motions = [batch.solve(q, 0, ["C"], on_error="nan").joint("C").value for _ in range(3)]
+    motions = [
+        batch.solve(q, order=0, outputs=["C"], on_error="nan").joint("C").value for _ in range(3)
+    ]
     for motion in motions:
         assert np.allclose(motion[0], np.stack([3.0 + np.cos(q), np.sin(q)], -1), atol=1e-9)
 

@@ -66,7 +66,7 @@ def loaded() -> tuple[Machine, list[Any]]:
         Spring("C", ends, np.array(30.0), 0.5),  # type: ignore[arg-type]
     ]
     motor = assur.LinearMotor(torque, 20.0)  # type: ignore[arg-type]
-    machine = Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies, loads, motor)
+    machine = Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=loads, motor=motor)
     given = [q, value, at, force, place, gravity, mass, torque, ends, bodies]
     return machine, given
 
@@ -86,7 +86,7 @@ def test_a_copied_machine_of_tables_is_the_same(copier: Callable[[Any], Any]) ->
     q, value = rows()
     inertia = np.full(9, 2.0)
     over = np.array([0.0, 10.0, 20.0]), np.array([30.0, 25.0, 0.0])
-    machine = Machine.from_table(q, value - 2.0, inertia, Table(*over, "linear"))
+    machine = Machine.from_table(q, value - 2.0, inertia, motor=Table(*over, spline="linear"))
     before = answers(machine)
     spoil(q, value, inertia, *over)
     for own in (machine, copier(machine)):
@@ -98,7 +98,9 @@ def test_a_design_of_a_batch_has_the_batchs_loads() -> None:
     q, value = rows()
     lengths = np.array([3.0, 3.1])
     batch = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
-    machine = Machine(batch, {"crank": Body(inertia=0.5)}, [Torque("crank", Table(q, value))])
+    machine = Machine(
+        batch, bodies={"crank": Body(inertia=0.5)}, loads=[Torque("crank", Table(q, value))]
+    )
     before = machine.reduced_moment(Q)
     spoil(q, value, lengths)
     assert machine.design(1).reduced_moment(Q).tobytes() == before[1].tobytes()
@@ -109,7 +111,9 @@ def test_a_list_of_motors_may_change() -> None:
     links = {"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"}
     m = assur.Mechanism(joints=joints, links=links, driver=["left", "right"])
     motors: list[Any] = [assur.ConstantTorque(2.0, rotor_inertia=0.5), None]
-    machine = Machine(m, {name: Body(1.0, 0.1) for name in ("l2", "l3")}, [], motors)
+    machine = Machine(
+        m, bodies={name: Body(1.0, 0.1) for name in ("l2", "l3")}, loads=[], motor=motors
+    )
     before = machine.run(0.2).q
     motors[0] = None
     assert copy.copy(machine).run(0.2).q.tobytes() == before.tobytes()
@@ -141,8 +145,8 @@ def test_a_table_has_its_own_rows_and_they_do_not_change() -> None:
         (lambda: Table([0.0, 1.0], [1.0]), "Table (2,) (1,)"),
         (lambda: Table([[0.0], [1.0]], [[1.0], [1.0]]), "Table (2, 1)"),
         (lambda: Table([0.0], [1.0]), "Table 1 row 2"),
-        (lambda: Table([0.0, 1.0], [1.0, 1.0], "periodic"), "Table 2 rows 3"),
-        (lambda: Table([0.0, 1.0], [1.0, 1.0], ANY), "Table spline 'cubic' 'natural'"),
+        (lambda: Table([0.0, 1.0], [1.0, 1.0], spline="periodic"), "Table 2 rows 3"),
+        (lambda: Table([0.0, 1.0], [1.0, 1.0], spline=ANY), "Table spline 'cubic' 'natural'"),
         (lambda: Table([0.0, 1.0], [1.0, 1.0], ratio=0.0), "Table ratio 0"),
         (lambda: Table([0.0, 1.0], [1.0, 1.0], rotor_inertia=-1.0), "Table rotor_inertia -1"),
         (lambda: Table(["0", "1"], [1.0, 1.0]), "Table q real numbers"),

@@ -333,7 +333,7 @@ def test_a_machine_that_is_loaded_is_equal(name: str, tmp_path: Path) -> None:
 
 
 def test_batches_and_designs() -> None:
-    batch = assur.Machine(assur.SliderCrank(0.1, [0.4, 0.5]), {"rod": assur.Body(1.0)})
+    batch = assur.Machine(assur.SliderCrank(0.1, [0.4, 0.5]), bodies={"rod": assur.Body(1.0)})
     assert batch.design(0) == batch.design(0)
     assert batch.design(0) != batch.design(1)
     assert batch.mechanism is not None

@@ -157,7 +157,9 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "self-locking": lambda n: partial(_rubbing(0.3).self_locking, n=n),
     "limits of a chain": lambda n: _chain(n).limits,
     "extremes of a chain": lambda n: partial(_chain(n).extremes, f"rocker{n}"),
-    "extremes of accelerations of a chain": lambda n: partial(_chain(n).extremes, f"rocker{n}", 2),
+    "extremes of accelerations of a chain": lambda n: partial(
+        _chain(n).extremes, f"rocker{n}", order=2
+    ),
     "a mechanism of many links": lambda n: partial(_built, _chain_parts(n)),
     "a group of many links": lambda n: partial(_built, _group_parts(n)),
     "dwells of a chain": lambda n: partial(_chain(n).extremes(f"rocker{n}").dwells, 0.01),
@@ -186,7 +188,7 @@ def test_a_link_is_cut_at_many_sections_in_parts() -> None:
 ROWS = 3_000_000
 CURVES: dict[str, Callable[..., Callable[[], object]]] = {
     "a law": lambda x, y: partial(assur.laws.Tabulated, x, y),
-    "a periodic law": lambda x, y: partial(assur.laws.Tabulated, x, y, "periodic"),
+    "a periodic law": lambda x, y: partial(assur.laws.Tabulated, x, y, spline="periodic"),
     "a load": lambda x, y: partial(_loaded, assur.Table(x, y)),
     "a table that is read": lambda x, y: partial(assur.Table(x, y).at, 1.0),
     "a machine, not-a-knot": lambda x, y: partial(assur.Machine.from_table, x, y, 2.0),
@@ -195,7 +197,7 @@ CURVES: dict[str, Callable[..., Callable[[], object]]] = {
     ),
     "a machine, pchip": lambda x, y: partial(assur.Machine.from_table, x, y, 2.0, spline="pchip"),
     "a flywheel, pchip": lambda x, y: partial(
-        assur.flywheel.from_table, x, y, 2.0, 1e-3, 10.0, spline="pchip"
+        assur.flywheel.from_table, x, y, 2.0, fluctuation=1e-3, mean_speed=10.0, spline="pchip"
     ),
 }
 
@@ -350,7 +352,7 @@ def _rubbing(coefficient: float = 0.9) -> assur.Machine:
         "bore": assur.SlideFriction(coefficient, 0.05),
     }
     load = assur.Force("B", (-100.0, 0.0))
-    return assur.Machine(assur.SliderCrank(0.1, 0.35), {}, [load], friction=friction)
+    return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={}, loads=[load], friction=friction)
 
 
 def _moving(count: int) -> tuple[Any, ...]:
@@ -360,13 +362,15 @@ def _moving(count: int) -> tuple[Any, ...]:
 
 def _rod() -> assur.Machine:
     bodies = {"coupler": assur.Body(1.0, 0.75, (1.5, 0.0))}
-    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies)
+    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies)
 
 
 def _loaded(table: assur.Table) -> assur.Machine:
-    return assur.Machine(assur.SliderCrank(0.1, 0.4), {}, [assur.Torque("crank", table)])
+    return assur.Machine(
+        assur.SliderCrank(0.1, 0.4), bodies={}, loads=[assur.Torque("crank", table)]
+    )
 
 
 def _machine() -> assur.Machine:
     bodies = {"piston": assur.Body(mass=20.0), "crank": assur.Body(inertia=0.5)}
-    return assur.Machine(assur.SliderCrank(0.1, 0.4), bodies)
+    return assur.Machine(assur.SliderCrank(0.1, 0.4), bodies=bodies)

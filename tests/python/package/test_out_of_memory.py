@@ -32,8 +32,9 @@ designs = four_bar.with_dimensions({"coupler.length": np.linspace(2.9, 3.1, N)})
 crank = assur.SliderCrank(0.1, 0.35)
 bodies = {"piston": assur.Body(1.0), "crank": assur.Body(inertia=0.01)}
 loads = [assur.Force("B", (-100.0, 0.0), on="piston")]
-smooth = assur.Machine(crank, bodies, loads)
-rough = assur.Machine(crank, bodies, loads, friction={"A": assur.JointFriction(0.1, 0.01)})
+smooth = assur.Machine(crank, bodies=bodies, loads=loads)
+pin = {"A": assur.JointFriction(0.1, 0.01)}
+rough = assur.Machine(crank, bodies=bodies, loads=loads, friction=pin)
 angles = np.linspace(0.0, 2.0 * np.pi, N)
 turn = four_bar.solve(np.linspace(0.0, 6.0, 5 * N), order=1)
 calls = {

@@ -23,12 +23,12 @@ BODIES = {"crank": Body(inertia=0.5), "rocker": Body(inertia=1.0)}
 @cache
 def runs() -> dict[str, assur.Run]:
     """Runs with each part that a state may have, and with several ends."""
-    machine = Machine(CRANK_ROCKER, BODIES, [assur.Torque("crank", 3.0)])
-    lever = Machine(assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker"), BODIES)
+    machine = Machine(CRANK_ROCKER, bodies=BODIES, loads=[assur.Torque("crank", 3.0)])
+    lever = Machine(assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker"), bodies=BODIES)
     joints = {"A": (0, 0), "B": (0.3, 1), "C": (1.4, 2), "D": (2.5, 0.9), "E": (2, 0)}
     links = {"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"}
     two = assur.Mechanism(joints=joints, links=links, driver=["left", "right"])
-    near = Machine(assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0), {"rocker": Body(inertia=1.0)})
+    near = Machine(assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0), bodies={"rocker": Body(inertia=1.0)})
     with pytest.warns(assur.AssurWarning):
         limited = machine.run(2.0, speed0=1.0, max_steps=3)
     return {
@@ -38,7 +38,7 @@ def runs() -> dict[str, assur.Run]:
         "no steps": machine.run(0.0, speed0=1.0),
         "dead point": lever.run(9.0, speed0=1.0),
         "near change point": near.run(q_end=4.0, q0=1.0, speed0=1.0),
-        "two drivers": Machine(two, {n: Body(1.0, 0.1) for n in ("l2", "l3")}).run(
+        "two drivers": Machine(two, bodies={n: Body(1.0, 0.1) for n in ("l2", "l3")}).run(
             0.2, speed0=[0.3, 0.1]
         ),
         "limit": limited,
@@ -136,7 +136,9 @@ def test_a_machine_that_its_own_load_refers_to_is_freed() -> None:
             return -float(self.machine.reduced_inertia(q).value) if self.machine else 0.0
 
     brake = Brake()
-    brake.machine = machine = Machine(CRANK_ROCKER, BODIES, [assur.Torque("crank", brake)])
+    brake.machine = machine = Machine(
+        CRANK_ROCKER, bodies=BODIES, loads=[assur.Torque("crank", brake)]
+    )
     gone = weakref.ref(machine)
     del machine, brake
     gc.collect()

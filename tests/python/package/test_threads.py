@@ -44,7 +44,7 @@ def test_others_help_after_a_trial(positions: int) -> None:
     lengths = np.linspace(2.9, 3.1, 2_000_000 // positions)
     m = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"coupler.length": lengths})
     q = np.linspace(-9.0, 9.0, positions)
-    one, two = (m.solve(q, 0, ["C"], threads=threads) for threads in (1, 2))
+    one, two = (m.solve(q, order=0, outputs=["C"], threads=threads) for threads in (1, 2))
     assert np.array_equal(one.joint("C").value, two.joint("C").value)
 
 
@@ -74,9 +74,9 @@ def test_many_designs_at_many_positions_have_the_same_bits(positions: int, threa
     q = np.linspace(-9.0, 9.0, positions)
     four = assur.FourBar(1.0, 3.0, 2.5, 3.0)
     many = four.with_dimensions({"coupler.length": np.linspace(2.4, 3.1, 64)})
-    motion = many.solve(q, 1, ["rocker"], on_error="nan", threads=threads)
+    motion = many.solve(q, order=1, outputs=["rocker"], on_error="nan", threads=threads)
     for i in (0, 40, 63):
-        alone = many.design(i).solve(q, 1, ["rocker"], on_error="nan")
+        alone = many.design(i).solve(q, order=1, outputs=["rocker"], on_error="nan")
         assert np.array_equal(motion.status[i], alone.status)
         for order in ("value", "d1"):
             whole, one = (getattr(m.link("rocker"), order) for m in (motion, alone))

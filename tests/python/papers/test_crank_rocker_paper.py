@@ -209,10 +209,10 @@ def test_zone_of_figure_3() -> None:
         assert math.isclose(least, 5.0 - rocker + 0.05)
         assert math.isclose(greatest, 3.0 + rocker - 0.05)
         assert math.isclose(greatest - least, 2 * (rocker - 1) - 0.1, abs_tol=1e-14)
-    assert cr.ground_range(4.0, 2.0, (0.1, 0.3)) == pytest.approx((3.1, 4.7))
+    assert cr.ground_range(4.0, 2.0, margin=(0.1, 0.3)) == pytest.approx((3.1, 4.7))
     # Longer rockers than the paper's.
-    assert cr.ground_range(2.0, 4.0, 0.0) == pytest.approx((3.0, 5.0))
-    least, greatest = cr.ground_range(4.5, 1.5, 0.0, gamma_min=0.2)
+    assert cr.ground_range(2.0, 4.0, margin=0.0) == pytest.approx((3.0, 5.0))
+    least, greatest = cr.ground_range(4.5, 1.5, margin=0.0, gamma_min=0.2)
     assert abs(least - 4.04451986) < 6e-9
     assert abs(greatest - 4.97753284) < 6e-9
     inside = [least < ground < greatest for ground in GROUNDS]
@@ -271,8 +271,12 @@ def test_extremes_and_blocked_angles() -> None:
         (lambda: cr.solve([1, 2], [1, 2, 3], 2, 3, 4), assur.InputError, "broadcast"),
         (lambda: cr.grashof(1, 2, 0, 4), assur.DimensionError, "l3 is 0.0"),
         (lambda: cr.blocked(1, 2, [3], 4, 0.1), assur.InputError, "one mechanism"),  # type: ignore[arg-type]
-        (lambda: cr.ground_range(4.0, 2.0, -0.1), assur.InputError, "margin"),
-        (lambda: cr.ground_range(4.0, 2.0, 0.0, 1.7), assur.InputError, "gamma_min"),
+        (lambda: cr.ground_range(4.0, 2.0, margin=-0.1), assur.InputError, "margin"),
+        (
+            lambda: cr.ground_range(4.0, 2.0, margin=0.0, gamma_min=1.7),
+            assur.InputError,
+            "gamma_min",
+        ),
         (lambda: cr.least_transmission_angle(-0.1, 1, 0, 0, 1), assur.InputError, "f_c is -0.1"),
         (lambda: cr.blocked(1, 2, 3, 4, math.nan), assur.InputError, "gamma_min is nan"),
     ],

@@ -87,9 +87,9 @@ def test_coefficients_printed() -> None:
     a0 = 1 + 1 / (4 * k) + 3 / (64 * k**3) + 5 / (256 * k**5)
     a2 = -(1 / (4 * k) + 1 / (16 * k**3) + 15 / (512 * k**5))
     printed = [a0, -1.0, a2, 1 / (64 * k**3) + 3 / (256 * k**5), -1 / (512 * k**5)]
-    np.testing.assert_allclose(sc.fourier(k, 6, terms=3), printed, rtol=4e-16)
+    np.testing.assert_allclose(sc.fourier(k, harmonics=6, terms=3), printed, rtol=4e-16)
     more = a0 + 175 / (16384 * k**7)
-    assert math.isclose(sc.fourier(k, 0, terms=4)[0], more, rel_tol=4e-16)
+    assert math.isclose(sc.fourier(k, harmonics=0, terms=4)[0], more, rel_tol=4e-16)
 
 
 @pytest.mark.parametrize("k", [1.05, 1.1, 1.2, 1.7, 2.5, *RATIOS])
@@ -98,7 +98,7 @@ def test_coefficients_at_fifty_digits(k: float) -> None:
     count = 4000 if k < 1.1 else 600
     points = [2 * MP.pi * i / count for i in range(count)]
     values = [exact(p, MP.mpf(k)) for p in points]
-    found = sc.fourier(k, 12)
+    found = sc.fourier(k, harmonics=12)
     assert found.shape == (8,)
     for index, harmonic in enumerate((0, 1, 2, 4, 6, 8, 10, 12)):
         cosines = (MP.cos(harmonic * p) for p in points)
@@ -111,7 +111,7 @@ def test_coefficients_at_fifty_digits(k: float) -> None:
 @pytest.mark.parametrize("terms", [0, 1, 2, 3, 4, 5, 6, 20])
 def test_coefficients_of_few_terms_in_fractions(k: float, terms: int) -> None:
     """By the powers of the sine that are kept, in whole numbers."""
-    found = sc.fourier(k, 12, terms=terms)
+    found = sc.fourier(k, harmonics=12, terms=terms)
     for n in range(7):
         inner = sum(
             Fraction(math.comb(2 * m, m) * math.comb(2 * m, m - n), (2 * m - 1) * 16**m)
@@ -175,7 +175,7 @@ def test_greatest_speed_printed() -> None:
     }
     for k, wanted in degrees.items():
         for method, angle in zip(("exact", "series", "perpendicular"), wanted, strict=True):
-            found = sc.greatest_speed(float(k), method)  # type: ignore[arg-type]
+            found = sc.greatest_speed(float(k), method=method)  # type: ignore[arg-type]
             assert abs(math.degrees(found.at) - angle) < 6e-7
             if k in speeds:
                 value = speeds[k][("exact", "series", "perpendicular").index(method)]
@@ -272,13 +272,13 @@ def last_digit(value: float, digits: int) -> float:
 def test_largest_deviations_printed() -> None:
     for (k, n), pairs in RELATIVE.items():
         for quantity, (percent, degrees) in zip(("stroke", "d1"), pairs, strict=True):
-            found = sc.deviation(1 / k, n, quantity)  # type: ignore[arg-type]
+            found = sc.deviation(1 / k, n, quantity=quantity)  # type: ignore[arg-type]
             allowed = 6e-7 if percent > 1e-4 else 6e-8
             assert abs(100 * found.relative - percent) < allowed, (k, n, quantity)
             if degrees is not None:
                 assert abs(math.degrees(found.relative_at) - degrees) < 6e-3
     for (k, n), size in ABSOLUTE.items():
-        found = sc.deviation(1 / k, n, "d2")
+        found = sc.deviation(1 / k, n, quantity="d2")
         assert abs(found.absolute - size) < last_digit(size, 4 if (k, n) != (3, 1) else 5)
         assert np.isnan(found.relative)
         assert abs(math.degrees(found.absolute_at) - 90.0) < 1e-4
@@ -315,7 +315,7 @@ def test_errors_of_the_fraction_fall_by_tan2(k: float) -> None:
     printed = {3.0: 0.02944, 5.0: 0.01021}
     assert k not in printed or abs(rate - printed[k]) < 6e-6
     for quantity in ("stroke", "d1", "d2"):
-        sizes = [sc.deviation(1 / k, n, quantity).absolute for n in range(1, 9)]
+        sizes = [sc.deviation(1 / k, n, quantity=quantity).absolute for n in range(1, 9)]
         for a, b in itertools.pairwise(sizes):
             assert b / a < 3 * rate if quantity != "stroke" else b / a <= rate * (1 + 1e-9)
     phi = np.linspace(0.0, np.pi, 91)
@@ -343,7 +343,7 @@ def test_closed_contour() -> None:
 def test_shapes_broadcast() -> None:
     s = sc.stroke(np.zeros(5), np.ones((3, 1)), 2.0)
     assert s.value.shape == s.d2.shape == (3, 5)
-    assert sc.fourier(np.full((2, 3), 4.0), 8).shape == (2, 3, 6)
+    assert sc.fourier(np.full((2, 3), 4.0), harmonics=8).shape == (2, 3, 6)
     assert sc.rod_point(np.zeros(4), 1.0, 2.0, np.ones((2, 1))).d1.shape == (2, 4, 2)
     assert sc.deviation([0.2, 0.3], 2).relative.shape == (2,)
 
@@ -361,11 +361,11 @@ def test_shapes_broadcast() -> None:
         (lambda: sc.stroke(0.1, 1.0, 2.0, method="fraction", n=0), assur.InputError, "n is 0"),
         (lambda: sc.stroke([1, 2], [1, 2, 3], 4.0), assur.InputError, "broadcast"),
         (lambda: sc.fourier(1.0), assur.InputError, "k > 1"),
-        (lambda: sc.fourier(3.0, 5), assur.InputError, "even"),
-        (lambda: sc.fourier(3.0, 4, terms=-1), assur.InputError, "terms is -1"),
+        (lambda: sc.fourier(3.0, harmonics=5), assur.InputError, "even"),
+        (lambda: sc.fourier(3.0, harmonics=4, terms=-1), assur.InputError, "terms is -1"),
         (lambda: sc.fourier(1.0 + 1e-12), assur.InputError, "do not end"),
         (lambda: sc.deviation(1.2, 2), assur.InputError, "below 1"),
-        (lambda: sc.deviation(0.2, 2, "d3"), assur.InputError, "quantity"),  # type: ignore[arg-type]
+        (lambda: sc.deviation(0.2, 2, quantity="d3"), assur.InputError, "quantity"),  # type: ignore[arg-type]
         (lambda: sc.greatest_speed(0.5), assur.InputError, "k is 0.5"),
         (lambda: sc.contour(np.zeros(2), 1.0, 2.0), assur.InputError, "one position"),  # type: ignore[arg-type]
     ],

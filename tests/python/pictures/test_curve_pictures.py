@@ -107,7 +107,7 @@ def test_a_workspace_is_the_ring_of_an_arm() -> None:
 def test_dead_points_are_drawn_into_a_workspace_and_over_the_drivers() -> None:
     loci = FIVE_BAR.singular_loci(positions=10)
     reach = FIVE_BAR.workspace("P", positions=14)
-    ax = reach.plot(loci, dark=True)
+    ax = reach.plot(loci=loci, dark=True)
     second = lines_named(ax, "singular kind 2")
     assert len(second) == len(loci)
     for line, locus in zip(second, loci, strict=True):

@@ -19,7 +19,7 @@ from pictures.picture_reading import gids, named, one, overlapping, texts, vecto
 def _engine(**more: Any) -> assur.Machine:
     bodies = {"rod": assur.Body(1.2, 0.015, (0.12, 0.01)), "piston": assur.Body(2.0)}
     loads: list[Any] = [assur.Force("B", (-800.0, 0.0), on="piston"), assur.Gravity()]
-    return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies, loads, **more)
+    return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=loads, **more)
 
 
 def _loaded() -> assur.Machine:
@@ -38,7 +38,7 @@ def _loaded() -> assur.Machine:
         assur.Spring("A", "C", 400.0, 0.1),
         assur.Damper("B", ("rocker", (0.02, 0.0)), 3.0),
     ]
-    return assur.Machine(assur.FourBar(0.05, 0.15, 0.12, 0.16), bodies, loads)
+    return assur.Machine(assur.FourBar(0.05, 0.15, 0.12, 0.16), bodies=bodies, loads=loads)
 
 
 MACHINES: dict[str, Any] = {
@@ -49,19 +49,21 @@ MACHINES: dict[str, Any] = {
     ).reactions([0.4, 1.1], speed=60.0),
     "shaper": lambda: assur.Machine(
         assur.examples.shaper(),
-        {"lever": assur.Body(4.0, 0.05, (0.1, 0.0)), "ram": assur.Body(6.0)},
-        [assur.Force("F", (-900.0, 0.0)), assur.Gravity()],
+        bodies={"lever": assur.Body(4.0, 0.05, (0.1, 0.0)), "ram": assur.Body(6.0)},
+        loads=[assur.Force("F", (-900.0, 0.0)), assur.Gravity()],
     ).reactions([0.4, 1.1], speed=8.0),
     "class III": lambda: assur.Machine(
-        assur.examples.triad(), {"plate": assur.Body(2.0, 0.01, (0.02, 0.01))}, [assur.Gravity()]
+        assur.examples.triad(),
+        bodies={"plate": assur.Body(2.0, 0.01, (0.02, 0.01))},
+        loads=[assur.Gravity()],
     ).reactions([0.4, 1.1], speed=8.0),
     "class IV": lambda: assur.Machine(
-        assur.examples.loom(), {"l234": assur.Body(2.0, 0.01)}, [assur.Gravity()]
+        assur.examples.loom(), bodies={"l234": assur.Body(2.0, 0.01)}, loads=[assur.Gravity()]
     ).reactions([0.4, 1.1], speed=8.0),
     "three cylinders": lambda: assur.Machine(
         assur.examples.platform_on_cylinders(),
-        {"platform": assur.Body(20.0, 1.0, (0.1, 0.1))},
-        [assur.Gravity()],
+        bodies={"platform": assur.Body(20.0, 1.0, (0.1, 0.1))},
+        loads=[assur.Gravity()],
     ).reactions([[1.2, 1.1, 0.8]] * 2, speed=[0.1, -0.2, 0.1]),
 }
 

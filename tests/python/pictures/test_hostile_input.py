@@ -35,14 +35,17 @@ def _closed() -> Iterator[None]:
         (lambda: TURN.plot(3), "joint is 3: a name or a list"),
         (lambda: TURN.plot(b"P"), "joint: the name b'P'"),
         (lambda: TURN.plot("P", vectors=1), "vectors is 1"),
-        (lambda: TURN.animate("never.gif", 1.5), "joint is 1.5"),
+        (lambda: TURN.animate("never.gif", joint=1.5), "joint is 1.5"),
         (lambda: TURN.animate("never.gif", seconds=1e9), "seconds is 1000000000.0"),
-        (lambda: TURN.plot("P", vectors="velocity", omega=np.inf), "omega is inf"),
-        (lambda: hodograph(TURN, "P", omega=np.nan), "omega is nan"),
-        (lambda: TURN.polygon("velocity", at=1, omega=np.inf), "omega is inf"),
-        (lambda: TURN.polygon("acceleration", at=1, alpha=[1.0, 2.0]), r"alpha has shape \(2,\)"),
-        (lambda: TURN.polygon("velocity", at=1, omega=[]), r"omega has shape \(0,\)"),
-        (lambda: TURN.polygon("velocity", at=1, omega=1e250), "wide: from 1e-100 to 1e"),
+        (lambda: TURN.plot("P", vectors="velocity", speed=np.inf), "speed is inf"),
+        (lambda: hodograph(TURN, "P", speed=np.nan), "speed is nan"),
+        (lambda: TURN.polygon("velocity", at=1, speed=np.inf), "speed is inf"),
+        (
+            lambda: TURN.polygon("acceleration", at=1, acceleration=[1.0, 2.0]),
+            r"acceleration has shape \(2,\)",
+        ),
+        (lambda: TURN.polygon("velocity", at=1, speed=[]), r"speed has shape \(0,\)"),
+        (lambda: TURN.polygon("velocity", at=1, speed=1e250), "wide: from 1e-100 to 1e"),
         (lambda: CRANK_ROCKER.plot([]), r"shape \(0,\): there is no position"),
         (lambda: CRANK_ROCKER.plot(groups=[1, 2]), "groups is"),
         (lambda: CRANK_ROCKER.plot(dark=None), "dark is None"),
@@ -119,7 +122,7 @@ def test_many_centres_in_one_place_are_counted() -> None:
 
 
 def test_sizes_along_paths_keep_clear_of_names_and_each_other() -> None:
-    axes = TURN.plot(["B", "C", "P"], at=5, vectors=["velocity", "acceleration"], omega=4.0)
+    axes = TURN.plot(["B", "C", "P"], at=5, vectors=["velocity", "acceleration"], speed=4.0)
     axes.figure.canvas.draw()
     sizes = [text for text in axes.texts if str(text.get_gid()).endswith("text")]
     names = [text for text in axes.texts if str(text.get_gid()).startswith("name ")]

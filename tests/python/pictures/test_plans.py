@@ -42,7 +42,7 @@ def test_velocities_of_a_four_bar() -> None:
     p3 = float(np.arctan2(rocker[1], rocker[0]))
     w2 = w * a * np.sin(p3 - p1) / (b * np.sin(p2 - p3))
     w3 = w * a * np.sin(p1 - p2) / (c * np.sin(p3 - p2))
-    ax = motion.polygon("velocity", omega=w)
+    ax = motion.polygon("velocity", speed=w)
     tip_b = w * a * np.array([-np.sin(p1), np.cos(p1)])
     tip_c = w3 * c * np.array([-np.sin(p3), np.cos(p3)])
     for joint, tip in (("B", tip_b), ("C", tip_c)):
@@ -63,7 +63,7 @@ def test_accelerations_of_a_slider_crank() -> None:
     beta = -np.arcsin(r * np.sin(q) / l)
     wb = -r * w * np.cos(q) / (l * np.cos(beta))
     eb = (r * w**2 * np.sin(q) + l * wb**2 * np.sin(beta)) / (l * np.cos(beta))
-    ax = motion.polygon("acceleration", omega=w)
+    ax = motion.polygon("acceleration", speed=w)
     along, across = np.array([np.cos(beta), np.sin(beta)]), np.array([-np.sin(beta), np.cos(beta)])
     pin = -r * w**2 * np.array([np.cos(q), np.sin(q)])
     normal, tangential = (
@@ -76,7 +76,9 @@ def test_accelerations_of_a_slider_crank() -> None:
     assert abs(tangential[1][1]) < 1e-10
     # The crank's pin is driven at constant speed: nothing but its whole acceleration is drawn.
     assert not named(ax, "normal A")
-    assert {"normal A", "tangential A"} <= gids(motion.polygon("acceleration", omega=w, alpha=90.0))
+    assert {"normal A", "tangential A"} <= gids(
+        motion.polygon("acceleration", speed=w, acceleration=90.0)
+    )
 
 
 @pytest.mark.parametrize("name", assur.examples.ALL)
@@ -146,7 +148,7 @@ def test_slides_on_moving_guides(name: str) -> None:
 
 def test_a_shaper_names_what_slides() -> None:
     motion = _mechanism("shaper").solve(0.7)
-    ax = motion.polygon("acceleration", omega=10.0)
+    ax = motion.polygon("acceleration", speed=10.0)
     written = {text.get_gid(): text.get_text() for text in texts(ax)}
     assert "coriolis A relative to A of lever" in gids(ax)
     assert written["coriolis A relative to A of lever text"].startswith("$a^{k}_{A3A4}$")
@@ -177,7 +179,7 @@ def test_names_of_images() -> None:
 
 def test_heading_and_scale() -> None:
     motion = assur.FourBar(0.04, 0.12, 0.08, 0.1).solve(np.radians([10.0, 335.0]))
-    ax = motion.polygon("velocity", at=1, omega=10.0)
+    ax = motion.polygon("velocity", at=1, speed=10.0)
     assert one(ax, "title").get_text() == "Plan of velocities"
     assert one(ax, "heading").get_text() == "q = 335°, ω = 10.0 rad/s"
     bar = named(ax, "scale")
@@ -202,7 +204,7 @@ def test_texts_are_clear() -> None:
     for i, name in enumerate(assur.examples.ALL):
         motion, speed, _ = _example(name)
         for what in ("acceleration",) if i % 3 else ("acceleration", "velocity"):
-            ax = motion.polygon(what, omega=speed)
+            ax = motion.polygon(what, speed=speed)
             some, of = overlapping(ax, LINES)
             bad, count = bad + some, count + of
             plt.close("all")
@@ -216,8 +218,8 @@ def test_plans_refused() -> None:
         motion.polygon("jerk")
     with pytest.raises(assur.InputError, match="at"):
         motion.polygon("velocity", at=2)
-    with pytest.raises(assur.InputError, match="omega = 0"):
-        motion.polygon("velocity", at=1, omega=0.0)
+    with pytest.raises(assur.InputError, match="speed = 0"):
+        motion.polygon("velocity", at=1, speed=0.0)
     with pytest.raises(assur.InputError, match="cannot be assembled"):
         assur.FourBar(40, 120, 80, 300).solve([0.0, 3.0], on_error="nan").polygon("velocity", at=1)
     with pytest.raises(assur.InputError, match="order 1"):

@@ -81,7 +81,7 @@ def test_moments_turn_as_their_sign() -> None:
 def test_hodograph_of_rows() -> None:
     """The curve passes through what was asked for, and is refined between."""
     motion = assur.FourBar(0.1, 0.3, 0.25, 0.3).solve(np.linspace(0.0, 2.0 * np.pi, 25))
-    ax = hodograph(motion, "C", omega=10.0, order=2)
+    ax = hodograph(motion, "C", speed=10.0, order=2)
     curve = one(ax, "hodograph C").get_xydata()
     exact = motion.joint("C").acceleration(10.0)
     steps = (len(curve) - 1) // 24
@@ -98,7 +98,7 @@ def test_hodograph_of_rows() -> None:
 
 def test_hodograph_of_the_whole_motion() -> None:
     motion = assur.SliderCrank(0.1, 0.4).solve(0.0)
-    ax = hodograph(motion, "B", omega=10.0)
+    ax = hodograph(motion, "B", speed=10.0)
     curve = one(ax, "hodograph B").get_xydata()
     assert np.abs(curve[:, 1]).max() < 1e-9
     assert np.abs(curve[:, 0]).max() == pytest.approx(
@@ -113,7 +113,7 @@ def test_hodograph_keeps_the_assembly() -> None:
     own = mechanism.solve(1.0).joint("C").value
     motions = [mechanism.solve(1.0, assembly=one) for one in mechanism.assemblies(1.0)]
     (motion,) = [other for other in motions if abs(other.joint("C").value - own).max() > 0.01]
-    curve = one(hodograph(motion, "C", omega=2.0), "hodograph C").get_xydata()
+    curve = one(hodograph(motion, "C", speed=2.0), "hodograph C").get_xydata()
     exact = motion.joint("C").velocity(2.0)
     assert np.hypot(*(curve - exact).T).min() < 0.01 * np.hypot(*exact)
 

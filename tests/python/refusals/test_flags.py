@@ -22,7 +22,7 @@ pytest.importorskip("matplotlib").use("Agg")
 PRESS = assur.SliderCrank(0.1, 0.4)
 WHEEL = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 MOTION = WHEEL.solve([0.5, 1.0, 1.5], order=3)
-MACHINE = assur.Machine(PRESS, {"crank": assur.Body(inertia=0.5), "piston": assur.Body(1.0)})
+MACHINE = assur.Machine(PRESS, bodies={"crank": assur.Body(inertia=0.5), "piston": assur.Body(1.0)})
 RUN = MACHINE.run(t_end=0.5, q0=0.0, speed0=3.0)
 PHI, MOMENT = np.linspace(0.0, math.tau, 7), np.array([0.0, 4.0, 2.0, -3.0, 1.0, -4.0, 0.0])
 LENGTHS = {"rocker.length": np.linspace(2.4, 2.6, 3)}
@@ -99,13 +99,13 @@ CALLS: dict[str, Callable[..., Any]] = {
     "Table": lambda _, **f: assur.Table([0.0, 1.0, 2.0], [1.0, 2.0, 1.0], **f),
     "MachineModel.from_table": lambda _, **f: of_table(**f),
     "read_table": lambda at, **f: flywheel.read_table(at / "table.csv", **f),
-    "deviation": lambda _, **f: metric.deviation("C", "line", **f),
+    "deviation": lambda _, **f: metric.deviation("C", shape="line", **f),
     "Rest": lambda _, **f: watched(events.Rest(**f)),
     "Position": lambda _, **f: watched(events.Position(1.0, **f)),
     "Speed": lambda _, **f: watched(events.Speed(1.0, **f)),
     "Crossing": lambda _, **f: watched(events.Crossing(lambda _t, q, _w: q - 1.0, **f)),
     "TransmissionAngle": lambda _, **f: assur.Machine(
-        WHEEL, {"crank": assur.Body(inertia=1.0)}
+        WHEEL, bodies={"crank": assur.Body(inertia=1.0)}
     ).run(t_end=0.1, q0=0.0, speed0=3.0, events=[events.TransmissionAngle("C", 0.5, **f)]),
     "Measures.best": lambda _, **f: swept().best(1, "span", **f),
     "Measures.plot": lambda _, **f: swept().plot("span", **f),
@@ -116,7 +116,7 @@ CALLS: dict[str, Callable[..., Any]] = {
     "Motion.plot": lambda _, **f: MOTION.plot(**f),
     "Motion.animate": lambda at, **f: MOTION.animate(at / "m.gif", **f),
     "Motion.to_html": lambda at, **f: WHEEL.solve(np.linspace(0.0, 6.0, 9)).to_html(at / "m", **f),
-    "Motion.polygon": lambda _, **f: MOTION.polygon("velocity", at=0, omega=1.0, **f),
+    "Motion.polygon": lambda _, **f: MOTION.polygon("velocity", at=0, speed=1.0, **f),
     "TimedMotion.diagram": lambda _, **f: timed().diagram("rocker", **f),
     "TimedMotion.to_html": lambda at, **f: timed().to_html(at / "t", **f),
     "Mechanism.plot": lambda _, **f: WHEEL.plot(**f),

@@ -32,7 +32,7 @@ def four_bar() -> assur.Mechanism:
 
 
 def machine(*loads: Any, **options: Any) -> assur.Machine:
-    return assur.Machine(four_bar(), {ROD: assur.Body(1.0, 0.1, C)}, loads, **options)
+    return assur.Machine(four_bar(), bodies={ROD: assur.Body(1.0, 0.1, C)}, loads=loads, **options)
 
 
 def swept(name: Any) -> Any:
@@ -45,7 +45,7 @@ def slides(**own: Any) -> Any:
         {A: (0, 0), B: (1, 0), C: (3, 0)},
         {GROUND: [A], CRANK: [A, B], ROD: [B]},
         CRANK,
-        {X: assur.Slide(**given)},
+        slides={X: assur.Slide(**given)},
     )
 
 
@@ -72,10 +72,10 @@ NAMES: dict[str, Callable[[], Any]] = {
     "along": lambda: slides(angle=float("nan"), along=(A, X)),
     "along itself": lambda: slides(angle=float("nan"), along=(A, A)),
     "cylinder": lambda: assur.Mechanism(
-        {A: (0, 0)}, {GROUND: [A]}, "x", {"x": assur.Cylinder(A, X)}
+        {A: (0, 0)}, {GROUND: [A]}, "x", slides={"x": assur.Cylinder(A, X)}
     ),
-    "body": lambda: assur.Machine(four_bar(), {X: assur.Body(1.0)}),
-    "body at": lambda: assur.Machine(four_bar(), {ROD: assur.Body(1.0, at=D)}),
+    "body": lambda: assur.Machine(four_bar(), bodies={X: assur.Body(1.0)}),
+    "body at": lambda: assur.Machine(four_bar(), bodies={ROD: assur.Body(1.0, at=D)}),
     "load": lambda: machine(assur.Force(X, (0, 1))),
     "on": lambda: machine(assur.Force(C, (0, 1), on=CRANK)),
     "torque": lambda: machine(assur.Torque(ROD, 1.0, on=ROD)),
@@ -94,7 +94,7 @@ NAMES: dict[str, Callable[[], Any]] = {
     "metrics": lambda: assur.sweep(four_bar(), {}, Q, metrics={X: WRONG}),
     "peak": lambda: assur.sweep(machine(), {}, Q, metrics={"a": metric.peak_reaction(X)}),
     "table over": lambda: machine(assur.Torque(ROD, assur.Table([0, 1], [0, 1], over=X))),
-    "spline": lambda: assur.Table([0, 1], [0, 1], X),
+    "spline": lambda: assur.Table([0, 1], [0, 1], spline=X),
     "from lengths": lambda: assur.Mechanism.from_lengths(
         {A: (0, 0), B: (1, 0)}, {GROUND: [A], CRANK: [A, B]}, CRANK, {(A, X): 1.0}
     ),
@@ -179,7 +179,7 @@ def test_find_of_a_joint_that_rests_has_no_internal_words() -> None:
 
 def test_a_batch_with_its_own_motor() -> None:
     batch = assur.SliderCrank(0.1, [0.4, 0.5])
-    own = assur.Machine(batch, {"rod": assur.Body(1.0)}, motor=assur.ConstantTorque(9.0))
+    own = assur.Machine(batch, bodies={"rod": assur.Body(1.0)}, motor=assur.ConstantTorque(9.0))
     with pytest.raises(assur.InputError, match=r"^flywheel\(fluctuation\) .* is a batch \(2,\)"):
         own.flywheel(0.05)
 
@@ -188,7 +188,9 @@ def test_values_of_a_wrong_kind_are_refused_by_name() -> None:
     """Infinity in a table, one mechanism for a list, an array for a name."""
     crank = assur.SliderCrank(0.1, 0.4)
     bodies = {"crank": assur.Body(1.0, 1.0), "rod": assur.Body(1.0, 0.1)}
-    machine = assur.Machine(crank, bodies, [assur.Force("B", (-100.0, 0.0), on="piston")])
+    machine = assur.Machine(
+        crank, bodies=bodies, loads=[assur.Force("B", (-100.0, 0.0), on="piston")]
+    )
     one: Any = crank
     pair: Any = np.zeros(2)
     number: Any = np.array(5.0)

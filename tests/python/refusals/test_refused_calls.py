@@ -27,13 +27,13 @@ TABLE: Any = np.zeros((2, 3))
 TURN = np.linspace(0.0, 6.0, 7)
 LENGTHS = (1.0, 4.5, 1.5, 4.8)
 PRESS = assur.SliderCrank(0.1, 0.4)
-MACHINE = assur.Machine(PRESS, {"crank": assur.Body(inertia=1.0)})
+MACHINE = assur.Machine(PRESS, bodies={"crank": assur.Body(inertia=1.0)})
 LOCKED = assur.Machine(
     PRESS,
-    {"crank": assur.Body(inertia=1.0)},
+    bodies={"crank": assur.Body(inertia=1.0)},
     friction={"B": assur.JointFriction(0.1, 0.02)},
 )
-WHEEL = flywheel.evaluate(TURN / 6.0 * 2.0 * np.pi, np.zeros(7), 2.0, 1.0, speed0=5.0)
+WHEEL = flywheel.evaluate(TURN / 6.0 * 2.0 * np.pi, np.zeros(7), 2.0, flywheel=1.0, speed0=5.0)
 
 
 def drawing(**given: Any) -> object:
@@ -41,7 +41,7 @@ def drawing(**given: Any) -> object:
 
 
 def curve() -> assur.ConfigurationCurve:
-    return M.configuration_curve(8)
+    return M.configuration_curve(positions=8)
 
 
 def workspace() -> assur.Workspace:
@@ -77,20 +77,24 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     # Arrays.
     "page": (lambda x: M.to_html("never.html", q=x), RAGGED, "q [[1.0], [2.0, 3.0]] array"),
     "part of a motion": (lambda x: MOTION[x], RAGGED, "[[1.0], [2.0, 3.0]] slice"),
-    "speed": (lambda x: MOTION.diagram("C", omega=x), RAGGED, "omega [[1.0], [2.0, 3.0]]"),
-    "acceleration": (lambda x: MOTION.diagram("C", omega=1, alpha=x), RAGGED, "alpha [[1.0]"),
+    "speed": (lambda x: MOTION.diagram("C", speed=x), RAGGED, "speed [[1.0], [2.0, 3.0]]"),
+    "acceleration": (
+        lambda x: MOTION.diagram("C", speed=1, acceleration=x),
+        RAGGED,
+        "acceleration [[1.0]",
+    ),
     "orders": (lambda x: MOTION.diagram("C", orders=x), RAGGED, "orders [1.0] 0 1, 2 or 3"),
     "no orders": (lambda x: MOTION.diagram("C", orders=x), [], "orders empty from 1"),
     "many orders": (lambda x: MOTION.diagram("C", orders=x), [0] * 99, "orders more than 12"),
-    "a speed too small": (lambda x: MOTION.diagram("C", omega=x), 1e-320, "values from 1e-300"),
-    "a speed too great": (lambda x: MOTION.diagram("rocker", omega=x), 1e152, "values to 1e+300"),
-    "its square": (lambda x: MOTION.diagram("C", omega=x), 1e152, "square 'C' greatest number"),
+    "a speed too small": (lambda x: MOTION.diagram("C", speed=x), 1e-320, "values from 1e-300"),
+    "a speed too great": (lambda x: MOTION.diagram("rocker", speed=x), 1e152, "values to 1e+300"),
+    "its square": (lambda x: MOTION.diagram("C", speed=x), 1e152, "square 'C' greatest number"),
     "places": (lambda x: curve().defects(x), np.array(0.5), "places 0.5 pairs (q, assembly)"),
     "a mechanism for places": (lambda x: curve().defects(x), M, "places pairs (q, assembly)"),
     "speeds at a position": (
-        lambda x: MOTION.plot("C", vectors="velocity", omega=x),
+        lambda x: MOTION.plot("C", vectors="velocity", speed=x),
         np.ones((2, 3)),
-        "omega shape (2, 3) one speed (3,)",
+        "speed shape (2, 3) one speed (3,)",
     ),
     "point of a coupler": (
         lambda x: assur.FourBar(1.0, 3.0, 2.5, 3.0, point=x),
@@ -112,10 +116,14 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "other loci": (lambda x: workspace().plot(loci=x), "x", "loci 'x' singular_loci()"),
     "links": (lambda x: MACHINE.reactions(1.0).plot(links=x), 1.0, "links 1.0 list of names"),
     "a polygon's links": (lambda x: MACHINE.reactions(1.0).polygon(x), 1.0, "links 1.0 names"),
-    "centres' links": (lambda x: pictures.instant_centres(MOTION, 1, x), 1.0, "links 1.0 names"),
-    "lines": (lambda x: pictures.instant_centres(MOTION, 1, lines=x), TABLE, "lines True False"),
+    "centres' links": (
+        lambda x: pictures.instant_centres(MOTION, at=1, links=x),
+        1.0,
+        "links 1.0 names",
+    ),
+    "lines": (lambda x: pictures.instant_centres(MOTION, at=1, lines=x), TABLE, "lines True False"),
     "Bresse": (
-        lambda x: pictures.inflection_circle(MOTION, "coupler", 1, bresse=x),
+        lambda x: pictures.inflection_circle(MOTION, "coupler", at=1, bresse=x),
         TABLE,
         "bresse array True False",
     ),
@@ -141,7 +149,11 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "quantity": (lambda x: slider_crank.plot_deviation(quantity=x), 1.0, "quantity 1.0 'stroke'"),
     "rod": (lambda x: slider_crank.plot_positions(1.0, 0.1, x), "x", "rod 'x' numbers"),
     "rods": (lambda x: slider_crank.plot_positions(1.0, 0.1, x), [0.4, 0.5], "rod [0.4, 0.5]"),
-    "along": (lambda x: slider_crank.plot_positions(1.0, 0.1, 0.4, 0.2, x), "x", "across 'x'"),
+    "along": (
+        lambda x: slider_crank.plot_positions(1.0, 0.1, 0.4, along=0.2, across=x),
+        "x",
+        "across 'x'",
+    ),
     "least angle": (
         lambda x: crank_rocker.plot_transmission(*LENGTHS, gamma_min=x),
         "x",
@@ -159,7 +171,7 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
         RAGGED,
         "ax list matplotlib axes",
     ),
-    "coupler": (crank_rocker.plot_zone, 1e308, "values 1e+308 to 1e+300"),
+    "coupler": (lambda x: crank_rocker.plot_zone(coupler=x), 1e308, "values 1e+308 to 1e+300"),
     "result of a file": (
         files.Contents(M, wanted={"solve": {"deg": [0.0]}}).result,
         [],
@@ -189,30 +201,50 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "table": (flywheel.read_table, 1.0, "path 1.0 a path is needed"),
     "table of half a letter": (flywheel.read_table, HALF, r"\ud800 cannot be read"),
     # A rate without the speed that it belongs to.
-    "rate of a table": (lambda x: MOTION.to_dataframe(alpha=x), 2.0, "alpha 2.0 give omega"),
-    "rate of a workbook": (lambda x: MOTION.to_excel("never.xlsx", alpha=x), "x", "alpha 'x'"),
-    "rate of a file": (lambda x: MOTION.to_parquet("never", alpha=x), 2.0, "alpha 2.0 give omega"),
-    "rate of a diagram": (lambda x: MOTION.diagram("C", beta=x), 2.0, "beta 2.0 give omega"),
-    "rate of a picture": (
-        lambda x: slider_crank.plot_motion("stroke", 0.1, 0.4, alpha=x),
+    "rate of a table": (
+        lambda x: MOTION.to_dataframe(acceleration=x),
         2.0,
-        "alpha 2.0 give speed",
+        "acceleration 2.0 give speed",
+    ),
+    "rate of a workbook": (
+        lambda x: MOTION.to_excel("never.xlsx", acceleration=x),
+        "x",
+        "acceleration 'x'",
+    ),
+    "rate of a file": (
+        lambda x: MOTION.to_parquet("never", acceleration=x),
+        2.0,
+        "acceleration 2.0 give speed",
+    ),
+    "rate of a diagram": (lambda x: MOTION.diagram("C", jerk=x), 2.0, "jerk 2.0 give speed"),
+    "rate of a picture": (
+        lambda x: slider_crank.plot_motion("stroke", 0.1, 0.4, acceleration=x),
+        2.0,
+        "acceleration 2.0 give speed",
     ),
     # Counts.
     "samples": (lambda x: curve().motion(samples=x), 10**9, "samples from 2 to 10000000"),
-    "positions": (M.configuration_curve, 10**9, "positions from 2 to 100000"),
+    "positions": (
+        lambda x: M.configuration_curve(positions=x),
+        10**9,
+        "positions from 2 to 100000",
+    ),
     "steps": (
         lambda x: MACHINE.run(1.0, max_steps=x),
         1e30,
         "from 1 to 9223372036854775807",
     ),
-    "places to lock": (lambda x: LOCKED.self_locking(1, n=x), 10**18, "n from 2 to 10000000"),
+    "places to lock": (lambda x: LOCKED.self_locking(sense=1, n=x), 10**18, "n from 2 to 10000000"),
     "points of a rod": (
         lambda x: MACHINE.internal_loads("rod", 1.0, n=x),
         10**18,
         "n from 2 to 10000000",
     ),
-    "points of a diagram": (WHEEL.energy_mass, 10**18, "points from 2 to 10000000"),
+    "points of a diagram": (
+        lambda x: WHEEL.energy_mass(points=x),
+        10**18,
+        "points from 2 to 10000000",
+    ),
 }
 
 
@@ -269,7 +301,7 @@ def test_the_driver_of_a_motor_that_cannot_start_is_named(
     names = [str(one) for one in five.description.drivers]
     bodies = {link: assur.Body(inertia=1.0) for link in names}
     own = [table if motor else None for motor in motors]
-    machine = assur.Machine(five, bodies, motor=own)
+    machine = assur.Machine(five, bodies=bodies, motor=own)
     named = dict(zip(("left", "right"), names, strict=True))[name]
     error = refused(
         assur.InputError,

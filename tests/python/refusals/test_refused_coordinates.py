@@ -151,7 +151,7 @@ def test_two_drivers() -> None:
     motion = TWO.solve(np.tile(np.asarray(TWO.q0), (4, 1)), order=3)
     c = motion.joint("C")
     assert [a.shape for a in (c.value, c.d1, c.d2, c.d3)] == [(4, 2) + (2,) * k for k in range(4)]
-    refused(assur.InputError, "omega () 2 drivers", lambda: c.velocity(1.0))
+    refused(assur.InputError, "speed () 2 drivers", lambda: c.velocity(1.0))
     for ask in (motion.curvature, motion.instant_centre, motion.mechanical_advantage):
         refused(assur.InputError, f"{ask.__name__} one driver 2", partial(ask, "l2"))
     refused(

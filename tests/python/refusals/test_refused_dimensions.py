@@ -41,7 +41,9 @@ def test_named_mechanisms_refuse_bad_lengths(make: Callable[..., assur.Mechanism
                 make(*lengths[:place], bad, *lengths[place + 1 :])
             assert caught.value.dimension == name
             np.testing.assert_equal(caught.value.value, bad)
-    refused(assur.InputError, "mode 'x' open crossed", lambda: assur.FourBar(1, 3, 2.5, 3, "x"))  # type: ignore[arg-type]
+    wrong: Any = "x"
+    ask = lambda: assur.FourBar(1, 3, 2.5, 3, mode=wrong)  # noqa: E731
+    refused(assur.InputError, "mode 'x' open crossed", ask)
 
 
 def test_unknown_dimensions_name_the_nearest() -> None:

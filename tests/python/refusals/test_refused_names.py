@@ -32,8 +32,8 @@ NAMES: dict[str, Callable[[Any], object]] = {
     "origin": lambda x: assur.Mechanism(**engine(bore=Slide("piston", "ground", 0.0, x))),
     "assembly": lambda x: build(assembly={x: 1}),
     "assembly of a motion": lambda x: M.solve(1.0, assembly={x: 1}),
-    "body": lambda x: Machine(M, {x: Body()}),
-    "centre of mass": lambda x: Machine(M, {"crank": Body(1.0, at=x)}),
+    "body": lambda x: Machine(M, bodies={x: Body()}),
+    "centre of mass": lambda x: Machine(M, bodies={"crank": Body(1.0, at=x)}),
     "force": lambda x: Machine(M, loads=[Force(x, (1.0, 0.0))]),
     "place of a force": lambda x: Machine(M, loads=[Force((x, (0.0, 0.0)), (1.0, 0.0))]),
     "axes": lambda x: Machine(M, loads=[Force("C", (1.0, 0.0), axes=x)]),
@@ -41,10 +41,10 @@ NAMES: dict[str, Callable[[Any], object]] = {
     "counterpart": lambda x: Machine(M, loads=[Torque("crank", 1.0, x)]),
     "spring": lambda x: Machine(M, loads=[Spring("C", x, 1.0, 1.0)]),
     "damper": lambda x: Machine(M, loads=[Damper(x, "C", 1.0)]),
-    "event": lambda x: Machine(M, {"crank": Body(inertia=1.0)}).run(
+    "event": lambda x: Machine(M, bodies={"crank": Body(inertia=1.0)}).run(
         1.0, events=[assur.events.TransmissionAngle(x, 0.5)]
     ),
-    "between": lambda x: M.solve(1.0).transmission_angle("C", ("B", x)),
+    "between": lambda x: M.solve(1.0).transmission_angle("C", between=("B", x)),
 }
 
 
@@ -73,20 +73,22 @@ def test_an_origin_that_is_not_a_name_is_refused(origin: Any) -> None:
 
 
 def test_words_are_those_known_and_not_arrays() -> None:
-    machine = Machine(M, {"crank": Body(inertia=1.0)})
+    machine = Machine(M, bodies={"crank": Body(inertia=1.0)})
     asks: list[Callable[[], object]] = [
         lambda: machine.reduced_inertia(1.0, on_error=ARRAY),
-        lambda: machine.flywheel(0.1, 5.0, on_error=ARRAY),
-        lambda: machine.flywheel(0.1, 5.0, mean=ARRAY),
+        lambda: machine.flywheel(0.1, mean_speed=5.0, on_error=ARRAY),
+        lambda: machine.flywheel(0.1, mean_speed=5.0, mean=ARRAY),
         lambda: machine.steady_state(5.0, mean=ARRAY),
         lambda: machine.run(1.0, method=ARRAY),
         lambda: assur.FourBar(1, 3, 3, 3, mode=ARRAY),
-        lambda: assur.Table([0, 1], [1, 1], ARRAY),
+        lambda: assur.Table([0, 1], [1, 1], spline=ARRAY),
         lambda: Machine.from_table(PHI, 0 * PHI, 1.0, spline=ARRAY),
-        lambda: flywheel.from_table(PHI, np.sin(PHI), 1.0, 0.1, 9.0, spline=ARRAY),
+        lambda: flywheel.from_table(
+            PHI, np.sin(PHI), 1.0, fluctuation=0.1, mean_speed=9.0, spline=ARRAY
+        ),
         lambda: assur.slider_crank.stroke(1.0, 1.0, 3.0, method=ARRAY),
         lambda: assur.slider_crank.greatest_speed(3.0, method=ARRAY),
-        lambda: assur.slider_crank.deviation(0.25, 2, ARRAY),
+        lambda: assur.slider_crank.deviation(0.25, 2, quantity=ARRAY),
         lambda: assur.crank_rocker.solve(1.0, 1.0, 9.0, 6.0, 10.0, assembly=ARRAY),
     ]
     for ask in asks:
@@ -119,8 +121,8 @@ def test_a_diagram_has_a_number_of_points() -> None:
     f = flywheel.evaluate(PHI, 0.0 * PHI, 2.0, speed0=5.0)
     for points in (-1, 0, 1, 2.5, "9", None):
         with pytest.raises(assur.InputError, match="points"):
-            f.energy_mass(points)  # type: ignore[arg-type]
-    assert f.energy_mass(5)[0].shape == (5,)
+            f.energy_mass(points=points)  # type: ignore[arg-type]
+    assert f.energy_mass(points=5)[0].shape == (5,)
 
 
 def test_the_parts_used_here_are_mechanisms() -> None:

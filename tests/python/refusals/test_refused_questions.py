@@ -73,7 +73,7 @@ def test_refusals_say_what_to_ask_instead() -> None:
     with pytest.raises(assur.PositionError) as caught:
         rocker.with_dimensions({"rocker.length": [2.0, 2.1]}).solve(2.0)
     assert "configuration_curve" not in str(caught.value)
-    machine = assur.Machine(rocker, {"crank": assur.Body(inertia=1.0)})
+    machine = assur.Machine(rocker, bodies={"crank": assur.Body(inertia=1.0)})
     ran = machine.run(1.0, 0.0, 10.0)
     assert "another driver (with_driver)" in ran.message
 
@@ -97,7 +97,7 @@ def test_names_that_are_not_there(kind: str, name: str) -> None:
         (lambda: MOTION.joint("C").jerk(1.0), "'C' order 2 order=3 d3", {}),
         (lambda: M.solve(1.0, order=0).joint("C").velocity(1.0), "'C' order 0 order=1 d1", {}),
         (lambda: M.solve(1.0, order=1).curvature("C"), "'C' order 1 order=2 d2", {}),
-        (lambda: MOTION.joint("C").velocity([1.0, 2.0]), "omega (2,) broadcast (3,)", {}),
+        (lambda: MOTION.joint("C").velocity([1.0, 2.0]), "speed (2,) broadcast (3,)", {}),
         (lambda: MOTION.curvature("Z"), 'no joint "Z"', {"joint": "Z"}),
         (
             lambda: MOTION.instant_centre("coupler", "rockr"),

@@ -115,7 +115,7 @@ def test_assemblies() -> None:
     assert sum(one["is_current"] for one in reply["assemblies"]) == 1
     for one, wanted in zip(reply["assemblies"], found, strict=True):
         assert one["joints"] == {name: list(at) for name, at in (wanted.joints or {}).items()}
-        limits = mechanism.limits(wanted)
+        limits = mechanism.limits(assembly=wanted)
         reach = np.array(one["reach"]["intervals"], dtype=float)
         ends = np.where(np.isfinite(limits.intervals), limits.intervals, np.nan)
         assert reach == pytest.approx(ends, abs=1e-9, nan_ok=True)
@@ -319,7 +319,7 @@ def test_lesson_in_motion(ground: float) -> None:
             assert frames[order + 1][2:-2] == pytest.approx(slope[2:-2], rel=2e-2, abs=2e-3)
         if part["side"] is None:
             # Of a moving support too: l₄ enters as φ₁ does.
-            moved = assur.crank_rocker.solve(phi, 1, 4.5, 1.5, ground, 2.0, 0.7)
+            moved = assur.crank_rocker.solve(phi, 1, 4.5, 1.5, ground, speed=2.0, ground_speed=0.7)
             rates = 2.0 * frames[1, :, 1:3, 2] + 0.7 * by_ground
             assert rates == pytest.approx(np.stack([moved.dphi2, moved.dphi3], axis=-1))
         else:
@@ -333,7 +333,7 @@ def test_lesson_at_an_instant(phi1: float, side: str | None) -> None:
     found = ask("lesson", **case, **speeds, phi1=phi1, motion=True, rows=9)["position"]
     assert found["sliding"] == side
     if side is None:
-        exact = assur.crank_rocker.solve(phi1, 1.0, 4.5, 1.5, 4.995, 3.0, 0.7)
+        exact = assur.crank_rocker.solve(phi1, 1.0, 4.5, 1.5, 4.995, speed=3.0, ground_speed=0.7)
         assert found["gamma"] == pytest.approx(float(exact.gamma))
         assert found["links"]["rocker"]["speed"] == pytest.approx(float(exact.dphi3))
         assert np.hypot(*found["joints"]["C"]["speed"]) == pytest.approx(float(exact.v_C))
@@ -400,7 +400,7 @@ def test_applied_forces_act_where_their_loads_are() -> None:
         {"load": 3, "on": "ram", "joint": "B"},
     ]
     applied = reply.arrays["applied"]
-    motion = document.read_mechanism(PRESS).solve(reply.arrays["q"], 1)
+    motion = document.read_mechanism(PRESS).solve(reply.arrays["q"], order=1)
     place = motion.joint("B").value
     assert applied[:, 0] == pytest.approx(np.column_stack([place, np.full(91, -900), np.zeros(91)]))
     pull = 500.0 * (np.hypot(*place.T) - 0.3)

@@ -73,7 +73,7 @@ def test_both_ways(monkeypatch: pytest.MonkeyPatch) -> None:
     view.mechanism = assur.examples.watt_1()
     assert document.read_mechanism(view.document) == assur.examples.watt_1()
     assert view.q == pytest.approx(float(assur.examples.watt_1().q0))
-    press = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+    press = assur.Machine(assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)})
     view.machine = press
     assert document.read_machine(view.document).mechanism == press.mechanism
     assert press.explore().machine is press

@@ -51,7 +51,7 @@ def test_designs_have_the_assembly_measured(index: Any) -> None:
 
 
 def test_the_best_design_has_its_value_with_an_engine_too() -> None:
-    asked = {"y": metric.mean("C.y"), "own": metric.function(height, ["C"])}
+    asked = {"y": metric.mean("C.y"), "own": metric.function(height, outputs=["C"])}
     with ThreadPoolExecutor(2) as engine:
         found = assur.sweep(four_bar(), SPACE, Q, assembly=CROSSED, metrics=asked, engine=engine)
     best = found.designs(found.best(1, by="own"))
@@ -95,7 +95,7 @@ def test_metrics_of_a_found_assembly_above_class_two() -> None:
 def test_a_machine_is_measured_in_the_assembly() -> None:
     own = four_bar()
     bodies = {"coupler": assur.Body(2.0, 0.3, at=(1.0, 0.4))}
-    machine = assur.Machine(own, bodies, [assur.Gravity()])
+    machine = assur.Machine(own, bodies=bodies, loads=[assur.Gravity()])
     asked = {"torque": metric.peak_effort()}
     found = assur.sweep(machine, SPACE, Q, assembly=CROSSED, metrics=asked)
     drawn = assur.sweep(machine, SPACE, Q, metrics=asked)

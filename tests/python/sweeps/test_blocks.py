@@ -143,10 +143,10 @@ def test_metrics() -> None:
     asked: dict[str, metric.Metric] = {
         "off": metric.deviation("P"),
         "jerk": metric.rms("P.x", order=3),
-        "high": metric.function(height, ["P"]),
-        "sum": metric.function(height, ["P"]) - 2.0 * metric.span("P.y"),
+        "high": metric.function(height, outputs=["P"]),
+        "sum": metric.function(height, outputs=["P"]) - 2.0 * metric.span("P.y"),
     }
-    where = [metric.function(height, ["P"]) > 0.0, metric.span("P.x") * 3.0 < 40.0]
+    where = [metric.function(height, outputs=["P"]) > 0.0, metric.span("P.x") * 3.0 < 40.0]
     done: list[tuple[int, int]] = []
     whole = assur.sweep(m, {}, Q, metrics=asked, where=where, progress=lambda *of: done.append(of))
     assert done == [(k, COUNT) for k in (20, 40, 60, 80, 90)]
@@ -160,7 +160,7 @@ def test_metrics() -> None:
 @pytest.mark.usefixtures("small_blocks")
 def test_processes(processes: ProcessPoolExecutor) -> None:
     m = batch()
-    asked = {"off": metric.deviation("P"), "high": metric.function(height, ["P"])}
+    asked = {"off": metric.deviation("P"), "high": metric.function(height, outputs=["P"])}
     whole = assur.sweep(m, {}, Q, metrics=asked)
     apart = assur.sweep(m, {}, Q, metrics=asked, engine=processes)
     for name in asked:

@@ -18,7 +18,7 @@ Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 def off(m: assur.Mechanism, joint: str, q: Any = Q, **options: Any) -> dict[str, float]:
     """By shape and relative or not."""
     asked = {
-        f"{shape} {relative}": metric.deviation(joint, shape, relative=relative, **options)
+        f"{shape} {relative}": metric.deviation(joint, shape=shape, relative=relative, **options)
         for shape in ("line", "circle")
         for relative in (False, True)
     }

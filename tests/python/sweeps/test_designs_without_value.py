@@ -21,13 +21,15 @@ MACHINE_METRICS: dict[str, Any] = {
     "joint": metric.peak_reaction("A"),
     "mean force": metric.rms_reaction("B"),
     "combined": 2.0 * metric.peak_effort() - metric.span("bore"),
-    "flywheel": metric.flywheel_inertia(0.1, 10.0),
+    "flywheel": metric.flywheel_inertia(0.1, mean_speed=10.0),
 }
 
 
 def press(**options: Any) -> Machine:
     bodies = {"crank": assur.Body(inertia=0.01), "piston": assur.Body(1.0)}
-    return Machine(assur.SliderCrank(0.05, 0.4), bodies, [Force("B", (SHORT, 0.0))], **options)
+    return Machine(
+        assur.SliderCrank(0.05, 0.4), bodies=bodies, loads=[Force("B", (SHORT, 0.0))], **options
+    )
 
 
 @pytest.mark.parametrize("name", MACHINE_METRICS)
@@ -77,7 +79,7 @@ def test_a_function_that_gives_nan() -> None:
 
 def test_a_metric_that_is_not_defined() -> None:
     """A point that rests has no shape to be compared with."""
-    asked = {"off": metric.deviation("A", "line", relative=True), "y": metric.mean("C.y")}
+    asked = {"off": metric.deviation("A", shape="line", relative=True), "y": metric.mean("C.y")}
     found = assur.sweep(assur.FourBar(1.0, 3.0, 2.5, 3.0), {}, Q, metrics=asked)
     assert np.isnan(found["off"])
     assert np.isfinite(found["y"])
@@ -88,7 +90,12 @@ def test_a_metric_that_is_not_defined() -> None:
 
 def test_a_locked_machine() -> None:
     friction = {"A": assur.JointFriction(0.9, 0.2), "B": assur.JointFriction(0.9, 0.3)}
-    own = Machine(assur.SliderCrank(0.1, 0.35), {}, [Force("B", (-100.0, 0.0))], friction=friction)
+    own = Machine(
+        assur.SliderCrank(0.1, 0.35),
+        bodies={},
+        loads=[Force("B", (-100.0, 0.0))],
+        friction=friction,
+    )
     asked = {"T": metric.peak_effort(speed=10.0)}
     found = assur.sweep(own, {"rod.length": [0.35, 0.4]}, Q, metrics=asked)
     locked = np.isnan(found["T"])
@@ -110,7 +117,7 @@ def test_the_map_names_the_load() -> None:
 def test_what_has_no_value_is_named_whatever_metrics_are_called(name: str) -> None:
     for asked, subject in (
         (metric.peak_effort(), "loads[0], the Force at B"),
-        (metric.deviation("O", "line", relative=True), name),
+        (metric.deviation("O", shape="line", relative=True), name),
     ):
         found = assur.sweep(press(), {"crank.length": [0.05, 0.06]}, Q, metrics={name: asked})
         assert [text for text, _ in reasons(found, found[name])] == [f"{subject} has no value"]

@@ -49,7 +49,7 @@ def test_every_metric(name: str) -> None:
     }
     asked = {f"{word} {of}": make(of) for word, make in makes.items() for of in coordinates}
     asked["line"] = metric.deviation(point)
-    asked["round"] = metric.deviation(point, "circle", 0.4, relative=True)
+    asked["round"] = metric.deviation(point, shape="circle", part=0.4, relative=True)
     asked["moves"] = metric.full_rotation()
     slides = [s for s in m.slides if m.slides[s].on != "ground"]
     asked |= {f"at {s}": metric.least_transmission(s) for s in slides}
@@ -117,7 +117,7 @@ def test_what_needs_one_driver_is_refused(name: str, refused: str) -> None:
         "order": metric.span(link, order=1),
         "over": metric.span(link, over=(0.0, 1.0)),
         "over of a transmission": metric.least_transmission(
-            point, ("B", "D") if name == "five-bar" else ("foot", "elbow"), over=(0.0, 1.0)
+            point, between=("B", "D") if name == "five-bar" else ("foot", "elbow"), over=(0.0, 1.0)
         ),
     }[refused]
     drivers = q.shape[1]

@@ -65,6 +65,6 @@ def test_others_are_meant() -> None:
         ]
         asked = {"a": metric.span("rocker", over=(6.0, 12.0))}
         assert len(assur.sweep(M, SPACE, Q, metrics=asked, where=conditions).kept) == 2
-        driven = assur.SliderCrank(50.0, 200.0).with_driver("bore", {"A": 1})
+        driven = assur.SliderCrank(50.0, 200.0).with_driver("bore", assembly={"A": 1})
         part = {"a": metric.span("crank", over=(200, 220))}
         assur.sweep(driven, {"crank.length": [50.0, 51.0]}, np.arange(200, 221), metrics=part)

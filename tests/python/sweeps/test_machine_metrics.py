@@ -17,7 +17,7 @@ Q = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
 BODIES = {"coupler": Body(2.0, 0.05, (1.0, 0.3)), "rocker": Body(3.0, 0.1, (0.9, 0.0))}
 LOADS: list[Any] = [Gravity(), Force("C", (4.0, -7.0))]
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.2)
-MACHINE = assur.Machine(FOUR_BAR, BODIES, LOADS)
+MACHINE = assur.Machine(FOUR_BAR, bodies=BODIES, loads=LOADS)
 # The last but one does not turn fully, the last has no such length.
 COUPLERS = np.array([2.8, 3.0, 3.3, 9.0, -1.0])
 MOTION: Any = {"speed": 6.0, "acceleration": 1.5}
@@ -28,7 +28,7 @@ ASKED = {
     "peak": metric.peak_effort(**MOTION),
     "rms": metric.rms_effort(**MOTION),
     "inertia": metric.greatest_inertia(),
-    "flywheel": metric.flywheel_inertia(0.02, 6.0),
+    "flywheel": metric.flywheel_inertia(0.02, mean_speed=6.0),
 }
 
 
@@ -37,7 +37,7 @@ PLACES = {"C": ("C", "rocker"), "A": ("A", "crank")}
 
 def one_by_one(coupler: float) -> dict[str, float]:
     design = assur.FourBar(1.0, coupler, 2.5, 3.2)
-    machine = assur.Machine(design, BODIES, LOADS)
+    machine = assur.Machine(design, bodies=BODIES, loads=LOADS)
     found = machine.reactions(Q, **MOTION)
     sizes = {name: np.linalg.norm(found.joint(*at), axis=-1) for name, at in PLACES.items()}
     return {
@@ -47,7 +47,7 @@ def one_by_one(coupler: float) -> dict[str, float]:
         "peak": np.abs(found.driver).max(),
         "rms": np.sqrt((found.driver**2).mean()),
         "inertia": machine.reduced_inertia(Q).value.max(),
-        "flywheel": machine.flywheel(0.02, 6.0).inertia,
+        "flywheel": machine.flywheel(0.02, mean_speed=6.0).inertia,
     }
 
 
@@ -93,7 +93,9 @@ def test_an_effort_at_a_change_point_has_a_value() -> None:
     """A parallelogram's drive is m g r cos q; its forces have no value where it is flat."""
     turn = np.linspace(0.0, np.pi, 5)
     pairs = assur.Machine(
-        assur.FourBar(1.0, 3.0, 1.0, 3.0), {"coupler": Body(2.0, 1.5, (1.5, 0.0))}, [Gravity()]
+        assur.FourBar(1.0, 3.0, 1.0, 3.0),
+        bodies={"coupler": Body(2.0, 1.5, (1.5, 0.0))},
+        loads=[Gravity()],
     )
     asked = {"effort": metric.peak_effort(speed=3.0), "pin": metric.peak_reaction("C", speed=3.0)}
     found = assur.sweep(pairs, {}, turn, metrics=asked)
@@ -106,7 +108,9 @@ def test_an_effort_does_not_depend_on_the_designs_beside_it() -> None:
     """One of them has change points, where the effort is found by power."""
     turn = np.linspace(0.0, 2.0 * np.pi, 48)
     pairs = assur.Machine(
-        assur.FourBar(1.0, 3.0, 1.0, 3.0), {"coupler": Body(2.0, 1.5, (1.5, 0.0))}, [Gravity()]
+        assur.FourBar(1.0, 3.0, 1.0, 3.0),
+        bodies={"coupler": Body(2.0, 1.5, (1.5, 0.0))},
+        loads=[Gravity()],
     )
     rockers = np.array([1.0, 1.3, 1.4])
     for asked in (metric.peak_effort(speed=3.0), metric.rms_effort(speed=3.0)):
@@ -121,7 +125,10 @@ def test_speeds_over_the_positions() -> None:
     """As many as a turn in degrees; two motions with equal speeds are one."""
     turn = np.radians(np.arange(360.0))
     rising = np.linspace(1.0, 6.0, 360)
-    asked = {"a": metric.peak_effort(rising), "b": metric.peak_effort(rising, np.zeros(360))}
+    asked = {
+        "a": metric.peak_effort(speed=rising),
+        "b": metric.peak_effort(speed=rising, acceleration=np.zeros(360)),
+    }
     found = assur.sweep(MACHINE, {}, turn, metrics={**asked, "pin": metric.peak_reaction("C")})
     exact = np.abs(MACHINE.reactions(turn, rising).driver).max()
     assert found["a"] == found["b"] == pytest.approx(exact, rel=1e-14)
@@ -133,16 +140,16 @@ def test_any_number_of_positions(count: int) -> None:
     turn = np.linspace(0.1, 5.0, count)
     engine = assur.Machine(
         assur.SliderCrank(1.0, 3.0, 0.1),
-        {"rod": Body(2.0, 0.3, (1.2, 0.1)), "piston": Body(1.5)},
-        [Gravity(), Force("B", (lambda _t, q, speed: 40.0 * np.sin(3.0 * q) + speed, 0.0))],
+        bodies={"rod": Body(2.0, 0.3, (1.2, 0.1)), "piston": Body(1.5)},
+        loads=[Gravity(), Force("B", (lambda _t, q, speed: 40.0 * np.sin(3.0 * q) + speed, 0.0))],
     )
     speed = np.linspace(2.0, 7.0, count)
     found = engine.reactions(turn, speed)
     asked = {
         "pin": metric.peak_reaction("A", speed=speed),
         "rms": metric.rms_reaction("B", speed=speed),
-        "effort": metric.peak_effort(speed),
-        "mean": metric.rms_effort(speed),
+        "effort": metric.peak_effort(speed=speed),
+        "mean": metric.rms_effort(speed=speed),
     }
     rod = {"rod.length": np.array([3.0, 3.0])}
     measured = assur.sweep(engine, rod, turn, metrics=asked)
@@ -162,7 +169,7 @@ def test_an_undetermined_force_has_no_peak() -> None:
     joints = {"A": (0, 0), "B": (0, 1), "C": (3, 1), "D": (3, 0), "E": (1.5, 0), "F": (1.5, 1)}
     links = {"ground": "ADE", "crank": "AB", "rod": "BCF", "rocker": "CD", "third": "EF"}
     three = assur.Mechanism(joints, {name: list(of) for name, of in links.items()}, "crank")
-    machine = assur.Machine(three, {"rod": Body(2.0, 0.5, (1.0, 0.0))}, [Gravity()])
+    machine = assur.Machine(three, bodies={"rod": Body(2.0, 0.5, (1.0, 0.0))}, loads=[Gravity()])
     q = three.q0 + np.linspace(-0.5, 0.5, 11)
     asked = {"F": metric.peak_reaction("F", on="third"), "effort": metric.peak_effort()}
     found = assur.sweep(machine, {}, q, metrics=asked)
@@ -194,11 +201,11 @@ def test_what_has_no_meaning_is_refused() -> None:
     with pytest.raises(InputError, match='link "crank" has no joint "C"'):
         sweep(MACHINE, metric.peak_reaction("C", on="crank"))
     with pytest.raises(InputError, match="speed is nan"):
-        metric.peak_effort(np.nan)
+        metric.peak_effort(speed=np.nan)
     with pytest.raises(InputError, match="joint"):
         metric.peak_reaction(3)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="mean"):
-        metric.flywheel_inertia(0.1, 5.0, "median")  # type: ignore[arg-type]
+        metric.flywheel_inertia(0.1, mean_speed=5.0, mean="median")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="on which link"):
         sweep(three_at_a_pin(), metric.peak_reaction("P"))
 

@@ -61,7 +61,7 @@ def test_metrics_are_those_of_the_motion(name: str) -> None:
                 "rms": (metric.rms, lambda v: np.sqrt((v * v).mean(axis=-1))),
             }
             for word, (make, reduce) in reductions.items():
-                asked[f"{word} {what} {order}"] = (make(what, order), reduce, what, order)
+                asked[f"{word} {what} {order}"] = (make(what, order=order), reduce, what, order)
     found = assur.sweep(batch, {}, q, metrics={name: m for name, (m, *_) in asked.items()})
     assert found.kept.tolist() == np.flatnonzero(moves).tolist()
     assert (np.asarray(found.status[~moves]) > assur.Status.NEAR_SINGULAR).all()
@@ -80,7 +80,10 @@ def test_least_transmission() -> None:
         np.testing.assert_allclose(found["angle"], expected, rtol=0, atol=1e-15)
     between = ("B", "D")
     found = assur.sweep(
-        space("crank_rocker"), {}, Q, metrics={"angle": metric.least_transmission("C", between)}
+        space("crank_rocker"),
+        {},
+        Q,
+        metrics={"angle": metric.least_transmission("C", between=between)},
     )
     motion = space("crank_rocker").solve(Q, order=0, on_error="nan")
     expected = motion.transmission_angle("C", between=between).min(axis=-1)
@@ -95,9 +98,9 @@ def test_deviation(part: float) -> None:
         {},
         Q,
         metrics={
-            "line": metric.deviation("P", "line", part),
-            "relative": metric.deviation("P", "line", part, relative=True),
-            "circle": metric.deviation("P", "circle", part),
+            "line": metric.deviation("P", shape="line", part=part),
+            "relative": metric.deviation("P", shape="line", part=part, relative=True),
+            "circle": metric.deviation("P", shape="circle", part=part),
         },
     )
     paths = batch.solve(Q, order=0, on_error="nan").joint("P").value
@@ -153,7 +156,7 @@ def test_combinations_conditions_and_functions() -> None:
         highest: Float = motion.joint("C").value[..., 1].max(axis=-1)
         return highest
 
-    angle, high = metric.least_transmission("C"), metric.function(height, ["C"])
+    angle, high = metric.least_transmission("C"), metric.function(height, outputs=["C"])
     quality = 2.0 * metric.span("rocker") - high / 3.0 + 1.0
     found = assur.sweep(
         batch,

@@ -67,7 +67,7 @@ def test_a_window_across_the_end_of_the_turn_is_one_stretch(turn: float) -> None
     for shape, part in (("line", 1.0), ("line", 0.5), ("circle", 1.0), ("circle", 0.4)):
         oracle = {"line": textbook.off_line, "circle": textbook.off_circle}[shape]
         size = int(part * 24 + 1e-9) + 1
-        asked = metric.deviation("P", shape, part, over=over)  # type: ignore[arg-type]
+        asked = metric.deviation("P", shape=shape, part=part, over=over)  # type: ignore[arg-type]
         found = measured(q, off=asked)["off"]
         assert found == pytest.approx(oracle(whole, size, False, False), rel=1e-7)
     # Of all positions it is the whole path.
@@ -86,7 +86,7 @@ def test_the_first_of_equal_extremes_is_the_first_of_the_part() -> None:
     [
         (metric.deviation("P", over=(0.0, 0.1)), "part=0.5 of 2 positions are 1: too few, 3"),
         (metric.deviation("P", part=1.0, over=(0.0, 0.1)), "positions are 2: too few, 3"),
-        (metric.deviation("P", "circle", 1.0, over=(0.0, 0.2)), "are 3: too few, 4"),
+        (metric.deviation("P", shape="circle", part=1.0, over=(0.0, 0.2)), "are 3: too few, 4"),
         (metric.deviation("P", over=(0.001, 0.002)), "of 0 positions are 0: too few, 3"),
         (metric.deviation("P", part=0.01), "part=0.01 of 72 positions are 1: too few, 3"),
     ],

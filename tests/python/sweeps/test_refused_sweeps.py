@@ -39,7 +39,10 @@ def four_bar() -> assur.Mechanism:
         ({"q": []}, "q is empty: metrics need a position"),
         ({"q": Q[None]}, r"q has shape \(1, 72\): metrics need \(N,\)"),
         ({"metrics": {"off": metric.deviation("C.x")}}, "C.x"),
-        ({"metrics": {"a": metric.least_transmission("C", ("B", "B"))}}, "two joints are needed"),
+        (
+            {"metrics": {"a": metric.least_transmission("C", between=("B", "B"))}},
+            "two joints are needed",
+        ),
     ],
 )
 def test_of_metrics(arguments: dict[str, Any], message: str) -> None:
@@ -68,15 +71,18 @@ def test_a_name_is_refused_as_in_extremes(name: str, kind: str) -> None:
     ("make", "message"),
     [
         (
-            lambda: metric.function(len, "rocker"),
+            lambda: metric.function(len, outputs="rocker"),
             r"outputs='rocker': a list of names.*\['rocker'\]",
         ),
-        (lambda: metric.function(len, WRONG), "outputs is 5: a list of names"),
+        (lambda: metric.function(len, outputs=WRONG), "outputs is 5: a list of names"),
         (lambda: metric.function(4), "a function of a motion is needed"),
         (lambda: metric.span("C.x", over=(6.0, 1.0)), r"write \(6.0, 7.283185307179586\)"),
         (lambda: metric.span("C.x", over=WRONG), r"\(from, to\)"),
-        (lambda: metric.least_transmission("C", WRONG), "between=5: two joints"),
-        (lambda: metric.least_transmission("C", ("B", WRONG)), "the name 5 is not a string"),
+        (lambda: metric.least_transmission("C", between=WRONG), "between=5: two joints"),
+        (
+            lambda: metric.least_transmission("C", between=("B", WRONG)),
+            "the name 5 is not a string",
+        ),
         (lambda: metric.deviation("C", relative=WRONG), "relative is 5: True or False"),
         (lambda: metric.deviation("C", part=0.0), "more than 0 and at most 1"),
         (lambda: bool(0.5 < SWING < 2.0), "two of them for a range"),

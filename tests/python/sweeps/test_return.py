@@ -33,7 +33,7 @@ def test_a_change_point() -> None:
     asked = {
         "off": metric.deviation("C", part=0.25),
         "ratio": metric.time_ratio("C.x"),
-        "crank": metric.deviation("B", "circle", part=0.25),
+        "crank": metric.deviation("B", shape="circle", part=0.25),
         "across": metric.deviation("C", part=1.0, over=(6.0, 7.0)),
         "before": metric.deviation("C", part=1.0, over=(4.0, 5.0)),
     }

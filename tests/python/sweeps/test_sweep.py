@@ -191,7 +191,7 @@ def test_refused_metrics() -> None:
     with pytest.raises(assur.InputError, match="order"):
         metric.span("rocker", order=4)
     with pytest.raises(assur.InputError, match="shape"):
-        metric.deviation("C", "square")  # type: ignore[arg-type]
+        metric.deviation("C", shape="square")  # type: ignore[arg-type]
     with pytest.raises(assur.InputError, match="number"):
         metric.span("rocker") + "1"
     with pytest.raises(assur.InputError, match="where"):

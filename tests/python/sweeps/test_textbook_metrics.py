@@ -52,9 +52,11 @@ def test_coordinates_and_their_derivatives(order: int) -> None:
         motion = oracle.motion(Q)
     assert good.sum() > 20
     asked = {
-        f"{word} {of}": make(of, order) for word, (make, _) in REDUCTIONS.items() for of in motion
+        f"{word} {of}": make(of, order=order)
+        for word, (make, _) in REDUCTIONS.items()
+        for of in motion
     }
-    places = {f"at {of}": metric.place_of_greatest(of, order) for of in motion}
+    places = {f"at {of}": metric.place_of_greatest(of, order=order) for of in motion}
     found = assur.sweep(batch, {}, Q, metrics={**asked, **places})
     assert found.kept.tolist() == np.flatnonzero(moves).tolist()
     for of, series in motion.items():
@@ -134,7 +136,8 @@ def test_deviation_of_every_stretch(shape: Any, part: float) -> None:
     open_count = {0.1: 8, 0.5: 36, 1.0: 72}[part]
     ahead = np.linspace(0.3, 5.0, 72)
     asked = {
-        str(relative): metric.deviation("P", shape, part, relative) for relative in (False, True)
+        str(relative): metric.deviation("P", shape=shape, part=part, relative=relative)
+        for relative in (False, True)
     }
     oracles = {"line": textbook.off_line, "circle": textbook.off_circle}
     for q, closed, size in ((Q, True, count), (ahead, False, open_count)):

@@ -93,9 +93,9 @@ def _of_table(arguments: argparse.Namespace) -> Flywheel:
     options: dict[str, Any] = {"mean": mean, "spline": spline}
     if arguments.flywheel is None:
         fluctuation = arguments.fluctuation.one("", "--fluctuation")
-        return flywheel.from_table(*table, fluctuation, speed, **options)
+        return flywheel.from_table(*table, fluctuation=fluctuation, mean_speed=speed, **options)
     inertia = arguments.flywheel.one("", "--flywheel")
-    return flywheel.evaluate(*table, inertia, mean_speed=speed, **options)
+    return flywheel.evaluate(*table, flywheel=inertia, mean_speed=speed, **options)
 
 
 def _of_machine(arguments: argparse.Namespace) -> Flywheel:

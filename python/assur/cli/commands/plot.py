@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace) -> None:
         motion = mechanism.solve(
             **coordinates(mechanism, arguments.q, asked), order=0, on_error="nan"
         )
-        motion.animate(out, arguments.joint, groups=arguments.groups, dark=arguments.dark)
+        motion.animate(out, joint=arguments.joint, groups=arguments.groups, dark=arguments.dark)
     else:
         _draw(arguments, mechanism, asked, out)
     print(out)

@@ -29,12 +29,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     describe(
         parser,
         "Positions of joints, links and slides, with their derivatives by the driver's\n"
-        "coordinate, or velocities (--omega). Without --q, --order and --outputs those of\n"
+        "coordinate, or velocities (--speed). Without --q, --order and --outputs those of\n"
         "the file's [solve]. Where a position cannot be solved the table has NaN (its status\n"
         "says why), and the exit status is 3.",
         "assur solve example:jansen_leg",
         "assur solve example:crank_rocker --q 0:360:30deg --outputs C,rocker --out turn.csv",
-        "assur solve example:engine --set rod.length=220mm --omega 3000rpm --degrees",
+        "assur solve example:engine --set rod.length=220mm --speed 3000rpm --degrees",
         "assur solve example:five_bar --q 1.5:2:0.1 --q 1.2 --order 0",
     )
     add_source(parser)
@@ -44,14 +44,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--outputs", metavar="NAMES", help="joints, links, slides: C,rocker; all")
     parser.add_argument(
-        "--omega",
+        "--speed",
         metavar="SPEED",
         type=argument(numbers),
         help="speed of the driver, 10rad/s, 60rpm, 20mm/s: velocities in place of derivatives; "
         "of several drivers 1,2",
     )
     parser.add_argument(
-        "--alpha", metavar="NUMBER", type=argument(numbers), help="its acceleration, rad/s² or m/s²"
+        "--acceleration",
+        metavar="NUMBER",
+        type=argument(numbers),
+        help="its acceleration, rad/s² or m/s²",
     )
     parser.add_argument("--degrees", action="store_true", help="angles of the table in degrees")
     parser.add_argument("--moving", action="store_true", help="only what moves")
@@ -65,10 +68,11 @@ def run(arguments: argparse.Namespace) -> int:
 
     output = Output(arguments.out, arguments.file)
     contents = read(arguments)
-    omega = speeds(contents.mechanism, arguments.omega, "--omega")
-    alpha = plain(arguments.alpha, contents.mechanism, "--alpha")
+    speed = speeds(contents.mechanism, arguments.speed, "--speed")
+    acceleration = plain(arguments.acceleration, contents.mechanism, "--acceleration")
     motion = _motion(contents, arguments, output)
-    options = Options(omega, 0.0 if alpha is None else alpha, arguments.degrees, arguments.moving)
+    rates = speed, 0.0 if acceleration is None else acceleration
+    options = Options(*rates, degrees=arguments.degrees, moving=arguments.moving)
     output.write(motion_columns(motion, options))
     return report(motion.status, Status.UNREACHABLE, motion)
 

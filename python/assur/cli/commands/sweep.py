@@ -136,7 +136,11 @@ def run(arguments: argparse.Namespace) -> int:
         output.write(_columns(measures, None))
         note(f"no design is left: {counts_text(measures)}")
         return INCOMPLETE
-    best = None if arguments.best is None else measures.best(arguments.best, by, arguments.greatest)
+    best = (
+        None
+        if arguments.best is None
+        else measures.best(arguments.best, by, greatest=arguments.greatest)
+    )
     output.write(_columns(measures, best))
     return 0
 

@@ -175,7 +175,9 @@ class Bearing:
         Examples
         --------
         >>> import assur, numpy as np
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> found = machine.reactions(np.linspace(0.0, 2 * np.pi, 73), speed=10.0)
         >>> axes = found.bearing("A", on="crank").plot()
         >>> axes.shape

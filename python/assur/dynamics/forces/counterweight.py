@@ -95,7 +95,9 @@ class Counterweight:
         Examples
         --------
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> (weight,) = assur.balance.slider_crank(machine, fraction=0.5)
         >>> weight.with_radius(0.2).mass  # kg
         5.0
@@ -119,7 +121,9 @@ class Counterweight:
         Examples
         --------
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> (weight,) = assur.balance.slider_crank(machine, fraction=0.5)
         >>> weight.with_mass(10.0).radius  # m
         0.1

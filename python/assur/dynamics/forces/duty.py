@@ -147,7 +147,9 @@ def duty(
     rms, energy, work_in, work_out, time = columns[8:]
     lost = 0.0 * energy
     if machine.friction and machine.mechanism is not None:
-        free = type(machine)(machine.mechanism, machine.bodies, machine.loads, machine.motor)
+        free = type(machine)(
+            machine.mechanism, bodies=machine.bodies, loads=machine.loads, motor=machine.motor
+        )
         lost = energy - duty(free, DrivenMotion(x, v, a, t, senses), on_error).energy
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mean_power = energy / time

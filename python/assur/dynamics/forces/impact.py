@@ -42,7 +42,9 @@ class Impact(NamedTuple):
     A flywheel of 0.5 kg·m² strikes at 0.1 m and stops:
 
     >>> import assur, numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> stop = assur.Force("A", (-1.0, 0.0))
     >>> hit = machine.impact(stop, q=np.pi / 2, speed=-2.0)
     >>> hit.impulse.round(6), hit.energy_lost.round(6)  # N·s, J
@@ -174,7 +176,7 @@ def _impulses(
     mechanism = machine.mechanism
     assert mechanism is not None
     before, change = speeds
-    bodies = type(machine)(mechanism, machine.bodies)
+    bodies = type(machine)(mechanism, bodies=machine.bodies)
     known = np.nan_to_num(change)
     of_change = reactions(bodies, DrivenMotion(q, 0.0, known, 0.0), None, on_error)
     of_unit = reactions(unit_load, DrivenMotion(q, 0.0, 0.0, 0.0), None, on_error)

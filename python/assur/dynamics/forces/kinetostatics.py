@@ -348,7 +348,7 @@ def effort(
     # A motor's rotor belongs to the drive.
     bare = machine
     if machine.motor is not None and machine.mechanism is not None:
-        bare = type(machine)(machine.mechanism, machine.bodies, machine.loads)
+        bare = type(machine)(machine.mechanism, bodies=machine.bodies, loads=machine.loads)
     senses = _senses_needed(machine, motion, sense, shape)
     rests, going = np.zeros(shape, np.bool_), v
     if senses is not None:

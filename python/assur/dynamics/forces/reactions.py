@@ -113,7 +113,9 @@ class Reactions(Tabular):
     Examples
     --------
     >>> import assur, numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+    ... )
     >>> found = machine.reactions([np.pi / 3, np.pi / 2], speed=10.0)
     >>> found.shaking_force.round(3)  # N
     array([[ 75.022,   0.   ],
@@ -337,7 +339,9 @@ class Reactions(Tabular):
         What the rod does to the piston, the crank to the rod:
 
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
         >>> found = machine.reactions(0.0, speed=10.0)
         >>> found.joint("B", on="piston"), found.joint("A", on="rod")  # N
         (array([-250.,   -0.]), array([-250.,   -0.]))

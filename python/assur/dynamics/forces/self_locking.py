@@ -87,7 +87,7 @@ def self_locking(
     count = whole_number(n, "n", 2, MAX_POINTS)
     ends, is_turn, _ = search_range(machine, between)
     q = np.linspace(*ends, count + 1)
-    bare = type(machine)(mechanism, machine.bodies, machine.loads)
+    bare = type(machine)(mechanism, bodies=machine.bodies, loads=machine.loads)
 
     def locked(at: Float) -> npt.NDArray[np.bool_]:
         motion = DrivenMotion(at, rate, change, 0.0)

@@ -118,7 +118,7 @@ class InternalLoads:
         --------
         >>> import assur, numpy as np
         >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), {"rod": rod})
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
         >>> inside = machine.internal_loads("rod", np.pi / 2, speed=100.0)
         >>> found = inside.extremes("moment")
         >>> print(f"{found.least:.2f} N·m at {found.least_x:.3f} m")
@@ -154,7 +154,7 @@ class InternalLoads:
         --------
         >>> import assur, numpy as np
         >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), {"rod": rod})
+        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
         >>> inside = machine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=100.0)
         >>> peak = inside.peak("moment")
         >>> print(f"{peak.value:.2f} N·m at {peak.x:.3f} m, {np.degrees(peak.q):.1f}°")

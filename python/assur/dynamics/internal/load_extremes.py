@@ -40,7 +40,7 @@ class Peak(NamedTuple):
     --------
     >>> import assur, numpy as np
     >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), {"rod": rod})
+    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
     >>> inside = machine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=100.0)
     >>> peak = inside.peak("axial", of="greatest")
     >>> print(f"tension {peak.value:.1f} N at {peak.x:.3f} m, {peak.q:.3f} rad")

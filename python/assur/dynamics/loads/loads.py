@@ -64,7 +64,7 @@ class Body:
     >>> m = assur.Mechanism(
     ...     joints={"A": (1, 1), "B": (1, 3)}, links={"ground": "A", "rod": "AB"}, driver="rod"
     ... )
-    >>> machine = assur.Machine(m, {"rod": assur.Body(2.0, drawn=(0.75, 2.0))})
+    >>> machine = assur.Machine(m, bodies={"rod": assur.Body(2.0, drawn=(0.75, 2.0))})
     >>> machine.bodies["rod"]
     Body(mass=2.0, inertia=0.0, at=(1.0, 0.25))
     """

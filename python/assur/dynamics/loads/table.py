@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, fields
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -81,10 +82,10 @@ class Table(ByValue):
 
     >>> import assur
     >>> q = [0.0, 2.0, 2.0, 3.0, 3.0, 6.0]
-    >>> work = assur.Table(q, [0.0, 0.0, 90.0, 90.0, 0.0, 0.0], "linear")
+    >>> work = assur.Table(q, [0.0, 0.0, 90.0, 90.0, 0.0, 0.0], spline="linear")
     >>> work.at([1.0, 2.0, 2.5, 3.0])
     array([ 0., 90., 90.,  0.])
-    >>> cut = assur.Table([0.3, 0.5], [0.0, -900.0], "linear", over="bore")
+    >>> cut = assur.Table([0.3, 0.5], [0.0, -900.0], spline="linear", over="bore")
     >>> cut.over, cut.periodic
     ('bore', False)
 
@@ -107,6 +108,7 @@ class Table(ByValue):
         self,
         q: npt.ArrayLike,
         value: npt.ArrayLike,
+        *,
         spline: Spline = "pchip",
         periodic: bool | None = None,
         ratio: float = 1.0,
@@ -154,7 +156,7 @@ class Table(ByValue):
         Examples
         --------
         >>> import assur
-        >>> table = assur.Table([0.0, 1.0, 1.0, 2.0], [0.0, 4.0, 6.0, 0.0], "linear")
+        >>> table = assur.Table([0.0, 1.0, 1.0, 2.0], [0.0, 4.0, 6.0, 0.0], spline="linear")
         >>> table.at([0.5, 1.0, 2.5])
         array([2., 6., 2.])
         """
@@ -169,7 +171,9 @@ class Table(ByValue):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor, so that a copy is checked and read-only too.
-        return type(self), tuple(getattr(self, field.name) for field in fields(self))
+        options = {field.name: getattr(self, field.name) for field in fields(self)}
+        rows = options.pop("q"), options.pop("value")
+        return partial(type(self), **options), rows
 
 
 def _check_rows(q: Float, value: Float, least: int) -> None:

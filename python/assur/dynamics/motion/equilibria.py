@@ -55,7 +55,7 @@ class Equilibria(NamedTuple):
     ...     driver="rod",
     ... )
     >>> bob = assur.Body(mass=3.0, at="A")
-    >>> rest = assur.Machine(pendulum, {"rod": bob}, [assur.Gravity()]).equilibria()
+    >>> rest = assur.Machine(pendulum, bodies={"rod": bob}, loads=[assur.Gravity()]).equilibria()
     >>> rest.q.round(6), rest.stable
     (array([-1.570796,  1.570796]), array([ True, False]))
     >>> rest.frequency[0].round(6), np.sqrt(9.81 / 0.2).round(6)  # rad/s

@@ -46,7 +46,9 @@ class State(NamedTuple):
     Examples
     --------
     >>> import assur
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> run = machine.run(t_end=1.0, q0=0.0, speed0=3.0)
     >>> run.at(0.5).q.round(6), run.at(0.5).speed  # rad, rad/s
     (np.float64(1.5), np.float64(3.0))
@@ -89,7 +91,7 @@ class NearChangePoint(str):
 
     >>> import assur
     >>> linkage = assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0)
-    >>> machine = assur.Machine(linkage, {"rocker": assur.Body(inertia=1.0)})
+    >>> machine = assur.Machine(linkage, bodies={"rocker": assur.Body(inertia=1.0)})
     >>> run = machine.run(q_end=4.0, q0=1.0, speed0=1.0)
     >>> run.end, run.events[-1].event.dyad, f"{run.events[-1].event.miss:.1e} m"
     ('near_change_point', 'C', '1.0e-10 m')
@@ -121,7 +123,9 @@ class EventRecord(NamedTuple):
     Examples
     --------
     >>> import assur
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> run = machine.run(t_end=1.0, q0=0.0, speed0=3.0, events=[assur.events.Position(1.5)])
     >>> event = run.events[0]
     >>> event.event, round(event.t, 6), event.speed
@@ -149,7 +153,9 @@ class Energy(NamedTuple):
     Examples
     --------
     >>> import assur
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> energy = machine.run(t_end=1.0, q0=0.0, speed0=3.0).energy
     >>> energy.kinetic[-1].round(6), bool(abs(energy.balance).max() < 1e-12)  # J
     (np.float64(2.25), True)
@@ -201,7 +207,9 @@ class Statistics(NamedTuple):
     Examples
     --------
     >>> import assur
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
     >>> statistics = machine.run(t_end=1.0, q0=0.0, speed0=3.0).statistics
     >>> statistics.steps > 0, statistics.rejected, statistics.restarts
     (True, 0, 0)
@@ -246,7 +254,7 @@ class Run(Tabular):
     >>> import assur
     >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
     >>> bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
-    >>> run = assur.Machine(wheel, bodies).run(t_end=10.0, q0=0.0, speed0=2.0)
+    >>> run = assur.Machine(wheel, bodies=bodies).run(t_end=10.0, q0=0.0, speed0=2.0)
     >>> run.at(10.0).q.round(6)
     np.float64(26.665873)
     >>> run.energy.error < 1e-9
@@ -411,7 +419,7 @@ class Run(Tabular):
             columns.append(Column(name, values, "J", "energy"))
         return columns
 
-    def plot(self, what: str = "speed", ax: Any = None, *, dark: bool = False) -> Any:
+    def plot(self, what: str = "speed", *, ax: Any = None, dark: bool = False) -> Any:
         """Draw a quantity over time, with the events (needs matplotlib).
 
         Parameters
@@ -431,7 +439,9 @@ class Run(Tabular):
         Examples
         --------
         >>> import assur
-        >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": assur.Body(inertia=0.5)})
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+        ... )
         >>> axes = machine.run(t_end=1.0, q0=0.0, speed0=3.0).plot("q")
         >>> axes.get_xlabel(), axes.get_title(loc="left")
         ('t, s', 'Coordinate, rad')
@@ -444,6 +454,7 @@ class Run(Tabular):
     def to_html(
         self,
         path: str | PathLike[str],
+        *,
         paths: Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
@@ -469,7 +480,7 @@ class Run(Tabular):
         >>> import assur, pathlib, tempfile
         >>> wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0)
         >>> bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
-        >>> run = assur.Machine(wheel, bodies).run(t_end=5.0, q0=0.5, speed0=2.0)
+        >>> run = assur.Machine(wheel, bodies=bodies).run(t_end=5.0, q0=0.5, speed0=2.0)
         >>> page = pathlib.Path(tempfile.mkdtemp()) / "run.html"
         >>> run.to_html(page, paths=["C"])
         >>> page.read_text(encoding="utf-8")[:15]

@@ -151,8 +151,8 @@ class SteadyState(Tabular):
     def plot(
         self,
         what: Literal["speed", "time", "energy"] = "speed",
-        ax: Any = None,
         *,
+        ax: Any = None,
         degrees: bool = False,
         dark: bool = False,
     ) -> Any:

@@ -36,7 +36,9 @@ class Reduced(NamedTuple):
     Examples
     --------
     >>> import assur, numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.4), {"piston": assur.Body(mass=20.0)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+    ... )
     >>> reduced = machine.reduced_inertia(np.pi / 2)  # the piston moves as fast as the pin
     >>> reduced.value.round(6), reduced.d1.round(6)  # kg·m², kg·m²/rad
     (np.float64(0.2), np.float64(-0.10328))
@@ -131,7 +133,8 @@ def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineMode
     design = row // max(1, positions // math.prod(machine.shape))
     index = tuple(int(i) for i in np.unravel_index(design, machine.shape))
     mechanism = machine.mechanism.design(index)
-    return type(machine)(mechanism, machine.bodies, machine.loads, machine.motor), index
+    one = type(machine)(mechanism, bodies=machine.bodies, loads=machine.loads, motor=machine.motor)
+    return one, index
 
 
 def _require_within_table(machine: MachineModel, q: Float, status: npt.NDArray[np.uint8]) -> None:

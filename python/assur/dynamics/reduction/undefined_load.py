@@ -53,11 +53,11 @@ def without_value(machine: MachineModel, moment: Moment, what: str) -> AssurErro
     assert mechanism is not None
     for name, load in named_loads(machine):
         bodies = machine.bodies if isinstance(load, Gravity) else {}
-        alone = type(machine)(mechanism, bodies, [load])
+        alone = type(machine)(mechanism, bodies=bodies, loads=[load])
         if not _is_finite(alone, moment):
             return with_subject(_of_load(mechanism, name, load, moment), name)
     for link, body in machine.bodies.items():
-        if not _is_finite(type(machine)(mechanism, {link: body}), moment):
+        if not _is_finite(type(machine)(mechanism, bodies={link: body}), moment):
             body_name = f"bodies[{link!r}]"
             return with_subject(_too_great(f"{body_name}: its inertia", moment), body_name)
     for name, value in _motor_values(machine):

@@ -135,7 +135,7 @@ class ConfigurationCurve:
         """
         return defects_of(self, places)
 
-    def plot(self, name: str | None = None, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, name: str | None = None, *, ax: Any = None, dark: bool = False) -> Any:
         """Draw a coordinate over q along every circuit (needs matplotlib).
 
         Circuits differ in colour, dead points of the driver are diamonds.
@@ -171,7 +171,7 @@ class ConfigurationCurve:
 
         return curve_picture(self, name, ax, dark)
 
-    def motion(self, circuit: int = 0, samples: int = 180) -> CircuitMotion:
+    def motion(self, circuit: int = 0, *, samples: int = 180) -> CircuitMotion:
         """Return positions along a circuit.
 
         Parameters

@@ -102,7 +102,7 @@ class DesignMap:
     values: npt.NDArray[np.intp]
     boundaries: tuple[Boundary, ...]
 
-    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, *, ax: Any = None, dark: bool = False) -> Any:
         """Draw regions by their number, with names, and the boundaries (needs matplotlib).
 
         Parameters

@@ -104,7 +104,7 @@ class SingularLocus:
     # A `Mechanism`, whose file stands above.
     mechanism: Any
 
-    def plot(self, joint: str | None = None, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, joint: str | None = None, *, ax: Any = None, dark: bool = False) -> Any:
         """Draw the curve of a joint, or of the drivers' coordinates (needs matplotlib).
 
         Parameters
@@ -189,7 +189,9 @@ class Workspace:
     # A `Mechanism`, whose file stands above.
     mechanism: Any
 
-    def plot(self, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False) -> Any:
+    def plot(
+        self, *, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False
+    ) -> Any:
         """Draw where the joint can be, and in how many ways (needs matplotlib).
 
         Regions are filled by the number of ways; curves are the boundary, where that changes. The

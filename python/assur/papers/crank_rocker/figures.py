@@ -34,11 +34,11 @@ TINT = 0.2
 
 
 def plot_zone(
+    *,
     coupler: float = 4.0,
     margin: float | tuple[float, float] = 0.05,
     gamma_min: float = 0.0,
     ax: Any = None,
-    *,
     dark: bool = False,
 ) -> Any:
     """Draw the grounds for which the crank turns over the rocker's length (needs matplotlib).
@@ -68,7 +68,7 @@ def plot_zone(
     Examples
     --------
     >>> import assur
-    >>> axes = assur.crank_rocker.plot_zone(4.0, gamma_min=0.2)
+    >>> axes = assur.crank_rocker.plot_zone(coupler=4.0, gamma_min=0.2)
     >>> [zone.get_gid() for zone in axes.collections]
     ['zone', 'zone with friction']
     """
@@ -97,7 +97,7 @@ def plot_zone(
         zones.append((gamma_min, "zone with friction", style.velocity, 2.0 * TINT))
     notes = []
     for angle, gid, colour, tint in zones:
-        low, high = ground_range(length, rockers, margin, gamma_min=angle)
+        low, high = ground_range(length, rockers, margin=margin, gamma_min=angle)
         known = np.isfinite(low)
         x, low, high = rockers[known], low[known], high[known]
         axes.fill_between(
@@ -130,9 +130,9 @@ def plot_push_and_pull(
     l2: float,
     l3: float,
     l4: float,
+    *,
     phi1: float | Sequence[float] = (1.6, 4.2),
     ax: Any = None,
-    *,
     dark: bool = False,
 ) -> Any:
     """Draw the mechanism at crank angles with the force of the coupler on the rocker.
@@ -230,7 +230,7 @@ def _drawn(
     return Mechanism(joints, links, "crank"), places
 
 
-def plot_least_angle(ax: Any = None, *, dark: bool = False) -> Any:
+def plot_least_angle(*, ax: Any = None, dark: bool = False) -> Any:
     """Draw the least transmission angle over the reduced friction f_p (needs matplotlib).
 
     Parameters
@@ -292,9 +292,9 @@ def plot_transmission(
     l2: float,
     l3: float,
     l4: float | Sequence[float],
+    *,
     gamma_min: float | None = None,
     ax: Any = None,
-    *,
     dark: bool = False,
 ) -> Any:
     """Draw the angle γ₂₃ and the transmission angle γ over the crank's angle, for some grounds.
@@ -325,7 +325,7 @@ def plot_transmission(
     Examples
     --------
     >>> import assur
-    >>> axes = assur.crank_rocker.plot_transmission(1, 4.5, 1.5, [4.8, 4.9, 4.995], 0.2)
+    >>> axes = assur.crank_rocker.plot_transmission(1, 4.5, 1.5, [4.8, 4.9, 4.995], gamma_min=0.2)
     >>> [line.get_gid() for line in axes[1].lines]
     ['curve l₄ = 4.8', 'curve l₄ = 4.9', 'curve l₄ = 4.995', 'least angle']
     """

@@ -110,8 +110,8 @@ class JammingRun:
     def plot(
         self,
         what: Literal["positions", "ground", "angle"] = "positions",
-        ax: Any = None,
         *,
+        ax: Any = None,
         degrees: bool = True,
         dark: bool = False,
     ) -> Any:
@@ -157,6 +157,7 @@ def run(
     l3: float,
     ground: Ground,
     gamma_min: float | tuple[float, float],
+    *,
     speed: float = 1.0,
     phi0: float = math.pi / 2,
     turns: float = 1.0,

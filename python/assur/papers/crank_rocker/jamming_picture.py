@@ -77,7 +77,7 @@ def with_sliding_support(joints: Mapping[str, Any]) -> Mechanism:
         "support": ["D"],
     }
     slides = {"line": Slide("support", on="ground", angle=0.0, origin="A")}
-    return Mechanism(joints, links, ["crank", "line"], slides)
+    return Mechanism(joints, links, ["crank", "line"], slides=slides)
 
 
 def _positions(run: _Jamming, ax: Any, dark: bool, style: Style) -> Any:
@@ -88,7 +88,7 @@ def _positions(run: _Jamming, ax: Any, dark: bool, style: Style) -> Any:
     steps = np.arange(0.0, last - 0.5 * STEP, STEP)
     rows = np.unique(np.searchsorted(turned, steps))
     q = np.stack([run.phi1, run.D[:, 0]], axis=-1)[rows]
-    ax = mechanism_of(run).plot(q, ax, labels="first", dark=dark)
+    ax = mechanism_of(run).plot(q, ax=ax, labels="first", dark=dark)
     for artist in list(ax.get_children()):
         if _misleads(artist, run, ax):
             artist.remove()

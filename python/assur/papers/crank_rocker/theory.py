@@ -125,6 +125,7 @@ def solve(
     l2: npt.ArrayLike,
     l3: npt.ArrayLike,
     l4: npt.ArrayLike,
+    *,
     speed: npt.ArrayLike = 1.0,
     ground_speed: npt.ArrayLike = 0.0,
     assembly: Literal["printed", "other"] = "printed",
@@ -175,6 +176,7 @@ def grashof(
     l2: npt.ArrayLike,
     l3: npt.ArrayLike,
     l4: npt.ArrayLike,
+    *,
     tolerance: float = CHANGE_TOLERANCE,
 ) -> Any:
     """Return Grashof's type of four-bars with crank l1, coupler l2, rocker l3 and ground l4.
@@ -245,6 +247,7 @@ def crank_turns(
 def ground_range(
     coupler: npt.ArrayLike,
     rocker: npt.ArrayLike,
+    *,
     margin: float | tuple[float, float] = 0.05,
     gamma_min: npt.ArrayLike = 0.0,
 ) -> tuple[Any, Any]:
@@ -274,7 +277,7 @@ def ground_range(
     >>> import assur
     >>> [round(x, 6) for x in assur.crank_rocker.ground_range(4.0, 2.0)]
     [3.05, 4.95]
-    >>> [round(x, 8) for x in assur.crank_rocker.ground_range(4.5, 1.5, 0.0, gamma_min=0.2)]
+    >>> [round(x, 8) for x in assur.crank_rocker.ground_range(4.5, 1.5, margin=0.0, gamma_min=0.2)]
     [4.04451986, 4.97753284]
     """
     margins = real_array(margin, "margin")

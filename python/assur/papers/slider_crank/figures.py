@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from assur._arrays import flag, real_number
+from assur._other_names import renamed_rates
 from assur._validate import checked_entries, one_of, refuse_without_speed, whole_number
 from assur.errors import InputError
 from assur.papers.slider_crank.theory import contour, rod_angle, rod_point, stroke
@@ -28,7 +29,7 @@ BETWEEN = 1001
 
 
 def plot_contour(
-    phi: float, crank: float, rod: float, ax: Any = None, *, dark: bool = False
+    phi: float, crank: float, rod: float, *, ax: Any = None, dark: bool = False
 ) -> Any:
     """Draw the closed vector contour l₁ + l₂ = l₃ at one position (needs matplotlib).
 
@@ -107,10 +108,10 @@ def plot_positions(
     phi: float,
     crank: float,
     rod: float,
+    *,
     along: float | None = None,
     across: float = 0.0,
     ax: Any = None,
-    *,
     dark: bool = False,
 ) -> Any:
     """Draw the mechanism at one position with the paths of A, B and a point of the rod.
@@ -153,7 +154,7 @@ def plot_positions(
     )
     place = rod / 2.0 if along is None else real_number(along, "along")
     across = real_number(across, "across")
-    ax = SliderCrank(crank, rod).plot(phi, ax, dark=dark)
+    ax = SliderCrank(crank, rod).plot(phi, ax=ax, dark=dark)
     turn = np.linspace(0.0, 2.0 * math.pi, POINTS)
     for name, at in (("A", 0.0), ("B", rod), ("S2", place)):
         offset = across if name == "S2" else 0.0
@@ -229,19 +230,22 @@ class _Formulas:
             return np.degrees(analogues.value) if in_degrees else analogues.value
         if self._speeds is None:
             return analogues.d1 if order == 1 else analogues.d2
-        speed, alpha = self._speeds
-        return analogues.velocity(speed) if order == 1 else analogues.acceleration(speed, alpha)
+        speed, acceleration = self._speeds
+        return (
+            analogues.velocity(speed) if order == 1 else analogues.acceleration(speed, acceleration)
+        )
 
 
+@renamed_rates
 def plot_motion(
     quantity: Literal["stroke", "rod"],
     crank: float,
     rod: float,
+    *,
     speed: float | None = None,
-    alpha: float = 0.0,
+    acceleration: float = 0.0,
     orders: int | Sequence[int] | None = None,
     ax: Any = None,
-    *,
     degrees: bool = True,
     dark: bool = False,
 ) -> Any:
@@ -253,7 +257,7 @@ def plot_motion(
         The slider's stroke, or the angle of the rod.
     crank, rod : float
         Lengths, m.
-    speed, alpha : float, optional
+    speed, acceleration : float, optional
         Of the crank, rad/s, rad/s²; analogues are drawn without a speed.
     orders : int or sequence of int, optional
         0 the value, 1 velocity, 2 acceleration; all by default.
@@ -286,10 +290,10 @@ def plot_motion(
 
     one_of(quantity, ("stroke", "rod"), "quantity")
     lengths = real_number(crank, "crank"), real_number(rod, "rod")
-    refuse_without_speed(speed, "speed", alpha=alpha)
+    refuse_without_speed(speed, "speed", acceleration=acceleration)
     speeds = None
     if speed is not None:
-        speeds = real_number(speed, "speed"), real_number(alpha, "alpha")
+        speeds = real_number(speed, "speed"), real_number(acceleration, "acceleration")
     source = _Formulas(quantity, lengths, speeds, flag(degrees, "degrees"))
     # The title has its name.
     of = Quantity("slide" if quantity == "stroke" else "link", "")
@@ -298,9 +302,9 @@ def plot_motion(
 
 def plot_convergence(
     k: float | Sequence[float] = (1.5, 3.0, 5.0),
+    *,
     count: int = 8,
     ax: Any = None,
-    *,
     dark: bool = False,
 ) -> Any:
     """Draw the largest error of the stroke's series over its harmonics, and over its terms.
@@ -369,16 +373,16 @@ def plot_convergence(
 
 def _error(phi: Float, k: float, exact: Float, n: int, last: int, by_terms: int) -> float:
     harmonics, terms = (2 * last, n) if by_terms else (2 * n, None)
-    near = stroke(phi, 1.0, k, "series", harmonics=harmonics, terms=terms).value
+    near = stroke(phi, 1.0, k, method="series", harmonics=harmonics, terms=terms).value
     return float(np.abs(near - exact).max())
 
 
 def plot_deviation(
     lam: float = 1.0 / 3.0,
     n: int | Sequence[int] = (1, 2),
+    *,
     quantity: Literal["stroke", "d1"] | Sequence[Literal["stroke", "d1"]] = ("stroke", "d1"),
     ax: Any = None,
-    *,
     dark: bool = False,
 ) -> Any:
     """Draw how far approximations of the continued fraction are off, per cent of the exact value.
@@ -440,7 +444,7 @@ def plot_deviation(
 
         def off(x: Float, order: int = order, which: int = which) -> Float:
             near, exact = (
-                stroke(np.radians(x), 1.0, 1.0 / ratio, method, n=which)
+                stroke(np.radians(x), 1.0, 1.0 / ratio, method=method, n=which)
                 for method in ("fraction", "exact")
             )
             name = ORDERS[order]

@@ -62,7 +62,7 @@ class Deviation(NamedTuple):
     absolute_at: Any
 
 
-def fourier(k: npt.ArrayLike, harmonics: int = 6, terms: int | None = None) -> Float:
+def fourier(k: npt.ArrayLike, *, harmonics: int = 6, terms: int | None = None) -> Float:
     """Return the coefficients of the stroke's cosine series, per crank length.
 
     s / crank = A0 + A1 cos φ + A2 cos 2φ + A4 cos 4φ + …; A1 = −1, other odd coefficients are 0.
@@ -110,6 +110,7 @@ def stroke(
     phi: npt.ArrayLike,
     crank: npt.ArrayLike,
     rod: npt.ArrayLike,
+    *,
     method: Literal["exact", "series", "fraction"] = "exact",
     n: int = 2,
     harmonics: int = 2,
@@ -133,7 +134,7 @@ def stroke(
     -------
     Analogues
         ``value``, ``d1`` and ``d2``, each the exact derivative of the one before; also
-        ``velocity(omega)`` and ``acceleration(omega, alpha)``.
+        ``velocity(speed)`` and ``acceleration(speed, acceleration)``.
 
     Raises
     ------
@@ -249,7 +250,7 @@ def rod_point(
     -------
     Analogues
         Points with a last axis (x, y), x along the slider's axis, from the crank's pivot. The speed
-        is ``np.linalg.norm(point.velocity(omega), axis=-1)``.
+        is ``np.linalg.norm(point.velocity(speed), axis=-1)``.
 
     References
     ----------
@@ -259,7 +260,7 @@ def rod_point(
     --------
     >>> import assur, numpy as np
     >>> middle = assur.slider_crank.rod_point(0.0, 1.0, 3.0, along=1.5)
-    >>> middle.value, middle.velocity(omega=10.0)
+    >>> middle.value, middle.velocity(speed=10.0)
     (array([2.5, 0. ]), array([0., 5.]))
     """
     angles, cranks, rods = _lengths(phi, crank, rod)
@@ -277,7 +278,7 @@ def rod_point(
 
 
 def greatest_speed(
-    k: npt.ArrayLike, method: Literal["exact", "series", "perpendicular"] = "exact"
+    k: npt.ArrayLike, *, method: Literal["exact", "series", "perpendicular"] = "exact"
 ) -> Extreme:
     """Return the crank angle of the slider's greatest speed in the first half turn, and the speed.
 
@@ -343,7 +344,7 @@ def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
 
 
 def deviation(
-    lam: npt.ArrayLike, n: int, quantity: Literal["stroke", "d1", "d2"] = "stroke"
+    lam: npt.ArrayLike, n: int, *, quantity: Literal["stroke", "d1", "d2"] = "stroke"
 ) -> Deviation:
     """Return the largest deviations of the continued fraction from the exact motion.
 

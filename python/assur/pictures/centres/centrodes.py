@@ -35,6 +35,7 @@ def centrodes(
     motion: Motion,
     link: str,
     other: str = "ground",
+    *,
     at: int | tuple[int, ...] = (),
     ax: Any = None,
     dark: bool = False,

@@ -38,6 +38,7 @@ SIGHT = 1.2
 def inflection_circle(
     motion: Motion,
     link: str,
+    *,
     at: int | tuple[int, ...] = (),
     bresse: bool = False,
     ax: Any = None,

@@ -34,6 +34,7 @@ LONG = 60
 
 def instant_centres(
     motion: Motion,
+    *,
     at: int | tuple[int, ...] = (),
     links: Sequence[str] | None = None,
     lines: bool | None = None,

@@ -150,17 +150,17 @@ class AlongDriver:
         if order == 0 or self._speeds is None:
             rate: Float = getattr(analogues, ORDERS[order])
             return rate
-        omega, alpha, beta = self._speeds
+        speed, acceleration, jerk = self._speeds
         shown: list[Callable[[], Float]] = [
-            lambda: analogues.velocity(omega),
-            lambda: analogues.acceleration(omega, alpha),
-            lambda: analogues.jerk(omega, alpha, beta),
+            lambda: analogues.velocity(speed),
+            lambda: analogues.acceleration(speed, acceleration),
+            lambda: analogues.jerk(speed, acceleration, jerk),
         ]
         rate = shown[order - 1]()
         if rate.shape != analogues.value.shape:
             message = (
-                f"omega and alpha give the shape {rate.shape}: a diagram has one speed at each "
-                f"position {motion.shape}"
+                f"speed and acceleration give the shape {rate.shape}: a diagram has one speed at "
+                f"each position {motion.shape}"
             )
             raise InputError(message)
         return rate

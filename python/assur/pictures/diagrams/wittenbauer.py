@@ -37,7 +37,7 @@ GAP = 6.0
 def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, style: Style) -> Any:
     """Draw the loop of one turn and both tangents; they meet at minus the flywheel."""
     axes = chart.chart_axes(ax, style)
-    inertia, energy = flywheel.energy_mass(len(q))
+    inertia, energy = flywheel.energy_mass(points=len(q))
     axes.plot(inertia, energy, color=style.ink, linewidth=chart.CURVE, gid="curve loop", zorder=2.0)
     corner = -flywheel.inertia, -flywheel.inertia * flywheel.speed0**2 / 2.0
     low, high, steep = _width(inertia, energy, float(flywheel.greatest.value))

@@ -33,7 +33,9 @@ class Film:
     def __init__(self, motion: Motion, joints: Sequence[str], groups: bool, style: Style) -> None:
         # Solved again: the motion may hold some joints alone.
         self._groups = groups
-        whole = motion.mechanism.solve(motion.q, 0, assembly=assembly_of(motion), on_error="nan")
+        whole = motion.mechanism.solve(
+            motion.q, order=0, assembly=assembly_of(motion), on_error="nan"
+        )
         self._subject = Subject(whole)
         frames = frames_of(whole)
         self._frames = frames.values[0]

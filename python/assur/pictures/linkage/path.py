@@ -51,7 +51,7 @@ def path_picture(
     paths = [motion.joint(name).value for name in joints]
     row = _row(motion, at)
     # Solved again: the motion may hold some joints alone.
-    at_row = motion.mechanism.solve(motion.coordinate(row), 0, assembly=assembly_of(motion))
+    at_row = motion.mechanism.solve(motion.coordinate(row), order=0, assembly=assembly_of(motion))
     subject = Subject(at_row)
     known = [path[np.isfinite(path).all(axis=1)] for path in paths]
     arrows = [

@@ -41,8 +41,9 @@ class PathArrows:
                 f"vectors={kind!r} needs order {order}: this motion was solved to {motion.order}"
             )
             raise InputError(message)
-        omega, alpha = (
-            finite_array(rate, name) for rate, name in zip(speeds, ("omega", "alpha"), strict=True)
+        speed, acceleration = (
+            finite_array(rate, name)
+            for rate, name in zip(speeds, ("speed", "acceleration"), strict=True)
         )
         self._kind, self._joints = kind, list(joints)
         rows = np.unique([row, *range(0, len(motion.q), max(1, (len(motion.q) - 1) // ALONG))])
@@ -50,11 +51,13 @@ class PathArrows:
         self._points, self._vectors = [], []
         for name in joints:
             point = motion.joint(name)
-            values = point.velocity(omega) if order == 1 else point.acceleration(omega, alpha)
+            values = (
+                point.velocity(speed) if order == 1 else point.acceleration(speed, acceleration)
+            )
             if values.shape != point.value.shape:
                 message = (
-                    f"omega and alpha give the shape {values.shape[:-1]}: a picture has one speed "
-                    f"at each position {motion.shape}"
+                    f"speed and acceleration give the shape {values.shape[:-1]}: a picture has one "
+                    f"speed at each position {motion.shape}"
                 )
                 raise InputError(message)
             self._points.append(point.value[rows])

@@ -42,7 +42,7 @@ def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> 
     of_angle = isinstance(name, str) and name in mechanism.links
     driver = mechanism.driver
     turns = not isinstance(driver, str) or driver not in mechanism.slides
-    motions = [curve.motion(i, SAMPLES) for i in range(len(curve.circuits))]
+    motions = [curve.motion(i, samples=SAMPLES) for i in range(len(curve.circuits))]
     if not motions:
         message = "the configuration curve has no circuit: the mechanism cannot be assembled"
         raise InputError(message)

@@ -165,7 +165,7 @@ def _contents(
     diagrams: Any = None,
 ) -> tuple[Played, dict[str, Any]]:
     if speed is not None:
-        speed = real_number(speed, "omega")
+        speed = real_number(speed, "speed")
     if duration is not None:
         duration = real_number(duration, "duration")
         if duration <= 0.0:

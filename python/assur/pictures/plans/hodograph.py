@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from assur._arrays import finite_array
+from assur._other_names import renamed_rates
 from assur._validate import checked_name, whole_number
 from assur.errors import InputError
 from assur.pictures.axes import TEXT, canvas, scale_bar
@@ -31,12 +32,14 @@ DOTS = 12
 LINE, DOT = 1.8, 4.0
 
 
+@renamed_rates
 def hodograph(
     motion: Motion,
     joint: str,
-    omega: Any = 1.0,
+    *,
+    speed: Any = 1.0,
     order: int = 1,
-    alpha: Any = 0.0,
+    acceleration: Any = 0.0,
     ax: Any = None,
     dark: bool = False,
 ) -> Any:
@@ -49,7 +52,7 @@ def hodograph(
         the mechanism.
     joint : str
         The joint.
-    omega, alpha : array_like
+    speed, acceleration : array_like
         Speed and acceleration of the driver, as for `Analogues.velocity`.
     order : {1, 2}
         Velocities or accelerations.
@@ -75,7 +78,7 @@ def hodograph(
 
     >>> import assur, numpy as np
     >>> from assur.pictures import hodograph
-    >>> axes = hodograph(assur.SliderCrank(0.1, 0.4).solve(0.0), "A", omega=10.0)
+    >>> axes = hodograph(assur.SliderCrank(0.1, 0.4).solve(0.0), "A", speed=10.0)
     >>> curve = next(a for a in axes.lines if a.get_gid() == "hodograph A")
     >>> bool(np.allclose(np.hypot(*curve.get_data()), 1.0))
     True
@@ -83,14 +86,14 @@ def hodograph(
     motion = checked_motion(motion)
     motion.mechanism.core.index_of("joint", checked_name(joint, "joint"))
     order = whole_number(order, "order", 1, 2, needed="1 for velocities, 2 for accelerations")
-    omega, alpha = finite_array(omega, "omega"), finite_array(alpha, "alpha")
+    speed, acceleration = finite_array(speed, "speed"), finite_array(acceleration, "acceleration")
     rows, steps = refined(motion, "a hodograph", order)
     point = rows.joint(joint)
-    ends = point.velocity(omega) if order == 1 else point.acceleration(omega, alpha)
+    ends = point.velocity(speed) if order == 1 else point.acceleration(speed, acceleration)
     ends = ends.reshape(-1, 2)
     sizes = np.hypot(*ends.T)
     if not np.nanmax(sizes, initial=0.0) > 0.0:
-        message = f"joint {joint!r} rests at omega = {omega}: it has no hodograph"
+        message = f"joint {joint!r} rests at speed = {speed}: it has no hodograph"
         raise InputError(message, joint=joint)
     known = np.vstack([ends[np.isfinite(sizes)], np.zeros(2)])
     on = canvas(

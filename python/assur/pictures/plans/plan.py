@@ -72,17 +72,17 @@ class Plan:
     vectors: list[Vector]
 
 
-def plan_of(motion: Motion, what: str, omega: Any, alpha: Any) -> Plan:
+def plan_of(motion: Motion, what: str, speed: Any, acceleration: Any) -> Plan:
     """Return the plan of a motion of one position."""
-    return _Builder(motion, what, omega, alpha).plan()
+    return _Builder(motion, what, speed, acceleration).plan()
 
 
 class _Builder:
-    def __init__(self, motion: Motion, what: str, omega: Any, alpha: Any) -> None:
+    def __init__(self, motion: Motion, what: str, speed: Any, acceleration: Any) -> None:
         self._motion = motion
         self._m = motion.mechanism
         self._what = what
-        self._omega, self._alpha = omega, alpha
+        self._omega, self._alpha = speed, acceleration
         self._states: dict[str, State] = {}
         self._links: dict[str, list[str]] = {}
         self._under: dict[str, Under] = {}

@@ -42,15 +42,15 @@ def pole_name(images: dict[str, str], fixed: frozenset[str]) -> str:
     return next(name for name in ("o", "π", "pole") if name not in taken)
 
 
-def heading(position: Motion, plan: Plan, what: str, omega: Any, alpha: Any) -> list[str]:
+def heading(position: Motion, plan: Plan, what: str, speed: Any, acceleration: Any) -> list[str]:
     """Return the lines above a plan: what it is, at which position and speed."""
     noun = {"velocity": "velocities", "acceleration": "accelerations"}[what]
     mechanism = position.mechanism
     drivers = mechanism.description.drivers
     angles = [driver not in mechanism.slides for driver in drivers]
-    parts = [place_text(position), _rates("ω", omega, angles, "/s")]
-    if what == "acceleration" and np.any(np.asarray(alpha)):
-        parts.append(_rates("α", alpha, angles, "/s²"))
+    parts = [place_text(position), _rates("ω", speed, angles, "/s")]
+    if what == "acceleration" and np.any(np.asarray(acceleration)):
+        parts.append(_rates("α", acceleration, angles, "/s²"))
     numbers = link_numbers(mechanism)
     images = image_names(plan, numbers)
     legend = [

@@ -47,25 +47,25 @@ def _of_one(position: Motion, values: Any, name: str) -> Any:
 
 
 def polygon_picture(
-    motion: Motion, what: str, at: Any, omega: Any, alpha: Any, ax: Any, dark: bool
+    motion: Motion, what: str, at: Any, speed: Any, acceleration: Any, ax: Any, dark: bool
 ) -> Any:
     """See `Motion.polygon`."""
     one_of(what, ("velocity", "acceleration"), "what")
     position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
-    omega = checked_rates(omega, "omega", position.mechanism)
-    alpha = checked_rates(alpha, "alpha", position.mechanism)
-    plan = plan_of(position, what, omega, alpha)
+    speed = checked_rates(speed, "speed", position.mechanism)
+    acceleration = checked_rates(acceleration, "acceleration", position.mechanism)
+    plan = plan_of(position, what, speed, acceleration)
     images = np.array(list(plan.images.values()))
     if not np.isfinite(images).all():
         message = f"no plan: {position.explain()}"
         raise InputError(message)
     if not images.any():
-        message = f"every {what} is zero at omega = {omega}: there is no plan to draw"
+        message = f"every {what} is zero at speed = {speed}: there is no plan to draw"
         raise InputError(message)
     ends = [point for vector in plan.vectors for point in (vector.start, vector.end)]
     corners = np.array([np.zeros(2), *images, *ends])
     style = style_of(dark)
-    lines = heading(position, plan, what, omega, alpha)
+    lines = heading(position, plan, what, speed, acceleration)
     on = canvas(
         ax,
         (corners.min(axis=0), corners.max(axis=0)),

@@ -52,7 +52,7 @@ def _reachable(
     mechanism: Mechanism, assembly: Mapping[str, int] | None, q0: float, rows: int, turns: bool
 ) -> Float:
     """Return rows of q over the interval that holds q0."""
-    low, high = interval_at(mechanism.limits(assembly), q0, turns)
+    low, high = interval_at(mechanism.limits(assembly=assembly), q0, turns)
     if np.isfinite(low) and np.isfinite(high):
         gap = END_GAP * (high - low)
         return np.linspace(low + gap, high - gap, rows)

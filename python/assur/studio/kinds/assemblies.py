@@ -95,6 +95,6 @@ def _reach(mechanism: Mechanism, assembly: Assembly) -> dict[str, Any] | None:
     if mechanism.driver_count > 1:
         return None
     try:
-        return reach_of(mechanism.limits(assembly))
+        return reach_of(mechanism.limits(assembly=assembly))
     except AssurError:
         return None

@@ -70,7 +70,7 @@ def _toml(mechanism: Mechanism, fields: Fields) -> bytes:
 def _csv(mechanism: Mechanism, fields: Fields) -> bytes:
     """Return the table of the turn, with velocities if a speed is given."""
     columns = motion_columns(
-        _motion(mechanism, fields, ROWS, 2), Options(omega=fields.optional("speed"))
+        _motion(mechanism, fields, ROWS, 2), Options(speed=fields.optional("speed"))
     )
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -98,7 +98,7 @@ def _dxf(mechanism: Mechanism, fields: Fields) -> bytes:
 
 def _drawing(mechanism: Mechanism, fields: Fields, ending: str) -> bytes:
     q = fields.drivers("q", mechanism)
-    return _written(ending, lambda path: mechanism.to_drawing(path, q, title=_title(fields)))
+    return _written(ending, lambda path: mechanism.to_drawing(path, q=q, title=_title(fields)))
 
 
 def _html(mechanism: Mechanism, fields: Fields) -> bytes:
@@ -109,14 +109,14 @@ def _html(mechanism: Mechanism, fields: Fields) -> bytes:
         raise InputError(message)
     return _written(
         ".html",
-        lambda path: mechanism.to_html(path, q, omega=speed, paths=paths, title=_title(fields)),
+        lambda path: mechanism.to_html(path, q=q, speed=speed, paths=paths, title=_title(fields)),
     )
 
 
 def _gif(mechanism: Mechanism, fields: Fields) -> bytes:
     motion, paths = _motion(mechanism, fields, FILM_ROWS, 0), fields["paths"]
     dark = fields.flag("dark")
-    return _written(".gif", lambda path: motion.animate(path, paths, dark=dark))
+    return _written(".gif", lambda path: motion.animate(path, joint=paths, dark=dark))
 
 
 def _title(fields: Fields) -> str:

@@ -112,12 +112,12 @@ def flywheel(data: dict[str, Any], session: Session) -> Answer:
     turns, rows = fields.whole("turns", 1, 1, MOST_TURNS), fields.rows(ROWS)
     wheel = machine.flywheel(
         fields.number("fluctuation"),
-        fields.optional("mean_speed"),
-        "period" if fields.word("mean", MEANS, "extremes") == "period" else "extremes",
+        mean_speed=fields.optional("mean_speed"),
+        mean="period" if fields.word("mean", MEANS, "extremes") == "period" else "extremes",
         turns=turns,
     )
     q = np.linspace(0.0, TURN * turns, rows)
-    inertia, energy = wheel.energy_mass(rows)
+    inertia, energy = wheel.energy_mass(points=rows)
     names = ("inertia", "delta", "speed0", "mean_speed", "mean", "motor_moment", "power", "period")
     header = {name: getattr(wheel, name) for name in names}
     header |= {name: getattr(wheel, name)._asdict() for name in ("greatest", "least")}

@@ -54,11 +54,11 @@ def lesson(data: dict[str, Any], session: Session) -> Answer:
     phi1, speed = fields.number("phi1", np.pi / 2.0), fields.number("speed", 1.0)
     ground_speed = fields.number("ground_speed", 0.0)
     header = _conditions(lengths, least)
-    instant = crank_rocker.solve(phi1, l1, l2, l3, l4, speed, ground_speed)
+    instant = crank_rocker.solve(phi1, l1, l2, l3, l4, speed=speed, ground_speed=ground_speed)
     names = [field.name for field in fields_of(instant)]
     header["instant"] = {"phi1": phi1, **{name: getattr(instant, name) for name in names}}
     turn = np.linspace(0.0, TURN, fields.rows(ROWS))
-    over = crank_rocker.solve(turn, l1, l2, l3, l4, speed)
+    over = crank_rocker.solve(turn, l1, l2, l3, l4, speed=speed)
     shown = ("phi2", "phi3", "gamma23", "gamma", "dphi2", "dphi3", "dgamma23", "v_B", "v_C")
     arrays = {"phi1": turn, **{name: getattr(over, name) for name in shown}}
     if "grounds" in fields:
@@ -147,7 +147,7 @@ def _conditions(lengths: tuple[float, float, float, float], least: float | None)
     for name, angle in (("ground_range", least or 0.0), ("turning_range", 0.0)):
         # Perhaps no ground fits these two.
         with suppress(AssurError):
-            ends = crank_rocker.ground_range(l2 / l1, l3 / l1, 0.0, angle)
+            ends = crank_rocker.ground_range(l2 / l1, l3 / l1, margin=0.0, gamma_min=angle)
             header[name] = [end * l1 for end in ends]
     return header
 

@@ -246,7 +246,7 @@ def _slide(lengths: Lengths, rod: float, phi: Float) -> Float:
         "support": ["D"],
     }
     slides = {"line": Slide("support", on="ground", angle=0.0, origin="A")}
-    motion = Mechanism(places, links, "crank", slides).solve(phi, order=2, on_error="nan")
+    motion = Mechanism(places, links, "crank", slides=slides).solve(phi, order=2, on_error="nan")
     frames = np.zeros((3, len(phi), len(LINKS), 3))
     frames[0, :, 0, 2], frames[1, :, 0, 2] = phi, 1.0
     pin, support, turned = motion.joint("B"), motion.joint("D"), motion.link("rod")

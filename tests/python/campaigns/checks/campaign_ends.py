@@ -116,7 +116,7 @@ class Ends(Findings):
 
     def extreme(self, kind: str, own: str, name: str, order: int) -> None:
         try:
-            found = self.m.extremes(name, order)
+            found = self.m.extremes(name, order=order)
         except assur.PositionError as error:
             self.fail("extremes refused", f"{name}: {error}")
             return

@@ -118,7 +118,7 @@ class Checked(Findings):
         counts = self.report.counts
         counts[f"end {run.end}"] += 1
         counts["warned of energy"] += bool(caught)
-        status = self.mechanism.solve(run.q, 0, [], on_error="nan").status
+        status = self.mechanism.solve(run.q, order=0, outputs=[], on_error="nan").status
         last = int(np.argmax(status != Status.OK) if (status != Status.OK).any() else len(status))
         last = min(last - 1, COMPARED)
         counts["cut"] += last < len(run.t) - 1
@@ -155,7 +155,7 @@ class Checked(Findings):
     def lost(self, run: Run, step: int) -> bool:
         """Whether `solve` loses the run there: with two drivers it takes a straight path."""
         t = np.linspace(run.t[step - 1], run.t[step], LOOKS)
-        status = self.mechanism.solve(run.at(t).q, 0, [], on_error="nan").status
+        status = self.mechanism.solve(run.at(t).q, order=0, outputs=[], on_error="nan").status
         return self.drivers > 1 and bool((status == Status.LOST).any())
 
     def slopes(self, run: Run, last: int) -> NDArray[np.float64]:

@@ -106,9 +106,11 @@ class Covered(Swept):
         rows = np.linspace(low - 1.0, low + COVERED * (high - low), 4)
         if rng.random() < 0.5:
             rows = np.linspace(high - COVERED * (high - low), high + 1.0, 4)
-        table = assur.Table(rows, [0.0, 5.0, -2.0, 1.0], "linear", periodic=False, over=over)
+        table = assur.Table(rows, [0.0, 5.0, -2.0, 1.0], spline="linear", periodic=False, over=over)
         link = next(n for n in m.links if n != "ground")
-        self.machine = assur.Machine(m, case.machine.bodies, [assur.Torque(link, table)])
+        self.machine = assur.Machine(
+            m, bodies=case.machine.bodies, loads=[assur.Torque(link, table)]
+        )
         self.q, self.table = q, table
         self.report.counts["tables that end"] += 1
         self.guarded(self.ends)

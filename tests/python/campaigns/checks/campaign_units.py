@@ -281,7 +281,7 @@ class InUnits(Findings):
             "structure": lambda: self.mechanism.structure,
         }
         if self.drivers == 1:
-            calls["flywheel"] = lambda: machine.flywheel(0.05, 10.0)
+            calls["flywheel"] = lambda: machine.flywheel(0.05, mean_speed=10.0)
         for what, call in calls.items():
             try:
                 with warnings.catch_warnings():

@@ -28,7 +28,7 @@ PLACE_ATOL = 1e-7
 def four_bar() -> assur.Machine:
     """It is drawn at a quarter turn: there the integrated motion begins, tables at 0."""
     bodies = {"crank": Body(inertia=0.8), "coupler": Body(1.0, 0.1), "rocker": Body(2.0, 0.5, "C")}
-    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies, [Gravity()])
+    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=[Gravity()])
 
 
 MACHINES = {"press": press, "four-bar": four_bar}
@@ -52,7 +52,7 @@ def public(one: object) -> set[str]:
 def test_a_constant_motor_in_both_ways(name: str, mean: Any) -> None:
     """By tables, and by the integrated motion with the same flywheel and mean speed."""
     machine = MACHINES[name]()
-    tables = machine.flywheel(0.05, 20.0, mean=mean)
+    tables = machine.flywheel(0.05, mean_speed=20.0, mean=mean)
     motion = SteadyFlywheel(machine, machine.steady_state(20.0, mean=mean, flywheel=tables.inertia))
     assert isinstance(tables, assur.flywheel.Flywheel)
     assert public(tables) == public(motion)
@@ -77,7 +77,9 @@ def test_a_constant_motor_in_both_ways(name: str, mean: Any) -> None:
         assert type(getattr(motion, curve)(1.0)) is type(getattr(tables, curve)(1.0)) is float
         assert getattr(motion, curve)([]).shape == (0,)
         assert getattr(motion, curve)([[0.5, 1.0]]).shape == (1, 2)
-    for one, other in zip(motion.energy_mass(50), tables.energy_mass(50), strict=True):
+    for one, other in zip(
+        motion.energy_mass(points=50), tables.energy_mass(points=50), strict=True
+    ):
         assert np.abs(one - other).max() <= TABLES_RTOL * np.abs(other).max()
     assert repr(motion) == repr(tables)
     assert motion.explain() == tables.explain()
@@ -85,17 +87,17 @@ def test_a_constant_motor_in_both_ways(name: str, mean: Any) -> None:
         with pytest.raises(InputError, match="q has nan"):
             f.speed([0.0, math.nan])
         with pytest.raises(InputError, match="points is 1"):
-            f.energy_mass(1)
+            f.energy_mass(points=1)
 
 
 @pytest.mark.parametrize("mean", MEANS)
 @pytest.mark.parametrize("slope", [1e-2, 1e-3])
 def test_a_motor_that_is_almost_constant(mean: Any, slope: float) -> None:
     """Its moment changes by the slope times the fluctuation: so much do all results."""
-    moment, delta = press().flywheel(0.05, 20.0).motor_moment, 0.05
+    moment, delta = press().flywheel(0.05, mean_speed=20.0).motor_moment, 0.05
     motor = assur.LinearMotor(moment * (1.0 + slope), 20.0 * (1.0 + slope) / slope)
     own = press(motor).flywheel(delta, mean=mean)
-    constant = press().flywheel(delta, own.mean_speed, mean=mean)
+    constant = press().flywheel(delta, mean_speed=own.mean_speed, mean=mean)
     assert constant.steady is None
     assert own.steady is not None
     assert own.steady.multiplier < 1.0

@@ -22,7 +22,7 @@ def four_bar(rocker: tuple[str, str] = ("D", "C")) -> assur.Machine:
         driver="crank",
     )
     bodies = {"coupler": Body(1.2, 3e-3, (0.08, 0.01)), "rocker": Body(0.8, 1.5e-3, "D")}
-    return assur.Machine(m, bodies, [Gravity(), Torque("rocker", -20.0)])
+    return assur.Machine(m, bodies=bodies, loads=[Gravity(), Torque("rocker", -20.0)])
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_three_links_at_a_pin() -> None:
         links={"ground": "ADF", "crank": "AB", "l2": "BC", "l3": "DC", "l4": "CE", "l5": "FE"},
         driver="crank",
     )
-    machine = assur.Machine(m, {"l4": Body(1.0, 0.3, "E")}, [Gravity()])
+    machine = assur.Machine(m, bodies={"l4": Body(1.0, 0.3, "E")}, loads=[Gravity()])
     q = float(m.q0) + np.array([0.0, 0.1])
     found = machine.reactions(q, 3.0)
     pin = found.bearing("C", on="l3")
@@ -113,7 +113,9 @@ def test_designs(q: Any) -> None:
     m = machine.mechanism
     assert m is not None
     batch = assur.Machine(
-        m.with_dimensions({"coupler.length": [0.139, 0.15]}), machine.bodies, machine.loads
+        m.with_dimensions({"coupler.length": [0.139, 0.15]}),
+        bodies=machine.bodies,
+        loads=machine.loads,
     )
     many = batch.reactions(q, 30.0).bearing("C", on="rocker")
     for k in range(2):
@@ -132,7 +134,7 @@ def test_several_drivers() -> None:
         links={"ground": "A", "upper": "AB", "fore": "BE"},
         driver=["upper", assur.Drive("fore", relative_to="upper")],
     )
-    machine = assur.Machine(m, {"fore": Body(2.0, 0.1, "E")}, [Gravity()])
+    machine = assur.Machine(m, bodies={"fore": Body(2.0, 0.1, "E")}, loads=[Gravity()])
     q = np.asarray(m.q0) + np.array([[0.0, 0.0], [0.2, -0.4], [0.1, 0.3]])
     pin = machine.reactions(q, (3.0, -2.0)).bearing("B", on="fore")
     np.testing.assert_allclose(pin.relative_speed, -2.0)
@@ -141,7 +143,7 @@ def test_several_drivers() -> None:
 
 def test_positions_without_a_motion_count_for_no_extreme() -> None:
     m = assur.FourBar(1.0, 2.0, 1.5, 3.6)
-    machine = assur.Machine(m, {"rocker": Body(1.0, 0.1, (0.7, 0.0))}, [Gravity()])
+    machine = assur.Machine(m, bodies={"rocker": Body(1.0, 0.1, (0.7, 0.0))}, loads=[Gravity()])
     pin = machine.reactions([3.0, 0.2], on_error="nan").bearing("C", on="rocker")
     assert np.isnan([pin.size[0], pin.angle[0], pin.pv(0.1, 0.1)[0], pin.mean]).all()
     assert pin.greatest.at == pin.least.at == 0.2

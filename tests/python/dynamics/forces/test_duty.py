@@ -30,7 +30,7 @@ def rotor(mass: float = 3.0, radius: float = 0.2, *loads: Any) -> Machine:
         links={"ground": ["O"], "rotor": ["O", "A"]},
         driver="rotor",
     )
-    return Machine(m, {"rotor": Body(mass, 0.05, "A")}, [Gravity(), *loads])
+    return Machine(m, bodies={"rotor": Body(mass, 0.05, "A")}, loads=[Gravity(), *loads])
 
 
 @pytest.mark.parametrize("q", [OPEN, CLOSED, OPEN + 0.1234, CLOSED[::-1], OPEN[::-1], 3 * OPEN])
@@ -90,9 +90,9 @@ def test_the_mean_effort_is_the_net_work_of_the_loads() -> None:
     """At constant speed over a whole turn inertia, weights and springs do no work."""
     bodies = {"crank": Body(3.0, 0.4, (0.3, 0.2)), "coupler": Body(2.0, 0.5, (1.1, 0.4))}
     idle: list[Any] = [Gravity(), Spring("P", "D", 30.0, 0.4), Force("C", (3.0, 9.0))]
-    near(Machine(four_bar(), bodies, idle).duty(OPEN, 7.0).energy, 0.0, 1e-10)
+    near(Machine(four_bar(), bodies=bodies, loads=idle).duty(OPEN, 7.0).energy, 0.0, 1e-10)
     loads = [*idle, TorsionDamper("rocker", 0.8), Torque("crank", -5.0)]
-    duty = Machine(four_bar(), bodies, loads).duty(OPEN, 7.0)
+    duty = Machine(four_bar(), bodies=bodies, loads=loads).duty(OPEN, 7.0)
 
     def lost(q: float) -> float:
         rate = float(four_bar().solve(q).link("rocker").d1)
@@ -109,7 +109,7 @@ def test_the_mean_effort_is_the_net_work_of_the_loads() -> None:
 def test_numbers_change_with_the_fourth_power_of_the_step() -> None:
     mechanism = press().mechanism
     assert mechanism is not None
-    machine = Machine(mechanism, press().bodies, [Gravity()])
+    machine = Machine(mechanism, bodies=press().bodies, loads=[Gravity()])
     fine = machine.duty(np.linspace(0.3, 2.9, 6401), 12.0)
     errors = []
     for count in (101, 201, 401):
@@ -130,7 +130,7 @@ def test_a_speed_that_changes_weights_means_by_time() -> None:
     """Speed s = ω (1 + cos q / 2): T = 2π/(ω √(1 − 1/4)); the damper takes c ∫ s dq."""
     mechanism = rotor().mechanism
     assert mechanism is not None
-    machine = Machine(mechanism, {}, [TorsionDamper("rotor", 0.7)])
+    machine = Machine(mechanism, bodies={}, loads=[TorsionDamper("rotor", 0.7)])
     omega = 5.0
     speed = omega * (1 + 0.5 * np.cos(OPEN))
     duty = machine.duty(OPEN, speed, -0.5 * omega * np.sin(OPEN) * speed)
@@ -148,7 +148,7 @@ def test_the_drive_of_a_steady_state_is_its_motor() -> None:
     bodies = {"crank": Body(inertia=0.5), "piston": Body(20.0)}
     loads: list[Any] = [TorsionDamper("crank", 1.5), Gravity((0.0, -9.81))]
     motor = assur.LinearMotor(stall=90.0, no_load=30.0)
-    machine = Machine(assur.SliderCrank(0.1, 0.4), bodies, loads, motor)
+    machine = Machine(assur.SliderCrank(0.1, 0.4), bodies=bodies, loads=loads, motor=motor)
     steady = machine.steady_state(q0=0.0)
     state = steady.at(CLOSED)
     duty = machine.duty(CLOSED, state.speed, state.acceleration)
@@ -180,7 +180,7 @@ def test_few_positions() -> None:
 
 def test_batches_and_failed_designs() -> None:
     m = assur.FourBar(1.0, 4.0, 3.0, 3.5).with_dimensions({"coupler.length": [[4.0, 9.0, 4.2]]})
-    machine = Machine(m, {"coupler": Body(2.0, 0.1)}, [Gravity()])
+    machine = Machine(m, bodies={"coupler": Body(2.0, 0.1)}, loads=[Gravity()])
     with pytest.raises(assur.PositionError, match=r"design \(0, 1\)"):
         machine.duty(OPEN, 5.0)
     duty = machine.duty(OPEN, 5.0, on_error="nan")
@@ -198,7 +198,7 @@ def test_batches_and_failed_designs() -> None:
     # Each design with its own q: one covers the turn, the other a part of it.
     q = np.stack([OPEN, OPEN / 2, CLOSED[1:] + 9.0])[None]
     m = assur.FourBar(1.0, 4.0, 3.0, 3.5).with_dimensions({"coupler.length": [[4.0, 4.1, 4.2]]})
-    machine = Machine(m, {"coupler": Body(2.0, 0.1)}, [Gravity()])
+    machine = Machine(m, bodies={"coupler": Body(2.0, 0.1)}, loads=[Gravity()])
     duty = machine.duty(q, 5.0)
     for index in range(3):
         alone = machine.design((0, index)).duty(q[0, index], 5.0)
@@ -207,13 +207,13 @@ def test_batches_and_failed_designs() -> None:
 
 
 def test_a_driven_slide_and_a_machine_of_tables() -> None:
-    machine = Machine(cylinder(), {"arm": Body(9.0, 0.3, "P")}, [Gravity()])
+    machine = Machine(cylinder(), bodies={"arm": Body(9.0, 0.3, "P")}, loads=[Gravity()])
     q = np.linspace(0.7, 1.2, 401)
     duty = machine.duty(q, 0.2)
     near(duty.time, 2.5)
     rise = machine.potential(q[-1]) - machine.potential(q[0])
     near(duty.energy, quad(lambda x: float(machine.effort(x, 0.2)), 0.7, 1.2)[0], 1e-8)
-    still = Machine(cylinder(), {"arm": Body(9.0, 0.0, "P")}, [Gravity()])
+    still = Machine(cylinder(), bodies={"arm": Body(9.0, 0.0, "P")}, loads=[Gravity()])
     near(still.duty(q, 1e-9).energy, rise, 1e-8)
     phi = np.linspace(0.0, TURN, 100)
     table = Machine.from_table(phi, np.sin(phi) - 2.0, 1.0, spline="periodic")
@@ -261,7 +261,7 @@ def test_what_is_no_motion_is_refused(arguments: Any, message: str) -> None:
 
 def test_several_drivers_and_numbers_too_great_are_refused() -> None:
     with pytest.raises(assur.InputError, match=r"2 drivers.*effort"):
-        Machine(five_bar(), {}).duty(np.ones((4, 2)), 1.0)
+        Machine(five_bar(), bodies={}).duty(np.ones((4, 2)), 1.0)
     with pytest.raises(assur.InputError, match="on_error"):
         rotor().duty(OPEN, 1.0, on_error="skip")  # type: ignore[arg-type]
     great = rotor(0.0, 0.2, Torque("rotor", 1e300))

@@ -21,12 +21,12 @@ def linkage() -> Machine:
 
     return Machine(
         assur.FourBar(0.05, 0.15, 0.12, 0.16),
-        {
+        bodies={
             "crank": body(0.5, 0.02, 0.3, 2e-4),
             "coupler": body(1.2, 0.08, 0.15, 3e-3),
             "rocker": body(0.8, 0.06, -0.2, 1.5e-3),
         },
-        [assur.Gravity()],
+        loads=[assur.Gravity()],
     )
 
 
@@ -61,7 +61,7 @@ def test_centre_of_percussion() -> None:
         joints={"O": (0, 0), "A": (1, 0)}, links={"ground": "O", "rod": "OA"}, driver="rod"
     )
     mass, centre, inertia = 2.0, 0.4, 0.1
-    machine = Machine(rod, {"rod": Body(mass, inertia, (centre, 0.0))})
+    machine = Machine(rod, bodies={"rod": Body(mass, inertia, (centre, 0.0))})
     at = (inertia + mass * centre**2) / (mass * centre)
     struck = machine.impact(Force(("rod", (at, 0.0)), (0.0, 1.0)), 0.0, 0.0, impulse=3.0)
     np.testing.assert_allclose(struck.speed, 3.0 * at / (inertia + mass * centre**2), rtol=1e-14)
@@ -75,7 +75,7 @@ def test_a_clutch() -> None:
     disc = assur.Mechanism(
         joints={"O": (0, 0), "A": (1, 0)}, links={"ground": "O", "disc": "OA"}, driver="disc"
     )
-    machine = Machine(disc, {"disc": Body(inertia=own)})
+    machine = Machine(disc, bodies={"disc": Body(inertia=own)})
     both = (own * 5.0 + other * 30.0) / (own + other)
     given = other * (30.0 - both)
     np.testing.assert_allclose(
@@ -124,7 +124,9 @@ def test_positions_and_designs() -> None:
         )
     np.testing.assert_allclose(many.energy_lost[2], 0.0, atol=1e-15)
     mechanism: Any = machine.mechanism
-    wide = Machine(mechanism.with_dimensions({"rocker.length": [0.12, 0.13]}), machine.bodies)
+    wide = Machine(
+        mechanism.with_dimensions({"rocker.length": [0.12, 0.13]}), bodies=machine.bodies
+    )
     assert wide.impact(STOP, q, -20.0).speed.shape == (2, 3)
 
 
@@ -155,7 +157,7 @@ def ball() -> Machine:
         slides={"way": assur.Slide("ball", "ground", math.pi / 2, "O")},
         driver="way",
     )
-    return Machine(one, {"ball": Body(3.0)}, [assur.Gravity()])
+    return Machine(one, bodies={"ball": Body(3.0)}, loads=[assur.Gravity()])
 
 
 def test_a_ball_bounces() -> None:
@@ -191,7 +193,7 @@ def test_a_ball_never_falls_through(e: float) -> None:
 def test_an_elastic_stop_of_a_linkage() -> None:
     """Energy stays, the way back is the way there, and `impact` gives the same speed."""
     mechanism: Any = linkage().mechanism
-    machine = Machine(mechanism, linkage().bodies)
+    machine = Machine(mechanism, bodies=linkage().bodies)
     stop = assur.events.Obstacle(
         assur.events.Crossing(lambda _t, q, _v: 2.0 - q, direction="falling"), 1.0
     )

@@ -24,7 +24,7 @@ def test_random_machines_load_their_links_as_the_oracle_says(seed: int) -> None:
     case = reaction_case(seed)
     m, loads = case.mechanism, case.machine.loads
     machine = Machine(
-        m, case.machine.bodies, [one for one in loads if not isinstance(one, Gravity)]
+        m, bodies=case.machine.bodies, loads=[one for one in loads if not isinstance(one, Gravity)]
     )
     found = loads_of(machine.reactions(case.q, case.speed, case.acceleration))
     assert len(found) > 1

@@ -43,7 +43,7 @@ def waves(t: float, q: float, speed: float) -> float:
 
 def test_a_run_without_a_motor_needs_no_drive() -> None:
     m = four_bar()
-    machine = assur.Machine(m, BODIES, [*LOADS, Force("C", (waves, 2.0))])
+    machine = assur.Machine(m, bodies=BODIES, loads=[*LOADS, Force("C", (waves, 2.0))])
     run = machine.run(t_end=2.0, q0=0.3, speed0=9.0)
     found = machine.reactions(run)
     assert np.array_equal(found.q, run.q)
@@ -58,7 +58,7 @@ def test_a_run_without_a_motor_needs_no_drive() -> None:
 def test_the_motor_of_a_motion(kind: str) -> None:
     m = four_bar()
     motor = LinearMotor(stall=300.0, no_load=12.0, rotor_inertia=0.8)
-    machine = assur.Machine(m, BODIES, LOADS, motor)
+    machine = assur.Machine(m, bodies=BODIES, loads=LOADS, motor=motor)
     motion: Any = machine.steady_state()
     if kind == "run":
         motion = machine.run(t_end=1.5, q0=0.1, speed0=8.0)
@@ -77,7 +77,7 @@ def test_loads_inside_a_link_along_a_run() -> None:
     load = Force(("coupler", (1.0, 0.0)), (0.0, waves))
     rod = Body(2.0, 2.0 * 3.0**2 / 12, (1.5, 0.0))
     bodies = {"crank": Body(3.0, 0.4), "coupler": rod}
-    heavy = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.2), bodies, [load])
+    heavy = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.2), bodies=bodies, loads=[load])
     run = heavy.run(t_end=0.3, q0=0.3, speed0=9.0)
     own = heavy.internal_loads("coupler", run)
     given = heavy.internal_loads("coupler", run.q, run.speed, run.acceleration, t=run.t)
@@ -92,7 +92,7 @@ def test_loads_inside_a_link_along_a_run() -> None:
 def test_the_duty_of_a_motor() -> None:
     """Over a run, the drive gives what the motor gives to all but its rotor."""
     motor = LinearMotor(stall=300.0, no_load=12.0)
-    machine = assur.Machine(four_bar(), BODIES, LOADS, motor)
+    machine = assur.Machine(four_bar(), bodies=BODIES, loads=LOADS, motor=motor)
     run = machine.run(t_end=1.5, q0=0.1, speed0=8.0)
     t = np.linspace(0.0, 1.5, 20_001)
     state = run.at(t)
@@ -109,7 +109,7 @@ def test_the_duty_of_a_motor() -> None:
 
 
 def test_times_are_broadcast() -> None:
-    machine = assur.Machine(four_bar(), BODIES, [Force("C", (waves, 0.0))])
+    machine = assur.Machine(four_bar(), bodies=BODIES, loads=[Force("C", (waves, 0.0))])
     times = np.array([0.0, 0.2, 0.7])
     together = machine.effort(0.5, 2.0, 1.0, t=times[0])
     assert together == machine.effort(0.5, 2.0, 1.0)
@@ -121,7 +121,7 @@ def test_times_are_broadcast() -> None:
 
 
 def test_what_does_not_fit_is_refused() -> None:
-    machine = assur.Machine(four_bar(), BODIES, LOADS)
+    machine = assur.Machine(four_bar(), bodies=BODIES, loads=LOADS)
     run = machine.run(t_end=0.1, q0=0.3, speed0=9.0)
     with pytest.raises(assur.InputError, match="speed is given with a Run"):
         machine.reactions(run, 3.0)

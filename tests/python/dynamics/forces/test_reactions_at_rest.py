@@ -34,7 +34,7 @@ def block(*loads: Any, **friction: float) -> Machine:
         driver="way",
     )
     own = {"way": SlideFriction(**friction)}
-    return Machine(way, {"block": Body(2.0)}, [Gravity(), *loads], friction=own)
+    return Machine(way, bodies={"block": Body(2.0)}, loads=[Gravity(), *loads], friction=own)
 
 
 def engine(*loads: Any, motor: Any = None) -> Machine:
@@ -47,7 +47,9 @@ def engine(*loads: Any, motor: Any = None) -> Machine:
         "bore": SlideFriction(0.1, 0.06),
     }
     own = [Gravity(), *loads]
-    return Machine(assur.SliderCrank(0.1, 0.35), bodies, own, motor=motor, friction=friction)
+    return Machine(
+        assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=own, motor=motor, friction=friction
+    )
 
 
 def greatest(found: Any) -> float:
@@ -129,7 +131,9 @@ def test_loads_of_one_way_at_rest() -> None:
     brake = Force("B", (-3.0, 0.0), on="block", while_="forward")
     way = block(coefficient=0.3, length=0.1).mechanism
     assert way is not None
-    machine = Machine(way, {"block": Body(2.0)}, [brake, Force("B", (8.0, 0.0), on="block")])
+    machine = Machine(
+        way, bodies={"block": Body(2.0)}, loads=[brake, Force("B", (8.0, 0.0), on="block")]
+    )
     run = machine.run(t_end=1.0)
     assert np.abs(machine.effort(run)).max() < 1e-12
     assert np.abs(machine.reactions(run).driver).max() < 1e-12

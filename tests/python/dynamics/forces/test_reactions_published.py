@@ -73,7 +73,9 @@ def test_whipping(solve: Solver) -> None:
         links={"ground": ["O"], "rod": ["O", "E"]},
         driver="rod",
     )
-    machine = assur.Machine(rocker, {"rod": Body(mass, mass * length**2 / 12, (length / 2, 0.0))})
+    machine = assur.Machine(
+        rocker, bodies={"rod": Body(mass, mass * length**2 / 12, (length / 2, 0.0))}
+    )
     alpha = omega**2 * r / length
     found = solve(machine, 0.0, 0.0, alpha)
     # two pins carry the rod, no couple: the driver's is a pair of forces at its ends
@@ -121,7 +123,7 @@ def test_residue(solve: Solver) -> None:
     mass, moment = 70.0 + 90.0, 70.0 * r - 90.0 * 0.15
     bodies = {"crank": Body(mass, 0.0, (moment / mass, 0.0)), "yoke": Body(120.0)}
     q = np.array([30.0 / 57.3, math.radians(30.0)])
-    force = solve(assur.Machine(yoke, bodies), q, omega, 0.0).shaking_force
+    force = solve(assur.Machine(yoke, bodies=bodies), q, omega, 0.0).shaking_force
     size = np.hypot(force[:, 0], force[:, 1])
     assert abs(size[0] - 3263.971) < 0.00051
     assert abs(size[1] - 3264.065) < 0.00051

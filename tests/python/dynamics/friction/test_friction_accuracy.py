@@ -20,12 +20,12 @@ CIRCLES = (0.1 * 0.025, 0.1 * 0.012)
 def engine(speed: float = 1.0, load: float = 0.0) -> Machine:
     return Machine(
         assur.SliderCrank(RADIUS, ROD),
-        {
+        bodies={
             "crank": Body(inertia=INERTIA),
             "rod": Body(MASS, ROD_INERTIA, (CENTRE, 0.0)),
             "piston": Body(PISTON),
         },
-        [Torque("crank", load * speed**2)] if load else [],
+        loads=[Torque("crank", load * speed**2)] if load else [],
         friction={"A": JointFriction(0.1, 0.025), "B": JointFriction(0.1, 0.012)},
     )
 
@@ -91,7 +91,7 @@ def test_friction_that_is_nothing_changes_nothing(load: float) -> None:
     m = assur.SliderCrank(0.1, 0.35)
     bodies = {"piston": Body(1.0), "crank": Body(inertia=0.01)}
     free, rubbing = (
-        Machine(m, bodies, [Torque("crank", load)], friction=friction)
+        Machine(m, bodies=bodies, loads=[Torque("crank", load)], friction=friction)
         .run(t_end=1e-9, q0=1.0, speed0=1e-3)
         .acceleration[0]
         for friction in ({}, {"A": JointFriction(1e-15, 0.01)})
@@ -105,7 +105,10 @@ def test_effort_of_computing_does_not_depend_on_the_speed() -> None:
     m = assur.FourBar(3.0, 2.5, 2.0, 4.0)
     for w in (1.0, 1e2, 1e4):
         machine = Machine(
-            m, bars, [Torque("crank", -20.0 * w**2)], friction={"C": JointFriction(0.1, 0.1)}
+            m,
+            bodies=bars,
+            loads=[Torque("crank", -20.0 * w**2)],
+            friction={"C": JointFriction(0.1, 0.1)},
         )
         run = machine.run(t_end=5.0 / w, q0=0.5, speed0=w)
         assert run.end == "dead point"
@@ -176,7 +179,7 @@ def test_a_small_and_fast_six_bar_comes_to_its_dead_point() -> None:
     torque = 20.0 * length**2 / time**2
     friction = {name: JointFriction(0.1, 0.05 * length) for name in "BCE"}
     for own in ({}, friction):
-        machine = Machine(m, bodies, [Torque("lever", -torque)], friction=own)
+        machine = Machine(m, bodies=bodies, loads=[Torque("lever", -torque)], friction=own)
         run = machine.run(t_end=20.0 * time, q0=m.q0, speed0=-1.0 / time)
         assert run.end == "dead point"
         assert run.statistics.evaluations < 7500

@@ -30,13 +30,13 @@ def one_body() -> assur.Mechanism:
 
 def test_a_pin_of_one_body_has_no_friction() -> None:
     load = Force("E", (0.0, -100.0), on="w")
-    machine = Machine(one_body(), {}, [load], friction={"B": JointFriction(0.2, 0.3)})
+    machine = Machine(one_body(), bodies={}, loads=[load], friction={"B": JointFriction(0.2, 0.3)})
     for speed, sense in ((1.0, None), (-7e3, None), (0.0, -1.0)):
         found = machine.reactions(Q, speed, sense=sense)
         np.testing.assert_array_equal(found.joint_moment("B", on="w"), 0.0)
         np.testing.assert_array_equal(found.losses["B"], 0.0)
         np.testing.assert_array_equal(found.safety, 1e6)
-    bare = Machine(one_body(), {}, [load])
+    bare = Machine(one_body(), bodies={}, loads=[load])
     np.testing.assert_array_equal(machine.effort(Q, speed=1.0), bare.reactions(Q).driver)
     locking = machine.self_locking()
     assert len(locking.locked) == len(locking.holding) == 0
@@ -45,7 +45,9 @@ def test_a_pin_of_one_body_has_no_friction() -> None:
 def test_it_does_not_slow_a_run() -> None:
     bodies = {"w": assur.Body(2.0, 0.5)}
     runs = [
-        Machine(one_body(), bodies, [Torque("crank", 3.0)], friction=friction).run(t_end=1.0)
+        Machine(one_body(), bodies=bodies, loads=[Torque("crank", 3.0)], friction=friction).run(
+            t_end=1.0
+        )
         for friction in ({}, {"B": JointFriction(0.2, 0.3)})
     ]
     np.testing.assert_allclose(runs[1].speed[-1], runs[0].speed[-1], rtol=1e-8)
@@ -69,7 +71,9 @@ def test_random_bodies_of_several_links(first: int) -> None:
         loads += [Torque(body[-1], 25.0) for body in parts.bodies]
         q = mechanism.q0 + np.linspace(-0.2, 0.2, 5)
         with_all, with_few = (
-            Machine(mechanism, {}, loads, friction=own).reactions(q, 1.0, on_error="nan")
+            Machine(mechanism, bodies={}, loads=loads, friction=own).reactions(
+                q, 1.0, on_error="nan"
+            )
             for own in (friction, between)
         )
         known = np.isfinite(with_few.driver)
@@ -170,7 +174,9 @@ def test_where_nothing_slides_safety_is_the_greatest(viscous: float) -> None:
     )
     friction = {"K": JointFriction(0.1, 0.02, viscous=viscous)}
     for loads in ([], [Torque("crank", -1.0)]):
-        found = Machine(mechanism, {}, loads, friction=friction).reactions([0.5, 0.9], speed=1.0)
+        found = Machine(mechanism, bodies={}, loads=loads, friction=friction).reactions(
+            [0.5, 0.9], speed=1.0
+        )
         np.testing.assert_array_equal(found.safety, 1e6)
         np.testing.assert_array_equal(found.locked, False)
         np.testing.assert_array_equal(found.residual, 0.0)

@@ -27,7 +27,9 @@ def press(times: float) -> Machine:
         "bore": SlideFriction(1.09 * times, 0.0416),
     }
     loads = [Force("B", (-18.0, -12.5), on="piston")]
-    return Machine(assur.SliderCrank(0.104, 0.4354, 0.0237), bodies, loads, friction=friction)
+    return Machine(
+        assur.SliderCrank(0.104, 0.4354, 0.0237), bodies=bodies, loads=loads, friction=friction
+    )
 
 
 def test_the_first_solution_goes_on_from_smaller_coefficients() -> None:
@@ -88,6 +90,6 @@ def test_the_path_may_turn_back_at_a_corner_where_nothing_is_singular(times: flo
         assur.Damper(("ground", (0.0, 1.9)), ("rod", (0.02, 0.03)), 4.300218600497804),
     ]
     linkage = assur.SliderCrank(0.193768440232073, 0.892424197694784, 0.108020104912621)
-    machine = Machine(linkage, bodies, loads, friction=friction)
+    machine = Machine(linkage, bodies=bodies, loads=loads, friction=friction)
     found = machine.reactions(-0.08806302186425219, 10.249475468437039, -49.3137351671353)
     assert times * found.safety == pytest.approx(7.741976812442126, rel=1e-7)

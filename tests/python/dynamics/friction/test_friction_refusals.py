@@ -47,10 +47,10 @@ def three_cranks() -> Machine:
         (lambda: machine().effort(1.0), "friction needs sense="),
         (lambda: machine().reactions(1.0, sense=0), "sense is 0"),
         (lambda: machine().reactions(1.0, sense=[1, 1]), "sense is"),
-        (lambda: machine().self_locking(0), "sense is 0"),
-        (lambda: machine().self_locking(1, speed=-1.0), "must agree"),
-        (lambda: machine().self_locking(1, n=0), "n is 0"),
-        (lambda: machine().self_locking(1, between=(1.0, 1.0)), "between"),
+        (lambda: machine().self_locking(sense=0), "sense is 0"),
+        (lambda: machine().self_locking(sense=1, speed=-1.0), "must agree"),
+        (lambda: machine().self_locking(sense=1, n=0), "n is 0"),
+        (lambda: machine().self_locking(sense=1, between=(1.0, 1.0)), "between"),
         (lambda: Machine(FOUR_BAR).self_locking(), "has no friction"),
         (lambda: three_cranks().reactions(1.5, 1.0), "redundant links"),
         (lambda: three_cranks().effort(1.5, 1.0), "redundant links"),
@@ -76,7 +76,7 @@ def test_a_loom_of_class_iv() -> None:
     bodies = {name: Body(1.0, 0.1) for name in one.links if name != "ground"}
     for coefficient, several in ((0.01, False), (0.8, True)):
         friction = {name: JointFriction(coefficient, 0.3) for name in pins}
-        rubbing = Machine(one, bodies, [assur.Gravity()], friction=friction)
+        rubbing = Machine(one, bodies=bodies, loads=[assur.Gravity()], friction=friction)
         found = rubbing.reactions(one.q0, 1.0)
         assert several or len(found.solutions) == 1
         for each in found.solutions:

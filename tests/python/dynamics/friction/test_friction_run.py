@@ -24,7 +24,10 @@ def block(**friction: float) -> Machine:
     )
     spring = assur.Spring("O", "B", stiffness=800.0, length=0.0)
     return Machine(
-        way, {"block": Body(2.0)}, [Gravity(), spring], friction={"way": SlideFriction(**friction)}
+        way,
+        bodies={"block": Body(2.0)},
+        loads=[Gravity(), spring],
+        friction={"way": SlideFriction(**friction)},
     )
 
 
@@ -56,7 +59,7 @@ def test_a_run_says_from_when_on_it_stands_still() -> None:
     assert (stopped.end, stopped.at_rest_from) == ("event", None)
     assert engine(1.0).run(t_end=0.3, q0=0.3, speed0=40.0).at_rest_from is None
     # A machine in balance stands still without friction, too.
-    still = Machine(assur.SliderCrank(0.1, 0.4), {"crank": Body(inertia=1.0)}).run(t_end=1.0)
+    still = Machine(assur.SliderCrank(0.1, 0.4), bodies={"crank": Body(inertia=1.0)}).run(t_end=1.0)
     assert still.at_rest_from == 0.0
 
 
@@ -77,8 +80,8 @@ def test_a_wheel_comes_to_rest() -> None:
     )
     machine = Machine(
         wheel,
-        {"wheel": Body(10.0, 0.2, "O")},
-        [Gravity()],
+        bodies={"wheel": Body(10.0, 0.2, "O")},
+        loads=[Gravity()],
         friction={"O": JointFriction(0.1, 0.02)},
     )
     run = machine.run(t_end=40.0, q0=0.0, speed0=30.0)
@@ -98,7 +101,7 @@ def test_a_rotor_with_an_unbalance() -> None:
     )
     machine = Machine(
         rotor,
-        {"rotor": Body(4.0, 0.02, (0.03, 0.0))},
+        bodies={"rotor": Body(4.0, 0.02, (0.03, 0.0))},
         friction={"O": JointFriction(0.15, 0.05)},
     )
     kappa = 0.15 * 0.05 * 4.0 * 0.03 / (0.02 + 4.0 * 0.03**2)
@@ -122,8 +125,8 @@ def test_it_slips_when_the_load_allows() -> None:
     push = Force("B", (lambda t, _q, _v: 10.0 * t, 0.0), on="block")
     machine = Machine(
         way,
-        {"block": Body(2.0)},
-        [Gravity(), push],
+        bodies={"block": Body(2.0)},
+        loads=[Gravity(), push],
         friction={"way": SlideFriction(0.3, 0.1, static_coefficient=0.5)},
     )
     run = machine.run(t_end=2.0, q0=0.5, speed0=0.0)
@@ -140,7 +143,9 @@ def test_viscous_friction_alone() -> None:
         joints={"O": (0, 0), "A": (1, 0)}, links={"ground": "O", "wheel": "OA"}, driver="wheel"
     )
     machine = Machine(
-        wheel, {"wheel": Body(inertia=0.5)}, friction={"O": JointFriction(0.0, 0.0, viscous=0.2)}
+        wheel,
+        bodies={"wheel": Body(inertia=0.5)},
+        friction={"O": JointFriction(0.0, 0.0, viscous=0.2)},
     )
     run = machine.run(t_end=3.0, q0=0.0, speed0=4.0)
     np.testing.assert_allclose(run.speed[-1], 4.0 * math.exp(-0.2 / 0.5 * 3.0), rtol=1e-9)
@@ -153,8 +158,12 @@ def engine(part: float) -> Machine:
     }
     return Machine(
         assur.SliderCrank(crank=0.1, rod=0.35),
-        {"crank": Body(inertia=0.2), "rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0)},
-        [Gravity(), Torque("crank", -3.0)],
+        bodies={
+            "crank": Body(inertia=0.2),
+            "rod": Body(1.2, 0.015, (0.12, 0.0)),
+            "piston": Body(2.0),
+        },
+        loads=[Gravity(), Torque("crank", -3.0)],
         friction={**friction, "bore": SlideFriction(0.1 * part, 0.06)} if part else {},
     )
 
@@ -187,7 +196,7 @@ def test_what_has_no_friction_yet_refuses_it() -> None:
     machine = engine(1.0)
     for call in (
         lambda: machine.steady_state(speed=10.0),
-        lambda: machine.flywheel(0.1, 10.0),
+        lambda: machine.flywheel(0.1, mean_speed=10.0),
         machine.equilibria,
     ):
         with pytest.raises(assur.InputError, match="has no friction yet"):
@@ -215,7 +224,7 @@ def test_friction_bends_a_rod() -> None:
     rod = Body(4.0, 4.0 * 0.4**2 / 12, at=(0.2, 0.0))
     pins = {name: JointFriction(0.1, 0.03) for name in "OAB"}
     machine = Machine(
-        assur.SliderCrank(0.1, 0.4), {"rod": rod, "piston": Body(20.0)}, friction=pins
+        assur.SliderCrank(0.1, 0.4), bodies={"rod": rod, "piston": Body(20.0)}, friction=pins
     )
     q = np.linspace(0.1, 6.0, 7)
     inside = machine.internal_loads("rod", q, speed=30.0)
@@ -245,7 +254,7 @@ def test_friction_is_of_the_interval_in_which_it_moves() -> None:
         name: assur.Body(1.0, 0.05) for name in ("crank", "coupler", "rocker", "rod", "block")
     }
     friction = {"guide": assur.SlideFriction(0.2, 0.3)}
-    machine = assur.Machine(mechanism, bodies, [assur.Gravity()], friction=friction)
+    machine = assur.Machine(mechanism, bodies=bodies, loads=[assur.Gravity()], friction=friction)
     (low, high), _ = (own for own in mechanism.limits().intervals[::-1])
     for q in np.linspace(low + 0.02, high - 0.02, 9):
         for speed in (1.0, -1.0):

@@ -31,11 +31,11 @@ def check(seed: int) -> bool:
     # In a joint of more links others rub, too, and they have loads.
     if not bodies or any(sum(at in own for own in m.links.values()) > 2 for at in last.joints):
         return False
-    machine = assur.Machine(m, bodies, loads=[assur.Gravity((2.0, -9.0))])
+    machine = assur.Machine(m, bodies=bodies, loads=[assur.Gravity((2.0, -9.0))])
     friction: dict[str, assur.JointFriction | assur.SlideFriction] = {}
     friction |= {joint: assur.JointFriction(3.0, radius=0.7) for joint in last.joints}
     friction |= {slide: assur.SlideFriction(4.0, length=0.5) for slide in last.slides}
-    strong = assur.Machine(m, bodies, loads=[assur.Gravity((2.0, -9.0))], friction=friction)
+    strong = assur.Machine(m, bodies=bodies, loads=[assur.Gravity((2.0, -9.0))], friction=friction)
     q = float(m.q0) + np.linspace(-0.3, 0.3, POSITIONS)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", assur.AssurWarning)
@@ -64,7 +64,7 @@ def test_rounding_locks_nothing() -> None:
     found = case.machine.reactions(q, speed=case.speed0, on_error="nan")
     assert not np.asarray(found.locked).any()
     assert (np.asarray(found.safety) >= 1.0).all()
-    bare = assur.Machine(m, case.machine.bodies, loads=case.machine.loads)
+    bare = assur.Machine(m, bodies=case.machine.bodies, loads=case.machine.loads)
     np.testing.assert_allclose(
         found.driver, bare.reactions(q, speed=case.speed0).driver, rtol=1e-12
     )

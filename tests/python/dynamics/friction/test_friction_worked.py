@@ -73,12 +73,14 @@ def test_a_tilted_piston_with_masses(case: Any) -> None:
     load = Force(("piston", (0.03, 0.02)), (-800.0, 0.0))
     one = assur.SliderCrank(crank=0.1, rod=0.35)
     friction: Any = {**ENGINE_FRICTION, "bore": SlideFriction(0.1, 0.06)}
-    found = Machine(one, bodies, [load], friction=friction).reactions(math.radians(degrees), 60.0)
+    found = Machine(one, bodies=bodies, loads=[load], friction=friction).reactions(
+        math.radians(degrees), 60.0
+    )
     np.testing.assert_allclose(found.driver, driver, rtol=1e-9)
     guide = found.slide("bore")
     np.testing.assert_allclose([guide.normal, guide.moment], [normal, moment], rtol=1e-9)
     np.testing.assert_allclose(found.joint("A", on="rod"), pin, rtol=1e-9)
-    without = Machine(one, bodies, [load]).reactions(math.radians(degrees), 60.0)
+    without = Machine(one, bodies=bodies, loads=[load]).reactions(math.radians(degrees), 60.0)
     np.testing.assert_allclose(without.driver, bare, rtol=1e-9)
 
 
@@ -179,7 +181,7 @@ def test_a_rocker_that_drives_holds_near_the_dead_points() -> None:
 
 
 def test_a_piston_that_drives_does_not_start_near_the_dead_points() -> None:
-    held = [engine().self_locking(sense).holding for sense in (1, -1)]
+    held = [engine().self_locking(sense=sense).holding for sense in (1, -1)]
     ends = np.degrees(np.concatenate(held)).ravel()
     ends = ends[np.argsort(abs((ends + 90.0) % 360.0 - 90.0))]
     near = abs((ends + 180.0) % 360.0 - 180.0)
@@ -234,7 +236,7 @@ def test_exact_limits_of_the_transmission_angle(case: int) -> None:
     ]
     np.testing.assert_allclose(limits, [max(outer), max(inner)], rtol=0, atol=1e-11)
     zone = assur.crank_rocker.ground_range
-    ends = [zone(coupler, rocker, 0.0, gamma_min=limit) for limit in limits]
+    ends = [zone(coupler, rocker, margin=0.0, gamma_min=limit) for limit in limits]
     np.testing.assert_allclose([ends[1][0], ends[0][1]], ZONES[case], rtol=0, atol=1e-10)
     # The solver agrees: a crank passes a little inside the zone, and jams a little outside.
     for part, jams in ((-1e-9, False), (1e-9, True)):

@@ -22,7 +22,7 @@ def thin(mass: float, length: float) -> Body:
 
 def engine(*loads: Any, piston: float = 2.0) -> assur.Machine:
     bodies = {"rod": thin(1.2, 0.35), "piston": Body(piston)}
-    return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies, loads)
+    return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=loads)
 
 
 def pull(_: float, q: Any, speed: Any) -> float:
@@ -88,7 +88,7 @@ def test_whipping_moment() -> None:
     """
     r, length, omega = 0.095, 0.38, 1800.0 * math.tau / 60.0
     linkage = assur.FourBar(0.2, 0.5, length, 0.5)
-    machine = assur.Machine(linkage, {"rocker": thin(1.64 * length, length)})
+    machine = assur.Machine(linkage, bodies={"rocker": thin(1.64 * length, length)})
     turned = float(linkage.solve(1.0, order=1).link("rocker").d1)
     acceleration = omega**2 * r / length / turned
     found = machine.internal_loads("rocker", 1.0, 0.0, acceleration).extremes("moment")
@@ -97,7 +97,7 @@ def test_whipping_moment() -> None:
     assert size == pytest.approx(1.64 * length**2 * omega**2 * r / (9 * math.sqrt(3.0)), rel=1e-12)
     assert place == pytest.approx(length / math.sqrt(3.0), rel=1e-12)
     # The true rod, its piston's end moving too, is a few percent above.
-    true = assur.Machine(assur.SliderCrank(r, length), {"rod": thin(1.64 * length, length)})
+    true = assur.Machine(assur.SliderCrank(r, length), bodies={"rod": thin(1.64 * length, length)})
     peak = true.internal_loads("rod", np.linspace(0.0, math.pi, 37), omega).peak("moment")
     assert 1.02 < abs(peak.value) / 51.2783 < 1.06
 
@@ -109,7 +109,7 @@ def test_bar_in_tension_and_simple_beam() -> None:
     np.testing.assert_allclose(found.axial, -100.0 / 0.8)
     np.testing.assert_allclose([found.shear, found.moment], 0.0, atol=1e-13)
     level = assur.FourBar(1.0, 2.0, 1.0, 2.0)
-    beam = assur.Machine(level, {"coupler": thin(6.0, 2.0)}, [Gravity((0.0, -10.0))])
+    beam = assur.Machine(level, bodies={"coupler": thin(6.0, 2.0)}, loads=[Gravity((0.0, -10.0))])
     found = beam.internal_loads("coupler", math.pi / 2, n=5)
     np.testing.assert_allclose(found.moment, [0.0, 11.25, 15.0, 11.25, 0.0], atol=1e-12)
     np.testing.assert_allclose(found.shear, [-30.0, -15.0, 0.0, 15.0, 30.0], atol=1e-12)
@@ -140,7 +140,7 @@ def slotted() -> assur.Machine:
     )
     length = m.dimensions["rocker.length"]
     bodies = {"rocker": thin(3.0, length), "block": Body(0.5, 0.01), "ram": Body(2.0)}
-    return assur.Machine(m, bodies, [Gravity(), Force("F", (-40.0, 3.0))])
+    return assur.Machine(m, bodies=bodies, loads=[Gravity(), Force("F", (-40.0, 3.0))])
 
 
 def telescope() -> assur.Machine:
@@ -153,7 +153,7 @@ def telescope() -> assur.Machine:
     )
     length = m.dimensions["piston.length"]
     bodies = {"piston": thin(2.0, length), "boom": Body(4.0, 0.3, (0.6, 0.1)), "barrel": Body(1.0)}
-    return assur.Machine(m, bodies, [Gravity()])
+    return assur.Machine(m, bodies=bodies, loads=[Gravity()])
 
 
 def six_bar() -> assur.Machine:
@@ -174,7 +174,7 @@ def six_bar() -> assur.Machine:
         "link": Body(1.0),
         "crank": thin(2.0, math.hypot(0.3, 0.8)),
     }
-    return assur.Machine(m, bodies, [Gravity()])
+    return assur.Machine(m, bodies=bodies, loads=[Gravity()])
 
 
 def robot() -> assur.Machine:
@@ -188,7 +188,7 @@ def robot() -> assur.Machine:
         "upper": thin(3.0, m.dimensions["upper.length"]),
         "fore": thin(2.0, m.dimensions["fore.length"]),
     }
-    return assur.Machine(m, bodies, [Gravity(), Force("E", (5.0, -30.0))])
+    return assur.Machine(m, bodies=bodies, loads=[Gravity(), Force("E", (5.0, -30.0))])
 
 
 def with_mass(machine: assur.Machine, link: str, density: Any) -> assur.Machine:
@@ -208,7 +208,7 @@ def with_mass(machine: assur.Machine, link: str, density: Any) -> assur.Machine:
     centre = (mass * s).sum() / whole
     at = centre * end / abs(end)
     body = Body(whole, (mass * (s - centre) ** 2).sum(), (at.real, at.imag))
-    return assur.Machine(mechanism, {**machine.bodies, link: body}, machine.loads)
+    return assur.Machine(mechanism, bodies={**machine.bodies, link: body}, loads=machine.loads)
 
 
 STEPPED = six_bar()
@@ -343,7 +343,7 @@ def test_peak_at_positions_only() -> None:
 
 def test_positions_without_a_motion() -> None:
     m = assur.FourBar(1.0, 2.0, 1.5, 3.6)
-    machine = assur.Machine(m, {"rocker": thin(2.0, 1.5)}, [Gravity()])
+    machine = assur.Machine(m, bodies={"rocker": thin(2.0, 1.5)}, loads=[Gravity()])
     with pytest.raises(assur.PositionError):
         machine.internal_loads("rocker", [0.2, 3.0])
     found = machine.internal_loads("rocker", [0.2, 3.0], on_error="nan")
@@ -404,7 +404,7 @@ def test_refusals(machine: assur.Machine, given: dict[str, Any], said: str) -> N
 
 @pytest.mark.parametrize("body", [Body(1.2, 0.015, (0.12, 0.0)), thin(1.2, 0.34), Body(1.2)])
 def test_a_body_that_is_no_thin_rod_is_refused(body: Body) -> None:
-    machine = assur.Machine(assur.SliderCrank(0.1, 0.35), {"rod": body})
+    machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": body})
     with pytest.raises(assur.InputError, match="the mass along its line"):
         machine.internal_loads("rod", 1.0)
 

@@ -40,7 +40,7 @@ def rods(case: Case) -> Any:
         a, b = (place(m, link, joint) for joint in along)
         mass, middle = case.machine.bodies[link].mass, (a + b) / 2
         body = Body(mass, mass * abs(b - a) ** 2 / 12, (middle.real, middle.imag))
-        yield link, along, assur.Machine(m, {**case.machine.bodies, link: body}, loads)
+        yield link, along, assur.Machine(m, bodies={**case.machine.bodies, link: body}, loads=loads)
 
 
 def compare(case: Case, link: str, along: Any, machine: assur.Machine) -> float:

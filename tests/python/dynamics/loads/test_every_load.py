@@ -31,7 +31,7 @@ each = pytest.mark.parametrize("load", EVERY_LOAD.values(), ids=lambda one: type
 
 
 def machine(*loads: Load, **parts: Any) -> Machine:
-    return Machine(PRESS, BODIES, loads, **parts)
+    return Machine(PRESS, bodies=BODIES, loads=loads, **parts)
 
 
 def test_there_is_one_of_every_kind() -> None:

@@ -29,14 +29,14 @@ def remainder(q: float) -> float:
 @pytest.mark.parametrize("q", FAR)
 @pytest.mark.parametrize("curve", ["speed", "reduced_moment", "reduced_inertia", "work"])
 def test_a_flywheels_curves_are_those_of_the_remainder(q: float, curve: str) -> None:
-    f = flywheel.evaluate(PHI, MOMENT, INERTIA, 20.0, speed0=30.0)
+    f = flywheel.evaluate(PHI, MOMENT, INERTIA, flywheel=20.0, speed0=30.0)
     own, exact = getattr(f, curve)(q), getattr(f, curve)(remainder(q))
     assert own == pytest.approx(exact, rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("q", FAR)
 def test_the_time_and_its_inverse_count_turns(q: float) -> None:
-    f = flywheel.evaluate(PHI, MOMENT, INERTIA, 20.0, speed0=30.0)
+    f = flywheel.evaluate(PHI, MOMENT, INERTIA, flywheel=20.0, speed0=30.0)
     within = remainder(q)
     turns = (q - within) / (PHI[-1] - PHI[0])
     assert f.time(q) == pytest.approx(round(turns) * f.period + f.time(within), rel=1e-12)

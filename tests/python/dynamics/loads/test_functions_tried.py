@@ -72,7 +72,7 @@ def test_motors_too() -> None:
         Machine(slider(), motor=ConstantTorque(lambda: 1.0))  # type: ignore[arg-type, misc]
     phi = np.linspace(0.0, math.tau, 9)
     with pytest.raises(assur.InputError, match=r"ConstantTorque: torque\(t, q, speed\) gives None"):
-        Machine.from_table(phi, np.zeros(9), 1.0, ConstantTorque(lambda *_: None))  # type: ignore[arg-type]
+        Machine.from_table(phi, np.zeros(9), 1.0, motor=ConstantTorque(lambda *_: None))  # type: ignore[arg-type]
 
 
 def test_several_drivers_give_tuples() -> None:

@@ -213,7 +213,9 @@ def test_motion_without_friction_does_not_depend_on_it() -> None:
     slider = assur.SliderCrank(0.1, 0.3)
     bodies = {"piston": assur.Body(2.0), "crank": assur.Body(inertia=0.01)}
     runs = [
-        Machine(slider, bodies, [Force("B", (-20.0, 0.0), on=on)]).run(t_end=0.5, q0=1.0)
+        Machine(slider, bodies=bodies, loads=[Force("B", (-20.0, 0.0), on=on)]).run(
+            t_end=0.5, q0=1.0
+        )
         for on in (None, "rod", "piston")
     ]
     assert runs[0].q[-1] == runs[1].q[-1] == runs[2].q[-1]

@@ -24,7 +24,7 @@ def shaper(*loads: Any, inertia: float = 0.5, mass: float = 4.0, **parts: Any) -
     """It cuts while its slide goes backward: from 0.5 m to 0.3 m, q from 0 to π."""
     cut = Force("B", (CUT, 0.0), while_="backward", over="bore")
     bodies = {"crank": Body(inertia=inertia), "piston": Body(mass=mass)}
-    return Machine(slider(), bodies, [cut, *loads], **parts)
+    return Machine(slider(), bodies=bodies, loads=[cut, *loads], **parts)
 
 
 def cutting(q: Any) -> Any:
@@ -74,7 +74,7 @@ def test_a_run_loses_the_work_of_the_strokes(speed0: float) -> None:
 
 def test_a_load_that_jumps_where_the_slide_turns_back() -> None:
     ratchet = Torque("crank", -8.0, while_="forward", over="bore")
-    machine = Machine(slider(), {"crank": Body(inertia=0.5)}, [ratchet])
+    machine = Machine(slider(), bodies={"crank": Body(inertia=0.5)}, loads=[ratchet])
     run = machine.run(t_end=1.0, q0=0.5, speed0=30.0, rtol=1e-12)
     # The slide goes forward from π to 2π.
     within = run.q % TURN
@@ -99,7 +99,7 @@ def test_dry_friction_on_a_spring_loses_its_part_each_stroke() -> None:
         Force("B", (3.0, 0.0), while_="backward", over="guide"),
     ]
     spring = assur.Spring("O", "B", 100.0, 0.5)
-    machine = Machine(mass, {"block": Body(mass=1.0)}, [spring, *rub])
+    machine = Machine(mass, bodies={"block": Body(mass=1.0)}, loads=[spring, *rub])
     run = machine.run(t_end=5.0, q0=0.5 + 0.2, rtol=1e-12)
     assert [record.event for record in run.events if record.event != "slip"] == ["stick"]
     # 0.2, −0.14, 0.08 and −0.02: the spring pulls with 2 N.
@@ -117,14 +117,16 @@ def test_a_brake_stops_a_wheel_and_holds_it() -> None:
         Torque("crank", 6.0, while_="backward"),
         Torque("crank", 2.0),
     ]
-    machine = Machine(slider(), {"crank": Body(inertia=0.5)}, brake)
+    machine = Machine(slider(), bodies={"crank": Body(inertia=0.5)}, loads=brake)
     run = machine.run(t_end=3.0, q0=0.0, speed0=10.0)
     assert run.events[0].event == "stick"
     assert run.events[0].t == pytest.approx(10.0 * 0.5 / 4.0, rel=1e-9)
     assert run.q[-1] == pytest.approx(0.5 * 10.0 * 1.25, rel=1e-9)
     assert run.speed[-1] == 0.0
     # A stronger load moves it on.
-    moved = Machine(slider(), {"crank": Body(inertia=0.5)}, [*brake, Torque("crank", 5.0)])
+    moved = Machine(
+        slider(), bodies={"crank": Body(inertia=0.5)}, loads=[*brake, Torque("crank", 5.0)]
+    )
     late = moved.run(t_end=2.0, q0=0.0)
     assert late.speed[-1] == pytest.approx((5.0 + 2.0 - 6.0) / 0.5 * 2.0, rel=1e-9)
 
@@ -135,7 +137,9 @@ def test_a_start_from_rest_where_the_slide_turns_back(q0: float, load: float) ->
     # On the way away from q0 the slide goes one way whichever the sense.
     word: Any = "backward" if q0 == 0.0 else "forward"
     brake = Torque("crank", -math.copysign(4.0, load), while_=word, over="bore")
-    machine = Machine(slider(), {"crank": Body(inertia=0.5)}, [Torque("crank", load), brake])
+    machine = Machine(
+        slider(), bodies={"crank": Body(inertia=0.5)}, loads=[Torque("crank", load), brake]
+    )
     run = machine.run(t_end=0.5, q0=q0)
     expected = math.copysign(5.0, load) / 0.5
     assert abs(run.q[-1] - q0) < math.pi
@@ -217,9 +221,9 @@ def test_loads_inside_a_link_have_the_cut() -> None:
 
 
 def test_a_table_and_a_direction_together() -> None:
-    table = Table([0.3, 0.35, 0.35, 0.5], [0.0, 0.0, 900.0, 500.0], "linear", over="bore")
+    table = Table([0.3, 0.35, 0.35, 0.5], [0.0, 0.0, 900.0, 500.0], spline="linear", over="bore")
     cut = Force("B", (table, 0.0), while_="backward", over="bore")
-    machine = Machine(slider(), {"crank": Body(inertia=1.0)}, [cut])
+    machine = Machine(slider(), bodies={"crank": Body(inertia=1.0)}, loads=[cut])
     run = machine.run(q_end=TURN, q0=0.0, speed0=30.0, rtol=1e-12)
     work = 0.15 * 700.0
     assert 0.5 * (900.0 - float(run.speed[-1]) ** 2) == pytest.approx(work, rel=1e-12)
@@ -255,7 +259,7 @@ def test_self_locking_has_the_loads_of_its_sense() -> None:
 
     def holding(force: float, sense: int, *loads: Any) -> Any:
         machine = Machine(slider(), loads=[Force("B", (force, 0.0)), *loads], friction=rubs)
-        return machine.self_locking(sense, between=stroke).holding
+        return machine.self_locking(sense=sense, between=stroke).holding
 
     cut = shaper().loads[0]
     # The slide goes forward there: the cut does not act, whatever pushes.
@@ -268,7 +272,7 @@ def test_self_locking_has_the_loads_of_its_sense() -> None:
 
 
 def test_an_impact_has_no_direction() -> None:
-    machine = Machine(slider(), {"crank": Body(inertia=1.0)})
+    machine = Machine(slider(), bodies={"crank": Body(inertia=1.0)})
     with pytest.raises(assur.InputError, match=r"an impact is not a motion in one direction"):
         machine.impact(Force("B", (1.0, 0.0), while_="forward"), 1.0, 3.0)
 

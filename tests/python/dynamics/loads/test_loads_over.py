@@ -15,7 +15,9 @@ from assur import Body, Force, FourBar, Machine, Table, Torque
 from models.machines.shapers import CRANK, ROD, STROKE, TURN, integral, place, slider, turning
 
 # A jump at 0.36 and a kink at 0.45, over the whole stroke.
-FORCE = Table([0.3, 0.36, 0.36, 0.45, 0.5], [0.0, 0.0, -900.0, -300.0, 0.0], "linear", over="bore")
+FORCE = Table(
+    [0.3, 0.36, 0.36, 0.45, 0.5], [0.0, 0.0, -900.0, -300.0, 0.0], spline="linear", over="bore"
+)
 CUTS = tuple(
     turns * TURN + sign * turning(x)
     for turns in range(-3, 4)
@@ -37,7 +39,7 @@ def moment(q: float) -> float:
 
 def pushed(**parts: Any) -> Machine:
     bodies = {"crank": Body(inertia=0.8), "piston": Body(mass=3.0)}
-    return Machine(slider(), bodies, [Force("B", (FORCE, 0.0))], **parts)
+    return Machine(slider(), bodies=bodies, loads=[Force("B", (FORCE, 0.0))], **parts)
 
 
 def inertia(q: Any) -> Any:
@@ -121,16 +123,18 @@ def test_a_torque_over_a_links_angle(spline: assur.flywheel.Spline) -> None:
     low, high = angles.min() - 0.1, angles.max() + 0.1
     knots = np.linspace(low, high, 6)
     values = np.array([5.0, -10.0, -40.0, 20.0, 7.0, -3.0])
-    table = Table(knots, values, spline, over="rocker")
-    machine = Machine(mechanism, {"crank": Body(inertia=3.0)}, [Torque("rocker", table)])
+    table = Table(knots, values, spline=spline, over="rocker")
+    machine = Machine(
+        mechanism, bodies={"crank": Body(inertia=3.0)}, loads=[Torque("rocker", table)]
+    )
     h = 1e-5
     rate = (rocker_angle(q + h) - rocker_angle(q - h)) / (2.0 * h)
-    own = Table(knots, values, spline, periodic=False).at(angles) * rate
+    own = Table(knots, values, spline=spline, periodic=False).at(angles) * rate
     np.testing.assert_allclose(machine.reduced_moment(q), own, atol=1e-7)
     run = machine.run(t_end=5.0, q0=0.3, speed0=6.0)
     # Its potential: the integral of the torque over the angle.
     fine = np.linspace(low, high, 200_001)
-    each = Table(knots, values, spline, periodic=False).at(0.5 * (fine[1:] + fine[:-1]))
+    each = Table(knots, values, spline=spline, periodic=False).at(0.5 * (fine[1:] + fine[:-1]))
     potential = np.concatenate([[0.0], -np.cumsum(each) * (fine[1] - fine[0])])
     total = 1.5 * run.speed**2 + np.interp(rocker_angle(run.q), fine, potential)
     np.testing.assert_allclose(total, total[0], rtol=1e-8)
@@ -138,11 +142,12 @@ def test_a_torque_over_a_links_angle(spline: assur.flywheel.Spline) -> None:
 
 def test_rest_over_a_slide_has_its_exact_stiffness() -> None:
     # A force that pulls the piston to 0.42 m like a spring, but is a table.
-    pull = Table([0.2, 0.6], [200.0 * 0.22, -200.0 * 0.18], "linear", over="bore")
+    pull = Table([0.2, 0.6], [200.0 * 0.22, -200.0 * 0.18], spline="linear", over="bore")
     spring = assur.Spring(("ground", (0.0, 0.0)), "B", 200.0, 0.42)
     bodies = {"crank": Body(inertia=0.8), "piston": Body(mass=3.0)}
     own, other = (
-        Machine(slider(), bodies, [load]).equilibria() for load in (Force("B", (pull, 0.0)), spring)
+        Machine(slider(), bodies=bodies, loads=[load]).equilibria()
+        for load in (Force("B", (pull, 0.0)), spring)
     )
     for name in ("q", "stable", "frequency", "stiffness"):
         np.testing.assert_allclose(getattr(own, name), getattr(other, name), rtol=1e-9, atol=1e-12)
@@ -180,7 +185,9 @@ def test_copies_move_alike() -> None:
 
 def test_the_end_of_a_table() -> None:
     short = Table([0.35, 0.5], [0.0, 10.0], over="bore")
-    machine = Machine(slider(), {"crank": Body(inertia=1.0)}, [Force("B", (short, 0.0))])
+    machine = Machine(
+        slider(), bodies={"crank": Body(inertia=1.0)}, loads=[Force("B", (short, 0.0))]
+    )
     with pytest.raises(assur.InputError, match=r"covers 0\.35 to 0\.5: 0\.3, at q = 3.14159"):
         machine.reduced_moment(math.pi)
     assert np.isnan(machine.reduced_moment(math.pi, on_error="nan"))
@@ -197,8 +204,10 @@ def test_the_end_of_a_table() -> None:
 
 
 def test_a_table_may_end_where_the_slide_turns_back() -> None:
-    exact = Table(STROKE, [-50.0, 50.0], "linear", over="bore")
-    machine = Machine(slider(), {"crank": Body(inertia=1.0)}, [Force("B", (exact, 0.0))])
+    exact = Table(STROKE, [-50.0, 50.0], spline="linear", over="bore")
+    machine = Machine(
+        slider(), bodies={"crank": Body(inertia=1.0)}, loads=[Force("B", (exact, 0.0))]
+    )
     run = machine.run(t_end=5.0, q0=0.0, speed0=15.0, rtol=1e-12)
     assert run.end == "reached"
     potential = -250.0 * (place(run.q)[0] - ROD) ** 2
@@ -234,7 +243,7 @@ def test_several_drivers_reduce_but_do_not_run() -> None:
     links = {"ground": ["A", "F"], "a": ["A", "B"], "b": ["B", "C"], "c": ["C", "E"]}
     links["d"] = ["F", "E"]
     five = assur.Mechanism(joints, links, driver=["a", "d"])
-    table = Table([-7.0, 7.0], [-7.0, 7.0], "linear", over="b")
+    table = Table([-7.0, 7.0], [-7.0, 7.0], spline="linear", over="b")
     machine = Machine(five, loads=[Torque("b", table, while_="forward", over="c")])
     q, speed = np.add(five.q0, [0.1, -0.1]), np.array([1.0, 0.5])
     link = five.solve(q).link("b")

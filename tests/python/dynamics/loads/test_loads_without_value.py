@@ -26,7 +26,7 @@ def slider() -> assur.Mechanism:
 
 
 def machine(*loads: Any) -> Machine:
-    return Machine(slider(), BODIES, loads)
+    return Machine(slider(), bodies=BODIES, loads=loads)
 
 
 ASKED: list[Callable[[Machine, Any], Any]] = [
@@ -99,7 +99,7 @@ def test_a_design_of_a_batch_is_named(ask: Callable[[Machine, Any], Any]) -> Non
     """The stroke of the second alone is too long."""
     batch = assur.SliderCrank([0.05, 0.051], 0.4)
     with pytest.raises(assur.InputError) as raised:
-        ask(Machine(batch, BODIES, [Force("B", (SHORT, 0.0))]), Q)
+        ask(Machine(batch, bodies=BODIES, loads=[Force("B", (SHORT, 0.0))]), Q)
     assert raised.value.kind == "table_ends"
     assert (raised.value.design, raised.value.q) == ((1,), 0.0)
     assert raised.value.value == pytest.approx(0.451)
@@ -107,7 +107,7 @@ def test_a_design_of_a_batch_is_named(ask: Callable[[Machine, Any], Any]) -> Non
 
 def test_a_motor_over_the_coordinate_is_named() -> None:
     motor = assur.ConstantTorque(Table([0.0, 1.0], [1.0, 2.0], periodic=False))
-    own = Machine(slider(), BODIES, motor=motor)
+    own = Machine(slider(), bodies=BODIES, motor=motor)
     assert np.isfinite(own.reactions(2.0).driver)
 
 
@@ -141,7 +141,7 @@ def test_one_driver_without_a_moment_is_enough() -> None:
     """The torques overflow at the first driver; the moment of the second is zero."""
     five = assur.examples.five_bar()
     left = str(five.description.drivers[0])
-    overloaded = Machine(five, {}, [Torque(left, 1e308), Torque(left, 1e308)])
+    overloaded = Machine(five, bodies={}, loads=[Torque(left, 1e308), Torque(left, 1e308)])
     drawn: Any = five.q0
     turned = np.add(drawn, 0.1)
     assert np.array_equal(overloaded.reduced_moment(drawn, on_error="nan"), [np.inf, 0.0])
@@ -157,7 +157,7 @@ def test_one_driver_without_a_moment_is_enough() -> None:
 def test_one_driver_without_a_number_is_enough(driver: int) -> None:
     """Whichever driver's coordinate or speed is NaN, nothing is computed."""
     five = assur.examples.five_bar()
-    loaded = Machine(five, {}, [Torque(str(five.description.drivers[0]), 1.0)])
+    loaded = Machine(five, bodies={}, loads=[Torque(str(five.description.drivers[0]), 1.0)])
     wrong = np.where(np.arange(2) == driver, np.nan, five.q0)
     for ask in (loaded.reduced_moment, loaded.effort):
         with pytest.raises(assur.InputError, match="a finite coordinate is needed"):
@@ -224,14 +224,16 @@ def test_a_potential_has_no_value_beyond_a_table() -> None:
     assert np.array_equal(found[~outside], machine(Gravity()).potential(Q)[~outside])
     with pytest.raises(assur.InputError, match="the Force at 'B': a table over 'bore' covers"):
         own.potential(0.0)
-    beyond = Table([0.0, 1.0, 2.0], [-1.0, 1.0, 1.0], "linear", periodic=False)
+    beyond = Table([0.0, 1.0, 2.0], [-1.0, 1.0, 1.0], spline="linear", periodic=False)
     over_q = machine(Torque("crank", beyond))
     with pytest.raises(assur.InputError, match="a table over q covers 0 to 2: 3 is not in it"):
         over_q.potential([1.0, 3.0])
     assert np.isnan(over_q.potential([1.0, 3.0], on_error="nan")).tolist() == [False, True]
     # Loads of one direction only need no value where they do not act.
     assert np.isfinite(machine(Force("B", (SHORT, 0.0), while_="forward")).potential(Q)).all()
-    batch = Machine(assur.SliderCrank([0.05, 0.051], 0.4), BODIES, [Force("B", (SHORT, 0.0))])
+    batch = Machine(
+        assur.SliderCrank([0.05, 0.051], 0.4), bodies=BODIES, loads=[Force("B", (SHORT, 0.0))]
+    )
     with pytest.raises(assur.InputError) as raised:
         batch.potential(0.0)
     assert raised.value.design == (1,)

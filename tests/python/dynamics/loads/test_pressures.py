@@ -48,7 +48,7 @@ def energy(q: Any, exponent: float = 1.3) -> Any:
 
 @pytest.mark.parametrize("exponent", [1.0, 1.3, 1.4])
 def test_a_closed_gas_is_a_spring(exponent: float) -> None:
-    machine = Machine(slider(), {"crank": Body(inertia=0.3)}, [cylinder(exponent)])
+    machine = Machine(slider(), bodies={"crank": Body(inertia=0.3)}, loads=[cylinder(exponent)])
     q = np.linspace(-2.0, 9.0, 45)
     np.testing.assert_allclose(machine.potential(q), energy(q, exponent), rtol=1e-11, atol=1e-11)
     force = -AREA * (pressure(q, exponent) - AMBIENT) * place(q)[1]
@@ -71,7 +71,9 @@ def test_small_oscillations_on_a_gas() -> None:
     )
     air = Gas(AMBIENT, 0.2 * AREA, at=0.2, exponent=1.4)
     machine = Machine(
-        mechanism, {"piston": Body(mass=0.7)}, [Pressure("tube", AREA, air, expands="forward")]
+        mechanism,
+        bodies={"piston": Body(mass=0.7)},
+        loads=[Pressure("tube", AREA, air, expands="forward")],
     )
     found = machine.equilibria(between=(0.1, 0.4))
     np.testing.assert_allclose(found.q, [0.2], rtol=1e-12)
@@ -84,13 +86,13 @@ def test_an_engine_that_compresses_and_expands_along_two_lines() -> None:
     # Heat at the outer dead centre trebles the pressure there: compression and expansion are one
     # power each, and the work of a turn is the area between them.
     q = np.linspace(math.pi, TURN, 200)
-    low = Table(place(q)[0], pressure(q), "natural", over="bore")
-    high = Table(place(q)[0], 3.0 * pressure(q), "natural", over="bore")
+    low = Table(place(q)[0], pressure(q), spline="natural", over="bore")
+    high = Table(place(q)[0], 3.0 * pressure(q), spline="natural", over="bore")
     loads = [
         Pressure("bore", AREA, low, expands="backward", while_="forward"),
         Pressure("bore", AREA, high, expands="backward", while_="backward"),
     ]
-    engine = Machine(slider(), {"crank": Body(inertia=0.3)}, loads)
+    engine = Machine(slider(), bodies={"crank": Body(inertia=0.3)}, loads=loads)
     run = engine.run(q_end=math.pi + TURN, q0=math.pi, speed0=60.0, rtol=1e-11)
     whole = CLEARANCE + SWEPT
     work = 2.0 * (pressure(0.0) * CLEARANCE - START * whole) / 0.3
@@ -103,9 +105,9 @@ def test_an_engine_that_compresses_and_expands_along_two_lines() -> None:
 def test_four_strokes_are_a_table_over_two_turns() -> None:
     q = np.array([0.0, math.pi, TURN, TURN, 3.0 * math.pi, 2.0 * TURN])
     values = np.array([9e4, 9e4, 9e5, 3e6, 1.1e5, 9e4])
-    table = Table(q, values, "linear")
+    table = Table(q, values, spline="linear")
     load = Pressure("bore", AREA, table, expands="backward")
-    machine = Machine(slider(), {"crank": Body(inertia=6.0)}, [load])
+    machine = Machine(slider(), bodies={"crank": Body(inertia=6.0)}, loads=[load])
 
     def moment(at: float) -> float:
         within = at % (2.0 * TURN)
@@ -158,7 +160,7 @@ def test_both_links_of_a_cylinder_feel_it() -> None:
 
 
 def test_reactions_and_the_rod_of_an_engine() -> None:
-    machine = Machine(slider(), {"piston": Body(mass=1.2)}, [cylinder()])
+    machine = Machine(slider(), bodies={"piston": Body(mass=1.2)}, loads=[cylinder()])
     q = np.linspace(0.3, 6.0, 15)
     effort = machine.effort(q, 50.0)
     np.testing.assert_allclose(machine.reactions(q, 50.0).driver, effort, rtol=1e-11)

@@ -46,7 +46,9 @@ def test_a_force_with_corners_is_not_exceeded() -> None:
     assert table.at(1.0) == 0.0
     assert table.at(np.linspace(0.0, 6.28, 10_001)).max() <= 1e6
     assert table.at(np.linspace(0.0, 6.28, 10_001)).min() >= 0.0
-    own = assur.Machine(assur.SliderCrank(0.1, 0.4), {}, [assur.Torque("crank", table)])
+    own = assur.Machine(
+        assur.SliderCrank(0.1, 0.4), bodies={}, loads=[assur.Torque("crank", table)]
+    )
     assert own.reduced_moment(1.0) == 0.0
 
 
@@ -135,10 +137,10 @@ def test_every_curve_is_there_by_name(spline: assur.flywheel.Spline) -> None:
     q = np.linspace(0.0, TURN, 25)
     value = 2.0 + np.cos(q)
     value[-1] = value[0]
-    table = Table(q, value, spline)
+    table = Table(q, value, spline=spline)
     assert table.spline == spline
     assert table.at(1.0) == pytest.approx(2.0 + np.cos(1.0), rel=2e-2)
-    law = assur.laws.Tabulated(q, value, spline)
+    law = assur.laws.Tabulated(q, value, spline=spline)
     assert float(law.at(1.0)[0]) == pytest.approx(2.0 + np.cos(1.0), rel=2e-2)
     sized = assur.flywheel.from_table(q, value, fluctuation=0.1, mean_speed=10.0, spline=spline)
     exact = 2.0 / (100.0 * 0.1)

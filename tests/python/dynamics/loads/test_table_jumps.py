@@ -13,7 +13,7 @@ import assur
 from assur import Body, Force, Machine, Table, Torque
 from models.machines.shapers import TURN, integral, place, slider
 
-STEP = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -30.0, -50.0, 0.0, 0.0], "linear")
+STEP = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -30.0, -50.0, 0.0, 0.0], spline="linear")
 
 
 def step(q: float) -> float:
@@ -22,7 +22,7 @@ def step(q: float) -> float:
 
 
 def loaded(*loads: Any, inertia: float = 2.0) -> Machine:
-    return Machine(slider(), {"crank": Body(inertia=inertia)}, loads)
+    return Machine(slider(), bodies={"crank": Body(inertia=inertia)}, loads=loads)
 
 
 @pytest.mark.parametrize("spline", ["not-a-knot", "natural", "clamped", "linear"])
@@ -30,9 +30,14 @@ def test_pieces_are_tables_of_their_own(spline: assur.flywheel.Spline) -> None:
     knots, values = np.array([0.0, 0.3, 1.0, 1.4, 2.0]), np.array([1.0, 2.0, -1.0, 3.0, 0.5])
     later, others = np.array([2.0, 2.7, 3.0, 4.0]), np.array([7.0, 5.0, 6.0, 1.0])
     whole = Table(
-        np.concatenate([knots, later]), np.concatenate([values, others]), spline, periodic=False
+        np.concatenate([knots, later]),
+        np.concatenate([values, others]),
+        spline=spline,
+        periodic=False,
     )
-    halves = [Table(x, y, spline, periodic=False) for x, y in ((knots, values), (later, others))]
+    halves = [
+        Table(x, y, spline=spline, periodic=False) for x, y in ((knots, values), (later, others))
+    ]
     for half, x in zip(halves, ([0.0, 0.2, 1.9999999], [2.0, 2.2, 3.9, 4.0]), strict=True):
         np.testing.assert_array_equal(whole.at(x), half.at(x))
     assert whole.at(2.0) == 7.0
@@ -40,8 +45,8 @@ def test_pieces_are_tables_of_their_own(spline: assur.flywheel.Spline) -> None:
 
 
 def test_a_period_may_jump_at_its_seam() -> None:
-    saw = Table([0.0, 0.0, 3.0], [1.0, 4.0, 1.0], "linear")
-    same = Table([0.0, 3.0, 3.0], [4.0, 1.0, 4.0], "linear")
+    saw = Table([0.0, 0.0, 3.0], [1.0, 4.0, 1.0], spline="linear")
+    same = Table([0.0, 3.0, 3.0], [4.0, 1.0, 4.0], spline="linear")
     x = [-0.5, 0.0, 1.0, 2.5, 3.0, 4.0]
     np.testing.assert_allclose(saw.at(x), [1.5, 4.0, 3.0, 1.5, 4.0, 3.0], rtol=1e-15)
     np.testing.assert_array_equal(saw.at(x), same.at(x))
@@ -85,7 +90,9 @@ def test_both_ways_along_q_and_in_time_agree() -> None:
 
 def test_a_steady_state_takes_what_the_motor_gives() -> None:
     motor = assur.LinearMotor(stall=60.0, no_load=40.0)
-    machine = Machine(slider(), {"crank": Body(inertia=2.0)}, [Torque("crank", STEP)], motor)
+    machine = Machine(
+        slider(), bodies={"crank": Body(inertia=2.0)}, loads=[Torque("crank", STEP)], motor=motor
+    )
     steady = machine.steady_state()
     taken = -integral(step, 0.0, TURN, 1.0, 4.0)
     assert steady.power * steady.period == pytest.approx(taken, rel=1e-11)
@@ -95,14 +102,16 @@ def test_a_steady_state_takes_what_the_motor_gives() -> None:
 def test_a_flywheel_by_hand() -> None:
     # Nothing has mass but the flywheel: I δ ω² is the greatest excess of energy. The motor gives
     # the mean moment, which between the jumps falls short of the load's 20 N·m over 3 rad.
-    load = Table([0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -20.0, -20.0, 0.0, 0.0], "linear")
+    load = Table(
+        [0.0, 1.0, 1.0, 4.0, 4.0, TURN], [0.0, 0.0, -20.0, -20.0, 0.0, 0.0], spline="linear"
+    )
     found = loaded(Torque("crank", load), inertia=0.0).flywheel(0.05, mean_speed=10.0)
     mean = 60.0 / TURN
     assert found.motor_moment == pytest.approx(mean, rel=1e-13)
     assert found.inertia == pytest.approx((20.0 - mean) * 3.0 / (0.05 * 100.0), rel=1e-12)
     assert found.greatest.at == pytest.approx(1.0, abs=1e-12)
     assert found.least.at == pytest.approx(4.0, abs=1e-12)
-    seam = Table([0.0, 0.0, 3.0, 3.0, TURN], [0.0, -20.0, -20.0, 0.0, 0.0], "linear")
+    seam = Table([0.0, 0.0, 3.0, 3.0, TURN], [0.0, -20.0, -20.0, 0.0, 0.0], spline="linear")
     other = loaded(Torque("crank", seam), inertia=0.0).flywheel(0.05, mean_speed=10.0)
     assert other.inertia == pytest.approx(found.inertia, rel=1e-12)
 
@@ -119,9 +128,9 @@ def test_reactions_agree_with_the_power() -> None:
 def test_the_drive_of_a_motion_is_its_motor(speed0: float) -> None:
     motor = assur.LinearMotor(stall=60.0, no_load=40.0)
     cut = Force("B", (700.0, 0.0), while_="backward", over="bore")
-    over = Table([0.3, 0.4, 0.4, 0.5], [0.0, 0.0, 90.0, 10.0], "linear", over="bore")
+    over = Table([0.3, 0.4, 0.4, 0.5], [0.0, 0.0, 90.0, 10.0], spline="linear", over="bore")
     loads: list[Any] = [Torque("crank", STEP), cut, Force("B", (over, 0.0))]
-    machine = Machine(slider(), {"crank": Body(inertia=2.0)}, loads, motor)
+    machine = Machine(slider(), bodies={"crank": Body(inertia=2.0)}, loads=loads, motor=motor)
     run = machine.run(t_end=1.0, q0=0.0, speed0=speed0)
     given = 60.0 * (1.0 - run.speed / 40.0)
     # The cut holds it where it comes to rest: then the drive is not determined.
@@ -148,7 +157,7 @@ def test_a_duty_across_jumps_warns() -> None:
 
 
 def test_rest_in_a_jump_is_refused_and_beside_it_found() -> None:
-    jumping = Table([0.0, 2.0, 2.0, 4.0, TURN], [1.0, 1.0, -1.0, -1.0, 1.0], "linear")
+    jumping = Table([0.0, 2.0, 2.0, 4.0, TURN], [1.0, 1.0, -1.0, -1.0, 1.0], spline="linear")
     machine = loaded(Torque("crank", jumping))
     with pytest.raises(assur.MotionError, match=r"jump at q = 2"):
         machine.equilibria()
@@ -177,10 +186,10 @@ def test_wrong_jumps_are_refused(
     q: list[float], spline: assur.flywheel.Spline, periodic: bool, message: str
 ) -> None:
     with pytest.raises(assur.InputError, match=message):
-        Table(q, np.zeros(5), spline, periodic)
+        Table(q, np.zeros(5), spline=spline, periodic=periodic)
 
 
 def test_motors_have_no_jumps_over_speed() -> None:
-    jumping = Table([-10.0, 0.0, 0.0, 50.0], [9.0, 9.0, 5.0, 0.0], "linear", periodic=False)
+    jumping = Table([-10.0, 0.0, 0.0, 50.0], [9.0, 9.0, 5.0, 0.0], spline="linear", periodic=False)
     with pytest.raises(assur.InputError, match=r"its torque jumps at 0 rad/s"):
         Machine(slider(), motor=jumping)

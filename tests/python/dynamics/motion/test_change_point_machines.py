@@ -16,7 +16,7 @@ TURN = math.tau
 
 
 def test_change_points_have_reductions() -> None:
-    machine = assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), {"rocker": Body(inertia=2.0)})
+    machine = assur.Machine(assur.FourBar(1.0, 3.0, 1.0, 3.0), bodies={"rocker": Body(inertia=2.0)})
     beside = np.array([0.0, 1e-9, 1e-6, 1e-3, 0.02, 0.029])
     value, d1 = machine.reduced_inertia([beside, math.pi - beside])
     assert np.abs(value - 2.0).max() < 1e-12
@@ -25,7 +25,7 @@ def test_change_points_have_reductions() -> None:
 
 def test_beside_change_points_analogues_are_known() -> None:
     """The joint of a kite is on its axis: its place and two derivatives in closed form."""
-    machine = assur.Machine(assur.FourBar(1.0, 2.5, 2.5, 1.0), {"rocker": Body(1.0, at="C")})
+    machine = assur.Machine(assur.FourBar(1.0, 2.5, 2.5, 1.0), bodies={"rocker": Body(1.0, at="C")})
     steps = np.logspace(-9, math.log10(0.4), 60)
     for change in (0.0, TURN):
         q = change + np.concatenate([-steps, [0.0], steps])
@@ -49,7 +49,9 @@ def test_periods_through_change_points_meet_tight_tolerances(lengths: Any) -> No
         "coupler": Body(2.0, 0.3, (1.0, 0.5)),
     }
     loads = (Torque("rocker", -1.0), Gravity())
-    machine = assur.Machine(assur.FourBar(*lengths), bodies, loads, assur.LinearMotor(30.0, 30.0))
+    machine = assur.Machine(
+        assur.FourBar(*lengths), bodies=bodies, loads=loads, motor=assur.LinearMotor(30.0, 30.0)
+    )
     with pytest.raises(assur.MotionError, match=r"not periodic over this span.*turns=2"):
         machine.steady_state()
     loose, tight = (machine.steady_state(turns=2, rtol=rtol) for rtol in (1e-9, 1e-12))
@@ -87,7 +89,7 @@ def four_bar_rates(lengths: Any, q: float, sign: int) -> tuple[float, float]:
 )
 def test_change_points_with_something_beside(lengths: Any, accuracy: float) -> None:
     linkage = assur.FourBar(*lengths)
-    machine = assur.Machine(linkage, {"rocker": Body(inertia=1.0)})
+    machine = assur.Machine(linkage, bodies={"rocker": Body(inertia=1.0)})
     motion = linkage.solve([1e-6, -1e-6], order=1)
     for q in (1e-7, 1e-6, 1e-4, 1e-3, 0.01, 0.02):
         for at in (-q, q):
@@ -104,9 +106,9 @@ def test_change_points_with_something_beside(lengths: Any, accuracy: float) -> N
 def test_motions_through_near_deltoids_come_to_an_end() -> None:
     machine = assur.Machine(
         assur.FourBar(0.05, 0.08, 0.082, 0.052),
-        {"crank": Body(inertia=1e-3), "coupler": Body(0.2, 1e-4), "rocker": Body(0.1, 1e-4)},
-        [Torque("crank", -0.1)],
-        assur.LinearMotor(1.0, 30.0),
+        bodies={"crank": Body(inertia=1e-3), "coupler": Body(0.2, 1e-4), "rocker": Body(0.1, 1e-4)},
+        loads=[Torque("crank", -0.1)],
+        motor=assur.LinearMotor(1.0, 30.0),
     )
     run = machine.run(3.0, max_seconds=20.0)
     assert run.end == "reached"
@@ -118,7 +120,8 @@ def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
     """Within 1e-6 rad a change point and a gap cannot be distinguished."""
     nearly = assur.FourBar(1.0 - 3e-14, 3.0, 1.0, 3.0)
     machine = assur.Machine(
-        nearly, {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)}
+        nearly,
+        bodies={"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)},
     )
     run = machine.run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == "near_change_point"
@@ -132,7 +135,9 @@ def test_forces_grow_toward_a_change_point_and_the_drive_has_a_limit() -> None:
     The rocker bears half the weight and inertia by a force along itself: T sin q = −m (g + a) / 2.
     """
     machine = assur.Machine(
-        assur.FourBar(1.0, 3.0, 1.0, 3.0), {"coupler": Body(2.0, 1.5, (1.5, 0.0))}, [Gravity()]
+        assur.FourBar(1.0, 3.0, 1.0, 3.0),
+        bodies={"coupler": Body(2.0, 1.5, (1.5, 0.0))},
+        loads=[Gravity()],
     )
     q = np.pi + np.array([-1e-3, -1e-6, 0.0, 1e-6, 1e-3])
     found = machine.reactions(q, speed=10.0)
@@ -155,7 +160,7 @@ def test_reactions_at_a_dead_point_are_refused() -> None:
         slides={"bore": assur.Slide("piston", "ground", 0.0, "O")},
         driver="bore",
     )
-    machine = assur.Machine(linkage, {"rod": Body(1.0, 0.1)}, [Gravity()])
+    machine = assur.Machine(linkage, bodies={"rod": Body(1.0, 0.1)}, loads=[Gravity()])
     top = linkage.dimensions["crank.length"] + linkage.dimensions["rod.length"]
     for method in (machine.reactions, machine.effort):
         with pytest.raises(assur.PositionError, match='dyad "A" is flat'):

@@ -40,7 +40,7 @@ def held() -> Machine:
         Force("C", (11.0, -4.0)),
         Torque("crank", 2.5),
     ]
-    return assur.Machine(four_bar(), bodies, loads)
+    return assur.Machine(four_bar(), bodies=bodies, loads=loads)
 
 
 def drive(machine: Machine, q: float, acceleration: float = 0.0) -> float:
@@ -108,7 +108,9 @@ def constant(machine: Machine) -> Machine:
 
     mechanism = machine.mechanism
     assert mechanism is not None
-    return assur.Machine(mechanism, machine.bodies, [x for x in machine.loads if is_constant(x)])
+    return assur.Machine(
+        mechanism, bodies=machine.bodies, loads=[x for x in machine.loads if is_constant(x)]
+    )
 
 
 @pytest.mark.parametrize("seed", range(60))

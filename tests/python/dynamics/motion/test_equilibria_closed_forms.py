@@ -77,7 +77,7 @@ def test_a_column_with_a_hinge_spring_buckles(excess: float) -> None:
     load = (1.0 + excess) * k / length
     bodies = {"bar": Body(mass, at="A")}
     hinge = TorsionSpring("bar", k, angle=math.pi / 2)
-    found = Machine(column(), bodies, [hinge, Force("A", (0.0, -load))]).equilibria()
+    found = Machine(column(), bodies=bodies, loads=[hinge, Force("A", (0.0, -load))]).equilibria()
     lean = root(lambda x: (1.0 + excess) * math.sin(x) / x - 1.0, 1e-7, 3.0)
     near(found.q - math.pi / 2, [-lean, 0.0, lean], 1e-15 / excess + 1e-15)
     assert found.stable.tolist() == [True, False, True]
@@ -95,7 +95,7 @@ def test_below_the_buckling_load_it_stays_upright(excess: float) -> None:
         TorsionSpring("bar", k, angle=math.pi / 2),
         Force("A", (0.0, -(1.0 + excess) * k / length)),
     ]
-    found = Machine(column(), {"bar": Body(2.0, at="A")}, loads).equilibria()
+    found = Machine(column(), bodies={"bar": Body(2.0, at="A")}, loads=loads).equilibria()
     # At the buckling load V is of the fourth order: flat, still stable.
     # The moment is known to 1e-15 and its slope is the excess: so is the place.
     near(found.q, [math.pi / 2], 1e-4 if excess == 0.0 else 1e-15 / -excess + 1e-15)
@@ -113,9 +113,9 @@ def test_a_bar_on_two_guides_lifted_against_a_spring(force: float) -> None:
     m = ladder(length, 0.7)
     spring = Spring("A", ("ground", (9.0, 0.0)), k, 9.0 - length)
     loads: list[Any] = [Force("M", (0.0, force)), spring]
-    found = Machine(m, {"bar": Body(mass, mass * length**2 / 12, "M")}, loads).equilibria(
-        between=(-1.55, 0.0)
-    )
+    found = Machine(
+        m, bodies={"bar": Body(mass, mass * length**2 / 12, "M")}, loads=loads
+    ).equilibria(between=(-1.55, 0.0))
     ratio = force / (2 * k * length)
     theta = root(lambda x: (1 - math.cos(x)) * math.tan(x) - ratio, 1e-9, 1.5707963)
     # The bar goes from B to A, so its angle is −θ.
@@ -133,7 +133,7 @@ def test_a_toggle_spring(free: float) -> None:
     """A spring from the pin to a point: rest in line with it, and at the free length."""
     k, r, d, inertia = 500.0, 0.3, 0.9, 0.02
     spring = Spring("A", ("ground", (d, 0.0)), k, free)
-    found = Machine(crank(r), {"crank": Body(inertia=inertia)}, [spring]).equilibria()
+    found = Machine(crank(r), bodies={"crank": Body(inertia=inertia)}, loads=[spring]).equilibria()
     wanted = [
         (0.0, k * (d - r - free) * r * d / (d - r)),
         (math.pi, -k * (d + r - free) * r * d / (d + r)),
@@ -161,7 +161,9 @@ def test_a_mass_on_a_spring_is_driven_by_its_slide() -> None:
         slides={"rail": assur.Slide("block", on="ground", angle=-math.pi / 2, origin="O")},
         driver="rail",
     )
-    machine = Machine(m, {"block": Body(mass)}, [Gravity((0.0, -G)), Spring("O", "B", k, free)])
+    machine = Machine(
+        m, bodies={"block": Body(mass)}, loads=[Gravity((0.0, -G)), Spring("O", "B", k, free)]
+    )
     hangs = free + mass * G / k
     found = machine.equilibria(between=(0.1, 5.0))
     near(found.q, [hangs])
@@ -177,7 +179,7 @@ def test_a_pendulum_over_several_turns_and_at_the_seam_of_a_turn() -> None:
     bodies = {"crank": Body(2.0, at="A")}
     for turned in (0.0, 0.5, 1e-17, math.pi / 2, math.pi, -3.0):
         gravity = (G * math.cos(turned), G * math.sin(turned))
-        machine = Machine(crank(), bodies, [Gravity(gravity)])
+        machine = Machine(crank(), bodies=bodies, loads=[Gravity(gravity)])
         found = machine.equilibria()
         assert found.q.shape == (2,)
         near(np.cos(found.q - turned), np.where(found.stable, 1.0, -1.0))
@@ -193,7 +195,9 @@ def test_a_spring_that_balances_a_weight_leaves_it_indifferent() -> None:
     bodies = {"bar": Body(mass, 0.1, at="A")}
     for factor in (1.0, 1.0 + 1e-9):
         spring = Spring("A", ("ground", (0.0, a)), factor * mass * G / a, 0.0)
-        found = Machine(column(length), bodies, [Gravity((0.0, -G)), spring]).equilibria()
+        found = Machine(
+            column(length), bodies=bodies, loads=[Gravity((0.0, -G)), spring]
+        ).equilibria()
         if factor == 1.0:
             assert found.q.size == 0
             near(found.indifferent, [[math.pi / 2 - math.pi, math.pi / 2 + math.pi]])
@@ -204,17 +208,19 @@ def test_a_spring_that_balances_a_weight_leaves_it_indifferent() -> None:
 
 def test_a_balanced_crank_is_indifferent() -> None:
     m = column(0.7)
-    at_pin = Machine(m, {"bar": Body(3.0, at="O")}, [Gravity()]).equilibria()
-    no_load = Machine(m, {"bar": Body(3.0, at="A")}).equilibria()
+    at_pin = Machine(m, bodies={"bar": Body(3.0, at="O")}, loads=[Gravity()]).equilibria()
+    no_load = Machine(m, bodies={"bar": Body(3.0, at="A")}).equilibria()
     two = [Force("A", (3.1, -7.7)), Force("B", (3.1, -7.7))]
-    both = Machine(m, {"bar": Body(3.0, at="O")}, two).equilibria()
+    both = Machine(m, bodies={"bar": Body(3.0, at="O")}, loads=two).equilibria()
     for found in (at_pin, no_load, both):
         assert found.q.size == found.stable.size == found.frequency.size == 0
         near(found.indifferent, [[-math.pi / 2, 3 * math.pi / 2]])
 
 
 def test_without_equilibrium_nothing_is_listed() -> None:
-    found = Machine(crank(), {"crank": Body(1.0, at="A")}, [Torque("crank", 5.0)]).equilibria()
+    found = Machine(
+        crank(), bodies={"crank": Body(1.0, at="A")}, loads=[Torque("crank", 5.0)]
+    ).equilibria()
     assert found.q.shape == found.stable.shape == found.frequency.shape == (0,)
     assert found.indifferent.shape == (0, 2)
 
@@ -224,7 +230,9 @@ def test_a_moment_that_only_just_holds_the_weight(part: float) -> None:
     """m g l cos q = M: two positions, one where they meet, then none."""
     weight = Body(2.0, at="A")
     machine = Machine(
-        crank(), {"crank": weight}, [Gravity((0.0, -G)), Torque("crank", part * 2.0 * G * 0.3)]
+        crank(),
+        bodies={"crank": weight},
+        loads=[Gravity((0.0, -G)), Torque("crank", part * 2.0 * G * 0.3)],
     )
     found = machine.equilibria()
     if part > 1.0:
@@ -241,30 +249,30 @@ def test_a_moment_that_only_just_holds_the_weight(part: float) -> None:
 def test_rest_at_change_points() -> None:
     """A parallelogram pulled along its ground rests where all its links are in line."""
     m = assur.FourBar(1.0, 3.0, 1.0, 3.0)
-    pulled = Machine(m, {"coupler": Body(2.0, 0.3)}, [Gravity((-G, 0.0))])
+    pulled = Machine(m, bodies={"coupler": Body(2.0, 0.3)}, loads=[Gravity((-G, 0.0))])
     found = pulled.equilibria(between=(-1.0, 5.5))
     near(found.q, [0.0, math.pi], 1e-12)
     assert found.stable.tolist() == [False, True]
     near(found.frequency[1], math.sqrt(G), 1e-9)
-    hung = Machine(m, {"coupler": Body(2.0, 0.3)}, [Gravity((0.0, -G))])
+    hung = Machine(m, bodies={"coupler": Body(2.0, 0.3)}, loads=[Gravity((0.0, -G))])
     found = hung.equilibria(between=(-2.0, 2.0))
     near(found.q, [-math.pi / 2, math.pi / 2], 1e-12)
     assert found.stable.tolist() == [True, False]
 
 
 def test_tables_count_and_functions_do_not() -> None:
-    table = assur.Table([0.0, 2.0, 3.0, 5.0, math.tau], [1.0, 1.0, -2.0, 1.0, 1.0], "linear")
-    found = Machine(crank(), {"crank": Body(inertia=0.5)}, [Torque("crank", table)]).equilibria(
-        between=(0.0, math.tau)
-    )
+    table = assur.Table([0.0, 2.0, 3.0, 5.0, math.tau], [1.0, 1.0, -2.0, 1.0, 1.0], spline="linear")
+    found = Machine(
+        crank(), bodies={"crank": Body(inertia=0.5)}, loads=[Torque("crank", table)]
+    ).equilibria(between=(0.0, math.tau))
     near(found.q, [2.0 + 1.0 / 3.0, 3.0 + 4.0 / 3.0])
     assert found.stable.tolist() == [True, False]
     near(found.frequency[0], math.sqrt(3.0 / 0.5))
     # Zero over a part of the turn: an interval of indifferent rest.
-    flat = assur.Table([0.0, 2.0, 3.0, 5.0, math.tau], [0.0, 0.0, -2.0, 1.0, 0.0], "linear")
-    found = Machine(crank(), {"crank": Body(inertia=0.5)}, [Torque("crank", flat)]).equilibria(
-        between=(-0.5, 6.0)
-    )
+    flat = assur.Table([0.0, 2.0, 3.0, 5.0, math.tau], [0.0, 0.0, -2.0, 1.0, 0.0], spline="linear")
+    found = Machine(
+        crank(), bodies={"crank": Body(inertia=0.5)}, loads=[Torque("crank", flat)]
+    ).equilibria(between=(-0.5, 6.0))
     near(found.q, [3.0 + 4.0 / 3.0])
     near(found.indifferent, [[0.0, 2.0]], 1e-6)
 
@@ -280,21 +288,24 @@ def test_a_machine_of_tables() -> None:
 
 def test_a_motor_and_dampers_are_no_load_but_the_rotor_is_inertia() -> None:
     bodies, loads = {"crank": Body(2.0, at="A")}, [Gravity((G, 0.0))]
-    plain = Machine(crank(), bodies, loads).equilibria()
+    plain = Machine(crank(), bodies=bodies, loads=loads).equilibria()
     damped: list[Any] = [
         *loads,
         assur.TorsionDamper("crank", 3.0),
         assur.Damper("A", ("ground", (1, 1)), 9.0),
     ]
     driven = Machine(
-        crank(), bodies, damped, assur.LinearMotor(5.0, 20.0, ratio=2.0, rotor_inertia=0.045)
+        crank(),
+        bodies=bodies,
+        loads=damped,
+        motor=assur.LinearMotor(5.0, 20.0, ratio=2.0, rotor_inertia=0.045),
     ).equilibria()
     near(driven.q, plain.q)
     near(driven.frequency, plain.frequency / math.sqrt(2.0))
 
 
 def test_without_inertia_there_is_no_frequency() -> None:
-    found = Machine(crank(), {}, [Force("A", (1.0, 0.0))]).equilibria()
+    found = Machine(crank(), bodies={}, loads=[Force("A", (1.0, 0.0))]).equilibria()
     assert found.stable.sum() == 1
     assert np.isnan(found.frequency).all()
     near(found.stiffness[found.stable], [0.3])
@@ -303,7 +314,7 @@ def test_without_inertia_there_is_no_frequency() -> None:
 def test_a_spring_whose_length_goes_through_zero_is_refused_there() -> None:
     """Its force turns round at once: the moment jumps, and no position there is one of rest."""
     spring = Spring("A", ("ground", (0.3, 0.0)), 100.0, 0.2)
-    machine = Machine(crank(), {"crank": Body(1.0, at="A")}, [spring])
+    machine = Machine(crank(), bodies={"crank": Body(1.0, at="A")}, loads=[spring])
     with pytest.raises(assur.MotionError, match=r"jump at q = .*between="):
         machine.equilibria()
     found = machine.equilibria(between=(0.1, 6.0))
@@ -318,7 +329,7 @@ def test_gaps_between_positions_of_rest() -> None:
     bodies = {"coupler": Body(2.0, 0.1, (0.8, 0.3)), "rocker": Body(1.0, 0.1, (0.5, 0.1))}
     for angle in np.linspace(0.0, 6.0, 13):
         gravity = Gravity((G * math.cos(angle), G * math.sin(angle)))
-        machine = Machine(m, bodies, [gravity, Spring("A", "C", 9.0, 1.0)])
+        machine = Machine(m, bodies=bodies, loads=[gravity, Spring("A", "C", 9.0, 1.0)])
         found = machine.equilibria()
         grid = m.q0 + np.linspace(-math.pi, math.pi, 20001)
         moment = machine.reduced_moment(grid, on_error="nan")
@@ -331,7 +342,7 @@ def test_gaps_between_positions_of_rest() -> None:
 def test_stiffness_of_every_load() -> None:
     """Against differences of the moment, of the fourth order, at any position of rest."""
     bodies = {"crank": Body(3.0, 0.4, (0.3, 0.2)), "coupler": Body(2.0, 0.5, (1.1, 0.4))}
-    table = assur.Table([0.0, 2.0, 4.0, math.tau], [1.0, 4.0, -3.0, 1.0], "periodic")
+    table = assur.Table([0.0, 2.0, 4.0, math.tau], [1.0, 4.0, -3.0, 1.0], spline="periodic")
     each: list[Any] = [
         Force("P", (11.0, -4.0), axes="coupler"),
         Force(("rocker", (0.3, 0.9)), (table, 5.0)),
@@ -347,9 +358,11 @@ def test_stiffness_of_every_load() -> None:
     # Weight is in each machine; pressures are in test_pressures.py.
     assert missing(each) == {"Gravity", "Pressure"}
     for load in each:
-        machine = Machine(four_bar(), bodies, [load, Gravity()])
+        machine = Machine(four_bar(), bodies=bodies, loads=[load, Gravity()])
         offset = -float(machine.reduced_moment(0.7))
-        machine = Machine(four_bar(), bodies, [load, Gravity(), Torque("crank", offset)])
+        machine = Machine(
+            four_bar(), bodies=bodies, loads=[load, Gravity(), Torque("crank", offset)]
+        )
         found = machine.equilibria(between=(0.2, 1.2))
         at = int(np.argmin(np.abs(found.q - 0.7)))
         near(found.q[at], 0.7, 1e-12)
@@ -365,24 +378,24 @@ def test_stiffness_of_every_load() -> None:
 def five_bar_machine() -> Machine:
     from models.machines.machines import five_bar
 
-    return Machine(five_bar(), {"b1": Body(1.0)})
+    return Machine(five_bar(), bodies={"b1": Body(1.0)})
 
 
 def driven_slide() -> Machine:
     from models.machines.machines import cylinder
 
-    return Machine(cylinder(), {"arm": Body(1.0)}, [Gravity()])
+    return Machine(cylinder(), bodies={"arm": Body(1.0)}, loads=[Gravity()])
 
 
 REFUSED: list[tuple[Any, Any, str]] = [
     (five_bar_machine, None, "2 drivers"),
     (driven_slide, None, 'slide "ram".*between='),
     (
-        lambda: Machine(crank().with_dimensions({"crank.length": [0.2, 0.3]}), {}),
+        lambda: Machine(crank().with_dimensions({"crank.length": [0.2, 0.3]}), bodies={}),
         None,
         r"shape \(2,\).*design\(index\)",
     ),
-    (lambda: Machine(crank(), {}, [Torque("crank", math.hypot)]), None, "function of"),
+    (lambda: Machine(crank(), bodies={}, loads=[Torque("crank", math.hypot)]), None, "function of"),
     (lambda: Machine(crank()), (1.0, 0.0), "between is"),
     (lambda: Machine(crank()), (1.0, 1.0), "between is"),
     (lambda: Machine(crank()), (math.nan, 1.0), "between is"),
@@ -398,7 +411,7 @@ REFUSED: list[tuple[Any, Any, str]] = [
 @pytest.mark.parametrize(("make", "between", "message"), REFUSED)
 def test_what_has_no_equilibria_is_refused(make: Any, between: Any, message: str) -> None:
     with pytest.raises(assur.InputError, match=message):
-        make().equilibria(between)
+        make().equilibria(between=between)
 
 
 def test_a_range_without_positions_names_the_dyad() -> None:
@@ -408,11 +421,11 @@ def test_a_range_without_positions_names_the_dyad() -> None:
 
 
 def test_a_range_without_a_moment_is_refused() -> None:
-    table = assur.Table([5.0, 6.0], [1.0, 2.0], "linear", periodic=False)
-    machine = Machine(four_bar(), {"coupler": Body(1.0)}, [Torque("crank", table)])
+    table = assur.Table([5.0, 6.0], [1.0, 2.0], spline="linear", periodic=False)
+    machine = Machine(four_bar(), bodies={"coupler": Body(1.0)}, loads=[Torque("crank", table)])
     with pytest.raises(assur.MotionError, match=r"no finite moment from q = 0 to 1: a table"):
         machine.equilibria(between=(0.0, 1.0))
-    great = Machine(crank(), {"crank": Body(1e300, at="A")}, [Gravity((0.0, -1e10))])
+    great = Machine(crank(), bodies={"crank": Body(1e300, at="A")}, loads=[Gravity((0.0, -1e10))])
     with pytest.raises(assur.MotionError, match="too great"):
         great.equilibria()
 
@@ -421,8 +434,8 @@ def test_a_range_without_a_moment_is_refused() -> None:
 def test_the_size_of_a_mechanism_does_not_matter(size: float) -> None:
     machine = Machine(
         assur.FourBar(size, 3.0 * size, 2.5 * size, 3.0 * size),
-        {"coupler": Body(1.0)},
-        [Gravity((0.3, -1.0))],
+        bodies={"coupler": Body(1.0)},
+        loads=[Gravity((0.3, -1.0))],
     )
     found = machine.equilibria()
     near(found.q, np.arctan2([-1.0, 1.0], [0.3, -0.3]))

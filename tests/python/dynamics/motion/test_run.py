@@ -35,12 +35,12 @@ def slider_crank() -> assur.Mechanism:
 def loaded_four_bar() -> assur.Machine:
     return assur.Machine(
         four_bar(),
-        {
+        bodies={
             "crank": Body(1.0, 0.4),
             "coupler": Body(2.0, 0.7, (1.1, 0.3)),
             "rocker": Body(1.5, 0.6, (1.0, -0.1)),
         },
-        [
+        loads=[
             Gravity((0.3, -9.81)),
             Force("P", (3.0, lambda t, _, speed: 2.0 * math.cos(3.0 * t) - 0.1 * speed)),
             Torque("rocker", 1.5, on="coupler"),
@@ -55,14 +55,14 @@ def stiff() -> assur.Machine:
     """Springs that oscillate some hundred times in a turn."""
     crank = {"crank": Body(inertia=0.02), "rod": Body(0.6, 0.01, (0.2, 0.0)), "piston": Body(1.2)}
     springs = [Spring("B", ("ground", (0.9, 0.02)), 4e5, 0.4), Spring("A", "B", 1e3, 0.2, 5.0)]
-    return assur.Machine(slider_crank(), crank, [*springs, Gravity()])
+    return assur.Machine(slider_crank(), bodies=crank, loads=[*springs, Gravity()])
 
 
 def class_iv() -> assur.Machine:
     m = loom()
     masses = {name: Body(1.0 + i, 0.2) for i, name in enumerate(("l234", "l365", "l48", "l876"))}
     return assur.Machine(
-        m, {**masses, "crank": Body(inertia=3.0)}, [Gravity(), Torque("l107", 2.0)]
+        m, bodies={**masses, "crank": Body(inertia=3.0)}, loads=[Gravity(), Torque("l107", 2.0)]
     )
 
 
@@ -92,8 +92,10 @@ def test_run_is_that_of_free_bodies_with_constraints(name: str) -> None:
 def test_two_drivers() -> None:
     machine = assur.Machine(
         five_bar(),
-        {name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))},
-        [Gravity((0.0, -4.0)), Damper("C", "E", 0.3), Torque("c2", 0.5)],
+        bodies={
+            name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))
+        },
+        loads=[Gravity((0.0, -4.0)), Damper("C", "E", 0.3), Torque("c2", 0.5)],
     )
     times = np.linspace(0.0, 1.2, 7)
     q, speeds = Dae(machine).run(times, {"c1": 1.0, "c2": -0.5})
@@ -117,7 +119,7 @@ def test_two_drivers() -> None:
 )
 def test_motors(motor: Any) -> None:
     bodies = {"crank": Body(inertia=0.1), "rod": Body(0.6, 0.01, (0.2, 0.0)), "piston": Body(1.2)}
-    machine = assur.Machine(slider_crank(), bodies, [Gravity()], motor)
+    machine = assur.Machine(slider_crank(), bodies=bodies, loads=[Gravity()], motor=motor)
 
     def drive(speed: float) -> tuple[float, float]:
         own = 2.0 * speed
@@ -140,9 +142,13 @@ def test_motors(motor: Any) -> None:
 def test_over_the_coordinate_and_over_the_time() -> None:
     machine = assur.Machine(
         slider_crank(),
-        {"crank": Body(inertia=0.3), "piston": Body(2.0)},
-        [Force("B", (assur.Table([0.0, 2.0, 4.0, math.tau], [0, 30, -20, 0], "linear"), 0.0))],
-        assur.LinearMotor(20.0, 12.0),
+        bodies={"crank": Body(inertia=0.3), "piston": Body(2.0)},
+        loads=[
+            Force(
+                "B", (assur.Table([0.0, 2.0, 4.0, math.tau], [0, 30, -20, 0], spline="linear"), 0.0)
+            )
+        ],
+        motor=assur.LinearMotor(20.0, 12.0),
     )
     over_time = machine.run(5.0, q0=0.3, speed0=8.0, rtol=1e-12)
     over_q = machine.run(q_end=float(over_time.q[-1]), q0=0.3, speed0=8.0, rtol=1e-12)
@@ -197,7 +203,7 @@ def test_free_fall_of_a_piston() -> None:
         slides={"bore": assur.Slide("piston", on="ground", angle=0.0, origin="O")},
         driver="bore",
     )
-    machine = assur.Machine(m, {"piston": Body(3.0)}, [Gravity((-2.0, 0.0))])
+    machine = assur.Machine(m, bodies={"piston": Body(3.0)}, loads=[Gravity((-2.0, 0.0))])
     run = machine.run(1.0, speed0=-0.1, events=[events.Position(0.4)], rtol=1e-12)
     # 0.05 = 0.1 t + t².
     exact = (-0.1 + math.sqrt(0.01 + 0.2)) / 2.0
@@ -206,14 +212,14 @@ def test_free_fall_of_a_piston() -> None:
 
 
 def test_transmission_angle_at_its_limit() -> None:
-    machine = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.2), {"crank": Body(inertia=1.0)})
+    machine = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.2), bodies={"crank": Body(inertia=1.0)})
     limit = math.radians(50.0)
     run = machine.run(20.0, q0=1.5, speed0=1.0, events=[events.TransmissionAngle("C", limit)])
     assert run.end == "event"
     assert machine.mechanism is not None
     own = machine.mechanism.solve(float(run.q[-1])).transmission_angle("C")
     assert abs(own - limit) < 1e-11
-    press = assur.Machine(slider_crank(), {"crank": Body(inertia=1.0)})
+    press = assur.Machine(slider_crank(), bodies={"crank": Body(inertia=1.0)})
     watched = events.TransmissionAngle("bore", math.radians(80.0), stop=False)
     run = press.run(2.0, speed0=5.0, events=[watched])
     assert len(run.events) >= 2
@@ -256,7 +262,7 @@ def time_to_dead_point(speed: float) -> float:
 def test_dead_point_ends_a_run_as_an_event() -> None:
     rocker = assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker")
     bodies = {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)}
-    machine = assur.Machine(rocker, bodies)
+    machine = assur.Machine(rocker, bodies=bodies)
     # Crank and coupler are then in one line: 3 − 1 or 3 + 1 opposite to the rocker.
     ends = [math.pi - math.acos((9.0 + 9.0 - far**2) / 18.0) for far in (4.0, 2.0)]
     for speed, end in ((-1.0, ends[0]), (1.0, ends[1])):
@@ -285,13 +291,13 @@ def test_rest_differs_from_a_dead_point() -> None:
 def test_through_change_points() -> None:
     """A kite's crank turns through its change points with the energy it has."""
     kite = assur.FourBar(1.0, 1.0, 2.0, 2.0)
-    machine = assur.Machine(kite, {"crank": Body(inertia=1.0), "rocker": Body(inertia=2.0)})
+    machine = assur.Machine(kite, bodies={"crank": Body(inertia=1.0), "rocker": Body(inertia=2.0)})
     run = machine.run(30.0, q0=1.0, speed0=1.5)
     assert run.end == "reached"
     assert run.q[-1] > 15.0
     assert run.energy.error < 1e-8
     parallelogram = assur.FourBar(1.0, 3.0, 1.0, 3.0)
-    machine = assur.Machine(parallelogram, {"rocker": Body(inertia=2.0)})
+    machine = assur.Machine(parallelogram, bodies={"rocker": Body(inertia=2.0)})
     run = machine.run(30.0, q0=1.0, speed0=1.5, rtol=1e-12)
     assert abs(run.q[-1] - 46.0) < 1e-9
 
@@ -299,12 +305,12 @@ def test_through_change_points() -> None:
 def test_energy_of_a_thousand_turns() -> None:
     machine = assur.Machine(
         four_bar(),
-        {
+        bodies={
             "crank": Body(inertia=2.0),
             "coupler": Body(1.0, 0.5, (1.1, 0.3)),
             "rocker": Body(1.0, 0.6),
         },
-        [Gravity((0.0, -1.0))],
+        loads=[Gravity((0.0, -1.0))],
     )
     run = machine.run(2100.0, speed0=3.5, rtol=1e-12)
     turns = (run.q - run.q[0]) / math.tau
@@ -340,7 +346,9 @@ def test_functions_are_called_once_a_stage_with_floats() -> None:
         asked.append((t, q, speed))
         return -speed
 
-    machine = assur.Machine(four_bar(), {"crank": Body(inertia=2.0)}, [Torque("crank", load)])
+    machine = assur.Machine(
+        four_bar(), bodies={"crank": Body(inertia=2.0)}, loads=[Torque("crank", load)]
+    )
     asked.clear()
     run = machine.run(1.0, speed0=1.0)
     # And once to find the size of the accelerations.
@@ -353,7 +361,9 @@ def test_time_dependent_loads_and_breaks() -> None:
     def step(t: float, _: float, __: float) -> float:
         return 1.0 if t < 0.5 else -3.0
 
-    machine = assur.Machine(four_bar(), {"crank": Body(inertia=2.0)}, [Torque("crank", step)])
+    machine = assur.Machine(
+        four_bar(), bodies={"crank": Body(inertia=2.0)}, loads=[Torque("crank", step)]
+    )
     run = machine.run(1.0, speed0=1.0, breaks=[0.5])
     assert abs(run.speed[-1] - (1.0 + 0.25 - 0.75)) < 1e-12
     assert run.statistics.steps < 20
@@ -362,12 +372,14 @@ def test_time_dependent_loads_and_breaks() -> None:
 def test_tables_of_different_periods() -> None:
     """Loads over one turn, two and a third of one; J is constant, work is the tables' integral."""
     tables = [
-        assur.Table([0.0, 1.0, math.tau], [0.0, 1.0, 0.0], "linear"),
-        assur.Table([0.0, 5.0, 2 * math.tau], [0.5, -1.0, 0.5], "linear"),
-        assur.Table([0.0, 1.0, math.tau / 3.0], [0.0, 0.3, 0.0], "linear"),
+        assur.Table([0.0, 1.0, math.tau], [0.0, 1.0, 0.0], spline="linear"),
+        assur.Table([0.0, 5.0, 2 * math.tau], [0.5, -1.0, 0.5], spline="linear"),
+        assur.Table([0.0, 1.0, math.tau / 3.0], [0.0, 0.3, 0.0], spline="linear"),
     ]
     m = assur.FourBar(1.0, 3.0, 2.5, 3.2)
-    machine = assur.Machine(m, {"crank": Body(inertia=2.0)}, [Torque("crank", t) for t in tables])
+    machine = assur.Machine(
+        m, bodies={"crank": Body(inertia=2.0)}, loads=[Torque("crank", t) for t in tables]
+    )
     # Means 1/2, −1/4 and 0.15.
     work = 2 * math.tau * (0.5 - 0.25 + 0.15)
     run = machine.run(q_end=2 * math.tau, q0=0.0, speed0=1.0, rtol=1e-12)

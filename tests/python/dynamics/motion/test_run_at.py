@@ -14,7 +14,7 @@ from models.errors.refusals import refused
 
 def coasting(driver: str = "crank") -> assur.Machine:
     wheel = assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver(driver)
-    return assur.Machine(wheel, {"crank": Body(inertia=0.3), "rocker": Body(inertia=2.0)})
+    return assur.Machine(wheel, bodies={"crank": Body(inertia=0.3), "rocker": Body(inertia=2.0)})
 
 
 def test_a_time_outside_the_run_is_refused() -> None:

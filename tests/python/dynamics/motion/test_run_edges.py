@@ -50,12 +50,14 @@ def test_turning_points_differ_from_dead_points() -> None:
 def test_loose_tolerances_make_no_dead_points(rtol: float) -> None:
     machine = assur.Machine(
         five_bar(),
-        {name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))},
-        [Gravity((0.0, -4.0)), Torque("c2", 0.5)],
+        bodies={
+            name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))
+        },
+        loads=[Gravity((0.0, -4.0)), Torque("c2", 0.5)],
     )
     assert machine.run(1.2, speed0=[1.0, -0.5], rtol=rtol).end == "reached"
     rocker = assur.FourBar(1.0, 3.0, 3.0, 3.0).with_driver("rocker")
-    dead = assur.Machine(rocker, {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)})
+    dead = assur.Machine(rocker, bodies={"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)})
     run = dead.run(50.0, q0=2.0, speed0=1.0, rtol=rtol)
     assert run.end == "dead point"
     assert abs(run.q[-1] - (math.pi - math.acos(14.0 / 18.0))) < 100.0 * rtol
@@ -64,7 +66,7 @@ def test_loose_tolerances_make_no_dead_points(rtol: float) -> None:
 def test_two_drivers_come_to_a_dead_point() -> None:
     """Both bars in one line: the joint between goes through, the drivers turn back."""
     machine = assur.Machine(
-        five_bar(), {name: Body(1.0, 0.3, (0.4, 0.1)) for name in ("c1", "b1", "b2", "c2")}
+        five_bar(), bodies={name: Body(1.0, 0.3, (0.4, 0.1)) for name in ("c1", "b1", "b2", "c2")}
     )
     run = machine.run(20.0, speed0=[0.6, -0.6])
     assert run.end == "dead point"
@@ -86,7 +88,7 @@ def two_driven_slides(scale: float) -> assur.Machine:
         },
         driver=["p", "r"],
     )
-    return assur.Machine(m, {name: Body(1.0, 0.3 * scale**2) for name in ("b1", "b2")})
+    return assur.Machine(m, bodies={name: Body(1.0, 0.3 * scale**2) for name in ("b1", "b2")})
 
 
 @cache
@@ -126,12 +128,12 @@ def test_the_time_of_a_dead_point_is_that_of_the_other_driver() -> None:
     """Driven by the crank the same motion goes through: there the rocker rests."""
     by_crank = assur.FourBar(1.0, 3.0, 3.0, 3.0)
     bodies = {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)}
-    through = assur.Machine(by_crank, bodies)
+    through = assur.Machine(by_crank, bodies=bodies)
     # The crank's angle where it lies over the coupler: the joint beyond is 3 − 1 away.
     folded = math.pi + math.acos(2.0**2 / (2.0 * 2.0 * 3.0))
     run = through.run(9.0, q0=2.0, speed0=1.0, events=[events.Position(folded)], rtol=1e-13)
     at = by_crank.solve(2.0).link("rocker")
-    rocker = assur.Machine(by_crank.with_driver("rocker"), bodies)
+    rocker = assur.Machine(by_crank.with_driver("rocker"), bodies=bodies)
     for asked in ("t_end", "q_end"):
         options: dict[str, Any] = {
             asked: 50.0 if asked == "t_end" else at.value + math.copysign(3, at.d1)
@@ -147,9 +149,9 @@ def test_functions_of_motors_are_asked_by_motions_alone() -> None:
 
     machine = assur.Machine(
         assur.SliderCrank(0.1, 0.4),
-        {"crank": Body(inertia=0.5)},
-        [Torque("crank", -1.0)],
-        assur.ConstantTorque(power),
+        bodies={"crank": Body(inertia=0.5)},
+        loads=[Torque("crank", -1.0)],
+        motor=assur.ConstantTorque(power),
     )
     assert machine.reduced_inertia(0.3).value == 0.5
     assert machine.reduced_moment(0.3) == -1.0
@@ -158,7 +160,7 @@ def test_functions_of_motors_are_asked_by_motions_alone() -> None:
 
 
 def test_an_event_at_a_knot_happens_once() -> None:
-    table = Table([0.0, 1.0, 2.0, TURN], [0.0, 2.0, -2.0, 0.0], "linear")
+    table = Table([0.0, 1.0, 2.0, TURN], [0.0, 2.0, -2.0, 0.0], spline="linear")
     for method in ("DOP853", "RK45"):
         watched = [events.Position(1.0, stop=False), events.Position(2.0, stop=False)]
         run = wheel(Torque("crank", table)).run(
@@ -178,7 +180,7 @@ def test_an_event_at_a_knot_happens_once() -> None:
 
 def test_a_smooth_motion_of_a_mechanism_that_is_not() -> None:
     """At constant speed steps are wide, the transmission angle goes up and down in each."""
-    machine = assur.Machine(four_bar(), {"crank": Body(inertia=1.0)})
+    machine = assur.Machine(four_bar(), bodies={"crank": Body(inertia=1.0)})
     cases: tuple[tuple[float, dict[str, Any]], ...] = (
         (85.0, {"t_end": 2 * TURN}),
         (89.0, {"q_end": 2 * TURN}),
@@ -219,7 +221,7 @@ def test_motions_are_pickled() -> None:
     assert (again.delta, again.power, again.mean) == (steady.delta, steady.power, "period")
     assert np.array_equal(again.at([1.0, 9.0]), steady.at([1.0, 9.0]))
     # The run up to a dead point too.
-    lever = assur.Machine(four_bar().with_driver("rocker"), {"rocker": Body(inertia=1.0)})
+    lever = assur.Machine(four_bar().with_driver("rocker"), bodies={"rocker": Body(inertia=1.0)})
     dead = lever.run(9.0, speed0=1.0)
     assert dead.end == "dead point"
     assert np.array_equal(pickle.loads(pickle.dumps(dead)).at(dead.t), dead.at(dead.t))
@@ -236,8 +238,11 @@ def torn(_t: float, _q: float, speed: float) -> float:
     ("make", "said"),
     [
         (lambda: wheel().run(1.0, speed0=ANY), "speed0"),
-        (lambda: press().flywheel(0.1, [10.0, 20.0]), r"mean_speed has the shape \(2,\)"),
-        (lambda: press().flywheel(0.1, math.nan), "mean_speed is nan"),
+        (
+            lambda: press().flywheel(0.1, mean_speed=[10.0, 20.0]),
+            r"mean_speed has the shape \(2,\)",
+        ),
+        (lambda: press().flywheel(0.1, mean_speed=math.nan), "mean_speed is nan"),
         (lambda: wheel().run(), "run needs t_end or q_end"),
         (lambda: wheel().run(1.0, q_end=2.0), "run needs t_end or q_end"),
         (lambda: wheel().run(q_end=2.0), "needs an initial speed"),
@@ -259,9 +264,9 @@ def torn(_t: float, _q: float, speed: float) -> float:
         (lambda: wheel().run(1.0, events=[events.Crossing(ANY)]), "a function of"),
         (lambda: wheel().run(1.0, q0=[1.0, 2.0]), "q0 has the shape"),
         (lambda: wheel().run(math.inf), "t_end is inf"),
-        (lambda: assur.Machine(ANY, {}), "None is not an assur.Mechanism"),
-        (lambda: assur.Machine(four_bar(), ANY), "bodies is None"),
-        (lambda: assur.Machine(four_bar(), {}, ANY), "loads must be a sequence"),
+        (lambda: assur.Machine(ANY, bodies={}), "None is not an assur.Mechanism"),
+        (lambda: assur.Machine(four_bar(), bodies=ANY), "bodies is None"),
+        (lambda: assur.Machine(four_bar(), bodies={}, loads=ANY), "loads must be a sequence"),
         (lambda: wheel(Torque(ANY, 1.0)), "Torque link is None"),
         (lambda: wheel(Torque("crank", 1.0, on="crank")), "give two links"),
         (lambda: wheel(assur.Spring("A", "A", 1.0, 0.0)), "it has no length"),
@@ -274,7 +279,7 @@ def test_refusals(make: Any, said: str) -> None:
 
 
 def from_table(inertia: Any = 1.0, motor: Any = None, **options: Any) -> assur.Machine:
-    return assur.Machine.from_table([0.0, TURN], [1.0, 1.0], inertia, motor, **options)
+    return assur.Machine.from_table([0.0, TURN], [1.0, 1.0], inertia, motor=motor, **options)
 
 
 @pytest.mark.parametrize(
@@ -283,7 +288,7 @@ def from_table(inertia: Any = 1.0, motor: Any = None, **options: Any) -> assur.M
         (lambda: assur.Machine.from_table([], [], []), "too_short", {"value": 0.0}),
         (lambda: from_table([1.0, -2.0]), "negative", {"q": TURN, "value": -2.0}),
         (lambda: Table([1.0], [1.0]), "too_short", {"value": 1.0}),
-        (lambda: Table([0.0, 1.0], [1.0, 1.0], "periodic"), "too_short", {"value": 2.0}),
+        (lambda: Table([0.0, 1.0], [1.0, 1.0], spline="periodic"), "too_short", {"value": 2.0}),
         (lambda: Table([0.0, 1.0], [1.0, math.nan]), "not_finite", {"value": math.nan}),
         (lambda: Table([0.0, 2.0, 1.0], [1, 1, 1]), "not_increasing", {"q": 1.0, "value": 1.0}),
         (
@@ -327,7 +332,7 @@ def test_a_load_without_a_value_is_the_same_error_in_a_run_and_by_itself() -> No
 
 
 def test_a_start_without_a_position_is_refused() -> None:
-    swinging = assur.Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
+    swinging = assur.Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), bodies={"crank": Body(inertia=1.0)})
     with pytest.raises(assur.PositionError, match="cannot start at q0: at q = 3, dyad") as caught:
         swinging.run(1.0, q0=3.0)
     error = caught.value
@@ -368,7 +373,7 @@ def test_a_run_may_end_at_the_time_of_a_knot() -> None:
     for seed in range(30):
         values = np.random.default_rng(seed).normal(0.0, 3.0, 4)
         values[-1] = values[0]
-        machine = wheel(Torque("crank", Table(rows, values, "linear")))
+        machine = wheel(Torque("crank", Table(rows, values, spline="linear")))
         q0, speed0 = 0.5684791439409276, -5.465030032399637
         knot = rows[0] - 2.0 * (rows[-1] - rows[0])
         along = machine.run(q_end=knot, q0=q0, speed0=speed0, rtol=1e-12)

@@ -33,7 +33,9 @@ def torque_before(q: Any) -> Any:
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-8, 1e-12])
 def test_rows_at_knots_and_jumps_have_the_torque_before_them(rtol: float) -> None:
-    machine = Machine(WHEEL, BODIES, [Torque("crank", Table(KNOTS, TORQUES, "linear"))])
+    machine = Machine(
+        WHEEL, bodies=BODIES, loads=[Torque("crank", Table(KNOTS, TORQUES, spline="linear"))]
+    )
     run = machine.run(t_end=9.0, q0=0.2, speed0=3.0, rtol=rtol)
     at_knot = np.abs(np.mod(run.q[:, None], TURN) - KNOTS).min(axis=1) < AT_KNOT
     assert at_knot.sum() > 15
@@ -46,8 +48,8 @@ def test_rows_at_knots_and_jumps_have_the_torque_before_them(rtol: float) -> Non
 
 def test_rows_at_knots_of_a_motor_have_its_torque() -> None:
     speeds, torques = [0.0, 2.0, 3.0, 5.0, 9.0], [8.0, 6.0, 7.0, 2.0, 0.0]
-    motor = Table(speeds, torques, "linear", periodic=False)
-    run = Machine(WHEEL, BODIES, motor=motor).run(t_end=2.0, q0=0.0, speed0=0.5, rtol=1e-5)
+    motor = Table(speeds, torques, spline="linear", periodic=False)
+    run = Machine(WHEEL, bodies=BODIES, motor=motor).run(t_end=2.0, q0=0.0, speed0=0.5, rtol=1e-5)
     assert np.isclose(run.speed[:, None], speeds[1:4], atol=1e-12).any(axis=0).all()
     expected = np.interp(run.speed, speeds, torques) / INERTIA
     assert np.abs(run.acceleration - expected).max() < 1e-12
@@ -55,7 +57,7 @@ def test_rows_at_knots_of_a_motor_have_its_torque() -> None:
 
 def test_the_last_row_at_an_event_has_the_acceleration_there() -> None:
     load = Torque("crank", lambda t, q, w: math.cos(3.0 * q) + w + t)
-    machine = Machine(WHEEL, BODIES, [load])
+    machine = Machine(WHEEL, bodies=BODIES, loads=[load])
     for place in (0.02, 0.3, 1.3, 2.9):
         at = events.Position(place, stop=True)
         run = machine.run(t_end=9.0, q0=0.0, speed0=1.0, events=[at], rtol=1e-4)
@@ -77,8 +79,8 @@ def rubbing(length: float = 1.0, time: float = 1.0) -> Machine:
     ways = Table(np.multiply(WAYS, length), np.multiply(FORCES, force), over="bore")
     return Machine(
         assur.SliderCrank(CRANK * length, ROD * length),
-        {"crank": Body(2.0, inertia=0.05 * mass_moment), "piston": Body(MASS)},
-        [Force("B", (ways, WEIGHT * force), on="piston")],
+        bodies={"crank": Body(2.0, inertia=0.05 * mass_moment), "piston": Body(MASS)},
+        loads=[Force("B", (ways, WEIGHT * force), on="piston")],
         friction={
             "bore": SlideFriction(SLIDING, LENGTH * length),
             "B": JointFriction(0.1, 0.01 * length),

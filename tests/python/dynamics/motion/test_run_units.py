@@ -70,12 +70,12 @@ def block(*loads: Any, **friction: float) -> Machine:
         driver="way",
     )
     own = {"way": SlideFriction(**friction)}
-    return Machine(way, {"block": Body(2.0)}, [Gravity(), *loads], friction=own)
+    return Machine(way, bodies={"block": Body(2.0)}, loads=[Gravity(), *loads], friction=own)
 
 
 def crank_press(*loads: Any, **parts: Any) -> Machine:
     bodies = {"crank": Body(inertia=0.2), "rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0)}
-    return Machine(assur.SliderCrank(0.1, 0.35), bodies, [Gravity(), *loads], **parts)
+    return Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=[Gravity(), *loads], **parts)
 
 
 def cases() -> dict[str, Case]:
@@ -92,11 +92,13 @@ def cases() -> dict[str, Case]:
     dead = assur.FourBar(3.0, 2.5, 2.0, 4.0)
     bars = {name: Body(1.0, 0.5) for name in ("crank", "coupler", "rocker")}
     light = {"C": JointFriction(0.1, 0.1)}
-    five = Machine(five_bar(), {n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2", "c2")})
+    five = Machine(
+        five_bar(), bodies={n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2", "c2")}
+    )
     ram = Machine(
         cylinder(),
-        {"arm": Body(3.0, 0.5, (0.8, 0.1)), "rod": Body(0.5, 0.1), "barrel": Body(1.0, 0.2)},
-        [Gravity(), Damper("P", ("ground", (2.0, 0.0)), 3.0)],
+        bodies={"arm": Body(3.0, 0.5, (0.8, 0.1)), "rod": Body(0.5, 0.1), "barrel": Body(1.0, 0.2)},
+        loads=[Gravity(), Damper("P", ("ground", (2.0, 0.0)), 3.0)],
         friction={"B": JointFriction(0.1, 0.03), "ram": SlideFriction(0.1, 0.2, 2.0)},
     )
     mixed = assur.Mechanism(
@@ -109,13 +111,15 @@ def cases() -> dict[str, Case]:
     heavy = {name: Body(1.0, 0.2) for name, own in triad.links.items() if name != "ground" and own}
     pins = {name: JointFriction(0.1, 0.03) for name in list(triad.joints)[1:4]}
     return {
-        "loads": Case(Machine(four_bar(), BODIES, LOADS), 0.3, 5.0, {"t_end": 2.0}),
+        "loads": Case(Machine(four_bar(), bodies=BODIES, loads=LOADS), 0.3, 5.0, {"t_end": 2.0}),
         "loads and friction": Case(
-            Machine(four_bar(), BODIES, LOADS, friction=PINS), 0.3, 5.0, {"t_end": 2.0}
+            Machine(four_bar(), bodies=BODIES, loads=LOADS, friction=PINS), 0.3, 5.0, {"t_end": 2.0}
         ),
-        "from rest at zero": Case(Machine(four_bar(), BODIES, LOADS), 0.0, 0.0, {"t_end": 1.0}),
+        "from rest at zero": Case(
+            Machine(four_bar(), bodies=BODIES, loads=LOADS), 0.0, 0.0, {"t_end": 1.0}
+        ),
         "over the coordinate": Case(
-            Machine(four_bar(), BODIES, LOADS, friction=PINS), 0.3, 5.0, {"q_end": 9.0}
+            Machine(four_bar(), bodies=BODIES, loads=LOADS, friction=PINS), 0.3, 5.0, {"q_end": 9.0}
         ),
         "motor": Case(
             crank_press(motor=motor, friction=rubbing), 0.3, 0.0, {"t_end": 2.0, "rtol": 1e-8}
@@ -130,7 +134,7 @@ def cases() -> dict[str, Case]:
             {"t_end": 3.0, "events": [wall, events.Speed(1.5, stop=False)]},
         ),
         "angle": Case(
-            Machine(four_bar(), BODIES, LOADS),
+            Machine(four_bar(), bodies=BODIES, loads=LOADS),
             0.3,
             5.0,
             {"t_end": 1.0, "events": [events.TransmissionAngle("C", 0.9, stop=False)]},
@@ -143,17 +147,20 @@ def cases() -> dict[str, Case]:
             {"t_end": 2.0},
         ),
         "dead point": Case(
-            Machine(dead, bars, [Torque("crank", -20.0)], friction=light), 0.5, 1.0, {"t_end": 5.0}
+            Machine(dead, bodies=bars, loads=[Torque("crank", -20.0)], friction=light),
+            0.5,
+            1.0,
+            {"t_end": 5.0},
         ),
         "dead point of a slide": Case(ram, ram.mechanism.q0, 0.5, {"t_end": 20.0}),  # type: ignore[union-attr]
         "over a driven slide": Case(
-            Machine(cylinder(), {"arm": Body(3.0, 0.5, (0.8, 0.1))}, [Gravity()]),
+            Machine(cylinder(), bodies={"arm": Body(3.0, 0.5, (0.8, 0.1))}, loads=[Gravity()]),
             ram.mechanism.q0,  # type: ignore[union-attr]
             5.0,
             {"q_end": ram.mechanism.q0 + 0.2},  # type: ignore[union-attr]
         ),
         "slide and angle": Case(
-            Machine(mixed, {n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2")}),
+            Machine(mixed, bodies={n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2")}),
             mixed.q0,
             [0.6, 0.01],
             {"t_end": 0.5},
@@ -169,7 +176,7 @@ def cases() -> dict[str, Case]:
             crank_press(Torque("crank", lambda t, _q, _v: 5.0 * t**3)), 0.0, 0.0, {"t_end": 1.0}
         ),
         "class III": Case(
-            Machine(triad, heavy, [Gravity()], friction=pins),
+            Machine(triad, bodies=heavy, loads=[Gravity()], friction=pins),
             triad.q0,
             2.0,
             {"t_end": 0.5},
@@ -243,7 +250,7 @@ def test_a_bouncing_block_comes_to_rest_after_as_many_hits_in_all_units(length: 
         slides={"way": assur.Slide("block", "ground", math.pi / 2, "O")},
         driver="way",
     )
-    machine = Machine(way, {"block": Body(3.0)}, [Gravity()])
+    machine = Machine(way, bodies={"block": Body(3.0)}, loads=[Gravity()])
     floor = events.Obstacle(events.Position(0.0, direction="falling"), 0.95)
     hits = [
         len(units.run(machine, 2.0, 0.0, t_end=99.0, rtol=1e-6, events=[floor]).events)

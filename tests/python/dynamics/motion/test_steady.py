@@ -24,14 +24,16 @@ PAPER_INERTIA = np.array([4.93, 5.07, 5.1, 5.1, 4.93, 5.05, 5.1, 5.14, 4.93])
 def wheel(load: float, motor: Any, inertia: float = 2.0) -> assur.Machine:
     """A crank with an inertia and a constant load: nothing else has mass."""
     crank = {"crank": Body(inertia=inertia)}
-    return assur.Machine(assur.SliderCrank(0.1, 0.4), crank, [Torque("crank", -load)], motor)
+    return assur.Machine(
+        assur.SliderCrank(0.1, 0.4), bodies=crank, loads=[Torque("crank", -load)], motor=motor
+    )
 
 
 @pytest.mark.parametrize("span", [1, 2, 3])
 def test_tables_without_a_motor_are_their_energy_integral(span: int) -> None:
     """`assur.flywheel` knows no integrator; here the moment is found too."""
     exact = flywheel.evaluate(
-        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, 19.918150, mean_speed=15.0, mean="period"
+        PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA, flywheel=19.918150, mean_speed=15.0, mean="period"
     )
     machine = assur.Machine.from_table(PAPER_PHI, PAPER_MOMENT, PAPER_INERTIA)
     own = machine.steady_state(15.0, turns=span, mean="period", flywheel=19.918150)
@@ -80,14 +82,16 @@ def test_an_induction_motor_runs_on_its_stable_side() -> None:
 
 
 def test_a_table_of_torque_over_speed() -> None:
-    motor = assur.Table([-5.0, 10.0, 20.0, 30.0], [60.0, 50.0, 45.0, 0.0], "linear")
+    motor = assur.Table([-5.0, 10.0, 20.0, 30.0], [60.0, 50.0, 45.0, 0.0], spline="linear")
     own = wheel(30.0, motor).steady_state()
     assert abs(own.mean_speed - (30.0 - 30.0 / 4.5)) < 1e-10
     # A load over the turn moves the speed through the knot at 20.
     phi = np.linspace(0.0, TURN, 13)
     moment = -40.0 - 35.0 * np.sin(phi)
     moment[-1] = moment[0]
-    machine = assur.Machine.from_table(phi, moment, np.full(13, 1.0), motor, "periodic")
+    machine = assur.Machine.from_table(
+        phi, moment, np.full(13, 1.0), motor=motor, spline="periodic"
+    )
     own = machine.steady_state()
     assert own.least.value < 20.0 < own.greatest.value
     later = machine.run(60.0, q0=0.0, speed0=25.0, rtol=1e-12)
@@ -205,7 +209,7 @@ def test_flywheel_of_a_weak_motor() -> None:
 def test_two_turns_of_a_kite() -> None:
     kite = assur.FourBar(1.0, 1.0, 2.0, 2.0)
     bodies = {"crank": Body(inertia=1.0), "rocker": Body(inertia=0.5)}
-    machine = assur.Machine(kite, bodies, motor=assur.LinearMotor(5.0, 8.0))
+    machine = assur.Machine(kite, bodies=bodies, motor=assur.LinearMotor(5.0, 8.0))
     own = machine.steady_state(turns=2, q0=1.0, rtol=1e-10)
     assert abs(own.q[-1] - own.q[0] - 2 * TURN) < 1e-12
     run = machine.run(60.0, q0=1.0, speed0=7.0)
@@ -278,7 +282,10 @@ def test_the_picture_of_the_example_shows_the_start_and_both_periodic_motions() 
             ).steady_state(5.0),
             "not periodic",
         ),
-        (lambda: press(assur.LinearMotor(90.0, 30.0)).flywheel(0.1, 20.0), "omit mean_speed"),
+        (
+            lambda: press(assur.LinearMotor(90.0, 30.0)).flywheel(0.1, mean_speed=20.0),
+            "omit mean_speed",
+        ),
         (lambda: press().flywheel(0.1), "mean_speed is needed"),
     ],
 )
@@ -296,7 +303,7 @@ def test_refusals_with_a_kind() -> None:
         # The same of the machine's own motor and of tables.
         for machine, mean_speed in ((press(assur.LinearMotor(90.0, 30.0)), None), (press(), 20.0)):
             with pytest.raises(InputError) as caught:
-                machine.flywheel(wanted, mean_speed)
+                machine.flywheel(wanted, mean_speed=mean_speed)
             assert (caught.value.kind, caught.value.value) == ("bad_fluctuation", wanted)
 
 
@@ -309,7 +316,9 @@ def test_a_stall_is_a_motion_error() -> None:
 
 def test_a_dead_point_is_the_same_error_in_a_steady_state_and_in_solve() -> None:
     swinging = assur.FourBar(2.0, 3.0, 3.0, 4.5)
-    machine = assur.Machine(swinging, {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)})
+    machine = assur.Machine(
+        swinging, bodies={"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)}
+    )
     with pytest.raises(assur.PositionError) as caught:
         machine.steady_state(5.0)
     assert (caught.value.kind, caught.value.joint, caught.value.group) == ("dead_point", "C", "C")

@@ -17,9 +17,11 @@ PHI = np.linspace(0.0, TURN, 241)
 
 
 def slider_crank() -> assur.Machine:
-    work = Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -150.0, 0.0], "linear")
+    work = Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -150.0, 0.0], spline="linear")
     bodies = {"crank": Body(inertia=0.5), "rod": Body(5.0, 0.1, (0.15, 0.0)), "piston": Body(20.0)}
-    return assur.Machine(assur.SliderCrank(0.1, 0.4), bodies, [Gravity(), Force("B", (work, 0.0))])
+    return assur.Machine(
+        assur.SliderCrank(0.1, 0.4), bodies=bodies, loads=[Gravity(), Force("B", (work, 0.0))]
+    )
 
 
 def four_bar() -> assur.Machine:
@@ -28,13 +30,13 @@ def four_bar() -> assur.Machine:
         "coupler": Body(1.0, 0.2, (1.0, 0.2)),
         "rocker": Body(2.0),
     }
-    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies, [Gravity()])
+    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=[Gravity()])
 
 
 def damped() -> assur.Machine:
     bodies = {"crank": Body(inertia=0.8), "rocker": Body(2.0, 0.5)}
     damper = TorsionDamper("rocker", 2.0)
-    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies, [damper])
+    return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=[damper])
 
 
 def table() -> assur.Machine:
@@ -118,9 +120,9 @@ def test_a_motor_that_sets_its_own_speed_keeps_it() -> None:
     motor = assur.LinearMotor(50.0, 15.0)
     machine = assur.Machine(
         assur.SliderCrank(0.1, 0.4),
-        {"piston": Body(20.0), "crank": Body(inertia=0.5)},
-        [assur.Torque("crank", -20.0)],
-        motor,
+        bodies={"piston": Body(20.0), "crank": Body(inertia=0.5)},
+        loads=[assur.Torque("crank", -20.0)],
+        motor=motor,
     )
     own = machine.steady_state()
     for mean in ("extremes", "period"):

@@ -23,7 +23,7 @@ def test_a_block_falls_along_its_guide(degrees: float) -> None:
     )
     assert one.dimensions["way.offset"] == 0.0
     pull = assur.Force("B", tuple(-30.0 * along))
-    run = assur.Machine(one, {"block": assur.Body(3.0)}, [pull]).run(t_end=0.5, q0=2.0)
+    run = assur.Machine(one, bodies={"block": assur.Body(3.0)}, loads=[pull]).run(t_end=0.5, q0=2.0)
     assert run.statistics.steps < 30
     np.testing.assert_allclose(run.at(0.5).q, 2.0 - 0.5 * 10.0 * 0.25, rtol=1e-10)
 

@@ -102,7 +102,7 @@ def test_inertia_is_kinetic_energy(name: str) -> None:
     bodies = {
         link: Body(1.5 + i, 0.2 + i / 7, (0.3 - i / 9, 0.1 * i)) for i, link in enumerate(links)
     }
-    machine = Machine(m, bodies)
+    machine = Machine(m, bodies=bodies)
     for q in positions(m):
         exact, n = Exact(m, q), len(q)
         value, d1 = machine.reduced_inertia(one(m, q))
@@ -126,7 +126,10 @@ def test_moment_is_power(name: str) -> None:
     bodies = {name: Body(2.0 + i, 0.1, (0.2, -0.1 * i)) for i, name in enumerate(links)}
     loads: list[Any] = [
         Gravity((0.5, -9.81)),
-        Force(joint, (30.0, Table([0.0, 2.0, 7.0], [1.0, 5.0, -3.0], "not-a-knot", False))),
+        Force(
+            joint,
+            (30.0, Table([0.0, 2.0, 7.0], [1.0, 5.0, -3.0], spline="not-a-knot", periodic=False)),
+        ),
         Force((links[0], (0.4, 0.2)), (7.0, -11.0), axes=links[-1]),
         # With several drivers q and speed are tuples.
         Torque(link, lambda t, q, v: t + 3.0 * np.ravel(q)[0] + np.ravel(v)[0], on=on),
@@ -135,7 +138,7 @@ def test_moment_is_power(name: str) -> None:
         Damper(ground, (link, (0.3, 0.3)), 5.0),
         TorsionDamper(link, 4.0, on=on),
     ]
-    machine = Machine(m, bodies, loads)
+    machine = Machine(m, bodies=bodies, loads=loads)
     curve = np.polynomial.Polynomial.fit([0.0, 2.0, 7.0], [1.0, 5.0, -3.0], 2)
     for q in positions(m):
         exact, n = Exact(m, q), len(q)
@@ -177,7 +180,7 @@ def test_moments_are_slopes_of_the_potential() -> None:
         Spring("A", "P", 30.0, 1.0, 4.0),
         TorsionSpring("rocker", 9.0, 0.4),
     ]
-    machine = Machine(m, {"coupler": Body(3.0, at="P")}, loads)
+    machine = Machine(m, bodies={"coupler": Body(3.0, at="P")}, loads=loads)
     q, h = np.linspace(-7.0, 7.0, 57), 1e-5
     slope = (machine.potential(q + h) - machine.potential(q - h)) / (2 * h)
     assert np.abs(machine.reduced_moment(q) + slope).max() < 1e-7
@@ -187,7 +190,9 @@ def test_equations_one_and_two_of_p3() -> None:
     """Term by term: a slider-crank by the papers' own theory of it."""
     crank, rod = 0.1, 0.4
     bodies = {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)}
-    machine = Machine(assur.SliderCrank(crank, rod), bodies, [Force("B", (-1000.0, 0.0))])
+    machine = Machine(
+        assur.SliderCrank(crank, rod), bodies=bodies, loads=[Force("B", (-1000.0, 0.0))]
+    )
     q = np.linspace(0.1, 6.1, 25)
     x = slider_crank.coordinate(q, crank, rod)
     value, d1 = machine.reduced_inertia(q)
@@ -201,32 +206,34 @@ def test_a_flywheel_from_the_machine_itself() -> None:
     phi = np.linspace(0.0, 2 * np.pi, 73)
     work = Table(phi, 4000.0 * np.exp(-(((phi - 5.0) / 0.5) ** 2)) * np.sin(phi / 2) ** 2)
     bodies = {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)}
-    machine = Machine(assur.SliderCrank(crank, rod), bodies, [Force("B", (work, 0.0))])
-    f = machine.flywheel(0.05, 20.0)
+    machine = Machine(assur.SliderCrank(crank, rod), bodies=bodies, loads=[Force("B", (work, 0.0))])
+    f = machine.flywheel(0.05, mean_speed=20.0)
     q = np.linspace(0.0, 2 * np.pi, 5001)
     x = slider_crank.coordinate(q, crank, rod)
     force = 4000.0 * np.exp(-(((q - 5.0) / 0.5) ** 2)) * np.sin(q / 2) ** 2
-    direct = flywheel.from_table(q, force * x.d1, 0.5 + 20.0 * x.d1**2, 0.05, 20.0)
+    direct = flywheel.from_table(
+        q, force * x.d1, 0.5 + 20.0 * x.d1**2, fluctuation=0.05, mean_speed=20.0
+    )
     # The spline through 73 rows of the force is good to some 1e-5 of it.
     assert f.inertia == pytest.approx(direct.inertia, rel=1e-4)
     assert f.delta == pytest.approx(0.05, rel=1e-12)
     assert f.mean_speed == pytest.approx(20.0, rel=1e-12)
     with pytest.raises(assur.InputError, match="a flywheel needs a single driver that turns"):
-        Machine(cylinder(), {"arm": Body(1.0)}).flywheel(0.1, 10.0)
-    swinging = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
+        Machine(cylinder(), bodies={"arm": Body(1.0)}).flywheel(0.1, mean_speed=10.0)
+    swinging = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), bodies={"crank": Body(inertia=1.0)})
     with pytest.raises(assur.PositionError, match=r"\"C\" cannot be assembled"):
-        swinging.flywheel(0.1, 10.0)
+        swinging.flywheel(0.1, mean_speed=10.0)
 
 
 def test_shapes_and_places_without_a_position() -> None:
     m = five_bar()
-    machine = Machine(m, {"b1": Body(1.0)}, [Gravity()])
+    machine = Machine(m, bodies={"b1": Body(1.0)}, loads=[Gravity()])
     q = np.broadcast_to(m.q0, (4, 3, 2))
     assert machine.reduced_inertia(q).value.shape == (4, 3, 2, 2)
     assert machine.reduced_inertia(q).d1.shape == (4, 3, 2, 2, 2)
     assert machine.reduced_moment(q, [1.0, 2.0]).shape == (4, 3, 2)
     assert machine.potential(q).shape == (4, 3)
-    single = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), {"crank": Body(inertia=1.0)})
+    single = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), bodies={"crank": Body(inertia=1.0)})
     assert np.shape(single.reduced_moment(0.6)) == ()
     value, d1 = single.reduced_inertia([0.6, np.pi], on_error="nan")
     assert np.isnan(value).tolist() == [False, True]
@@ -249,42 +256,77 @@ def pushed(t: float, q: float, speed: float) -> Any:
     [
         (lambda _: Body(mass=-1.0), "mass is -1, it must not be negative"),
         (lambda _: Body(inertia=np.nan), "inertia is nan: a finite number"),
-        (lambda m: Machine(m, {"x": Body()}), 'there is no link "x"'),
-        (lambda m: Machine(m, {"crank": Body(at="C")}), "joint 'C' is not one of its joints A, B"),
-        (lambda m: Machine(m, {"crank": ANY}), "bodies.'crank'. is 3: an assur.Body is needed"),
-        (lambda m: Machine(m, {}, [ANY]), "3 is not a load"),
-        (lambda m: Machine(m, {}, [Force("Z", (1, 1))]), 'there is no joint "Z"'),
-        (lambda m: Machine(m, {}, [Force("C", ANY)]), r"3 is not two components \(fx, fy\)"),
-        (lambda m: Machine(m, {}, [Force(ANY, (1, 1))]), "3 is not a location"),
-        (lambda m: Machine(m, {}, [Torque("rockr", 1.0)]), 'did you mean "rocker"'),
-        (lambda m: Machine(m, {}, [Torque("rocker", np.inf)]), "inf: a finite number is needed"),
-        (lambda m: Machine(m, {}, [Gravity(ANY)]), "two finite numbers"),
-        (lambda m: Machine(m, {}, [Torque("rocker", Table([0, 1], [1, 2]))]), "not periodic"),
-        (lambda m: Machine(m, {}, [Torque("rocker", Table([1, 0], [1, 1]))]), r"is below q\[0\]"),
+        (lambda m: Machine(m, bodies={"x": Body()}), 'there is no link "x"'),
         (
-            lambda m: Machine(m.with_dimensions({"crank.length": [1.0, 1.1]}), {}).run(1.0),
+            lambda m: Machine(m, bodies={"crank": Body(at="C")}),
+            "joint 'C' is not one of its joints A, B",
+        ),
+        (
+            lambda m: Machine(m, bodies={"crank": ANY}),
+            "bodies.'crank'. is 3: an assur.Body is needed",
+        ),
+        (lambda m: Machine(m, bodies={}, loads=[ANY]), "3 is not a load"),
+        (lambda m: Machine(m, bodies={}, loads=[Force("Z", (1, 1))]), 'there is no joint "Z"'),
+        (
+            lambda m: Machine(m, bodies={}, loads=[Force("C", ANY)]),
+            r"3 is not two components \(fx, fy\)",
+        ),
+        (lambda m: Machine(m, bodies={}, loads=[Force(ANY, (1, 1))]), "3 is not a location"),
+        (lambda m: Machine(m, bodies={}, loads=[Torque("rockr", 1.0)]), 'did you mean "rocker"'),
+        (
+            lambda m: Machine(m, bodies={}, loads=[Torque("rocker", np.inf)]),
+            "inf: a finite number is needed",
+        ),
+        (lambda m: Machine(m, bodies={}, loads=[Gravity(ANY)]), "two finite numbers"),
+        (
+            lambda m: Machine(m, bodies={}, loads=[Torque("rocker", Table([0, 1], [1, 2]))]),
+            "not periodic",
+        ),
+        (
+            lambda m: Machine(m, bodies={}, loads=[Torque("rocker", Table([1, 0], [1, 1]))]),
+            r"is below q\[0\]",
+        ),
+        (
+            lambda m: Machine(m.with_dimensions({"crank.length": [1.0, 1.1]}), bodies={}).run(1.0),
             r"run is for one design, this is a batch \(2,\)",
         ),
-        (lambda m: Machine(m, {}, (), ANY), "3 is not a motor"),
-        (lambda m: Machine(m, {}, (), assur.LinearMotor(-1.0, 3.0)), "stall is -1, it must be pos"),
-        (lambda m: Machine(m, {}, (), assur.LinearMotor(1.0, 3.0, ratio=0.0)), "ratio is 0"),
+        (lambda m: Machine(m, bodies={}, loads=(), motor=ANY), "3 is not a motor"),
         (
-            lambda m: Machine(m, {}, (), assur.ConstantTorque(1.0, rotor_inertia=-2.0)),
-            "rotor_inertia is -2, it must not be negative",
+            lambda m: Machine(m, bodies={}, loads=(), motor=assur.LinearMotor(-1.0, 3.0)),
+            "stall is -1, it must be pos",
         ),
-        (lambda m: Machine(m, {}, (), assur.InductionMotor(1.0, 0.0, 9.0)), "slip is 0"),
-        (lambda m: Machine(m, {}, (), assur.Table([2, 1], [1, 0])), r"is below q\[0\]"),
-        (lambda _: Machine(five_bar(), {}, (), assur.ConstantTorque(1.0)), "2 drivers need"),
-        (lambda m: Machine(m, {}).reduced_moment([0, 1], [1, 2, 3]), "they do not fit"),
-        (lambda m: Machine(m, {}).reduced_moment(0, on_error=ANY), "on_error is 3"),
+        (
+            lambda m: Machine(m, bodies={}, loads=(), motor=assur.LinearMotor(1.0, 3.0, ratio=0.0)),
+            "ratio is 0",
+        ),
         (
             lambda m: Machine(
-                m, {}, [Torque("rocker", Table([0, 1], [1, 2], periodic=False))]
+                m, bodies={}, loads=(), motor=assur.ConstantTorque(1.0, rotor_inertia=-2.0)
+            ),
+            "rotor_inertia is -2, it must not be negative",
+        ),
+        (
+            lambda m: Machine(m, bodies={}, loads=(), motor=assur.InductionMotor(1.0, 0.0, 9.0)),
+            "slip is 0",
+        ),
+        (
+            lambda m: Machine(m, bodies={}, loads=(), motor=assur.Table([2, 1], [1, 0])),
+            r"is below q\[0\]",
+        ),
+        (
+            lambda _: Machine(five_bar(), bodies={}, loads=(), motor=assur.ConstantTorque(1.0)),
+            "2 drivers need",
+        ),
+        (lambda m: Machine(m, bodies={}).reduced_moment([0, 1], [1, 2, 3]), "they do not fit"),
+        (lambda m: Machine(m, bodies={}).reduced_moment(0, on_error=ANY), "on_error is 3"),
+        (
+            lambda m: Machine(
+                m, bodies={}, loads=[Torque("rocker", Table([0, 1], [1, 2], periodic=False))]
             ).reduced_moment([0.5, 2.0]),
             "a table over q covers 0 to 1: 2 is not in it",
         ),
         (
-            lambda m: Machine(m, {}, [Torque("rocker", pushed)]),
+            lambda m: Machine(m, bodies={}, loads=[Torque("rocker", pushed)]),
             r"torque\(t, q, speed\) gives 'hard' at t = 0, q = 1.15.*: a number is needed",
         ),
     ],
@@ -304,7 +346,7 @@ def test_designs_are_those_one_by_one() -> None:
         "coupler": Body(2.0, 0.3, (1.0, 0.2)),
         "rocker": Body(1.0),
     }
-    machine = Machine(m, bodies, [Gravity(), TorsionSpring("rocker", 3.0, 0.2)])
+    machine = Machine(m, bodies=bodies, loads=[Gravity(), TorsionSpring("rocker", 3.0, 0.2)])
     assert machine.shape == (2, 3)
     q = np.linspace(0.0, 6.0, 7)
     value, d1 = machine.reduced_inertia(q, on_error="nan")
@@ -332,16 +374,18 @@ def test_designs_are_those_one_by_one() -> None:
 def test_flywheels_of_designs() -> None:
     rods = np.array([0.3, 0.4, 0.05, 0.6])
     m = assur.SliderCrank(0.1, 0.4).with_dimensions({"rod.length": rods})
-    work = Table([0.0, 3.5, 5.0, 2 * np.pi], [0.0, 0.0, -1500.0, 0.0], "linear")
+    work = Table([0.0, 3.5, 5.0, 2 * np.pi], [0.0, 0.0, -1500.0, 0.0], spline="linear")
     machine = Machine(
         m,
-        {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)},
-        [Force("B", (work, 0.0))],
+        bodies={"crank": Body(inertia=0.5), "piston": Body(mass=20.0)},
+        loads=[Force("B", (work, 0.0))],
     )
-    many = machine.flywheel(0.05, [20.0, 20.0, 20.0, 25.0], mean="period", on_error="nan")
+    many = machine.flywheel(
+        0.05, mean_speed=[20.0, 20.0, 20.0, 25.0], mean="period", on_error="nan"
+    )
     assert np.isnan(many.inertia).tolist() == [False, False, True, False]
     for i, speed in ((0, 20.0), (1, 20.0), (3, 25.0)):
-        one = machine.design(i).flywheel(0.05, speed, mean="period")
+        one = machine.design(i).flywheel(0.05, mean_speed=speed, mean="period")
         assert many.inertia[i] == pytest.approx(one.inertia, rel=1e-9)
         # And by another method: the flywheel of the integrated motion.
         steady = machine.design(i).steady_state(speed, flywheel=one.inertia, mean="period")
@@ -350,13 +394,13 @@ def test_flywheels_of_designs() -> None:
 
 def test_corners_of_tables_are_knots() -> None:
     """A force with corners: the same flywheel by the integrated motion."""
-    work = Table([0.0, 3.5, 5.0, 5.2, 2 * np.pi], [0.0, 0.0, -1500.0, 0.0, 0.0], "linear")
+    work = Table([0.0, 3.5, 5.0, 5.2, 2 * np.pi], [0.0, 0.0, -1500.0, 0.0, 0.0], spline="linear")
     machine = Machine(
         assur.SliderCrank(0.1, 0.4),
-        {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)},
-        [Force("B", (work, 0.0))],
+        bodies={"crank": Body(inertia=0.5), "piston": Body(mass=20.0)},
+        loads=[Force("B", (work, 0.0))],
     )
-    made = machine.flywheel(0.05, 20.0, mean="period")
+    made = machine.flywheel(0.05, mean_speed=20.0, mean="period")
     steady = machine.steady_state(20.0, mean="period", flywheel=made.inertia)
     assert steady.delta == pytest.approx(0.05, rel=1e-9)
     assert steady.motor_moment == pytest.approx(made.motor_moment, rel=1e-9)
@@ -367,15 +411,15 @@ def test_corners_of_tables_are_knots() -> None:
 
     rough = Machine(
         assur.SliderCrank(0.1, 0.4),
-        {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)},
-        [Force("B", (jump, 0.0))],
+        bodies={"crank": Body(inertia=0.5), "piston": Body(mass=20.0)},
+        loads=[Force("B", (jump, 0.0))],
     )
     with pytest.warns(assur.AssurWarning, match="not smooth"):
-        rough.flywheel(0.05, 20.0)
+        rough.flywheel(0.05, mean_speed=20.0)
 
 
 def test_an_interrupt_is_heard() -> None:
-    machine = Machine(four_bar(), {"coupler": Body(1.0)}, [Gravity()])
+    machine = Machine(four_bar(), bodies={"coupler": Body(1.0)}, loads=[Gravity()])
 
     def work(size: int) -> Callable[[], object]:
         q = np.linspace(0.0, 6.0, size)

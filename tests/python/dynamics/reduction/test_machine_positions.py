@@ -29,7 +29,7 @@ def test_reduced_inertias_are_those_of_the_motion(name: str) -> None:
     q = np.random.default_rng(2).uniform(-0.8, 0.8, (20, *np.shape(m.q0))) + m.q0
     motion = m.solve(q, order=1, on_error="nan")
     for link in (link for link in m.links if link != "ground"):
-        machine = assur.Machine(m, {link: assur.Body(inertia=1.0)})
+        machine = assur.Machine(m, bodies={link: assur.Body(inertia=1.0)})
         found = machine.reduced_inertia(q, on_error="nan").value.reshape(8, 20, drivers, drivers)
         rate = motion.link(link).d1.reshape(8, 20, drivers)
         expected = rate[..., np.newaxis] * rate[..., np.newaxis, :]
@@ -41,7 +41,7 @@ def test_reduced_inertias_are_those_of_the_motion(name: str) -> None:
 def test_a_position_lost_beside_a_fold_has_no_moment(before: float) -> None:
     """It once had one, which depended on the positions asked for with it."""
     m = reaction_case(108).mechanism
-    machine = assur.Machine(m, {"L4": assur.Body(1.0, 0.1)}, [assur.Gravity()])
+    machine = assur.Machine(m, bodies={"L4": assur.Body(1.0, 0.1)}, loads=[assur.Gravity()])
     q = 1.8877209835496425 - before
     lost = m.solve(q, on_error="nan").status > assur.Status.NEAR_SINGULAR
     for asked in ([q], [q, 1.5], [1.7, q]):
@@ -54,7 +54,9 @@ def test_positions_after_a_change_point_are_those_alone() -> None:
     """There a state is interpolated: even the ground in it is rounded."""
     m = assur.FourBar(1.0, 3.0, 1.0, 3.0)
     body, about = assur.Body(2.0, 0.5, at=(0.3, 0.1)), assur.Body(1.0, 0.2)
-    machine = assur.Machine(m, {"crank": body, "coupler": about, "rocker": body}, [assur.Gravity()])
+    machine = assur.Machine(
+        m, bodies={"crank": body, "coupler": about, "rocker": body}, loads=[assur.Gravity()]
+    )
     beside = np.pi + np.array([0.0, 1e-12, -3e-9, 2e-6, -1e-4, 5e-4])
     q = np.ravel(np.column_stack([beside, np.linspace(0.4, 2.9, len(beside))]))
 

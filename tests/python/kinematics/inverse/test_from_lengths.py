@@ -91,7 +91,7 @@ def test_the_length_of_a_cylinder_is_a_coordinate(pair: tuple[str, str]) -> None
         {"ground": ["foot", "base"], "boom": ["foot", "eye"]},
         "lift",
         {pair: 3.0},
-        {"lift": assur.Cylinder("base", "eye")},
+        slides={"lift": assur.Cylinder("base", "eye")},
     )
     refused(assur.InputError, f"{pair[0]}-{pair[1]} coordinate slide 'lift'", ask)
 

@@ -37,12 +37,17 @@ MOTOR = LinearMotor(90.0, 30.0)
 
 def driven(motor: Any, *loads: Any, inertia: float = 2.0) -> Machine:
     """A crank with an inertia and a motor; nothing else has mass."""
-    return Machine(assur.SliderCrank(0.1, 0.4), {"crank": Body(inertia=inertia)}, loads, motor)
+    return Machine(
+        assur.SliderCrank(0.1, 0.4),
+        bodies={"crank": Body(inertia=inertia)},
+        loads=loads,
+        motor=motor,
+    )
 
 
 def toothed() -> Torque:
     """A load with three knots a turn."""
-    return Torque("crank", Table([0.0, 3.0, TURN], [0.0, 1.0, 0.0], "linear"))
+    return Torque("crank", Table([0.0, 3.0, TURN], [0.0, 1.0, 0.0], spline="linear"))
 
 
 def pole(_: float, q: float, __: float) -> float:
@@ -54,9 +59,9 @@ def overrun() -> Machine:
     """A load so much stronger than its motor that the speed hardly depends on the motor."""
     return Machine(
         assur.FourBar(1.0, 3.0, 2.5, 3.2),
-        {"crank": Body(inertia=0.05), "rocker": Body(0.9, 0.1)},
-        [Torque("crank", 50.0)],
-        assur.InductionMotor(3.78, 0.145, 14.64),
+        bodies={"crank": Body(inertia=0.05), "rocker": Body(0.9, 0.1)},
+        loads=[Torque("crank", 50.0)],
+        motor=assur.InductionMotor(3.78, 0.145, 14.64),
     )
 
 
@@ -64,12 +69,12 @@ def through_change_points() -> Machine:
     """A four-bar that takes two turns to come back."""
     bodies = {"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(1.0)}
     damper = TorsionDamper("rocker", 0.5)
-    return Machine(assur.FourBar(1.0, 2.0, 3.0, 4.0), bodies, [damper])
+    return Machine(assur.FourBar(1.0, 2.0, 3.0, 4.0), bodies=bodies, loads=[damper])
 
 
 def half_turning() -> Machine:
     bodies = {"crank": Body(inertia=1.0), "rocker": Body(inertia=1.0)}
-    return Machine(assur.FourBar(2.0, 3.0, 3.0, 4.5), bodies)
+    return Machine(assur.FourBar(2.0, 3.0, 3.0, 4.5), bodies=bodies)
 
 
 def sized(**changed: Any) -> flywheel.Flywheel:
@@ -92,7 +97,12 @@ def jammed() -> Machine:
     """Beside its stretched position friction in the pins leaves no motion against the load."""
     pins = {name: JointFriction(0.1, 1.0) for name in "ABCD"}
     linkage = assur.FourBar(1.0, 4.5, 1.5, 4.985)
-    return Machine(linkage, {"crank": Body(inertia=1.0)}, [Torque("rocker", -100.0)], friction=pins)
+    return Machine(
+        linkage,
+        bodies={"crank": Body(inertia=1.0)},
+        loads=[Torque("rocker", -100.0)],
+        friction=pins,
+    )
 
 
 RUN: dict[str, Case] = {
@@ -158,7 +168,7 @@ STEADY: dict[str, Case] = {
     "motor_table_ends": Case(
         InputError,
         lambda: driven(
-            Table([-5.0, 10.0, 20.0, 30.0], [60.0, 50.0, 45.0, 0.0], "linear"),
+            Table([-5.0, 10.0, 20.0, 30.0], [60.0, 50.0, 45.0, 0.0], spline="linear"),
             Torque("crank", 10.0),
         ).steady_state(),
         {"q": 0.0, "value": 30.0},
@@ -207,7 +217,7 @@ TABLE: dict[str, Case] = {
     ),
     "periodic_jump": Case(
         InputError,
-        lambda: Table([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 1.0, 0.0], "periodic"),
+        lambda: Table([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 1.0, 0.0], spline="periodic"),
         {"q": 1.0, "value": 1.0},
     ),
     "inertia_jumps": Case(

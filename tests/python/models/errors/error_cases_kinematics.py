@@ -133,7 +133,9 @@ def to_infinity() -> assur.Motion:
 
 def nearly_in_line() -> assur.Machine:
     linkage = assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0)
-    return assur.Machine(linkage, {"rocker": assur.Body(1.0, 0.5), "coupler": assur.Body(2.0, 0.3)})
+    return assur.Machine(
+        linkage, bodies={"rocker": assur.Body(1.0, 0.5), "coupler": assur.Body(2.0, 0.3)}
+    )
 
 
 def door(driver: str = "lift", **slide: Any) -> assur.Mechanism:
@@ -144,11 +146,11 @@ def door(driver: str = "lift", **slide: Any) -> assur.Mechanism:
         links |= {"tube": ["foot"], "ram": ["eye"]}
         lift = assur.Slide("ram", "tube", origin="foot", **slide)
     joints = {"hinge": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)}
-    return assur.Mechanism(joints, links, driver, {"lift": lift})
+    return assur.Mechanism(joints, links, driver, slides={"lift": lift})
 
 
 def rocker_machine() -> assur.Machine:
-    return assur.Machine(ROCKER, {"rocker": assur.Body(inertia=1.0)})
+    return assur.Machine(ROCKER, bodies={"rocker": assur.Body(inertia=1.0)})
 
 
 STRUCTURE: dict[str, Case] = {
@@ -266,7 +268,7 @@ POSITION: dict[str, Case] = {
     ),
     "zero_length": Case(
         PositionError,
-        lambda: assur.Machine(door("door"), {"door": assur.Body(inertia=1.0)}).run(
+        lambda: assur.Machine(door("door"), bodies={"door": assur.Body(inertia=1.0)}).run(
             1.0, q0=-0.5 * math.pi
         ),
         {"slide": "lift", "q": -0.5 * math.pi},

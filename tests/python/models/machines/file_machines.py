@@ -10,8 +10,8 @@ from assur import Body, Table
 from models.machines.machines import TURN, cylinder, five_bar, four_bar
 
 THIRD = 1.0 / 3.0
-WORK = Table([0.0, 3.5, 5.0, TURN], [0.0, -0.0, -1500.0 * THIRD, 0.0], "linear")
-OPEN = Table([-1.0, 0.1, 1e22], [5e-324, THIRD, -0.0], "linear", periodic=False)
+WORK = Table([0.0, 3.5, 5.0, TURN], [0.0, -0.0, -1500.0 * THIRD, 0.0], spline="linear")
+OPEN = Table([-1.0, 0.1, 1e22], [5e-324, THIRD, -0.0], spline="linear", periodic=False)
 
 LOADS: dict[str, Any] = {
     "gravity": assur.Gravity(),
@@ -36,11 +36,14 @@ IN_PRACTICE: list[Any] = [
     assur.Pressure("ram", THIRD, Table([0.1, 9.0], [1e5, 2e5], over="ram"), "forward"),
     assur.Pressure("ram", 0.01, 3e5, "forward", while_="backward", over="arm"),
     assur.Force(
-        "P", (Table([0.1, 0.9, 0.9, 9.0], [1.0, 2.0, -0.0, THIRD], "linear", over="ram"), -THIRD)
+        "P",
+        (Table([0.1, 0.9, 0.9, 9.0], [1.0, 2.0, -0.0, THIRD], spline="linear", over="ram"), -THIRD),
     ),
     assur.Force("P", (0.0, -9.0), while_="forward", over="ram"),
     assur.Torque(
-        "arm", Table([-9.0, 9.0, 9.5], [0.0, THIRD, 0.0], "linear", over="arm"), while_="backward"
+        "arm",
+        Table([-9.0, 9.0, 9.5], [0.0, THIRD, 0.0], spline="linear", over="arm"),
+        while_="backward",
     ),
 ]
 
@@ -49,16 +52,21 @@ MOTORS: dict[str, Any] = {
     "constant of a table": assur.ConstantTorque(WORK, ratio=-THIRD, rotor_inertia=0.01),
     "linear": assur.LinearMotor(stall=40.0, no_load=150.0 * THIRD, ratio=10.0),
     "induction": assur.InductionMotor(60.0, 0.15, 157.1, ratio=7.5, rotor_inertia=THIRD),
-    "table": Table([0.0, 10.0, 20.0], [5.0, 4.0, -THIRD], "clamped", ratio=3.0, rotor_inertia=0.2),
+    "table": Table(
+        [0.0, 10.0, 20.0], [5.0, 4.0, -THIRD], spline="clamped", ratio=3.0, rotor_inertia=0.2
+    ),
 }
 
 
 def one_part_machines() -> dict[str, assur.Machine]:
     """A machine for each load and motor."""
     m = four_bar()
-    made = {name: assur.Machine(m, {"rocker": Body(2.0)}, [load]) for name, load in LOADS.items()}
+    made = {
+        name: assur.Machine(m, bodies={"rocker": Body(2.0)}, loads=[load])
+        for name, load in LOADS.items()
+    }
     made |= {
-        f"motor, {name}": assur.Machine(m, {"crank": Body(inertia=1.0)}, motor=motor)
+        f"motor, {name}": assur.Machine(m, bodies={"crank": Body(inertia=1.0)}, motor=motor)
         for name, motor in MOTORS.items()
     }
     return made
@@ -80,10 +88,16 @@ def whole_machines() -> dict[str, assur.Machine]:
     lengths = {"coupler.length": [3.1, 3.2, math.nan], "ground.D.x": 4.0}
     return {
         "nothing": assur.Machine(m),
-        "everything": assur.Machine(m, bodies, list(LOADS.values()), MOTORS["induction"], friction),
-        "cylinder": assur.Machine(cylinder(), {"arm": Body(3.0)}, friction={"ram": guide}),
-        "in practice": assur.Machine(cylinder(), {"arm": Body(3.0)}, IN_PRACTICE),
+        "everything": assur.Machine(
+            m,
+            bodies=bodies,
+            loads=list(LOADS.values()),
+            motor=MOTORS["induction"],
+            friction=friction,
+        ),
+        "cylinder": assur.Machine(cylinder(), bodies={"arm": Body(3.0)}, friction={"ram": guide}),
+        "in practice": assur.Machine(cylinder(), bodies={"arm": Body(3.0)}, loads=IN_PRACTICE),
         "two motors": assur.Machine(five_bar(), motor=[MOTORS["linear"], MOTORS["table"]]),
         "one motor of two": assur.Machine(five_bar(), motor=[None, MOTORS["constant"]]),
-        "designs": assur.Machine(m.with_dimensions(lengths), {"rocker": Body(2.0)}),
+        "designs": assur.Machine(m.with_dimensions(lengths), bodies={"rocker": Body(2.0)}),
     }

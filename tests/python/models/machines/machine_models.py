@@ -172,7 +172,7 @@ class Parts:
         kinds: Sequence[Spline] = SPLINES
         if not periodic:
             kinds = [kind for kind in SPLINES if kind != "periodic"]
-        return assur.Table(knots, values, rng.choice(kinds), periodic=periodic)
+        return assur.Table(knots, values, spline=rng.choice(kinds), periodic=periodic)
 
     def function(self, size: float) -> Any:
         a, b, c = (self.rng.uniform(-size, size) / 3 for _ in range(3))
@@ -195,7 +195,7 @@ class Parts:
             return assur.InductionMotor(breakdown, slip, rng.uniform(20, 60), ratio)
         speeds = np.linspace(-500.0, 500.0, rng.randint(6, 12))
         torques = [rng.uniform(-10, 10) for _ in speeds]
-        return assur.Table(speeds, torques, "not-a-knot", ratio=ratio, rotor_inertia=0.02)
+        return assur.Table(speeds, torques, spline="not-a-knot", ratio=ratio, rotor_inertia=0.02)
 
     def motor_torque(self) -> Any:
         a, w = self.rng.uniform(-10, 10), self.rng.uniform(1, 10)

@@ -60,11 +60,13 @@ def in_units(d: Description, machine: assur.Machine, u: Units) -> assur.Machine:
     return rubbing(mechanism, bodies, loads, motors(machine, u, unit), friction)
 
 
-def rubbing(mechanism: assur.Mechanism, *parts: Any) -> assur.Machine:
+def rubbing(
+    mechanism: assur.Mechanism, bodies: Any, loads: Any, motor: Any, friction: Any
+) -> assur.Machine:
     """A machine whose loads at joints are on the links that the library chooses."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", ".*the friction depends on which", assur.AssurWarning)
-        return assur.Machine(mechanism, *parts)
+        return assur.Machine(mechanism, bodies=bodies, loads=loads, motor=motor, friction=friction)
 
 
 def body(one: assur.Body, u: Units) -> assur.Body:
@@ -85,7 +87,9 @@ def value(one: Any, unit: float, u: Units, q: NDArray[np.float64], over: float) 
     """A number, a table or a function of (t, q, speed), in other units."""
     if isinstance(one, assur.Table):
         x = one.q * (over if one.over else q[0])
-        return assur.Table(x, one.value * unit, one.spline, one.periodic, over=one.over)
+        return assur.Table(
+            x, one.value * unit, spline=one.spline, periodic=one.periodic, over=one.over
+        )
     if callable(one):
         per = q if len(q) > 1 else q[0]
         return lambda t, x, v: unit * one(t / u.time, x / per, v / per * u.time)
@@ -144,7 +148,9 @@ def motor(one: Any, u: Units, q: NDArray[np.float64], k: int) -> Any:
         return replace(
             one, breakdown=u.torque * one.breakdown, synchronous=one.synchronous / u.time, **extra
         )
-    return assur.Table(one.q / u.time, u.torque * one.value, one.spline, one.periodic, **extra)
+    return assur.Table(
+        one.q / u.time, u.torque * one.value, spline=one.spline, periodic=one.periodic, **extra
+    )
 
 
 def rubbed(one: Any, u: Units) -> Any:

@@ -40,19 +40,25 @@ def cylinder() -> assur.Mechanism:
 def pendulum() -> assur.Machine:
     """A crank of a parallel four-bar with all of the mass in it: a mathematical pendulum of 1 m."""
     m = assur.FourBar(1.0, 4.0, 3.0, 3.5)
-    return assur.Machine(m, {"crank": Body(mass=2.0, at="B")}, [Gravity((-1.0, 0.0))])
+    return assur.Machine(m, bodies={"crank": Body(mass=2.0, at="B")}, loads=[Gravity((-1.0, 0.0))])
 
 
 def press(motor: Any = None, **more: Any) -> assur.Machine:
-    work = assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -1500.0, 0.0], "linear")
+    work = assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -1500.0, 0.0], spline="linear")
     return assur.Machine(
         assur.SliderCrank(0.1, 0.4),
-        {"crank": Body(inertia=0.5), "rod": Body(5.0, 0.1, (0.15, 0.0)), "piston": Body(20.0)},
-        [assur.Gravity(), Force("B", (work, 0.0)), *more.get("loads", [])],
-        motor,
+        bodies={
+            "crank": Body(inertia=0.5),
+            "rod": Body(5.0, 0.1, (0.15, 0.0)),
+            "piston": Body(20.0),
+        },
+        loads=[assur.Gravity(), Force("B", (work, 0.0)), *more.get("loads", [])],
+        motor=motor,
     )
 
 
 def wheel(*loads: Any, inertia: float = 2.0) -> assur.Machine:
     """A crank with an inertia; nothing else has mass."""
-    return assur.Machine(assur.SliderCrank(0.1, 0.4), {"crank": Body(inertia=inertia)}, loads)
+    return assur.Machine(
+        assur.SliderCrank(0.1, 0.4), bodies={"crank": Body(inertia=inertia)}, loads=loads
+    )

@@ -57,12 +57,12 @@ def marghitu() -> list[Published]:
     inertia = (1.0**2 + 0.01**2) / 12
     machine = assur.Machine(
         assur.SliderCrank(1.0, 1.0),
-        {
+        bodies={
             "crank": Body(1.0, inertia, (0.5, 0.0)),
             "rod": Body(1.0, inertia, (0.5, 0.0)),
             "piston": Body(1.0),
         },
-        [Gravity((0.0, -10.0)), Force("B", (100.0, 0.0))],
+        loads=[Gravity((0.0, -10.0)), Force("B", (100.0, 0.0))],
     )
     root = math.sqrt(2.0)
     force = (-(400.0 + 7.0 * root) / 4.0, 5.0 * (84.0 + root) / 4.0)
@@ -83,12 +83,12 @@ def linkage_sim() -> list[Published]:
     """
     four_bar = assur.Machine(
         assur.FourBar(1.0, 3.0, 2.0, 4.0),
-        {
+        bodies={
             "crank": Body(2.0, 0.01, (0.5, 0.0)),
             "coupler": Body(3.0, 0.05, (1.5, 0.0)),
             "rocker": Body(2.0, 0.02, (1.0, 0.0)),
         },
-        [Gravity()],
+        loads=[Gravity()],
     )
     rows = (
         (30.0, 21.085597076442088, (5.552977629114837, 37.36356342518907)),
@@ -106,12 +106,12 @@ def linkage_sim() -> list[Published]:
     ]
     crank_slider = assur.Machine(
         assur.SliderCrank(1.0, 3.0),
-        {
+        bodies={
             "crank": Body(1.0, 0.01, (0.5, 0.0)),
             "rod": Body(2.0, 0.1, (1.5, 0.0)),
             "piston": Body(0.5),
         },
-        [Gravity()],
+        loads=[Gravity()],
     )
     torques = ((15.0, 14.213598533843658), (55.0, 8.440177260905646), (95.0, -1.282496754531813))
     out += [
@@ -230,7 +230,7 @@ def six_bar_machine(m: assur.Mechanism, heavy: Sequence[str], load: assur.Force)
         for link in m.links
         if link != "ground"
     }
-    return assur.Machine(m, bodies, [Gravity(), load])
+    return assur.Machine(m, bodies=bodies, loads=[Gravity(), load])
 
 
 # -- a six-bar with a slider ------------------------------------------------------------------
@@ -337,7 +337,7 @@ def khurmi() -> list[Published]:
         inertia = mass * omega**2 * crank * terms
         static = assur.Machine(m, loads=[Force("B", (inertia - load, 0.0))])
         out.append(Published(f"Khurmi {name}", static, theta, 0.0, printed))
-        true = assur.Machine(m, {"piston": Body(mass)}, [Force("B", (-load, 0.0))])
+        true = assur.Machine(m, bodies={"piston": Body(mass)}, loads=[Force("B", (-load, 0.0))])
         near = [Printed(p.what, p.value, 0.01 * p.value, p.signed) for p in printed]
         out.append(Published(f"Khurmi {name}, true motion", true, theta, omega, near))
     return out

@@ -80,7 +80,7 @@ def resting_case(seed: int) -> Case:
         force = rng.uniform(-100, 100), rng.uniform(-100, 100)
         link = rng.choice([n for n in parts.links if n != GROUND])
         loads.append(assur.Force((link, (rng.uniform(-1, 1), rng.uniform(-1, 1))), force))
-    plain = assur.Machine(m, parts.bodies(), loads)
+    plain = assur.Machine(m, bodies=parts.bodies(), loads=loads)
     machine = with_friction(d, plain, rng)
     speed = rng.choice((-1, 1)) * rng.uniform(*SPEED)
     return Case(d, machine, tuple(_resting(d, machine, body)), speed, T_END, seed)

@@ -46,4 +46,6 @@ def with_friction(plain: assur.Machine, friction: dict[str, Any]) -> assur.Machi
     assert plain.mechanism is not None
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", ".*the friction depends on which", assur.AssurWarning)
-        return assur.Machine(plain.mechanism, plain.bodies, plain.loads, friction=friction)
+        return assur.Machine(
+            plain.mechanism, bodies=plain.bodies, loads=plain.loads, friction=friction
+        )

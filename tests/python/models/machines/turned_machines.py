@@ -35,7 +35,13 @@ def ordered(d: Description, machine: assur.Machine) -> assur.Machine:
         return load
 
     loads = [fixed(load) for load in machine.loads]
-    return assur.Machine(mechanism, machine.bodies, loads, machine.motor, machine.friction)
+    return assur.Machine(
+        mechanism,
+        bodies=machine.bodies,
+        loads=loads,
+        motor=machine.motor,
+        friction=machine.friction,
+    )
 
 
 def on_link(d: Description, at: Any) -> Any:
@@ -83,9 +89,9 @@ class _Turning:
         many = isinstance(motor, tuple)
         return assur.Machine(
             self.mechanism,
-            {self.link[n]: self.body(one) for n, one in own.bodies.items()},
-            [self.load(one) for one in own.loads],
-            [self.motor(one) for one in motor] if many else self.motor(motor),
+            bodies={self.link[n]: self.body(one) for n, one in own.bodies.items()},
+            loads=[self.load(one) for one in own.loads],
+            motor=[self.motor(one) for one in motor] if many else self.motor(motor),
             friction={{**self.joint, **self.slide}[n]: one for n, one in own.friction.items()},
         )
 
@@ -94,7 +100,9 @@ class _Turning:
         if isinstance(one, assur.Table):
             shift = self.angle.get(one.over, 0.0) if one.over else self.q[0]
             over = None if one.over is None else {**self.link, **self.slide}[one.over]
-            return assur.Table(one.q + shift, one.value, one.spline, one.periodic, over=over)
+            return assur.Table(
+                one.q + shift, one.value, spline=one.spline, periodic=one.periodic, over=over
+            )
         if callable(one):
             shift = self.q if len(self.q) > 1 else self.q[0]
             return lambda t, x, v: one(t, x - shift, v)

@@ -51,8 +51,8 @@ class Units:
         own = [self.motor(one, by) for one, by in zip(motors, coordinates, strict=True)]
         return assur.Machine(
             self.mechanism(description),
-            {name: self.body(one) for name, one in machine.bodies.items()},
-            [self.load(one, machine.mechanism) for one in machine.loads],
+            bodies={name: self.body(one) for name, one in machine.bodies.items()},
+            loads=[self.load(one, machine.mechanism) for one in machine.loads],
             motor=own if any(own) else None,
             friction={name: self.friction(one) for name, one in machine.friction.items()},
         )

@@ -91,7 +91,7 @@ def triad_block_on_ground(rng: np.random.Generator) -> Case:
             "block": "R",
         },
         "crank",
-        {"guide": assur.Slide("block", on="ground", angle=angle, origin="O")},
+        slides={"guide": assur.Slide("block", on="ground", angle=angle, origin="O")},
     )
     a, b, r = length(p["A"], p["P"]), length(p["P"], p["Q"]), length(p["U"], p["Q"])
     way = complex(math.cos(angle), math.sin(angle))
@@ -119,7 +119,7 @@ def triad_block_on_plate(rng: np.random.Generator) -> Case:
             "block": "V",
         },
         "crank",
-        {"slot": assur.Slide("block", on="plate", angle=angle, origin="P")},
+        slides={"slot": assur.Slide("block", on="plate", angle=angle, origin="P")},
     )
     a, b, r = length(p["A"], p["P"]), length(p["P"], p["Q"]), length(p["U"], p["Q"])
     way = complex(math.cos(angle), math.sin(angle))
@@ -149,7 +149,7 @@ def triad_two_blocks(rng: np.random.Generator) -> Case:
             "second": "R",
         },
         "crank",
-        {
+        slides={
             "one": assur.Slide("first", on="ground", angle=angles[0], origin="O"),
             "other": assur.Slide("second", on="ground", angle=angles[1], origin="O"),
         },
@@ -180,7 +180,7 @@ def triad_inner_and_outer_block(rng: np.random.Generator) -> Case:
             "block": "V",
         },
         "crank",
-        {
+        slides={
             "bore": assur.Slide("piston", on="ground", angle=angles[0], origin="O"),
             "slot": assur.Slide("block", on="plate", angle=angles[1], origin="P"),
         },
@@ -249,7 +249,7 @@ def loom(rng: np.random.Generator, block: bool = False) -> Case:
         links["l234"] = ["2", "3"]
         del at["4"]
         slides["slot"] = assur.Slide("l48", on="l234", angle=angle, origin="2")
-    mechanism = assur.Mechanism(joints(at), links, "crank", slides)
+    mechanism = assur.Mechanism(joints(at), links, "crank", slides=slides)
     way = complex(math.cos(angle), math.sin(angle))
 
     def misfit(turns: Float, signs: tuple[int, ...]) -> Float:
@@ -290,7 +290,7 @@ def class_v(rng: np.random.Generator, block: bool = False) -> Case:
         links |= {"t1": "MK", "pend": "Z"}
         del p["a"]
         slides["slot"] = assur.Slide("pend", on="t1", angle=angle, origin="M")
-    mechanism = assur.Mechanism(joints(p), links, "crank", slides)
+    mechanism = assur.Mechanism(joints(p), links, "crank", slides=slides)
     way = complex(math.cos(angle), math.sin(angle))
 
     def misfit(turns: Float, signs: tuple[int, ...]) -> Float:

@@ -56,7 +56,7 @@ class CutRod:
                 along = of.driver(k) * complex(places.guide[kind])
                 yield complex(places.sliding[kind]), sign * along, 0.0
         loads = [one for one in machine.loads if not is_weight(one)]
-        of.machine = assur.Machine(m, machine.bodies, loads)
+        of.machine = assur.Machine(m, bodies=machine.bodies, loads=loads)
         for one in load_wrenches(of):
             if one.link == link:
                 yield complex(one.place), complex(one.force), float(one.couple)

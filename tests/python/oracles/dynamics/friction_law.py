@@ -63,7 +63,9 @@ class FrictionLaw:
     def solve(self, loads: Sequence[Any]) -> Reactions:
         mechanism = self.plain.mechanism
         assert mechanism is not None
-        machine = assur.Machine(mechanism, self.plain.bodies, [*self.plain.loads, *loads])
+        machine = assur.Machine(
+            mechanism, bodies=self.plain.bodies, loads=[*self.plain.loads, *loads]
+        )
         return Reactions(machine, *self.where)
 
     def load(self, rub: Rub, size: float) -> Iterator[Any]:

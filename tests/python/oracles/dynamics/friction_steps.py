@@ -37,7 +37,9 @@ class WithFriction:
         machine, q, speed = self.case.machine, self.case.q, self.case.speed
         assert machine.mechanism is not None
         loads = [*machine.loads, *friction]
-        return Reactions(assur.Machine(machine.mechanism, machine.bodies, loads), q, speed)
+        return Reactions(
+            assur.Machine(machine.mechanism, bodies=machine.bodies, loads=loads), q, speed
+        )
 
     def friction(self) -> Iterator[Any]:
         for name, one in self.case.friction.items():

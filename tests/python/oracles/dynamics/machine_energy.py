@@ -48,7 +48,7 @@ class Balance:
         self.q = np.asarray(q, np.float64).reshape(self.count, -1)
         self.speed = np.asarray(speed, np.float64).reshape(self.count, -1)
         self.drivers = self.q.shape[1]
-        self.motion = m.solve(self.q if self.drivers > 1 else self.q[:, 0], 1, on_error="nan")
+        self.motion = m.solve(self.q if self.drivers > 1 else self.q[:, 0], order=1, on_error="nan")
 
     # -- places and angles --------------------------------------------------------------------
 

@@ -65,7 +65,9 @@ class Known:
             assur.Torque("b", -6.0, "crank"),
         ]
         m = dyad(kind)
-        self.found = Reactions(assur.Machine(m, bodies, loads), float(m.q0) + 0.1, 2.5, -4.0)
+        self.found = Reactions(
+            assur.Machine(m, bodies=bodies, loads=loads), float(m.q0) + 0.1, 2.5, -4.0
+        )
         self.force, self.couple = self.found.reduced([*self.found.loads, *self.found.inertia])
         self.places = self.found.places
         self.at = self.places.joints
@@ -180,7 +182,7 @@ def test_random_machines(seed: int) -> None:
     assert abs(force - shaking) <= CLOSE * largest
     assert abs(couple - moment) <= CLOSE * largest * reach
     for link in exact.moving:
-        d1 = m.solve(q, 1).link(link).d1.reshape(-1)
+        d1 = m.solve(q, order=1).link(link).d1.reshape(-1)
         assert abs(d1 @ exact.speed - float(exact.spin[link])) <= 1e-10 * kappa**2
 
 
@@ -191,7 +193,7 @@ def test_accelerations() -> None:
         q, speed, acceleration = case.position(1)
         found = Reactions(case.machine, q, speed, acceleration)
         m = case.mechanism
-        motion = m.solve(q, 2)
+        motion = m.solve(q, order=2)
         kappa = float(motion.condition)
         for link, own in m.links.items():
             if link == "ground" or not own:
@@ -210,7 +212,7 @@ def test_three_cranks() -> None:
     cranks = {f"crank{n}": [n, n.lower()] for n in "ABC"}
     links = {"ground": list("ABC"), "rod": list("abc")} | cranks
     m = assur.Mechanism(joints, links, driver="crankA")
-    machine = assur.Machine(m, {"rod": Body(2.0, 0.1, (0.7, 0.2))}, [assur.Gravity()])
+    machine = assur.Machine(m, bodies={"rod": Body(2.0, 0.1, (0.7, 0.2))}, loads=[assur.Gravity()])
     found = Reactions(machine, m.q0, 3.0, 1.0)
     assert found.self_stress.shape[0] == 1
     along = complex(*tip) / 0.3

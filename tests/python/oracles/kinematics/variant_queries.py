@@ -133,7 +133,7 @@ def _same_ends(want: Array, have: Array, unit: float, around: bool) -> bool:
 def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]:
     """Of a link or a slide; angles modulo a turn, and only of one interval: each has its own."""
     try:
-        a = p.one.extremes(name, order)
+        a = p.one.extremes(name, order=order)
     except assur.PositionError as error:
         yield f"extremes of {name}: {error}"
         return
@@ -142,7 +142,7 @@ def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]
     limits = p.one.limits()
     if _in_other_interval(p, limits) or _runs_far(p, limits):
         return
-    b = p.two.extremes(p.name(kind, name), order)
+    b = p.two.extremes(p.name(kind, name), order=order)
     have = np.array([b.least.value, b.greatest.value])
     own = np.array([a.least.value, a.greatest.value])
     if order:

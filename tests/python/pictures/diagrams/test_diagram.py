@@ -73,7 +73,7 @@ def test_marks_are_the_exact_extremes(mechanism: assur.Mechanism, name: str) -> 
 def test_curves_titles_and_ticks_with_a_speed() -> None:
     motion = FOUR_BAR.solve(Q, order=3)
     rocker = motion.link("rocker")
-    axes = motion.diagram("rocker", omega=10.0, alpha=3.0, beta=-2.0, degrees=True)
+    axes = motion.diagram("rocker", speed=10.0, acceleration=3.0, jerk=-2.0, degrees=True)
     assert axes.shape == (2, 2)
     wanted = (
         np.degrees(rocker.value),
@@ -123,7 +123,7 @@ def test_analogues_have_their_units() -> None:
     assert titles(ax) == ["Velocity analogue, rad/m"]
     assert ax.get_xlabel() == "q, m"
     assert " m" in written(ax)[0]
-    ax = motion.diagram("bore", omega=200.0, orders=2)
+    ax = motion.diagram("bore", speed=200.0, orders=2)
     assert titles(ax) == ["Acceleration, 10³ m/s²"]
     assert ax.get_xlabel() == "q, rad"
     np.testing.assert_array_equal(curve(ax, "bore")[1], motion.slide("bore").acceleration(200.0))
@@ -131,7 +131,7 @@ def test_analogues_have_their_units() -> None:
 
 def test_a_joint_has_components_and_a_magnitude() -> None:
     motion = FOUR_BAR.solve(Q)
-    axes = motion.diagram("C", omega=2.0)
+    axes = motion.diagram("C", speed=2.0)
     np.testing.assert_array_equal(curve(axes[0], "x")[1], motion.joint("C").value[:, 0])
     np.testing.assert_array_equal(curve(axes[0], "y")[1], motion.joint("C").value[:, 1])
     velocity = motion.joint("C").velocity(2.0)
@@ -143,27 +143,27 @@ def test_a_joint_has_components_and_a_magnitude() -> None:
     fastest = max(abs(e.value) for e in (FOUR_BAR.extremes("rocker", order=1).greatest,
                                          FOUR_BAR.extremes("rocker", order=1).least))  # fmt: skip
     assert marks(axes[1])[0][1] == pytest.approx(2.0 * 2.5 * fastest, rel=1e-9)
-    one = motion.diagram("C.y", omega=2.0, orders=1)
+    one = motion.diagram("C.y", speed=2.0, orders=1)
     np.testing.assert_array_equal(curve(one, "C.y")[1], velocity[:, 1])
     assert one.get_title(loc="right") == "C.y"
 
 
 def test_several_names_stand_beside_their_lines() -> None:
     motion = FOUR_BAR.solve(Q)
-    axes = motion.diagram(["coupler", "rocker"], omega=1.0)
+    axes = motion.diagram(["coupler", "rocker"], speed=1.0)
     for ax in axes:
         names = [t.get_text() for t in ax.texts if str(t.get_gid()).startswith("name")]
         assert sorted(names) == ["coupler", "rocker"]
         assert ax.get_legend() is None
         colours = {line.get_color() for line in ax.lines if "curve" in str(line.get_gid())}
         assert len(colours) == 2
-    both = motion.diagram(["B", "C"], omega=1.0, orders=[0, 1])
+    both = motion.diagram(["B", "C"], speed=1.0, orders=[0, 1])
     assert [len([x for x in ax.lines if "curve" in str(x.get_gid())]) for ax in both] == [4, 2]
 
 
 def test_constants_and_zero() -> None:
     motion = FOUR_BAR.solve(Q)
-    axes = motion.diagram("crank", omega=10.0)
+    axes = motion.diagram("crank", speed=10.0)
     assert [t.get_text() for t in axes[1].texts] == ["10.0 throughout"]
     assert [t.get_text() for t in axes[2].texts] == ["0 throughout"]
     assert marks(axes[1]) == marks(axes[2]) == []
@@ -213,7 +213,7 @@ def test_speeds_of_their_own_at_every_position() -> None:
     """A flywheel's motion: between samples a parabola."""
     motion = FOUR_BAR.solve(np.linspace(0.0, TURN, 361))
     omega = 10.0 + np.sin(motion.q)
-    ax = motion.diagram("rocker", omega=omega, orders=1)
+    ax = motion.diagram("rocker", speed=omega, orders=1)
     np.testing.assert_array_equal(curve(ax, "rocker")[1], motion.link("rocker").d1 * omega)
     fine = FOUR_BAR.solve(np.linspace(0.0, TURN, 36001))
     speed = fine.link("rocker").d1 * (10.0 + np.sin(fine.q))
@@ -240,9 +240,9 @@ def test_over_time() -> None:
 def test_colours_and_axes_given() -> None:
     motion = FOUR_BAR.solve(Q)
     figure, given = plt.subplots(1, 3)
-    assert motion.diagram("rocker", given, omega=1.0)[1] is given[1]
+    assert motion.diagram("rocker", ax=given, speed=1.0)[1] is given[1]
     assert given[1].lines[0].get_color() == LIGHT.velocity
-    dark = motion.diagram("rocker", omega=1.0, orders=2, dark=True)
+    dark = motion.diagram("rocker", speed=1.0, orders=2, dark=True)
     assert dark.lines[0].get_color() == DARK.acceleration
     assert to_hex(dark.figure.get_facecolor()) == DARK.canvas.lower()
     assert len(figure.axes) == 3
@@ -261,8 +261,8 @@ def test_refusals() -> None:
         (lambda: motion.diagram("rocker", orders=3), r"order=3"),
         (lambda: motion.diagram("rocker", orders=4), "orders"),
         (lambda: motion.diagram("rocker", orders=[]), "orders is empty"),
-        (lambda: motion.diagram("rocker", plt.gca()), "ax has 1 axes: 3 are needed"),
-        (lambda: motion.diagram("rocker", omega=np.ones((2, 1))), "one speed at each position"),
+        (lambda: motion.diagram("rocker", ax=plt.gca()), "ax has 1 axes: 3 are needed"),
+        (lambda: motion.diagram("rocker", speed=np.ones((2, 1))), "one speed at each position"),
         (lambda: motion[3].diagram("rocker"), r"positions \(N,\)"),
         (lambda: own.diagram("rocker"), "its own q"),
         (
@@ -286,7 +286,7 @@ def test_texts_are_clear_of_curves_and_of_each_other() -> None:
         moving = [joint for joint in made.joints if joint not in made.links["ground"]]
         joint = moving[len(name) % len(moving)]
         of = joint if len(name) % 2 else [link for link in made.links if link != "ground"][-2:]
-        axes = motion.diagram(of, omega=5.0, degrees=True)
+        axes = motion.diagram(of, speed=5.0, degrees=True)
         written, wrong = overlapping(axes[0].figure)
         count += written
         bad += [f"{name}: {text}" for text in wrong]

@@ -165,7 +165,9 @@ def test_reduced_moment_and_inertia() -> None:
 
 def test_a_batch_is_refused() -> None:
     phi = np.linspace(0.0, TURN, 49)
-    batch = flywheel.from_table(phi, 100.0 * np.sin(phi), 0 * phi, [0.1, 0.2], 10.0)
+    batch = flywheel.from_table(
+        phi, 100.0 * np.sin(phi), 0 * phi, fluctuation=[0.1, 0.2], mean_speed=10.0
+    )
     with pytest.raises(assur.InputError, match=r"batch \(2,\)"):
         batch.plot()
 

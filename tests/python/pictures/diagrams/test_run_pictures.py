@@ -19,7 +19,7 @@ def pendulum() -> assur.Run:
     rod = assur.Mechanism({"O": (0, 0), "E": (1, 0)}, {"ground": ["O"], "rod": ["O", "E"]}, "rod")
     machine = assur.Machine(
         rod,
-        {"rod": assur.Body(mass=3.0, inertia=0.25, at=(0.5, 0.0))},
+        bodies={"rod": assur.Body(mass=3.0, inertia=0.25, at=(0.5, 0.0))},
         loads=[assur.Gravity((0.0, -9.81))],
     )
     events: list[Any] = [
@@ -74,7 +74,7 @@ def test_energies_and_their_sum() -> None:
 def test_several_drivers_have_their_names() -> None:
     made = assur.examples.five_bar()
     bodies = {k: assur.Body(mass=1.0, inertia=0.1) for k in made.links if k != "ground"}
-    run = assur.Machine(made, bodies).run(0.3, q0=made.q0, speed0=[1.0, -0.5])
+    run = assur.Machine(made, bodies=bodies).run(0.3, q0=made.q0, speed0=[1.0, -0.5])
     ax = run.plot("q")
     assert ax.get_title(loc="left") == "Coordinate, rad"
     t, left = line(ax, "curve left")
@@ -87,12 +87,12 @@ def test_several_drivers_have_their_names() -> None:
 def test_a_slide_is_in_metres_and_runs_over_q_are_drawn_over_time() -> None:
     drop = assur.SliderCrank(0.1, 0.4).with_driver("bore", q=1.0)
     machine = assur.Machine(
-        drop, {"piston": assur.Body(mass=2.0), "crank": assur.Body(inertia=0.1)}
+        drop, bodies={"piston": assur.Body(mass=2.0), "crank": assur.Body(inertia=0.1)}
     )
     run = machine.run(0.1, q0=0.45, speed0=-0.2)
     assert run.plot("speed").get_title(loc="left") == "Speed, m/s"
     crank = assur.SliderCrank(0.1, 0.4)
-    run = assur.Machine(crank, {"crank": assur.Body(inertia=0.5)}).run(
+    run = assur.Machine(crank, bodies={"crank": assur.Body(inertia=0.5)}).run(
         q_end=3.0, q0=0.0, speed0=2.0
     )
     t, q = line(run.plot("q", dark=True), "curve crank")

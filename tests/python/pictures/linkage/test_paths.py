@@ -85,7 +85,7 @@ def test_a_film_shows_every_position_where_it_is(tmp_path: Path) -> None:
     """In each picture the pixels beside the crank's pin are its blue, elsewhere the canvas."""
     motion = CRANK_ROCKER.solve(np.linspace(0.0, 2.0 * np.pi, 13))
     out = tmp_path / "film.gif"
-    motion.animate(out, "P", seconds=2.4)
+    motion.animate(out, joint="P", seconds=2.4)
     with Image.open(out) as film:
         assert pictures(film) == 12
         assert film.info["duration"] == 200
@@ -140,7 +140,7 @@ def test_what_cannot_be_filmed_is_refused(tmp_path: Path) -> None:
 def test_arrows_along_a_path_are_velocities_and_accelerations() -> None:
     """All to one scale; the value stands at the position that is drawn."""
     motion = CRANK_ROCKER.solve(TURN)
-    ax = motion.plot("P", at=6, vectors=["velocity", "acceleration"], omega=10.0)
+    ax = motion.plot("P", at=6, vectors=["velocity", "acceleration"], speed=10.0)
     for kind, exact in (
         ("velocity", motion.joint("P").velocity(10.0)),
         ("acceleration", motion.joint("P").acceleration(10.0)),
@@ -174,17 +174,17 @@ def test_speeds_of_any_kind_of_array_are_taken_and_what_is_none_refused() -> Non
     """Pictures hand arrays on; the fuzzed entries of arrays leave them out."""
     motion = CRANK_ROCKER.solve(TURN)
     for omega in (10, np.float32(10.0), np.full(len(TURN), 10.0), [10.0] * len(TURN)):
-        ax = motion.plot("P", vectors="velocity", omega=omega)
+        ax = motion.plot("P", vectors="velocity", speed=omega)
         plt.close(ax.figure)
     bad: list[Any] = ["fast", None, [1.0, 2.0], np.ma.array(TURN, mask=True), 1j]
     for omega in bad:
         with pytest.raises(assur.InputError):
-            motion.plot("P", vectors="velocity", omega=omega)
+            motion.plot("P", vectors="velocity", speed=omega)
         with pytest.raises(assur.InputError):
-            motion.polygon("velocity", at=3, omega=omega)
+            motion.polygon("velocity", at=3, speed=omega)
         if omega is not None:
             with pytest.raises(assur.InputError):
-                motion.diagram("rocker", omega=omega)
+                motion.diagram("rocker", speed=omega)
     places: list[Any] = ["x", [None], 1j, [[np.nan]]]
     for q in places:
         with pytest.raises(assur.AssurError):

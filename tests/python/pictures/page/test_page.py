@@ -49,7 +49,7 @@ def dig(rows: int = 41) -> assur.Motion:
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> str:
     path = tmp_path_factory.mktemp("page") / "watt.html"
-    example("watt_1").to_html(path, omega=10.0)
+    example("watt_1").to_html(path, speed=10.0)
     return path.read_text(encoding="utf-8")
 
 
@@ -225,7 +225,7 @@ def test_names_and_titles_do_no_harm(tmp_path: Path) -> None:
 def test_arguments_reach_the_page(tmp_path: Path) -> None:
     path = tmp_path / "press.html"
     example("crank_rocker").to_html(
-        path, q=0.5, omega=12.5, paths=["C"], diagrams=["C.x", "rocker.omega"], dark=True
+        path, q=0.5, speed=12.5, paths=["C"], diagrams=["C.x", "rocker.omega"], dark=True
     )
     text = path.read_text(encoding="utf-8")
     data = json.loads(text.split('application/json">')[1].split("</script>")[0])
@@ -242,7 +242,7 @@ def test_arguments_reach_the_page(tmp_path: Path) -> None:
     [
         ({"path": "no/such/folder/x.html"}, "no/such/folder/x.html: cannot be written: No such"),
         ({"path": 3}, "path is 3"),
-        ({"omega": float("nan")}, "omega is nan"),
+        ({"speed": float("nan")}, "speed is nan"),
         ({"paths": ["Q"]}, "no joint 'Q'"),
         ({"diagrams": ["rocker.omga"]}, "did you mean 'rocker.omega'"),
         ({"diagrams": ["C.x"] * 2 + ["C.y", "P.x", "P.y"]}, "up to 3"),

@@ -84,7 +84,7 @@ def opening(browser: Browser, path: Path) -> Iterator[Opened]:
 @pytest.fixture(scope="module")
 def crank_rocker(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("pages") / "crank_rocker.html"
-    assur.examples.crank_rocker().to_html(path, omega=3.0, q=1.0)
+    assur.examples.crank_rocker().to_html(path, speed=3.0, q=1.0)
     return path
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 WHEEL = assur.FourBar(1.0, 3.0, 3.0, 3.0)
 MACHINE = assur.Machine(
-    WHEEL, {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
+    WHEEL, bodies={"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
 )
 
 

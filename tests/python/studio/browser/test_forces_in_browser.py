@@ -322,7 +322,7 @@ def test_a_force_from_nothing(opened: Window) -> None:
     opened.seek(0.3)
     torque = float(machine(opened.document).reactions(0.3, SPEED).driver)
     # By virtual work: the force times the derivative of its point.
-    assert torque == pytest.approx(-250.0 * opened.mechanism.solve(0.3, 1).joint("C").d1[0])
+    assert torque == pytest.approx(-250.0 * opened.mechanism.solve(0.3, order=1).joint("C").d1[0])
     now = opened.page.locator("[data-section=drive] output.big-number")
     assert quantity(now.inner_text()) == pytest.approx(torque, rel=6e-3)
     # By a table over the crank.

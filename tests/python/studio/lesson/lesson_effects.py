@@ -41,7 +41,12 @@ def check_design(lesson: LessonPage, _at: Any, _effect: Any, _before: Any, value
     # The bar says where the crank turns, with friction and without.
     l1, l2, l3 = (design[name] for name in LENGTHS[:3])
     ends = [
-        [end * l1 for end in assur.crank_rocker.ground_range(l2 / l1, l3 / l1, 0.0, angle)]
+        [
+            end * l1
+            for end in assur.crank_rocker.ground_range(
+                l2 / l1, l3 / l1, margin=0.0, gamma_min=angle
+            )
+        ]
         for angle in (0.0, design["least"])
     ]
     label = lesson.page.locator(".lesson-bar").get_attribute("aria-label") or ""
@@ -120,7 +125,7 @@ def check_card(lesson: LessonPage, _at: Any, _effect: Any, _before: Any, _value:
     page.locator(".lesson-card dl div").first.wait_for()
     design, phi1 = lesson.design, lesson.phi1 * DEGREE
     l1, l2, l3, l4 = (float(design[name]) for name in LENGTHS)
-    exact = assur.crank_rocker.solve(phi1, l1, l2, l3, l4, design["speed"])
+    exact = assur.crank_rocker.solve(phi1, l1, l2, l3, l4, speed=design["speed"])
     rows = page.locator(".lesson-card dl div").all_inner_texts()
     figures = {
         re.sub(r"\s", "", row.split("\n")[0]): row.replace("−", "-").split("\n")[-1] for row in rows

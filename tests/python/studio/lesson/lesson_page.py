@@ -177,7 +177,9 @@ class LessonPage:
         if is_within:
             assert found["gamma"] == pytest.approx(least)
         else:
-            moved = assur.crank_rocker.solve(phi1, l1, l2, l3, ground, speed, moving)
+            moved = assur.crank_rocker.solve(
+                phi1, l1, l2, l3, ground, speed=speed, ground_speed=moving
+            )
             assert np.hypot(*found["speeds"]["C"]) == pytest.approx(float(moved.v_C), rel=1e-3)
         assert found["speeds"]["C"] == pytest.approx(rate[:2], rel=1e-3, abs=1e-3)
         assert found["speeds"]["D"] == pytest.approx([-rate[2], 0.0], rel=1e-3, abs=1e-4)

@@ -1,0 +1,54 @@
+"""Names that users may try, earlier ones and those of other tools: errors give the name here."""
+
+from __future__ import annotations
+
+from functools import wraps
+from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def renamed(**names: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Decorate a function some of whose arguments had other names: old name to new name."""
+
+    def decorate(function: Callable[P, T]) -> Callable[P, T]:
+        @wraps(function)
+        def checked(*args: P.args, **kwargs: P.kwargs) -> T:
+            if kwargs and not names.keys().isdisjoint(kwargs):
+                old = next(name for name in kwargs if name in names)
+                message = f"{function.__name__}() has no argument {old!r}: it is {names[old]}="
+                raise TypeError(message)
+            return function(*args, **kwargs)
+
+        return checked
+
+    return decorate
+
+
+def refuse_attribute(owner: Any, of: str, name: str, other: Mapping[str, str]) -> NoReturn:
+    """Raise the AttributeError of a name that a class or module does not have."""
+    message = f"{of} has no attribute {name!r}"
+    if name in other:
+        message = f"{message}: {other[name]}"
+    raise AttributeError(message, name=name, obj=owner)
+
+
+class OtherNames:
+    """A class whose `_other_names` say, for names that it does not have, what there is instead."""
+
+    __slots__ = ()
+    _other_names: Mapping[str, str] = {}
+
+    # Type checkers are to refuse such names, too.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name):
+            refuse_attribute(self, f"{type(self).__name__!r} object", name, self._other_names)
+
+
+# The rates of drivers.
+renamed_rates = renamed(omega="speed", alpha="acceleration", beta="jerk")
