@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 import assur
 from assemblies.test_numbers import six_bar, triad
+from models.mechanisms import mixed_models
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -215,3 +217,15 @@ def test_stretches_beside_poles(order: int) -> None:
                     own |= (low <= q) & (q <= high)
                 # At the very ends of a stretch rounding decides.
                 assert (near != own).sum() <= 2 * len(stretches)
+
+
+def test_a_dead_point_just_beyond_where_a_joint_goes_to_infinity() -> None:
+    """The end is 8e-6 rad before it: no polynomial through values farther away gets there."""
+    m = assur.Mechanism(**arguments(mixed_models.mixed_case(24982).description))
+    low, _ = m.limits().intervals[0]
+    q = low + np.geomspace(1e-5, 1e-2, 200)
+    motion = m.solve(q, order=2)
+    for order, jet in ((1, motion.link("L5").d1), (2, motion.link("L5").d2)):
+        found = m.extremes("L5", order=order)
+        assert found.least.value <= jet.min()
+        assert found.greatest.value >= jet.max()

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import assur
+from models.mechanisms import mixed_models
+from models.mechanisms.mechanism_data import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -104,3 +106,21 @@ def test_nothing_behind_a_gap_is_missed(seed: int) -> None:
         found = m.limits().intervals - float(m.q0)
         assert len(found) == len(wanted), (order, found, wanted)
         np.testing.assert_allclose(found, wanted, rtol=RTOL, atol=RTOL)
+
+
+def test_a_group_is_followed_as_far_as_its_slide_goes() -> None:
+    """A driven slide carries a class IV group along for ever; beyond all lengths it was lost."""
+    m = assur.Mechanism(**arguments(mixed_models.mixed_case(15366).description))
+    assert m.limits().intervals.tolist() == [[-math.inf, math.inf]]
+    far = np.array([1e3, 1e4, 1e6, 1e8])
+    for way in (-1.0, 1.0):
+        moved = m.solve(way * far, order=1)
+        assert (np.asarray(moved.status) == 0).all()
+        # The links come to rest as the inverse square of the distance.
+        rates = moved.link("L4").d1 * far**2
+        np.testing.assert_allclose(rates, rates[-1], rtol=2e-4)
+    found, at_rest = m.extremes("L4"), m.solve([-1e10, 1e10], order=0).link("L4").value
+    ends = sorted([(at_rest[0], -math.inf), (at_rest[1], math.inf)])
+    for one, (value, q) in zip((found.least, found.greatest), ends, strict=True):
+        assert one.value == pytest.approx(value, abs=1e-8)
+        assert one.q == q

@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
+use crate::math::angle::whole_part;
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
@@ -19,6 +20,8 @@ use crate::state::state::{Context, State};
 pub(crate) const CELLS_PER_TURN: u32 = 31;
 /// Cells per unit (of the scale, or rad) along a driven slide or a segment.
 pub(super) const CELLS_PER_UNIT: f64 = 16.0;
+/// Factor by which cells far away are farther from the drawing than the ones before.
+const GROWTH: f64 = 1.25;
 /// Steps per cell with which the length of an island between two knots is measured.
 const ISLAND_STEPS: f64 = 1024.0;
 /// Most cells of a segment; callers limit their coordinates to fit.
@@ -143,9 +146,9 @@ impl Branch {
         let BranchTracer { knots, changes, ended, .. } = tracer;
         if ended {
             // A group folds ahead: trace backward as well.
-            let cells = f64::from(MAX_TURNS * CELLS_PER_TURN);
-            let cells = ([cells; 2], TAU / f64::from(CELLS_PER_TURN));
-            let branch = Self::bidirectional(cx, state, q0, cells, start);
+            let cells = [f64::from(MAX_TURNS * CELLS_PER_TURN); 2];
+            let end = |cell: f64| cell * (TAU / f64::from(CELLS_PER_TURN));
+            let branch = Self::bidirectional(cx, state, q0, cells, end, start);
             let ends = [branch.at.first(), branch.at.last()].map(|end| end.copied().unwrap_or(q0));
             return Self { covered: Some(ends), ..branch };
         }
@@ -162,7 +165,8 @@ impl Branch {
         }
     }
 
-    /// Traces one driven slide from `q0` down to `low` and up to `high`, but no farther than `reach`.
+    /// Traces one driven slide from `q0` down to `low` and up to `high`. Beyond `reach` cells grow; without
+    /// groups, which need no knots, it ends there.
     pub(crate) fn over_range(
         cx: &Context<'_>,
         state: &mut State,
@@ -171,16 +175,31 @@ impl Branch {
         reach: f64,
         start: &InitialGuess<'_>,
     ) -> Self {
-        let cells = [q0 - low, high - q0].map(|length| (length.min(reach) * CELLS_PER_UNIT).ceil());
-        Self::bidirectional(cx, state, q0, (cells, 1.0 / CELLS_PER_UNIT), start)
+        let even = (reach * CELLS_PER_UNIT).ceil();
+        let goes_on = cx.plan.groups().next().is_some();
+        // What is so far away changes little over a length of a link.
+        let end = |cell: f64| {
+            let beyond = i32::try_from(whole_part((cell - even).max(0.0))).unwrap_or(i32::MAX);
+            cell.min(even) / CELLS_PER_UNIT * GROWTH.powi(beyond)
+        };
+        let cells = [q0 - low, high - q0].map(|length| {
+            let mut cells = (length.min(reach) * CELLS_PER_UNIT).ceil();
+            while goes_on && end(cells) < length {
+                cells += 1.0;
+            }
+            cells
+        });
+        Self::bidirectional(cx, state, q0, cells, end, start)
     }
 
-    /// Traces from `q0` down and up by a number of cells of one width, or to the end of the branch.
+    /// Traces from `q0` down and up by a number of cells, which end so far from `q0`, or to the end of the
+    /// branch.
     fn bidirectional(
         cx: &Context<'_>,
         state: &mut State,
         q0: f64,
-        (cells, width): ([f64; 2], f64),
+        cells: [f64; 2],
+        end: impl Fn(f64) -> f64,
         start: &InitialGuess<'_>,
     ) -> Self {
         let point = |at: f64, q: &mut [f64]| q[0] = at;
@@ -195,7 +214,7 @@ impl Branch {
             let mut cell = 0.0;
             while cell < cells && !tracer.ended {
                 cell += 1.0;
-                tracer.advance(q0 + direction * cell * width);
+                tracer.advance(q0 + direction * end(cell));
             }
             let mut sign_intervals = tracer.sign_intervals();
             let BranchTracer { mut knots, mut changes, ended, .. } = tracer;

@@ -20,6 +20,8 @@ const GROWS: f64 = 10.0;
 /// farther away: as near as a value exists.
 const BESIDE_END: [f64; 4] = [1.0e-6, 1.0e-5, 1.0e-4, 1.0e-3];
 const FARTHER: f64 = 100.0;
+/// Greatest distance, relative to it, of a value so near from the polynomial that is to follow it.
+const FOLLOWS: f64 = 0.5;
 /// The coefficient of a pole at a dead point, relative to the greatest of any coordinate: below, it is zero
 /// except for the rounding of the dead point's own place, where directions are off by the root of u.
 const LEAST_POLE: f64 = 1.0e-7;
@@ -97,16 +99,22 @@ impl Curve<'_> {
         side: usize,
     ) -> Option<ValueAt> {
         let q = window.ends()[side];
-        let inward = if side == 0 { window.half } else { -window.half };
+        let way = if side == 0 { window.half } else { -window.half };
         // The end itself has no value.
         let (part, near) =
-            BESIDE_END.iter().find_map(|part| Some((part, self.value(q + inward * part)?)))?;
+            BESIDE_END.iter().find_map(|part| Some((part, self.value(q + way * part)?)))?;
         let [rounding, _] = self.rounding();
-        let far = self.value(q + inward * FARTHER * part)?;
+        let far = self.value(q + way * FARTHER * part)?;
         if near.abs() > (GROWS * far.abs()).max(rounding) {
             return Some(ValueAt { value: f64::INFINITY.copysign(near), q });
         }
-        let value = self.limit_at_end(window, node_values, (side, Singularity::Pole));
+        let samples = self.samples(window, inward(window, side, Singularity::Pole));
+        let limit = samples.fit(0).map(|fit| fit.limit());
+        // Another singularity just beyond the end: no polynomial reaches past it.
+        if limit.is_none_or(|limit| (near - limit).abs() > FOLLOWS * near.abs().max(rounding)) {
+            return Some(ValueAt { value: near, q });
+        }
+        let value = self.limit(window, node_values, &samples);
         Some(ValueAt { value: value.unwrap_or(near), q })
     }
 
@@ -142,7 +150,9 @@ impl Curve<'_> {
         let [near, far] = FAR.map(|part| self.value(window.middle + way * part * window.half));
         let (near, far) = (near?, far?);
         let grows = far.abs() > GROWS * near.abs();
-        let value = if grows { f64::INFINITY.copysign(far) } else { far };
+        // What is left of the way to the limit falls with the distance.
+        let limit = far + (far - near) * FAR[0] / (FAR[1] - FAR[0]);
+        let value = if grows { f64::INFINITY.copysign(far) } else { limit };
         Some(ValueAt { value, q: way * f64::INFINITY })
     }
 

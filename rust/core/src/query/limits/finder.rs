@@ -152,7 +152,9 @@ impl<'m> LimitsFinder<'m> {
         let is_turn = self.design.has_one_rotary_driver();
         let size = self.design.constants.scale;
         let reach = self.design.reach();
-        self.design.trace(&[-reach * size, reach * size]);
+        // Guides that are nearly parallel carry a slide farther than all lengths together.
+        let farthest = reach * WIDENING.powi(WIDENINGS);
+        self.design.trace(&[-farthest * size, farthest * size]);
         let branch = &self.design.branch;
         if branch.covered.is_some_and(|[low, high]| low > high) {
             return Vec::new();
@@ -173,13 +175,21 @@ impl<'m> LimitsFinder<'m> {
             within.ends = [q0 - half + OFF, q0 + half + OFF];
         } else {
             for (side, end) in within.ends.iter_mut().enumerate() {
-                let beyond = if is_turn { turns } else { reach };
+                let beyond = if is_turn {
+                    turns
+                } else if design.has_groups() {
+                    farthest
+                } else {
+                    reach
+                };
                 if let (Some(slide), 0, true) = (length, side, end.is_finite() && *end < AT_ZERO) {
                     // Not followed to the very end: the cylinder can point in any direction there.
                     (*end, within.folds[0]) = (0.0, Some(mechanism.plan().end_of_length(slide)));
                     continue;
                 }
-                let is_fold = end.is_finite() && (*end - q0).abs() < turns && design.has_groups();
+                let is_known = if is_turn { turns } else { farthest };
+                let is_fold =
+                    end.is_finite() && (*end - q0).abs() < is_known && design.has_groups();
                 if is_fold {
                     let step = folding_step(design, &mut search.state, *end);
                     within.folds[side] = step.and_then(|step| fold_of(mechanism.plan(), step));
@@ -189,7 +199,6 @@ impl<'m> LimitsFinder<'m> {
             }
         }
         if !is_turn && !design.has_groups() {
-            // Guides that are nearly parallel carry a slide farther than all lengths together.
             for widening in 1..=WIDENINGS {
                 let first = search.stretches_of_first(within);
                 let mut is_wider = false;
