@@ -15,7 +15,7 @@ found = assur.sweep(
     np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False),
     # Over the best half turn, relative to the line's length; poor transmission is left out.
     metrics={"off": metric.deviation("P", shape="line", part=0.5, relative=True)},
-    where=[metric.least_transmission("C") > np.radians(40.0)],
+    where=[metric.min_transmission_angle("C") > np.radians(40.0)],
 )
 best = np.argsort(found["off"])[:10]  # NaN sorts to the end
 for design in best:

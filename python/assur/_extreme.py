@@ -4,23 +4,26 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from assur._other_names import other_names
 
+
+@other_names(at="the place is q")
 class Extreme(NamedTuple):
     """An extreme value and where it occurs.
 
     Attributes
     ----------
-    at : float or array
-        The driver's coordinate (of a slider-crank the crank's angle), rad.
     value : float or array
-        The value there.
+        The value.
+    q : float or array
+        The driver's coordinate there, rad or m (of a slider-crank the crank's angle).
 
     Examples
     --------
     >>> import assur
-    >>> assur.slider_crank.greatest_speed(3.0).at.round(6)  # rad
-    np.float64(1.27715)
+    >>> assur.SliderCrank(1.0, 3.0).extremes("bore").max
+    Extreme(value=4.0, q=0.0)
     """
 
-    at: Any
     value: Any
+    q: Any

@@ -37,17 +37,21 @@ def refuse_attribute(owner: Any, of: str, name: str, other: Mapping[str, str]) -
     raise AttributeError(message, name=name, obj=owner)
 
 
-class OtherNames:
-    """A class whose `_other_names` say, for names that it does not have, what there is instead."""
+def other_names(**names: str) -> Callable[[type[T]], type[T]]:
+    """Decorate a class: for names that it does not have, say what there is instead."""
 
-    __slots__ = ()
-    _other_names: Mapping[str, str] = {}
+    def decorate(cls: type[T]) -> type[T]:
+        known = {**getattr(cls, "_other_names", {}), **names}
 
-    # Type checkers are to refuse such names, too.
-    if not TYPE_CHECKING:
+        def refuse(self: Any, name: str) -> NoReturn:
+            refuse_attribute(self, f"{type(self).__name__!r} object", name, known)
 
-        def __getattr__(self, name):
-            refuse_attribute(self, f"{type(self).__name__!r} object", name, self._other_names)
+        # Not in the class statement: type checkers are to refuse such names, too.
+        for attribute, value in (("_other_names", known), ("__getattr__", refuse)):
+            setattr(cls, attribute, value)
+        return cls
+
+    return decorate
 
 
 # The rates of drivers.

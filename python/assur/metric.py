@@ -10,8 +10,8 @@ Metrics add, multiply and compare, with numbers and with each other:
 
 >>> from assur import metric
 >>> quality = metric.span("B.x") - 0.1 * metric.rms("rocker", order=2)
->>> metric.least_transmission("C") > 0.7
-least_transmission('C') > 0.7
+>>> metric.min_transmission_angle("C") > 0.7
+min_transmission_angle('C') > 0.7
 """
 
 from __future__ import annotations
@@ -22,11 +22,12 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import flag, short
+from assur._other_names import refuse_attribute
 from assur._validate import checked_name, checked_order, one_of, real_number
 from assur.errors import InputError
 from assur.sweeps.machine_metrics import (
     flywheel_inertia,
-    greatest_inertia,
+    max_inertia,
     peak_effort,
     peak_reaction,
     rms_effort,
@@ -42,19 +43,19 @@ if TYPE_CHECKING:
 __all__ = [
     "Condition",
     "Metric",
+    "argmax",
+    "argmin",
     "deviation",
     "flywheel_inertia",
-    "full_rotation",
     "function",
-    "greatest",
-    "greatest_inertia",
-    "least",
-    "least_transmission",
+    "max",
+    "max_inertia",
     "mean",
+    "min",
+    "min_transmission_angle",
     "peak_effort",
     "peak_reaction",
-    "place_of_greatest",
-    "place_of_least",
+    "reachable",
     "rms",
     "rms_effort",
     "rms_reaction",
@@ -119,7 +120,9 @@ def span(of: str, *, order: int = 0, over: Part = None) -> Metric:
     return _leaf("span", of, order, over)
 
 
-def least(of: str, *, order: int = 0, over: Part = None) -> Metric:
+def min(  # noqa: A001
+    of: str, *, order: int = 0, over: Part = None
+) -> Metric:
     """The least value of a coordinate.
 
     Parameters
@@ -148,14 +151,16 @@ def least(of: str, *, order: int = 0, over: Part = None) -> Metric:
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
-    >>> asked = {"a": assur.metric.least("bore")}
+    >>> asked = {"a": assur.metric.min("bore")}
     >>> assur.sweep(engine, cranks, q, metrics=asked)["a"]
     array([2. , 1.5])
     """
-    return _leaf("least", of, order, over)
+    return _leaf("min", of, order, over)
 
 
-def greatest(of: str, *, order: int = 0, over: Part = None) -> Metric:
+def max(  # noqa: A001
+    of: str, *, order: int = 0, over: Part = None
+) -> Metric:
     """The greatest value of a coordinate.
 
     Parameters
@@ -184,14 +189,14 @@ def greatest(of: str, *, order: int = 0, over: Part = None) -> Metric:
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
-    >>> asked = {"a": assur.metric.greatest("bore")}
+    >>> asked = {"a": assur.metric.max("bore")}
     >>> assur.sweep(engine, cranks, q, metrics=asked)["a"]
     array([4. , 4.5])
     """
-    return _leaf("greatest", of, order, over)
+    return _leaf("max", of, order, over)
 
 
-def place_of_least(of: str, *, order: int = 0, over: Part = None) -> Metric:
+def argmin(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The position of q where a coordinate is least; the first of several.
 
     It is one of the positions, not interpolated: off by up to half a step.
@@ -224,14 +229,14 @@ def place_of_least(of: str, *, order: int = 0, over: Part = None) -> Metric:
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
-    >>> asked = {"a": assur.metric.place_of_least("bore")}
+    >>> asked = {"a": assur.metric.argmin("bore")}
     >>> assur.sweep(engine, cranks, q, metrics=asked)["a"] * 180 / np.pi
     array([180., 180.])
     """
-    return _leaf("place_of_least", of, order, over)
+    return _leaf("argmin", of, order, over)
 
 
-def place_of_greatest(of: str, *, order: int = 0, over: Part = None) -> Metric:
+def argmax(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The position of q where a coordinate is greatest; the first of several.
 
     It is one of the positions, not interpolated: off by up to half a step.
@@ -264,11 +269,11 @@ def place_of_greatest(of: str, *, order: int = 0, over: Part = None) -> Metric:
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> engine, cranks = assur.SliderCrank(1.0, 3.0), {"crank.length": [1.0, 1.5]}
-    >>> asked = {"a": assur.metric.place_of_greatest("bore", over=(1.0, 2.0))}
+    >>> asked = {"a": assur.metric.argmax("bore", over=(1.0, 2.0))}
     >>> assur.sweep(engine, cranks, q, metrics=asked)["a"] * 180 / np.pi
     array([60., 60.])
     """
-    return _leaf("place_of_greatest", of, order, over)
+    return _leaf("argmax", of, order, over)
 
 
 def mean(of: str, *, order: int = 0, over: Part = None) -> Metric:
@@ -383,7 +388,7 @@ def time_ratio(of: str) -> Metric:
     return _leaf("time_ratio", of, 0, None)
 
 
-def least_transmission(
+def min_transmission_angle(
     at: str, *, between: tuple[str, str] | None = None, over: Part = None
 ) -> Metric:
     """The least transmission angle, as `Motion.transmission_angle` defines it.
@@ -413,12 +418,12 @@ def least_transmission(
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> four_bar, couplers = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"coupler.length": [2.0, 3.0]}
-    >>> asked = {"a": assur.metric.least_transmission("C")}
+    >>> asked = {"a": assur.metric.min_transmission_angle("C")}
     >>> np.degrees(assur.sweep(four_bar, couplers, q, metrics=asked)["a"]).round(1)
     array([51.3, 41.4])
     """
     pair = None if between is None else _checked_pair(between)
-    return _leaf("least_transmission", at, 0, over, pair)
+    return _leaf("min_transmission_angle", at, 0, over, pair)
 
 
 def _checked_pair(between: Any) -> tuple[str, ...]:
@@ -489,10 +494,11 @@ def deviation(
     return _leaf("deviation", of, 0, over, shape, share, flag(relative, "relative"))
 
 
-def full_rotation() -> Metric:
-    """Whether a design moves over all of q: a full rotation, where q goes once round.
+def reachable() -> Metric:
+    """Whether a design reaches all positions of q.
 
-    It says what the positions of q show. A gap between two of them is not seen.
+    It says what the positions of q show. A gap between two of them is not seen; whether a
+    driver goes round is proved by `Mechanism.limits`, ``.full_rotation``.
 
     Returns
     -------
@@ -505,7 +511,7 @@ def full_rotation() -> Metric:
     >>> import assur, numpy as np
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
     >>> four_bar, couplers = assur.FourBar(1.0, 3.0, 2.5, 3.0), {"coupler.length": [3.0, 9.0]}
-    >>> asked = {"a": assur.metric.full_rotation()}
+    >>> asked = {"a": assur.metric.reachable()}
     >>> assur.sweep(four_bar, couplers, q, metrics=asked)["a"]
     array([1., 0.])
     """
@@ -565,3 +571,19 @@ def function(
         message = f"outputs is {short(outputs)}: a list of names is needed"
         raise InputError(message) from error
     return Function(of_motion, names, checked_order(order))
+
+
+if not TYPE_CHECKING:
+    _OTHER_NAMES = {
+        "full_rotation": "metric.reachable says what the positions show; limits().full_rotation "
+        "of a batch is proved",
+        "least": "it is metric.min",
+        "greatest": "it is metric.max",
+        "place_of_least": "it is metric.argmin",
+        "place_of_greatest": "it is metric.argmax",
+        "least_transmission": "it is metric.min_transmission_angle",
+        "greatest_inertia": "it is metric.max_inertia",
+    }
+
+    def __getattr__(name):
+        refuse_attribute(None, "'assur.metric'", name, _OTHER_NAMES)

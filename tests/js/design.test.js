@@ -122,8 +122,8 @@ test("a value and its place along the side tell each other", () => {
 test("metrics are those of the mechanism, the transmission angle first", () => {
   const data = { links: ["ground", "crank", "rod", "ram"], driven: [1], driver: "crank", slides: [{ name: "bore" }], diagrams: ["bore", "bore.v"], paths: ["B"] };
   const ids = metricChoices(data, { bore: 1 }, true).map((one) => one.id);
-  assert.deepEqual(ids.slice(0, 4), ["least_transmission bore", "span bore", "span rod", "span ram"]);
-  assert.ok(ids.includes("full_rotation") && ids.includes("deviation B") && !ids.includes("span crank"));
+  assert.deepEqual(ids.slice(0, 4), ["min_transmission_angle bore", "span bore", "span rod", "span ram"]);
+  assert.ok(ids.includes("reachable") && ids.includes("deviation B") && !ids.includes("span crank"));
   assert.ok(!metricChoices(data, {}, false).some((one) => one.isWhole));
   learn(DESIGN_WORDS);
   speak("de");

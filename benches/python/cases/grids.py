@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Q = turn(72)
 # Values a dimension, of three: lengths of coupler and rocker, and the ground's.
 AXES = (22, 46, 100, 216)
-METRICS = {"angle": metric.least_transmission("C"), "span": metric.span("rocker")}
+METRICS = {"angle": metric.min_transmission_angle("C"), "span": metric.span("rocker")}
 
 
 def case(quick: bool) -> Case:

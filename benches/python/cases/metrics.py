@@ -66,7 +66,7 @@ def straightest(count: int) -> Subject:
             dimensions,
             Q,
             metrics={"off": metric.deviation("P", "line")},
-            where=[metric.least_transmission("C") > ANGLE],
+            where=[metric.min_transmission_angle("C") > ANGLE],
         )
         return measures["off"]
 
@@ -92,7 +92,7 @@ def straightest(count: int) -> Subject:
 
 def transmission(count: int) -> Subject:
     dimensions, mechanism = space(count), four_bar()
-    asked = {"angle": metric.least_transmission("C"), "span": metric.span("rocker")}
+    asked = {"angle": metric.min_transmission_angle("C"), "span": metric.span("rocker")}
 
     def measured() -> assur.Measures:
         return assur.sweep(mechanism, dimensions, Q, metrics=asked)

@@ -78,7 +78,7 @@ def metrics(designs: int) -> Subject:
     space, q = spaces.random_four_bars(designs), turn(72)
 
     def run(threads: int) -> assur.Measures:
-        asked = {"angle": metric.least_transmission("C")}
+        asked = {"angle": metric.min_transmission_angle("C")}
         return assur.sweep(space.mechanism, space.columns, q, metrics=asked, threads=threads)
 
     def answer(measures: assur.Measures) -> list[Float]:

@@ -41,7 +41,7 @@ class _Token(NamedTuple):
 
 
 def named_metric(text: str) -> tuple[str, Metric]:
-    """Return ``gamma=least_transmission(C)`` as a name and a metric; the text itself is a name."""
+    """Return ``gamma=span(C.x)`` as a name and a metric; the text itself is a name."""
     match = NAMED.fullmatch(text)
     name, body = (match[1], match[2]) if match else (text.strip(), text)
     what = _Reader(body).whole()
@@ -52,10 +52,10 @@ def named_metric(text: str) -> tuple[str, Metric]:
 
 
 def condition(text: str) -> Condition:
-    """Return ``least_transmission(C) > 40deg``."""
+    """Return ``min_transmission_angle(C) > 40deg``."""
     parsed = _Reader(text).whole()
     if not isinstance(parsed, Condition):
-        message = f"{text!r} is not a condition, such as least_transmission(C) > 40deg"
+        message = f"{text!r} is not a condition, such as min_transmission_angle(C) > 40deg"
         raise InputError(message)
     return parsed
 

@@ -499,9 +499,9 @@ class Machine(MachineModel):
         ... )
         >>> machine = assur.Machine(swing, loads=[assur.Force("A", (0.0, -10.0))])
         >>> duty = machine.duty(np.linspace(0, 2 * np.pi, 360, endpoint=False), speed=2.0)
-        >>> duty.greatest.value.round(6), duty.rms.round(6), duty.work_in.round(6)
+        >>> duty.max.value.round(6), duty.rms.round(6), duty.work_in.round(6)
         (np.float64(5.0), np.float64(3.535534), np.float64(10.0))
-        >>> duty.greatest_power.value.round(6), abs(duty.energy) < 1e-12
+        >>> duty.max_power.value.round(6), abs(duty.energy) < 1e-12
         (np.float64(10.0), np.True_)
         """
         motion = driven_motion(self, q, speed, acceleration, t)

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, finite_array, flag
+from assur._other_names import other_names
 from assur._table import Column, Tabular, angle_column, design_columns
 from assur._validate import MAX_POINTS, checked_index, one_of, whole_number
 from assur.errors import InputError
@@ -26,6 +27,7 @@ MEANS = ("extremes", "period")
 PLOT_POINTS = 721
 
 
+@other_names(least="it is min", greatest="it is max")
 class Flywheel(Tabular, ABC):
     """A machine with its flywheel in steady motion, with any motor.
 
@@ -45,7 +47,7 @@ class Flywheel(Tabular, ABC):
         Mean speed by the chosen definition (`mean`), rad/s; positive.
     mean : {"extremes", "period"}
         Definition of the mean speed.
-    greatest, least : Extreme
+    max, min : Extreme
         The extreme speeds (absolute values) and their coordinates in the turn.
     motor_moment : float or array
         Mean moment of the motor on the driver, N·m; a constant motor has it everywhere.
@@ -84,12 +86,12 @@ class Flywheel(Tabular, ABC):
         self.shape, self.mean, self.steady = shape, mean, steady
         self.turn = turn
         self.inertia, self.speed0, self.motor_moment = inertia, speed0, motor_moment
-        self.greatest, self.least = extremes
+        self.max, self.min = extremes
         self.period = period
         width = turn[1] - turn[0]
-        half = (self.greatest.value + self.least.value) / 2.0
+        half = (self.max.value + self.min.value) / 2.0
         self.mean_speed = half if mean == "extremes" else abs(width) / period
-        self.delta = (self.greatest.value - self.least.value) / self.mean_speed
+        self.delta = (self.max.value - self.min.value) / self.mean_speed
         self.power = motor_moment * width / period
 
     @abstractmethod

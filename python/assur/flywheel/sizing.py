@@ -37,8 +37,8 @@ class TabulatedFlywheel(Flywheel):
             speed0=numbers["speed0"],
             motor_moment=numbers["motor_moment"],
             extremes=(
-                Extreme(numbers["greatest_at"], numbers["greatest"]),
-                Extreme(numbers["least_at"], numbers["least"]),
+                Extreme(numbers["greatest"], numbers["greatest_at"]),
+                Extreme(numbers["least"], numbers["least_at"]),
             ),
             period=numbers["period"],
             mean=mean,
@@ -165,7 +165,7 @@ def from_table(
     >>> f = flywheel.from_table(phi, moment, inertia, fluctuation=1 / 8, mean_speed=15.0)
     >>> f
     <assur.flywheel.Flywheel 19.9182 kg·m², δ = 0.125, mean 15 rad/s, speed0 15.5166 rad/s>
-    >>> print(f"{f.motor_moment:.3f} N·m, {f.greatest.value:.4f} rad/s at {f.greatest.at:.5f} rad")
+    >>> print(f"{f.motor_moment:.3f} N·m, {f.max.value:.4f} rad/s at {f.max.q:.5f} rad")
     184.035 N·m, 15.9375 rad/s at 0.70933 rad
 
     A turning-moment diagram alone, for an engine whose parts are light against its flywheel:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from assur._arrays import short
+from assur._extreme import Extreme
+from assur._other_names import other_names
 from assur._validate import checked_name, real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
@@ -19,7 +21,7 @@ if TYPE_CHECKING:
 
     from assur.kinematics.model import MechanismModel
 
-__all__ = ["Extremes", "ValueAt"]
+__all__ = ["Extremes"]
 
 
 # A coordinate that changes by less than this (rad, or sizes) stands still.
@@ -28,34 +30,14 @@ STANDS = 1e-13
 FINEST = 2e-11
 
 
-class ValueAt(NamedTuple):
-    """A value, and the driver's coordinate where it is taken.
-
-    Attributes
-    ----------
-    value : float
-        m or rad, per unit of q to the power of the order.
-    q : float
-        rad or m.
-
-    Examples
-    --------
-    >>> import assur
-    >>> assur.SliderCrank(1.0, 3.0).extremes("bore").greatest
-    ValueAt(value=4.0, q=0.0)
-    """
-
-    value: float
-    q: float
-
-
+@other_names(least="it is min", greatest="it is max")
 @dataclass(frozen=True, slots=True)
 class Extremes:
     """The least and the greatest value of a coordinate, or of a derivative of it.
 
     Attributes
     ----------
-    least, greatest : ValueAt
+    min, max : Extreme
         The value (m or rad, per unit of the driver's coordinate to the power of the order) and
         its place q. Derivatives are infinite at dead points, and so is the angle of a link that
         goes round. Turns of q and of angles count as in the intervals of `limits`: in the one that
@@ -74,22 +56,23 @@ class Extremes:
     (2.032135, 1.084501)
     """
 
-    least: ValueAt
-    greatest: ValueAt
+    min: Extreme
+    max: Extreme
     time_ratio: float | None
     # The design in its assembly, the coordinate and its order, turns after which the motion closes:
     # for `dwells`.
     _of: tuple[MechanismModel, list[int], str, int, int | None] = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
-        ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.least, self.greatest))
+        ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.min, self.max))
         ratio = "" if self.time_ratio is None else f", time ratio {self.time_ratio:.6g}"
         return f"<assur.Extremes {' … '.join(ends)}{ratio}>"
 
     @property
     def stroke(self) -> float:
         """Difference of both: the stroke of a slide, the swing of a link."""
-        return self.greatest.value - self.least.value
+        stroke: float = self.max.value - self.min.value
+        return stroke
 
     def dwells(self, tolerance: float) -> tuple[list[list[float]], list[list[float]]]:
         """Return where the coordinate rests: stretches of q near its extremes.
@@ -116,13 +99,13 @@ class Extremes:
         if not size > 0.0:
             message = f"tolerance is {tolerance!r}: a positive number is needed"
             raise InputError(message, value=size)
-        known = [abs(end.value) for end in (self.least, self.greatest) if math.isfinite(end.value)]
+        known = [abs(end.value) for end in (self.min, self.max) if math.isfinite(end.value)]
         finest = FINEST * max(known, default=0.0)
         if size < finest:
             message = f"tolerance is {size!r}: rounding decides below {finest:.3g}"
             raise InputError(message, value=size)
         mechanism, signs, name, order, turns = self._of
-        ends = ((self.least.value + size, False), (self.greatest.value - size, True))
+        ends = ((self.min.value + size, False), (self.max.value - size, True))
         values = mechanism.values.tolist()
         least, greatest = (
             mechanism.core.stretches_beyond(values, signs, name, order, end)
@@ -131,7 +114,7 @@ class Extremes:
             for end in ends
         )
         period = None if turns is None else turns * math.tau
-        return _near(least, self.least.q, period), _near(greatest, self.greatest.q, period)
+        return _near(least, self.min.q, period), _near(greatest, self.max.q, period)
 
 
 def _near(stretches: list[list[float]], place: float, period: float | None) -> list[list[float]]:
@@ -179,7 +162,7 @@ def extremes(
     if ends is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
-    least, greatest = ValueAt(*ends[0]), ValueAt(*ends[1])
+    least, greatest = Extreme(*ends[0]), Extreme(*ends[1])
     own_limits = limits(mechanism, assembly)
     ratio = None
     unit = 1.0 if name in mechanism.links else size_of(mechanism)

@@ -541,7 +541,7 @@ class Mechanism(MechanismModel):
         >>> bore = assur.SliderCrank(1.0, 3.0, 0.5).extremes("bore")
         >>> round(bore.stroke, 9), round(bore.time_ratio, 9)
         (2.032135293, 1.084500514)
-        >>> round(bore.greatest.value, 9), round(bore.greatest.q, 9)
+        >>> round(bore.max.value, 9), round(bore.max.q, 9)
         (3.968626967, 0.125327831)
         """
         return extreme_search.extremes(self, name, order, assembly)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Condition, Metric
 
 # Metrics in the unit of their coordinate.
-IN_ITS_UNIT = ("span", "least", "greatest", "mean", "rms")
-PLACES = ("place_of_least", "place_of_greatest")
+IN_ITS_UNIT = ("span", "min", "max", "mean", "rms")
+PLACES = ("argmin", "argmax")
 
 
 def warn_of_degrees(mechanism: Mechanism, q: Float, measuring: Measuring | None = None) -> None:
@@ -55,7 +55,7 @@ def _is_in_degrees(condition: Condition, mechanism: Mechanism) -> bool:
     metric, limit = condition.metric, abs(condition.limit)
     is_large = limit > 2.0 * np.pi
     # A link may turn several times, a transmission angle is at most π/2.
-    never = isinstance(metric, Leaf) and metric.kind == "least_transmission"
+    never = isinstance(metric, Leaf) and metric.kind == "min_transmission_angle"
     return is_large and (never or limit.is_integer()) and _is_angle(metric, mechanism)
 
 
@@ -66,7 +66,7 @@ def _is_angle(metric: Metric, mechanism: Mechanism) -> bool:
         return metric.sign in "+-" and all(_is_angle(side, mechanism) for side in sides)
     if not isinstance(metric, Leaf):
         return False
-    if metric.kind == "least_transmission":
+    if metric.kind == "min_transmission_angle":
         return True
     if metric.kind in PLACES:
         return driven_angles(mechanism)[0]

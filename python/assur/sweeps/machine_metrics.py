@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "flywheel_inertia",
-    "greatest_inertia",
+    "max_inertia",
     "peak_effort",
     "peak_reaction",
     "rms_effort",
@@ -190,7 +190,7 @@ class Inertia(ByValue, OfMachine):
         return np.asarray(machine.reduced_inertia(q, on_error="nan").value.max(axis=-1))
 
     def __repr__(self) -> str:
-        return "greatest_inertia()"
+        return "max_inertia()"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -366,7 +366,7 @@ def rms_effort(*, speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0)
     return Effort("rms", *_motion(speed, acceleration))
 
 
-def greatest_inertia() -> Metric:
+def max_inertia() -> Metric:
     """The greatest reduced inertia, kg·m² (driven slide: kg), of a machine with one driver.
 
     Returns
@@ -381,7 +381,7 @@ def greatest_inertia() -> Metric:
     ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
     ... )
     >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
-    >>> asked = {"J": assur.metric.greatest_inertia()}
+    >>> asked = {"J": assur.metric.max_inertia()}
     >>> assur.sweep(press, {"rod.length": [0.3, 0.4]}, q, metrics=asked)["J"]  # kg·m²
     array([0.5, 0.5])
     """

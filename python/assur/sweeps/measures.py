@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import flag, short
+from assur._other_names import other_names
 from assur._validate import one_of, whole_number
 from assur.description.words import Status, is_reached
 from assur.errors import InputError
@@ -28,13 +29,16 @@ __all__ = ["Measures"]
 Float: TypeAlias = npt.NDArray[np.float64]
 
 
+@other_names(
+    best="nsmallest(n, by) or nlargest(n, by)", least="see nsmallest", greatest="see nlargest"
+)
 class Measures(Mapping[str, Float]):
     """The metrics of designs by name, arrays of shape S; made by `assur.sweep`.
 
     Every design is one of four: it does not move over all of q (its `status` says why not), it
     misses a condition of ``where=`` (it is in `missed`), one of the metrics has no value (its
     `status` is ``NO_VALUE``; the other metrics are there), or it is in `kept`. The others have NaN
-    (`metric.full_rotation` has 0 for those that do not move). `explain` says why a design is not
+    (`metric.reachable` has 0 for those that do not move). `explain` says why a design is not
     kept.
 
     Attributes
@@ -88,8 +92,8 @@ class Measures(Mapping[str, Float]):
         rest[self.kept] = False
         return np.flatnonzero(rest)
 
-    def best(self, n: int, by: str, *, greatest: bool = False) -> npt.NDArray[np.intp]:
-        """Return the indices of the n designs with the least values of a metric, best first.
+    def nsmallest(self, n: int, by: str) -> npt.NDArray[np.intp]:
+        """Return the indices of the n designs with the least values of a metric, least first.
 
         Parameters
         ----------
@@ -97,8 +101,6 @@ class Measures(Mapping[str, Float]):
             Number of designs; fewer are returned if fewer have a value.
         by : str
             Name of the metric. NaN is left out; equal values keep their order.
-        greatest : bool
-            Those with the greatest values instead.
 
         Returns
         -------
@@ -115,29 +117,57 @@ class Measures(Mapping[str, Float]):
         >>> import assur, numpy as np
         >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
         >>> space = {"coupler.length": [2.0, 2.5, 3.0, 9.0]}
-        >>> angle = {"angle": assur.metric.least_transmission("C")}
+        >>> angle = {"angle": assur.metric.min_transmission_angle("C")}
         >>> found = assur.sweep(assur.FourBar(1.0, 3.0, 2.5, 3.0), space, q, metrics=angle)
-        >>> found.best(2, by="angle", greatest=True)
+        >>> found.nsmallest(2, by="angle")
+        array([2, 1])
+        """
+        return self._first("nsmallest", n, by, 1.0)
+
+    def nlargest(self, n: int, by: str) -> npt.NDArray[np.intp]:
+        """Return the indices of the n designs with the greatest values of a metric, greatest first.
+
+        Parameters
+        ----------
+        n, by
+            As for `nsmallest`.
+
+        Returns
+        -------
+        numpy.ndarray
+            Indices of designs in C order, for `designs`.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
+        >>> space = {"coupler.length": [2.0, 2.5, 3.0, 9.0]}
+        >>> angle = {"angle": assur.metric.min_transmission_angle("C")}
+        >>> found = assur.sweep(assur.FourBar(1.0, 3.0, 2.5, 3.0), space, q, metrics=angle)
+        >>> found.nlargest(2, by="angle")
         array([0, 1])
         """
-        first: object = n
-        if isinstance(first, str):
+        return self._first("nlargest", n, by, -1.0)
+
+    def _first(self, method: str, n: Any, by: Any, sign: float) -> npt.NDArray[np.intp]:
+        """Return the indices of designs by the values of a metric times a sign."""
+        if isinstance(n, str):
             message = (
-                f"best({short(n)}, {short(by)}): the number comes first: best(10, by={short(n)})"
+                f"{method}({short(n)}, {short(by)}): the number comes first: "
+                f"{method}(10, by={short(n)})"
             )
             raise InputError(message)
         count = whole_number(n, "n", 1)
-        name: object = by
-        if not isinstance(name, str) or name not in self._values:
+        if not isinstance(by, str) or by not in self._values:
             names = ", ".join(map(repr, self._values))
             message = f"by={short(by)}: one of {names} is needed{self._near(by)}"
             raise InputError(message)
         values = self._values[by].reshape(-1)
         indices = np.flatnonzero(~np.isnan(values))
         if len(indices) == 0:
-            message = f"best: no design has a value of {by!r}: {counts_text(self)}"
+            message = f"{method}: no design has a value of {by!r}: {counts_text(self)}"
             raise InputError(message)
-        some = -values[indices] if flag(greatest, "greatest") else values[indices]
+        some = sign * values[indices]
         if count < len(some):
             # Sorting all would take longer than measuring them.
             few = np.flatnonzero(some <= np.partition(some, count - 1)[count - 1])
@@ -202,7 +232,7 @@ class Measures(Mapping[str, Float]):
         >>> import assur, numpy as np
         >>> q = np.linspace(0, 2 * np.pi, 72, endpoint=False)
         >>> space = {"coupler.length": np.linspace(2.0, 4.0, 21)}
-        >>> angle = {"angle": assur.metric.least_transmission("C")}
+        >>> angle = {"angle": assur.metric.min_transmission_angle("C")}
         >>> found = assur.sweep(assur.FourBar(1.0, 3.0, 2.5, 3.0), space, q, metrics=angle)
         >>> best = found.designs(np.nanargmax(found["angle"]))
         >>> round(best.dimensions["coupler.length"], 3)
@@ -246,7 +276,7 @@ class Measures(Mapping[str, Float]):
         ax: Any = None,
         dark: bool = False,
         at: Mapping[str, float] | None = None,
-        best: Literal["least", "greatest", "both", "none"] = "both",
+        best: Literal["min", "max", "both", "none"] = "both",
         degrees: bool = False,
     ) -> Any:
         """Draw a metric over the one or two dimensions of the sweep (needs matplotlib).
@@ -264,7 +294,7 @@ class Measures(Mapping[str, Float]):
             For dark backgrounds.
         at : mapping of str to float, optional
             Values of the grid's other dimensions, m or rad, where it has more than two.
-        best : {"both", "least", "greatest", "none"}
+        best : {"both", "min", "max", "none"}
             Which design is marked.
         degrees : bool
             Whether values of the metric are angles, rad, to be written in degrees.
@@ -287,7 +317,7 @@ class Measures(Mapping[str, Float]):
         ...     assur.FourBar(1.0, 3.0, 2.5, 3.0),
         ...     assur.Grid({"rocker.length": lengths, "ground.D.x": lengths}),
         ...     np.linspace(0, 2 * np.pi, 72, endpoint=False),
-        ...     metrics={"angle": assur.metric.least_transmission("C")},
+        ...     metrics={"angle": assur.metric.min_transmission_angle("C")},
         ... )
         >>> axes = found.plot("angle", degrees=True)
         >>> [text.get_text() for text in axes.texts if text.get_gid() == "reason"]
@@ -296,7 +326,7 @@ class Measures(Mapping[str, Float]):
         from assur.pictures.maps.map import metric_picture
 
         values = self[name]
-        one_of(best, ("both", "least", "greatest", "none"), "best")
+        one_of(best, ("both", "min", "max", "none"), "best")
         axes, designs = shown_axes(self, at)
         shown = values.reshape(-1)[designs]
         why = [(text, which[designs]) for text, which in reasons(self, values)]

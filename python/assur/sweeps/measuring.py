@@ -208,7 +208,7 @@ def _with_lines(metric: Metric, mechanism: Mechanism) -> Metric:
             for side in (metric.left, metric.right)
         )
         return replace(metric, left=left, right=right)
-    if isinstance(metric, Leaf) and metric.kind == "least_transmission":
+    if isinstance(metric, Leaf) and metric.kind == "min_transmission_angle":
         assert metric.of is not None
         pair, complement = transmission.lines(mechanism, metric.of, *metric.options)
         return replace(metric, options=(*pair, complement))

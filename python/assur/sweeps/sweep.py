@@ -100,8 +100,8 @@ def sweep(
         What to measure of each design (see `assur.metric`). Positions are not kept: memory
         does not grow with them.
     where : iterable of Condition, optional
-        Conditions on metrics, ``assur.metric.least_transmission("C") > 0.7``, also on their sums
-        and multiples. A design that misses one is dropped: after a few positions, if more of
+        Conditions on metrics, ``assur.metric.min_transmission_angle("C") > 0.7``, also on their
+        sums and multiples. A design that misses one is dropped: after a few positions, if more of
         them cannot change that (a span only grows, a least value only falls). Put the quickest
         first. Only with `metrics`.
     on_error : {"nan", "raise", "drop"}
@@ -155,7 +155,7 @@ def sweep(
     >>> found = assur.sweep(
     ...     four_bar, space, q,
     ...     metrics={"off": assur.metric.deviation("P", shape="line", relative=True)},
-    ...     where=[assur.metric.least_transmission("C") > np.radians(40)],
+    ...     where=[assur.metric.min_transmission_angle("C") > np.radians(40)],
     ... )
     >>> bool(0.0 < np.nanmin(found["off"]) < 0.02)
     True

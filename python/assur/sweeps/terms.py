@@ -40,8 +40,8 @@ class Condition:
     Examples
     --------
     >>> from assur import metric
-    >>> metric.least_transmission("C") > 0.7
-    least_transmission('C') > 0.7
+    >>> metric.min_transmission_angle("C") > 0.7
+    min_transmission_angle('C') > 0.7
     """
 
     metric: Metric
@@ -236,7 +236,7 @@ class Leaf(Metric):
         return of(self)
 
     def __repr__(self) -> str:
-        name = {"moves": "full_rotation"}.get(self.kind, self.kind)
+        name = {"moves": "reachable"}.get(self.kind, self.kind)
         words = [] if self.of is None else [repr(self.of)]
         words += [f"order={self.order}"] if self.order else []
         words += [repr(option) for option in self.options if option is not None]

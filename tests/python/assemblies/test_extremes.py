@@ -21,17 +21,17 @@ PRINTED = 2e-11
 def test_slider_crank_stroke_and_time_ratio() -> None:
     bore = assur.SliderCrank(1.0, 3.0, 0.5).extremes("bore")
     assert bore.stroke == pytest.approx(2.03213529349, abs=PRINTED)
-    assert bore.greatest == pytest.approx((3.96862696660, 0.125327831168), abs=1e-10)
-    assert bore.least.value == pytest.approx(1.93649167310, abs=PRINTED)
-    assert math.remainder(bore.least.q - 3.39427290873, math.tau) == pytest.approx(0.0, abs=1e-10)
+    assert bore.max == pytest.approx((3.96862696660, 0.125327831168), abs=1e-10)
+    assert bore.min.value == pytest.approx(1.93649167310, abs=PRINTED)
+    assert math.remainder(bore.min.q - 3.39427290873, math.tau) == pytest.approx(0.0, abs=1e-10)
     assert bore.time_ratio == pytest.approx(1.08450051374, abs=1e-9)
 
 
 def test_rocker_swing_and_time_ratio() -> None:
     rocker = assur.FourBar(1.0, 4.0, 3.0, 4.5).extremes("rocker")
     for one, (value, q) in (
-        (rocker.greatest, (2.41885840578, 3.86432690140)),
-        (rocker.least, (1.72886110671, 0.634183840824)),
+        (rocker.max, (2.41885840578, 3.86432690140)),
+        (rocker.min, (1.72886110671, 0.634183840824)),
     ):
         assert one.value == pytest.approx(value, abs=PRINTED)
         assert math.remainder(one.q - q, math.tau) == pytest.approx(0.0, abs=1e-9)
@@ -56,14 +56,14 @@ def test_extremes_at_dead_points() -> None:
     q = four_bar.limits().intervals[0]
     dense = q[0] + (q[1] - q[0]) * (0.5 - 0.5 * np.cos(np.linspace(1e-7, np.pi - 1e-7, 20001)))
     values = four_bar.solve(dense).link("rocker").value
-    assert rocker.greatest.value == pytest.approx(values.max(), abs=1e-6)
-    assert rocker.greatest.value >= values.max() - 1e-12
-    assert rocker.least.value == pytest.approx(values.min(), abs=1e-6)
+    assert rocker.max.value == pytest.approx(values.max(), abs=1e-6)
+    assert rocker.max.value >= values.max() - 1e-12
+    assert rocker.min.value == pytest.approx(values.min(), abs=1e-6)
     # Flat: crank, coupler and rocker form the triangle 3, 4.5, 4.
     angle = math.pi - math.acos((4.5**2 + 4.0**2 - 3.0**2) / (2 * 4.5 * 4.0))
-    ends = [four_bar.extremes("C.x").least.value, four_bar.extremes("C.x").greatest.value]
+    ends = [four_bar.extremes("C.x").min.value, four_bar.extremes("C.x").max.value]
     assert min(ends) <= 4.0 + 2.0 * math.cos(angle)
-    assert four_bar.extremes("rocker", order=1).greatest.value == math.inf
+    assert four_bar.extremes("rocker", order=1).max.value == math.inf
 
 
 @pytest.mark.parametrize("order", [0, 1, 2])
@@ -82,20 +82,20 @@ def test_extremes_of_analogues_against_dense_samples(order: int) -> None:
             values = getattr(motion.slide(name), key)
         else:
             values = getattr(motion.link(name), key)
-        for one, dense in ((found.greatest, values.max()), (found.least, values.min())):
+        for one, dense in ((found.max, values.max()), (found.min, values.min())):
             assert one.value == pytest.approx(dense, abs=1e-7)
             there = mechanism.solve(one.q, order=max(order, 1))
             own = there.joint("C") if "." in name else None
             quantity = own or (there.slide(name) if name == "bore" else there.link(name))
             again = getattr(quantity, key)
             assert float(again[0] if "." in name else again) == pytest.approx(one.value, abs=1e-12)
-        assert found.greatest.value >= values.max() - 1e-12
-        assert found.least.value <= values.min() + 1e-12
+        assert found.max.value >= values.max() - 1e-12
+        assert found.min.value <= values.min() + 1e-12
 
 
 def test_a_link_that_goes_round_has_no_extremes() -> None:
     crank = assur.FourBar(1.0, 3.0, 2.5, 3.2).extremes("crank")
-    assert (crank.least.value, crank.greatest.value) == (-math.inf, math.inf)
+    assert (crank.min.value, crank.max.value) == (-math.inf, math.inf)
     assert crank.time_ratio is None
 
 
@@ -293,7 +293,7 @@ def test_dwells_contain_their_extreme(name: str) -> None:
         found = m.extremes(coordinate)
         for tolerance in (0.002, 0.02, 0.2):
             dwells = found.dwells(tolerance)
-            for end, stretches in zip((found.least, found.greatest), dwells, strict=True):
+            for end, stretches in zip((found.min, found.max), dwells, strict=True):
                 assert stretches == sorted(stretches)
                 if math.isfinite(end.value) and stretches:
                     low, high = min(stretches, key=lambda one: abs(sum(one) / 2.0 - end.q))

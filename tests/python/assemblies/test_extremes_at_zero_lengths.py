@@ -48,17 +48,17 @@ def test_a_length_has_a_kink_at_zero(turn: float) -> None:
         (3, -1.25, 1.25),
     ):
         found = m.extremes("lift", order=order)
-        assert found.least.value == pytest.approx(least, abs=1e-9), order
-        assert found.greatest.value == pytest.approx(greatest, abs=1e-9), order
-    at = m.extremes("lift").least.q
+        assert found.min.value == pytest.approx(least, abs=1e-9), order
+        assert found.max.value == pytest.approx(greatest, abs=1e-9), order
+    at = m.extremes("lift").min.q
     assert math.remainder(at, math.tau) == pytest.approx(0.0, abs=1e-12)
     # It turns evenly, and by half a turn at length 0: once round in a turn of the boom.
     rod = m.extremes("rod")
-    assert (rod.least.value, rod.greatest.value) == (-math.inf, math.inf)
+    assert (rod.min.value, rod.max.value) == (-math.inf, math.inf)
     rate = m.extremes("rod", order=1)
-    assert (rate.least.value, rate.greatest.value) == pytest.approx((0.5, 0.5), abs=1e-7)
+    assert (rate.min.value, rate.max.value) == pytest.approx((0.5, 0.5), abs=1e-7)
     # What does not depend on it is smooth there.
-    assert m.extremes("eye.x").greatest.value == pytest.approx(3.0, abs=1e-14)
+    assert m.extremes("eye.x").max.value == pytest.approx(3.0, abs=1e-14)
 
 
 @pytest.mark.parametrize("turn", TURNS)
@@ -86,5 +86,5 @@ def test_a_joint_of_the_barrel_steps_at_length_zero(turn: float) -> None:
         for order, values in ((0, lug.value), (1, lug.d1)):
             found = m.extremes(name, order=order)
             own = values[:, component]
-            assert found.least.value == pytest.approx(float(own.min()), abs=2e-5)
-            assert found.greatest.value == pytest.approx(float(own.max()), abs=2e-5)
+            assert found.min.value == pytest.approx(float(own.min()), abs=2e-5)
+            assert found.max.value == pytest.approx(float(own.max()), abs=2e-5)

@@ -17,7 +17,7 @@ from models.mechanisms.mechanism_data import arguments
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from assur.kinematics.extremes import ValueAt
+    from assur._extreme import Extreme
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -62,8 +62,8 @@ def check(m: assur.Mechanism, names: tuple[str, ...], orders: tuple[int, ...] = 
             found = m.extremes(name, order=order)
             size = float(np.nanmedian(np.abs(values)))
             for end, beyond in (
-                (found.least, found.least.value - np.nanmin(values)),
-                (found.greatest, np.nanmax(values) - found.greatest.value),
+                (found.min, found.min.value - np.nanmin(values)),
+                (found.max, np.nanmax(values) - found.max.value),
             ):
                 slack = ROUNDING * (abs(end.value) + size) if math.isfinite(end.value) else 0.0
                 assert not beyond > slack, (name, order, end, beyond)
@@ -82,7 +82,7 @@ def check(m: assur.Mechanism, names: tuple[str, ...], orders: tuple[int, ...] = 
 
 
 def _grows_toward(
-    motions: list[tuple[Array, assur.Motion]], name: str, order: int, end: ValueAt
+    motions: list[tuple[Array, assur.Motion]], name: str, order: int, end: Extreme
 ) -> bool:
     """Whether a scan grows toward an end where an analogue is infinite."""
     for q, motion in motions:
@@ -97,7 +97,7 @@ def _grows_toward(
 def test_an_extreme_between_poles() -> None:
     """The second analogue goes to −∞ at both ends: its greatest value is a stationary point."""
     m = assur.FourBar(3.0, 2.5, 2.0, 4.0)
-    least = m.extremes("rocker", order=2).least
+    least = m.extremes("rocker", order=2).min
     assert least.value == pytest.approx(-6.592825, abs=1e-6)
     # The printed place is that of 400 001 positions.
     assert least.q == pytest.approx(-0.244111, abs=7e-6)
@@ -164,8 +164,8 @@ def test_a_pin_of_the_crank_has_finite_extremes() -> None:
     for order, of_pin in enumerate((np.cos(q), -np.sin(q), -np.cos(q), np.sin(q))):
         found = m.extremes("B.x", order=order)
         values = 3.0 * of_pin
-        assert found.least.value == pytest.approx(values.min(), abs=1e-9)
-        assert found.greatest.value == pytest.approx(values.max(), abs=1e-9)
+        assert found.min.value == pytest.approx(values.min(), abs=1e-9)
+        assert found.max.value == pytest.approx(values.max(), abs=1e-9)
 
 
 @pytest.mark.parametrize("phi", [0.6, 2.0, 2.5, -1.9, 1.1])
@@ -190,11 +190,11 @@ def test_a_joint_that_crosses_an_axis_at_a_dead_point(phi: float) -> None:
     assert np.abs(m.limits().intervals - phi).min() < 1e-9
     check(m, ("C.x", "C.y"))
     first, second = (m.extremes("C.x", order=order) for order in (1, 2))
-    assert not any(abs(end.q - phi) < 1e-6 for end in (first.least, first.greatest)
+    assert not any(abs(end.q - phi) < 1e-6 for end in (first.min, first.max)
                    if math.isinf(end.value))  # fmt: skip
     beside = m.solve(phi + np.array([1e-6, 4e-6]) * (q - phi), order=2).joint("C").d2[:, 0]
     assert beside[0] / beside[1] == pytest.approx(2.0, rel=0.05)
-    extreme = second.greatest if beside[0] > 0.0 else second.least
+    extreme = second.max if beside[0] > 0.0 else second.min
     assert math.isinf(extreme.value)
 
 
@@ -204,7 +204,7 @@ def test_stretches_beside_poles(order: int) -> None:
     m = assur.FourBar(3.0, 2.5, 2.0, 4.0)
     for name in FOUR_BAR:
         found = m.extremes(name, order=order)
-        for end, pick in ((found.least, 0), (found.greatest, 1)):
+        for end, pick in ((found.min, 0), (found.max, 1)):
             if not math.isfinite(end.value):
                 continue
             tolerance = 0.02 * abs(end.value)
@@ -227,5 +227,5 @@ def test_a_dead_point_just_beyond_where_a_joint_goes_to_infinity() -> None:
     motion = m.solve(q, order=2)
     for order, jet in ((1, motion.link("L5").d1), (2, motion.link("L5").d2)):
         found = m.extremes("L5", order=order)
-        assert found.least.value <= jet.min()
-        assert found.greatest.value >= jet.max()
+        assert found.min.value <= jet.min()
+        assert found.max.value >= jet.max()

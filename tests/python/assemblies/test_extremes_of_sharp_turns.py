@@ -72,7 +72,7 @@ def test_an_inverted_slider_crank_with_crank_nearly_as_long_as_the_ground(
         way = 1.0 if float(m.solve(0.5, order=1)["s"].d1) > 0.0 else -1.0
         for name, of, sign in (("lever", lever, 1.0), ("s", distance, way)):
             found = m.extremes(name, order=order)
-            for end, side in ((found.greatest, 1.0), (found.least, -1.0)):
+            for end, side in ((found.max, 1.0), (found.min, -1.0)):
 
                 def own(q: Array, of: Of = of, r: float = crank, way: float = side * sign) -> Array:
                     return way * of(r, order, q)
@@ -85,7 +85,7 @@ def test_dwells_of_a_sharp_turn() -> None:
     """Where the rate of the lever is near its greatest: within some mrad."""
     m = whitworth(1.002, 0.73)
     found = m.extremes("lever", order=1)
-    level = 0.5 * found.greatest.value
+    level = 0.5 * found.max.value
     _, [[low, high]] = found.dwells(level)
     assert low < 0.0 < high < 0.01
     for q in (low, high):
@@ -119,5 +119,5 @@ def test_four_bars_that_nearly_pass_a_change_point(seed: int) -> None:
                     found = m.extremes(name, order=order)
                     values = getattr(motion.link(name), f"d{order}")[motion.condition < DIGITS]
                     slack = 1e-6 * float(np.nanmax(np.abs(values)))
-                    assert np.nanmax(values) <= found.greatest.value + slack, (lengths, name, order)
-                    assert np.nanmin(values) >= found.least.value - slack, (lengths, name, order)
+                    assert np.nanmax(values) <= found.max.value + slack, (lengths, name, order)
+                    assert np.nanmin(values) >= found.min.value - slack, (lengths, name, order)

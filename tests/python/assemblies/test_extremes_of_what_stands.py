@@ -54,9 +54,9 @@ def test_what_is_zero_has_no_poles(
     assert np.isfinite(mechanism.limits().intervals).all()
     for order in orders:
         found = mechanism.extremes(name, order=order)
-        assert (found.least.value, found.greatest.value) == (0.0, 0.0)
+        assert (found.min.value, found.max.value) == (0.0, 0.0)
         [low, high] = mechanism.limits().intervals[0]
-        assert low <= found.least.q <= high
+        assert low <= found.min.q <= high
         for stretches in found.dwells(1e-3):
             assert stretches == [[low, high]]
 
@@ -65,10 +65,10 @@ def test_what_takes_part_keeps_its_poles() -> None:
     m = bar_on_the_coupler()
     for name in ("bar", "coupler", "rocker", "C.x"):
         ends = [m.extremes(name, order=order) for order in (1, 2, 3)]
-        assert any(math.isinf(end.greatest.value) or math.isinf(end.least.value) for end in ends)
+        assert any(math.isinf(end.max.value) or math.isinf(end.min.value) for end in ends)
     # The link parallel to the rocker moves as the rocker does.
     m = parallelogram_on("D", "C", 0.3)
     for order in (0, 1, 2, 3):
         own, rocker = (m.extremes(name, order=order) for name in ("parallel", "rocker"))
-        assert own.least.value == pytest.approx(rocker.least.value, rel=1e-9)
-        assert own.greatest.value == pytest.approx(rocker.greatest.value, rel=1e-9)
+        assert own.min.value == pytest.approx(rocker.min.value, rel=1e-9)
+        assert own.max.value == pytest.approx(rocker.max.value, rel=1e-9)

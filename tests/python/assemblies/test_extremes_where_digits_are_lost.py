@@ -63,7 +63,7 @@ def test_a_slide_on_a_link_that_folds(order: int, good: float) -> None:
         # Driven by the angle between two links, listed either way.
         other = assur.Mechanism(**arguments(v.description))
         found = other.extremes("s0", order=order)
-        values = sorted([found.least.value, found.greatest.value])
+        values = sorted([found.min.value, found.max.value])
         assert values == pytest.approx(sorted(ends), rel=good)
 
 
@@ -71,7 +71,7 @@ def test_errors_that_are_all_the_same_beside_a_dead_point() -> None:
     d = random_case(4791).description
     m = assur.Mechanism(**arguments(d))
     low = m.limits().intervals[0, 0]
-    found = m.extremes("s4", order=3).greatest
+    found = m.extremes("s4", order=3).max
     assert found.q == low
     assert found.value == pytest.approx(limit(d, "s4", 3, low, 1.0), rel=GOOD)
 
@@ -81,7 +81,7 @@ def test_a_greatest_rate_where_slopes_step_over_zero() -> None:
     d = mixed_case(2271).description
     m = assur.Mechanism(**arguments(d))
     low = m.limits().intervals[0, 0]
-    found = m.extremes("L13", order=1).greatest
+    found = m.extremes("L13", order=1).max
     rates = []
     for q in (found.q, low + 5e-7, low + 8e-7):
         there = oracle.solve(d, q, pose(d, m, q), 1)
@@ -99,9 +99,9 @@ def test_two_dead_points_a_millionth_apart() -> None:
         found = m.extremes("J1.y", order=order)
         # The distance over 1e-6, squared, is what the line neglects.
         there = limit(d, "J1.y", order, high, -1.0)
-        assert found.greatest.value == pytest.approx(there, rel=1e-3)
-        assert found.least.value == pytest.approx(limit(d, "J1.y", order, low, 1.0), rel=GOOD)
-        assert found.greatest.q == high
+        assert found.max.value == pytest.approx(there, rel=1e-3)
+        assert found.min.value == pytest.approx(limit(d, "J1.y", order, low, 1.0), rel=GOOD)
+        assert found.max.q == high
 
 
 def test_what_is_far_smaller_than_all_else_is_not_zero() -> None:
@@ -109,7 +109,7 @@ def test_what_is_far_smaller_than_all_else_is_not_zero() -> None:
     d = random_case(100071).description
     m = assur.Mechanism(**arguments(d))
     high = m.limits().intervals[1, 1]
-    greatest = m.extremes("J7.x", order=3).greatest
+    greatest = m.extremes("J7.x", order=3).max
     assert greatest.value == pytest.approx(limit(d, "J7.x", 3, high, -1.0), rel=1e-9)
     assert greatest.q == high
 
@@ -119,15 +119,15 @@ def test_a_joint_at_infinity_beside_a_dead_point(order: int) -> None:
     """On both sides of it: to −∞ and back from ∞, so even derivatives take on both."""
     m = assur.Mechanism(**arguments(random_case(100055).description))
     found = m.extremes("J9.y", order=order)
-    assert found.least.value == -math.inf
-    assert (found.greatest.value == math.inf) == (order % 2 == 0)
+    assert found.min.value == -math.inf
+    assert (found.max.value == math.inf) == (order % 2 == 0)
 
 
 def test_a_pole_below_a_sharp_motion() -> None:
     """Within the interval values rise to a million times the coefficient of the pole at its end."""
     m = assur.Mechanism(**arguments(higher_case(5046).description))
     found = m.extremes("b.x", order=3)
-    assert (found.least.value, found.greatest.value) == (-math.inf, math.inf)
+    assert (found.min.value, found.max.value) == (-math.inf, math.inf)
     low = m.limits().intervals[0, 0]
     near = m.solve(low + np.array([1e-7, 1e-5]), order=3).joint("b").d3[:, 0]
     assert near[0] / near[1] == pytest.approx(1e5, rel=1e-3)  # the power −5/2 of the distance
@@ -141,7 +141,7 @@ def test_no_pole_where_values_rise_to_a_limit(seed: int, name: str, order: int) 
     d = random_case(seed).description
     m = assur.Mechanism(**arguments(d))
     found = m.extremes(name, order=order)
-    far = max((found.least, found.greatest), key=lambda end: abs(end.value))
+    far = max((found.min, found.max), key=lambda end: abs(end.value))
     apart = np.abs(m.limits().intervals - far.q)
     assert apart.min() < 1e-9
     inward = 1.0 if apart[:, 0].min() == apart.min() else -1.0
@@ -154,7 +154,7 @@ def test_a_dwell_beside_a_dead_point_is_one_stretch(order: int) -> None:
     m = assur.Mechanism(**arguments(random_case(10376).description))
     [[low, high]] = m.limits().intervals.tolist()
     found = m.extremes("s0", order=order)
-    for stretches in found.dwells(1e-4 * abs(found.greatest.value)):
+    for stretches in found.dwells(1e-4 * abs(found.max.value)):
         [[first, last]] = stretches
         # The value is monotone: it dwells at the ends.
         assert first == low or last == high

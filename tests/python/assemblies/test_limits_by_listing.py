@@ -94,7 +94,7 @@ def test_dead_points_by_the_law_of_cosines(crank: str, order: tuple[str, ...]) -
     )
     rocker = m.extremes("rocker")
     assert math.isfinite(rocker.stroke)
-    assert found[0] - 1e-12 <= rocker.least.q <= found[1] + 1e-12
+    assert found[0] - 1e-12 <= rocker.min.q <= found[1] + 1e-12
 
 
 @pytest.mark.parametrize("driver", ["crank", assur.Drive("ground", relative_to="crank")], ids=str)
@@ -144,7 +144,7 @@ def test_batches_and_what_stands_on_limits() -> None:
     for order in range(4):
         least, greatest = (
             [getattr(m.extremes("C.x", order=order), end) for m in (one, other)]
-            for end in ("least", "greatest")
+            for end in ("min", "max")
         )
         for pair in (least, greatest):
             assert pair[1].value == pytest.approx(pair[0].value, rel=1e-9)
@@ -179,10 +179,10 @@ def test_the_interval_of_the_drawing_holds_its_coordinate(q: float) -> None:
     batch = m.with_dimensions({"coupler.length": [3.6, 3.5]}).limits()
     np.testing.assert_allclose(batch.intervals[0], wanted, rtol=0.0, atol=DEAD_POINT)
     # Values are those of the motion from the drawing.
-    for end in (m.extremes("crank").least, m.extremes("crank").greatest):
+    for end in (m.extremes("crank").min, m.extremes("crank").max):
         assert end.value == pytest.approx(end.q, abs=1e-12)
-    low, high = m.extremes("rocker").least.q, m.extremes("rocker").greatest.q
-    for at, value in ((low, m.extremes("rocker").least), (high, m.extremes("rocker").greatest)):
+    low, high = m.extremes("rocker").min.q, m.extremes("rocker").max.q
+    for at, value in ((low, m.extremes("rocker").min), (high, m.extremes("rocker").max)):
         inside = at + 1e-9 * (q - at)
         assert float(m.solve(inside).link("rocker").value) == pytest.approx(value.value, abs=1e-3)
 

@@ -121,6 +121,6 @@ def test_a_group_is_followed_as_far_as_its_slide_goes() -> None:
         np.testing.assert_allclose(rates, rates[-1], rtol=2e-4)
     found, at_rest = m.extremes("L4"), m.solve([-1e10, 1e10], order=0).link("L4").value
     ends = sorted([(at_rest[0], -math.inf), (at_rest[1], math.inf)])
-    for one, (value, q) in zip((found.least, found.greatest), ends, strict=True):
+    for one, (value, q) in zip((found.min, found.max), ends, strict=True):
         assert one.value == pytest.approx(value, abs=1e-8)
         assert one.q == q

@@ -84,7 +84,7 @@ def test_a_slide_carried_farther_than_all_lengths() -> None:
     for q in (low - 1e-7, high + 1e-7):
         assert m.solve(q, on_error="nan").status == assur.Status.UNREACHABLE
     travel = m.extremes("t")
-    assert (travel.least.value, travel.greatest.value) == pytest.approx((low, high), abs=1e-9)
+    assert (travel.min.value, travel.max.value) == pytest.approx((low, high), abs=1e-9)
     assert not m.configuration_curve().defects([(0.0, m.assembly)]).circuit
 
 
@@ -100,7 +100,7 @@ def test_a_slide_that_nothing_stops() -> None:
     )
     assert m.limits().intervals.tolist() == [[-math.inf, math.inf]]
     travel = m.extremes("t")
-    assert (travel.least.value, travel.greatest.value) == (-math.inf, math.inf)
+    assert (travel.min.value, travel.max.value) == (-math.inf, math.inf)
     curve = m.configuration_curve()
     assert not curve.circuits[0].is_closed
     assert np.isfinite(curve.motion().q).all()
@@ -118,8 +118,8 @@ def test_a_coordinate_that_goes_to_infinity() -> None:
         },
     )
     found = tangent.extremes("b")
-    assert (found.least.value, found.greatest.value) == (-math.inf, math.inf)
-    assert math.cos(found.greatest.q) == pytest.approx(0.0, abs=1e-9)
+    assert (found.min.value, found.max.value) == (-math.inf, math.inf)
+    assert math.cos(found.max.q) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_dead_point_half_a_turn_from_the_drawing() -> None:
@@ -131,7 +131,7 @@ def test_a_dead_point_half_a_turn_from_the_drawing() -> None:
         slides={"s": Slide("b", on="r", angle=math.pi / 2, origin="D")},
     )
     assert {one.group for one in m.limits().dead_points} == {"II(k, b)"}
-    assert m.extremes("s").greatest.value == pytest.approx(1.0, abs=1e-9)
+    assert m.extremes("s").max.value == pytest.approx(1.0, abs=1e-9)
 
 
 def test_assemblies_lead_where_they_were_found() -> None:

@@ -191,8 +191,8 @@ def test_an_extreme_that_is_beaten_is_found(monkeypatch: pytest.MonkeyPatch) -> 
 
     def extremes(self: assur.Mechanism, name: str, order: int = 0, **more: Any) -> Any:
         found = own(self, name, order=order, **more)
-        least = found.least._replace(value=found.least.value + 1e-4)
-        return replace(found, least=least)
+        least = found.min._replace(value=found.min.value + 1e-4)
+        return replace(found, min=least)
 
     d = named_models.crank_rocker()
     case = dyad_models.Case(d, "crank", (), 0)

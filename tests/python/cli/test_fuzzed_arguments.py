@@ -21,7 +21,7 @@ VALUES = (
     *("0:90:30deg", "0,1", "1", "-1", "-1:1:0.5", "1e999", "nan", "0:1", "5mm", "1,2,3deg", ""),
     *("rod.length=0.2", "rod.length=200mm", "rod.length=-1", "crank.length=0.1:0.2:3", "x=1"),
     *("rod.length=1e308", "crank.length=0.3mm", "a=span(bore)", "span(B.x)", "span(B.x) > 1"),
-    *("least_transmission(A)", "span(", "peak_effort()", "pmks", "0-1", "0-1-2", "A,bore", "B"),
+    *("min_transmission_angle(A)", "span(", "peak_effort()", "pmks", "0-1", "0-1-2", "A,bore", "B"),
     *("out.csv", "out.json", "out.toml", "out.svg", "no/out.csv", "out.exe", "-", "--", "\0", "é"),
     *("table.csv", "press.toml", "broken.toml", "sketch.txt", "example:engine", "example:x"),
     *("example:toggle_press", "example:five_bar", "a://b", ".", "10", "99999999999999999999"),

@@ -21,21 +21,21 @@ DEG = math.pi / 180
     ("text", "same"),
     [
         ("span(B.x)", metric.span("B.x")),
-        ("least( 'bore' , order = 1)", metric.least("bore", order=1)),
-        ("greatest(rocker, order=2)", metric.greatest("rocker", order=2)),
+        ("min( 'bore' , order = 1)", metric.min("bore", order=1)),
+        ("max(rocker, order=2)", metric.max("rocker", order=2)),
         ("mean(10.x, over=(0, 90deg))", metric.mean("10.x", over=(0.0, 90 * DEG))),
         ("rms(B.y, order=0, over=(1, 2))", metric.rms("B.y", order=0, over=(1.0, 2.0))),
-        ("least_transmission(C)", metric.least_transmission("C")),
+        ("min_transmission_angle(C)", metric.min_transmission_angle("C")),
         (
-            "least_transmission(C, between=(B, D))",
-            metric.least_transmission("C", between=("B", "D")),
+            "min_transmission_angle(C, between=(B, D))",
+            metric.min_transmission_angle("C", between=("B", "D")),
         ),
         (
             "deviation(P, circle, part=0.25, relative=True)",
             metric.deviation("P", shape="circle", part=0.25, relative=True),
         ),
         ("time_ratio(bore)", metric.time_ratio("bore")),
-        ("full_rotation()", metric.full_rotation()),
+        ("reachable()", metric.reachable()),
         ("peak_reaction(B, on=rod, speed=2)", metric.peak_reaction("B", on="rod", speed=2.0)),
         ("peak_effort(speed=(1, 2))", metric.peak_effort(speed=[1.0, 2.0])),
         (
@@ -63,7 +63,7 @@ def test_text(text: str, same: metric.Metric) -> None:
 @pytest.mark.parametrize(
     ("text", "same"),
     [
-        ("least_transmission(C) > 40deg", metric.least_transmission("C") > 40 * DEG),
+        ("min_transmission_angle(C) > 40deg", metric.min_transmission_angle("C") > 40 * DEG),
         ("span(a) <= 2 * 3", metric.span("a") <= 6.0),
         ("3 < span(a)", metric.span("a") > 3.0),
         ("span(a) >= span(b)", metric.span("a") >= metric.span("b")),
@@ -115,7 +115,7 @@ def test_every_argument_is_read_as_what_it_is(name: str) -> None:
         ("span(B.x, over=(0, 5rpm))", "its unit cannot be rpm"),
         ("flywheel_inertia(0.1, mean_speed=5m/s)", "its unit cannot be m/s"),
         ("span(B.x, over=(1)", "')' is missing"),
-        ("least_transmission(C, between=(B))", "two joints are needed"),
+        ("min_transmission_angle(C, between=(B))", "two joints are needed"),
         ("deviation(P, part=0:1:0.5)", "part is"),
         ("deviation(P, relative=maybe)", "relative is 'maybe': True or False is needed"),
         ("deviation(P, square)", "shape is 'square'"),
@@ -168,7 +168,7 @@ def test_random_text_is_read_or_refused() -> None:
         "'",
         "=",
     ]
-    pieces += ["least(a)", " ", "over=(0,1)", "\0", "é", "1e9", ".", "\n", '"', "mean(b)"]
+    pieces += ["min(a)", " ", "over=(0,1)", "\0", "é", "1e9", ".", "\n", '"', "mean(b)"]
     read = 0
     for _ in range(3000):
         text = "".join(rng.choice(pieces, size=rng.integers(1, 7)))

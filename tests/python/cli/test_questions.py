@@ -258,8 +258,8 @@ def test_extremes(tmp_path: Path) -> None:
     own = assur.examples.shaper().extremes("bed")
     lines = printed("extremes", "example:shaper", "bed")
     assert lines == [
-        f"least       {own.least.value!r} m at q = {own.least.q!r} rad",
-        f"greatest    {own.greatest.value!r} m at q = {own.greatest.q!r} rad",
+        f"least       {own.min.value!r} m at q = {own.min.q!r} rad",
+        f"greatest    {own.max.value!r} m at q = {own.max.q!r} rad",
         f"stroke      {own.stroke!r} m",
         f"time ratio  {own.time_ratio!r}",
     ]
@@ -269,7 +269,7 @@ def test_extremes(tmp_path: Path) -> None:
     path = tmp_path / "speed.csv"
     assert printed("extremes", "example:engine", "bore", "--order", 1, "--out", path)
     speed = assur.examples.engine().extremes("bore", order=1)
-    assert columns(path.read_text())["value"].tolist() == [speed.least.value, speed.greatest.value]
+    assert columns(path.read_text())["value"].tolist() == [speed.min.value, speed.max.value]
     assert 'there is no link "bor"' in refused("extremes", "example:engine", "bor")
 
 

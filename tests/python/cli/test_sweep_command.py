@@ -15,7 +15,7 @@ from cli.command_line import Done, assur_command, columns, refused, same, table
 PRESS = Path(__file__).parents[3] / "examples" / "press.toml"
 TURN = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 GRID = ("--vary", "coupler.length=90:150mm:6", "--vary", "rocker.length=60,80,500mm")
-GAMMA = ("--metric", "gamma=least_transmission(C)")
+GAMMA = ("--metric", "gamma=min_transmission_angle(C)")
 ROCKER = ("sweep", "example:crank_rocker")
 
 
@@ -24,7 +24,7 @@ def measured(where: object = None) -> assur.Measures:
         "coupler.length": np.linspace(0.09, 0.15, 6),
         "rocker.length": [0.06, 0.08, 0.5],
     }
-    gamma = metric.least_transmission("C")
+    gamma = metric.min_transmission_angle("C")
     conditions = [gamma > where] if isinstance(where, float) else None
     return assur.sweep(
         assur.examples.crank_rocker(),
@@ -48,14 +48,14 @@ def test_a_grid() -> None:
 def test_the_best_and_conditions() -> None:
     limit = 30 * (np.pi / 180)
     own = measured(limit)
-    words = (*ROCKER, *GRID, *GAMMA, "--metric", "span(P.x)", "--best", 3)
-    where = "--where", "least_transmission(C) > 30deg"
-    for flags, by, greatest in (
-        (("--greatest",), "gamma", True),
-        (("--by", "span(P.x)"), "span(P.x)", False),
+    words = (*ROCKER, *GRID, *GAMMA, "--metric", "span(P.x)")
+    where = "--where", "min_transmission_angle(C) > 30deg"
+    for flags, by, method in (
+        (("--nlargest", 3), "gamma", own.nlargest),
+        (("--nsmallest", 3, "--by", "span(P.x)"), "span(P.x)", own.nsmallest),
     ):
         found = table(*words, *where, *flags)
-        best = own.best(3, by, greatest=greatest)
+        best = method(3, by)
         assert len(best) == 3
         assert same(found[by], own[by].ravel()[best])
         assert same(found["design0"] * 3 + found["design1"], best)
@@ -70,7 +70,7 @@ def test_designs_of_a_table(tmp_path: Path) -> None:
     path.write_text(
         f"{','.join(pairs)}\n\n" + "".join(f"{a!r},{b!r}\n" for a, b in rows), encoding="utf-8-sig"
     )
-    gamma = {"gamma": metric.least_transmission("C")}
+    gamma = {"gamma": metric.min_transmission_angle("C")}
     q = np.arange(0.0, 351.0, 10.0) * (np.pi / 180)
     own = assur.sweep(assur.examples.crank_rocker(), pairs, q, metrics=gamma)
     found = table(*ROCKER, "--designs", path, *GAMMA, "--q", "0:350:10deg")
@@ -80,7 +80,7 @@ def test_designs_of_a_table(tmp_path: Path) -> None:
 
 def test_designs_of_a_sweeps_own_table(tmp_path: Path) -> None:
     path = tmp_path / "best.csv"
-    words = (*ROCKER, *GRID, *GAMMA, "--best", 4, "--out", path)
+    words = (*ROCKER, *GRID, *GAMMA, "--nsmallest", 4, "--out", path)
     assert assur_command(*words).code == 0
     assert "True" in path.read_text(encoding="utf-8")
     first = columns(path.read_text(encoding="utf-8"))
@@ -118,7 +118,7 @@ def test_angles_and_several_drivers() -> None:
 
 def test_no_design_is_left() -> None:
     words = "sweep", "example:engine", "--vary", "rod.length=10:20mm:5", "--metric", "span(bore)"
-    done = assur_command(*words, "--best", 2)
+    done = assur_command(*words, "--nsmallest", 2)
     assert done.code == 3
     assert done.err == (
         "assur: no design is left: of 5 designs 5 do not move, 0 miss a condition, 0 are kept\n"
@@ -136,7 +136,10 @@ def test_no_design_is_left() -> None:
         (("--vary", "coupler.lenght=1:2:3"), "coupler.length"),
         (("--vary", "coupler.length=1:2deg:3"), "--vary coupler.length is a length"),
         (("--vary", "coupler.length=1", "--vary", "coupler.length=2"), "is given twice"),
-        (("--vary", "coupler.length=1", "--by", "x", "--best", "2"), "there is no such --metric"),
+        (
+            ("--vary", "coupler.length=1", "--by", "x", "--nsmallest", "2"),
+            "there is no such --metric",
+        ),
         (("--vary", "coupler.length=1", "--metric", "gamma=span(P.x)"), "two have the same name"),
         (("--vary", "coupler.length=1", "--metric", "span(X.x)"), "X"),
         (("--vary", "coupler.length=1", "--where", "span(P.x)"), "is not a condition"),
@@ -161,8 +164,8 @@ def test_wrong_sweeps(words: tuple[str, ...], said: str) -> None:
         ("--vary", "coupler.length", *GAMMA),
         ("--vary", "coupler.length=1:2", *GAMMA),
         ("--vary", "coupler.length=1", "--designs", "x.csv", *GAMMA),
-        ("--vary", "coupler.length=1", "--greatest", *GAMMA),
-        ("--vary", "coupler.length=1", "--best", "0", *GAMMA),
+        ("--vary", "coupler.length=1", "--by", "gamma", *GAMMA),
+        ("--vary", "coupler.length=1", "--nsmallest", "0", *GAMMA),
         ("--vary", "coupler.length=1", "--q", "1", "--positions", "2", *GAMMA),
     ],
 )

@@ -40,9 +40,9 @@ def test_the_numbers_of_p3() -> None:
     assert f.motor_moment == pytest.approx(184.03475962, abs=5e-9)
     assert f.inertia == pytest.approx(19.9181505147, abs=5e-11)
     assert f.speed0 == pytest.approx(15.516642, abs=5e-7)
-    assert (f.greatest.value, f.least.value) == pytest.approx((15.9375, 14.0625), abs=1e-13)
-    assert f.greatest.at == pytest.approx(0.709330, abs=5e-7)
-    assert f.least.at == pytest.approx(2.182865, abs=5e-7)
+    assert (f.max.value, f.min.value) == pytest.approx((15.9375, 14.0625), abs=1e-13)
+    assert f.max.q == pytest.approx(0.709330, abs=5e-7)
+    assert f.min.q == pytest.approx(2.182865, abs=5e-7)
     assert f.period == pytest.approx(0.41989702, abs=5e-9)
     # As printed, to its digits.
     printed = (round(f.motor_moment), round(f.inertia, 2), round(f.speed0, 2), round(f.period, 2))
@@ -53,8 +53,8 @@ def test_p3_by_the_period() -> None:
     f = p3(mean="period")
     assert f.inertia == pytest.approx(19.858781, abs=5e-7)
     assert f.speed0 == pytest.approx(15.553135, abs=5e-7)
-    assert f.greatest.value == pytest.approx(15.973827, abs=5e-7)
-    assert f.least.value == pytest.approx(14.098827, abs=5e-7)
+    assert f.max.value == pytest.approx(15.973827, abs=5e-7)
+    assert f.min.value == pytest.approx(14.098827, abs=5e-7)
     assert f.period == pytest.approx(TURN / 15.0, rel=1e-14)
     assert f.delta == pytest.approx(1 / 8, rel=1e-13)
     # Equation 6, which the paper asks for: the speed over the time of a turn is a turn.
@@ -65,14 +65,14 @@ def test_p3_by_the_period() -> None:
 def test_p3_without_a_flywheel() -> None:
     f = flywheel.evaluate(PHI, MOMENT, INERTIA, speed0=17.971089)
     assert f.inertia == 0.0
-    assert f.greatest.at == pytest.approx(0.705044, abs=5e-7)
-    assert f.greatest.value == pytest.approx(19.649, abs=5e-4)
-    assert f.least.at == pytest.approx(2.184668, abs=5e-7)
-    assert f.least.value == pytest.approx(10.4665, abs=5e-5)
+    assert f.max.q == pytest.approx(0.705044, abs=5e-7)
+    assert f.max.value == pytest.approx(19.649, abs=5e-4)
+    assert f.min.q == pytest.approx(2.184668, abs=5e-7)
+    assert f.min.value == pytest.approx(10.4665, abs=5e-5)
     assert f.delta == pytest.approx(0.60982, abs=5e-6)
     assert f.period == pytest.approx(0.421026, abs=5e-7)
     # What is printed there: 0.705, 19.649, 2.185, 10.465 (10.4665 here), 0.61, 0.42.
-    assert (round(f.greatest.at, 3), round(f.least.at, 3)) == (0.705, 2.185)
+    assert (round(f.max.q, 3), round(f.min.q, 3)) == (0.705, 2.185)
     assert round(f.delta, 2) == 0.61
 
 
@@ -132,10 +132,10 @@ def test_random_tables_at_fifty_digits(
     of = {"extremes": (true.top + true.low) / 2, "period": width / true.turn}[mean]
     assert abs(of / 15 - 1) < CLOSE
     assert abs((true.top - true.low) / of / mp.mpf(delta) - 1) < CLOSE / delta
-    assert f.greatest.value == pytest.approx(float(true.top), rel=CLOSE)
-    assert f.least.value == pytest.approx(float(true.low), rel=CLOSE)
-    assert f.greatest.at == pytest.approx(float(true.top_at), abs=PLACE)
-    assert f.least.at == pytest.approx(float(true.low_at), abs=PLACE)
+    assert f.max.value == pytest.approx(float(true.top), rel=CLOSE)
+    assert f.min.value == pytest.approx(float(true.low), rel=CLOSE)
+    assert f.max.q == pytest.approx(float(true.top_at), abs=PLACE)
+    assert f.min.q == pytest.approx(float(true.low_at), abs=PLACE)
     assert f.period == pytest.approx(float(true.turn), rel=CLOSE)
     for q in (0.1, 1.0, 3.3, 6.2):
         speed = oracle.omega(machine, mp.mpf(f.inertia), mp.mpf(f.speed0), mp.mpf(q))
@@ -190,7 +190,7 @@ def test_curves_belong_together() -> None:
     assert np.abs(energy - f.work(q) - energy[0] + f.work(q[0])).max() < 1e-9
     inertia, diagram = f.energy_mass()
     start = f.inertia * f.speed0**2 / 2
-    for place, sign in ((f.greatest, 1), (f.least, -1)):
+    for place, sign in ((f.max, 1), (f.min, -1)):
         # Wittenbauer's tangents touch the diagram and leave it on one side.
         line = place.value**2 / 2 * (inertia + f.inertia) - start
         assert (sign * (line - diagram)).min() > -1e-9

@@ -29,7 +29,7 @@ def test_a_punch(spline: Spline) -> None:
     assert exact == pytest.approx(14.7147884958918, rel=1e-14)
     assert found.inertia == pytest.approx(exact, rel=1e-13)
     assert found.motor_moment == pytest.approx(700.0 / TURN, rel=1e-14)
-    assert (found.greatest.at, found.least.at) == (0.0, 1.0)
+    assert (found.max.q, found.min.q) == (0.0, 1.0)
     again = flywheel.evaluate(*PUNCH, 0.0, flywheel=found.inertia, mean_speed=20.0, spline=spline)
     assert again.delta == pytest.approx(0.1, rel=1e-12)
 

@@ -46,7 +46,7 @@ def test_an_inertia_of_its_own_is_taken_off_the_flywheel(mean: Any) -> None:
     bare = flywheel.from_table(PHI, MOMENT, 0.0, fluctuation=DELTA, mean_speed=SPEED, mean=mean)
     own = flywheel.from_table(PHI, MOMENT, 70.0, fluctuation=DELTA, mean_speed=SPEED, mean=mean)
     assert own.inertia + 70.0 == pytest.approx(bare.inertia, rel=1e-12)
-    assert own.greatest.value == pytest.approx(bare.greatest.value, rel=1e-12)
+    assert own.max.value == pytest.approx(bare.max.value, rel=1e-12)
     again = flywheel.evaluate(PHI, MOMENT, 0.0, flywheel=bare.inertia, mean_speed=SPEED, mean=mean)
     assert again.delta == pytest.approx(DELTA, rel=1e-10)
 

@@ -197,7 +197,7 @@ def inside(c: Choices) -> object:
     def pins() -> object:
         found = c.call(machine.reactions, **motion, on_error=lambda: "nan")
         pin = c.call(found.bearing, name=lambda: c.among(joints), on=lambda: c.among(links))
-        return pin.greatest, pin.mean, c.call(pin.pv, diameter=c.positive, width=c.positive)
+        return pin.max, pin.mean, c.call(pin.pv, diameter=c.positive, width=c.positive)
 
     return c.either(rods, pins)
 

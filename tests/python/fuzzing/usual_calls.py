@@ -264,13 +264,14 @@ def _of_sweeps() -> Iterable[tuple[str, Call]]:
         "Measures",
         found,
         __getitem__={"name": "a"},
-        best={"n": 1, "by": "a"},
+        nsmallest={"n": 1, "by": "a"},
+        nlargest={"n": 1, "by": "a"},
         designs={"indices": 0},
         explain={"index": 2},
         get={"name": "a"},
         plot={"name": "a"},
     )
-    plain = ("greatest", "least", "mean", "place_of_greatest", "place_of_least", "rms", "span")
+    plain = ("max", "min", "mean", "argmax", "argmin", "rms", "span")
     yield from named("metric", metric, **dict.fromkeys((*plain, "time_ratio"), of))
     drive, joint = {"speed": 1.0}, {"joint": "B", "on": None}
     yield from named(
@@ -279,7 +280,7 @@ def _of_sweeps() -> Iterable[tuple[str, Call]]:
         deviation={"of": "C", "shape": "line"},
         flywheel_inertia={"fluctuation": 0.1},
         function={"of_motion": lambda motion: np.zeros(len(motion))},
-        least_transmission={"at": "C"},
+        min_transmission_angle={"at": "C"},
         peak_effort=drive,
         rms_effort=drive,
         peak_reaction=joint,

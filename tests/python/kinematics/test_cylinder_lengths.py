@@ -165,7 +165,7 @@ def test_driven_cylinders_of_random_linkages(driver: str, seed: int) -> None:
     is_distance(motion, "lift", "F", "P")
     assert (motion.status[q < 0.0] == assur.Status.UNREACHABLE).all()
     assert (m.limits().intervals >= 0.0).all()
-    assert m.extremes(driver).least.value >= 0.0
+    assert m.extremes(driver).min.value >= 0.0
     assert list(m.assemblies(-0.5)) == []
 
 
@@ -235,11 +235,11 @@ def test_a_group_of_class_iii_is_followed_to_length_0() -> None:
     motion = driven.solve(q, on_error="nan")
     assert motion.status.tolist() == [3, 3, 0, 0, 0]
     is_distance(motion, "leg", "A", "D")
-    assert tuple(driven.extremes("leg").least) == (0.0, 0.0)
+    assert tuple(driven.extremes("leg").min) == (0.0, 0.0)
     passive = coupler_over_a_foot((float(x), float(y)), "r2")
     over = passive.solve(float(four_bar.q0) + np.linspace(-0.3, 0.08, 13))
     assert is_distance(over, "leg", "A", "D") == 13
-    assert passive.extremes("leg").least.value == 0.0
+    assert passive.extremes("leg").min.value == 0.0
 
 
 def test_a_passive_cylinder_on_a_group_of_class_iii() -> None:
@@ -294,17 +294,17 @@ def test_a_barrel_that_something_slides_on() -> None:
 def test_extremes_begin_where_the_length_does() -> None:
     lift, opened = door(), door("door")
     ends = lift.extremes("lift")
-    assert (ends.least.value, ends.least.q) == (0.0, 0.0)
-    assert abs(ends.greatest.value - 2.0) < 1e-12
+    assert (ends.min.value, ends.min.q) == (0.0, 0.0)
+    assert abs(ends.max.value - 2.0) < 1e-12
     angle = lift.extremes("door")
-    assert abs(angle.least.value + np.pi / 2) < 1e-9
-    assert angle.least.q == 0.0
+    assert abs(angle.min.value + np.pi / 2) < 1e-9
+    assert angle.min.q == 0.0
     stroke = opened.extremes("lift")
-    assert stroke.least.value == 0.0
-    assert abs(stroke.least.q + np.pi / 2) < 1e-9
-    assert abs(stroke.greatest.value - 2.0) < 1e-12
+    assert stroke.min.value == 0.0
+    assert abs(stroke.min.q + np.pi / 2) < 1e-9
+    assert abs(stroke.max.value - 2.0) < 1e-12
     speed = opened.extremes("lift", order=1)
-    np.testing.assert_allclose([speed.least.value, speed.greatest.value], [-1.0, 1.0], atol=1e-9)
+    np.testing.assert_allclose([speed.min.value, speed.max.value], [-1.0, 1.0], atol=1e-9)
 
 
 def test_beside_an_offset_the_value_is_the_part_along_the_guide() -> None:
@@ -315,7 +315,7 @@ def test_beside_an_offset_the_value_is_the_part_along_the_guide() -> None:
     along = np.sqrt((eye**2).sum(axis=1) - 0.09)
     np.testing.assert_allclose(motion.slide("lift").value, along, atol=1e-12)
     assert aside.solve(-np.pi / 2, on_error="nan").status == assur.Status.UNREACHABLE
-    assert 0.0 <= aside.extremes("lift").least.value < 1e-12
+    assert 0.0 <= aside.extremes("lift").min.value < 1e-12
 
 
 def test_what_a_length_may_not_be_is_found_nowhere() -> None:
@@ -351,7 +351,7 @@ def test_metrics_of_sweeps_never_see_a_negative_length() -> None:
     opened = door("door")
     q = np.linspace(-3.0, 3.0, 241)
     lengths = np.linspace(0.5, 1.5, 21)
-    asked = {"least": assur.metric.least("lift"), "most": assur.metric.greatest("lift")}
+    asked = {"least": assur.metric.min("lift"), "most": assur.metric.max("lift")}
     sweep = assur.sweep(opened, {"door.length": lengths}, q, metrics=asked)
     gap = np.hypot(lengths[:, None] * np.cos(q), lengths[:, None] * np.sin(q) + 1.0)
     np.testing.assert_allclose(sweep["least"], gap.min(axis=1), atol=1e-12)

@@ -69,14 +69,19 @@ def of_run(run: Any, over_q: bool = False) -> list[Any]:
     return found
 
 
+def ends(own: Any) -> list[Any]:
+    """The greatest and the least speed, and where they are."""
+    return [own.max.q, own.max.value, own.min.q, own.min.value]
+
+
 def of_steady(own: Any) -> list[Any]:
-    numbers = [own.period, *own.greatest, *own.least, own.mean_speed, own.delta, own.multiplier]
+    numbers = [own.period, *ends(own), own.mean_speed, own.delta, own.multiplier]
     numbers += [own.motor_work, own.power, own.motor_moment, own.found_moment, own.inertia]
     return [np.array(numbers), own.q, own.speed, *own.at(np.arange(-3, 9) * 0.9)]
 
 
 def of_flywheel(own: Any) -> list[Any]:
-    numbers = [own.inertia, own.speed0, own.delta, own.mean_speed, *own.greatest, *own.least]
+    numbers = [own.inertia, own.speed0, own.delta, own.mean_speed, *ends(own)]
     numbers += [own.motor_moment, own.period]
     found: list[Any] = [np.array(numbers)]
     if not own.shape:

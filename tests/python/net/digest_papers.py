@@ -30,6 +30,11 @@ CLASS_IV = {
 }
 
 
+def place_first(extreme: Any) -> list[Any]:
+    """An extreme as it was pinned."""
+    return [extreme.q, extreme.value]
+
+
 def analogues(a: assur.Analogues) -> list[Any]:
     return [a.value, a.d1, a.d2]
 
@@ -42,8 +47,11 @@ def slider_cranks() -> Iterator[tuple[str, Any]]:
     yield "rod point", analogues(slider_crank.rod_point(PHI, 0.3, 1.2, 0.4, 0.1))
     yield "fourier", slider_crank.fourier(RATIOS)
     for method in ("exact", "series", "perpendicular"):
-        yield f"greatest speed, {method}", list(slider_crank.greatest_speed(RATIOS, method=method))
-    yield "greatest acceleration", list(slider_crank.greatest_acceleration(RATIOS))
+        yield (
+            f"greatest speed, {method}",
+            place_first(slider_crank.greatest_speed(RATIOS, method=method)),
+        )
+    yield "greatest acceleration", place_first(slider_crank.greatest_acceleration(RATIOS))
     for n in (1, 2, 3, 5):
         yield f"deviation {n}", list(slider_crank.deviation(1.0 / RATIOS, n))
     yield "contour", slider_crank.contour(0.7, 1.0, 3.0)

@@ -18,9 +18,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 DESIGNS, POSITIONS = 48, 60
-COORDINATES = (metric.span, metric.least, metric.greatest, metric.mean, metric.rms)
+# The labels are pinned, whatever the names.
+COORDINATES = {
+    "span": metric.span,
+    "least": metric.min,
+    "greatest": metric.max,
+    "mean": metric.mean,
+    "rms": metric.rms,
+}
 SHAPES: tuple[Literal["line", "circle"], ...] = ("line", "circle")
-PLACES = (metric.place_of_least, metric.place_of_greatest)
+PLACES = {"place_of_least": metric.argmin, "place_of_greatest": metric.argmax}
 TURN = np.arange(POSITIONS) * (2 * np.pi / POSITIONS)
 
 
@@ -29,7 +36,7 @@ def metrics(m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
     joint = [name for name in m.joints if name not in m.links["ground"]][-1:]
     of = [f"{name}.{axis}" for name in joint for axis in "xy"]
     of += [[link for link in m.links if link != "ground"][-1], *m.slides]
-    asked: dict[str, metric.Metric] = {"moves": metric.full_rotation()}
+    asked: dict[str, metric.Metric] = {"moves": metric.reachable()}
     for name in of:
         asked.update(of_coordinate(name, m, is_turn))
     for name, shape, part, relative in product(joint, SHAPES, (0.25, 0.5, 1.0), (False, True)):
@@ -38,7 +45,7 @@ def metrics(m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
         )
     fixed = [name for name, slide in m.slides.items() if slide.on == "ground"]
     for name in (*joint, *fixed):
-        angle = metric.least_transmission(name)
+        angle = metric.min_transmission_angle(name)
         with suppress(assur.InputError):  # where no two lines meet
             assur.sweep(m, {}, np.array([m.q0]), metrics={"angle": angle})
             asked[f"angle {name}"] = angle
@@ -47,9 +54,11 @@ def metrics(m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
 
 def of_coordinate(name: str, m: assur.Mechanism, is_turn: bool) -> dict[str, metric.Metric]:
     single = np.ndim(m.q0) == 0
-    makes, orders = (*COORDINATES, *(PLACES if single else ())), range(4 if single else 1)
+    makes, orders = COORDINATES | (PLACES if single else {}), range(4 if single else 1)
     asked = {
-        f"{k.__name__} {name} {order}": k(name, order=order) for k in makes for order in orders
+        f"{label} {name} {order}": make(name, order=order)
+        for label, make in makes.items()
+        for order in orders
     }
     if single:
         asked[f"part {name}"] = metric.mean(name, over=(float(m.q0), float(m.q0) + 1.0))
@@ -74,7 +83,7 @@ def results() -> Iterator[tuple[str, Any]]:
         batch = design_spaces.space(m, np.random.default_rng(seed), DESIGNS)
         asked = metrics(m, is_turn)
         name_of = next(key for key in asked if key.startswith("span")).split()[1]
-        quality = 2.0 * metric.span(name_of) - metric.least(name_of)
+        quality = 2.0 * metric.span(name_of) - metric.min(name_of)
         found = assur.sweep(batch, {}, q, metrics={**asked, "quality": quality})
         values = np.sort(found["quality"][found.kept])
         where = [quality <= float(values[len(values) // 2]) if len(values) else quality < 0.0]

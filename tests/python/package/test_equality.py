@@ -211,7 +211,7 @@ CLASSES: dict[Any, dict[str, tuple[Any, Any]]] = {
     },
     metric.span: {"of": ("C.x", "C.y"), "order": (0, 1), "over": (None, (0.0, 1.0))},
     metric.time_ratio: {"of": ("rocker", "coupler")},
-    metric.least_transmission: {"at": ("C", "B")},
+    metric.min_transmission_angle: {"at": ("C", "B")},
     metric.deviation: {"of": ("C", "P"), "shape": ("line", "circle"), "relative": (True, False)},
     metric.function: {"of_motion": (load, other), "outputs": (["C"], None), "order": (0, 1)},
     metric.peak_reaction: {

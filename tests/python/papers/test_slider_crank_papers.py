@@ -176,25 +176,25 @@ def test_greatest_speed_printed() -> None:
     for k, wanted in degrees.items():
         for method, angle in zip(("exact", "series", "perpendicular"), wanted, strict=True):
             found = sc.greatest_speed(float(k), method=method)  # type: ignore[arg-type]
-            assert abs(math.degrees(found.at) - angle) < 6e-7
+            assert abs(math.degrees(found.q) - angle) < 6e-7
             if k in speeds:
                 value = speeds[k][("exact", "series", "perpendicular").index(method)]
                 assert abs(found.value - value) < 6e-10
     many = sc.greatest_speed(np.array(RATIOS))
     # Stationary to the last digits.
-    assert np.abs(sc.stroke(many.at, 1.0, np.array(RATIOS)).d2).max() < 1e-15
+    assert np.abs(sc.stroke(many.q, 1.0, np.array(RATIOS)).d2).max() < 1e-15
 
 
 def test_greatest_acceleration() -> None:
     limit = (3 + math.sqrt(21)) / 2
-    at, value = sc.greatest_acceleration(3.0)
+    value, at = sc.greatest_acceleration(3.0)
     assert abs(math.degrees(at) - 137.612519) < 6e-7
     assert abs(value + 0.697525367) < 6e-10
     for k in (limit, 4.0, 9.0):
-        at, value = sc.greatest_acceleration(k)
+        value, at = sc.greatest_acceleration(k)
         assert (at, value) == (math.pi, pytest.approx(-(1 - 1 / k), abs=1e-15))
     # Just before, the summit leaves the dead point.
-    assert 3.0 < sc.greatest_acceleration(limit - 0.01).at < math.pi
+    assert 3.0 < sc.greatest_acceleration(limit - 0.01).q < math.pi
 
 
 def test_errata_of_the_vector_paper() -> None:

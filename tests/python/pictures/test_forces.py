@@ -242,12 +242,12 @@ def test_bearing_loads() -> None:
         one(fixed, "force").get_xydata(), found.joint("A", on="crank"), atol=1e-9 * pin.size.max()
     )
     np.testing.assert_array_equal(one(turning, "force").get_xydata(), pin.force)
-    greatest = pin.greatest
+    greatest = pin.max
     for ax in (fixed, turning):
         assert np.hypot(*vector(ax, "greatest")[1]) == pytest.approx(greatest.value)
         seen, greatest_text = [text.get_text() for text in named(ax, "heading")]
         value = f"{greatest.value / 1e3:#.3g} kN"
-        assert greatest_text == f"greatest {value} at q = {np.degrees(greatest.at):.4g}°"
+        assert greatest_text == f"greatest {value} at q = {np.degrees(greatest.q):.4g}°"
         assert seen == ("seen from crank, x along it" if ax is turning else "seen from ground")
     rings = [ring.get_radius() for ring in named(fixed, "ring")]
     assert len(rings) >= 2

@@ -33,10 +33,10 @@ def test_contours_lie_where_the_stroke_is_twice_the_crank() -> None:
 
 def test_the_best_designs_are_marked_where_they_are() -> None:
     ax = strokes().plot("stroke")
-    (least,), (greatest,) = named(ax, "best least"), named(ax, "best greatest")
+    (least,), (greatest,) = named(ax, "best min"), named(ax, "best max")
     assert least.get_ydata() == [0.1]
     assert greatest.get_ydata() == [0.3]
-    assert [t.get_text() for t in named(ax, "best text")] == ["least 0.200", "greatest 0.600"]
+    assert [t.get_text() for t in named(ax, "best text")] == ["min 0.200", "max 0.600"]
     assert not named(strokes().plot("stroke", best="none"), "best text")
 
 
@@ -45,7 +45,7 @@ def test_reasons_are_those_of_the_closed_form() -> None:
 
     lengths = np.linspace(0.57, 6.03, 23)
     grid = assur.Grid({"coupler.length": lengths, "ground.D.x": lengths})
-    found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.least_transmission("C")})
+    found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.min_transmission_angle("C")})
     coupler, ground = np.meshgrid(lengths, lengths, indexing="ij")
     sides = np.stack([np.ones_like(coupler), coupler, np.full_like(coupler, 2.5), ground])
     never = 2.0 * sides.max(axis=0) > sides.sum(axis=0)
@@ -59,10 +59,10 @@ def test_reasons_are_those_of_the_closed_form() -> None:
 def test_regions_without_value_are_hatched_with_their_reason() -> None:
     lengths = np.linspace(0.8, 6.0, 27)
     grid = assur.Grid({"coupler.length": lengths, "ground.D.x": lengths})
-    where = [metric.least_transmission("C") > 0.5]
+    where = [metric.min_transmission_angle("C") > 0.5]
     found = assur.sweep(FOUR_BAR, grid, Q, metrics={"swing": metric.span("rocker")}, where=where)
     ax = found.plot("swing", degrees=True)
-    wanted = {"crank stops", "cannot be assembled", "least_transmission(C) ≤ 0.5"}
+    wanted = {"crank stops", "cannot be assembled", "min_transmission_angle(C) ≤ 0.5"}
     patches = [p for p in ax.patches if (p.get_gid() or "").startswith("region ")]
     assert {p.get_gid().removeprefix("region ") for p in patches} == wanted
     assert len({p.get_hatch() for p in patches}) == 3
@@ -80,7 +80,7 @@ def test_regions_without_value_are_hatched_with_their_reason() -> None:
 def test_texts_of_a_map_do_not_overlap(dark: bool) -> None:
     lengths = np.linspace(0.8, 6.0, 33)
     grid = assur.Grid({"coupler.length": lengths, "ground.D.x": lengths})
-    found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.least_transmission("C")})
+    found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.min_transmission_angle("C")})
     ax = found.plot("angle", degrees=True, dark=dark)
     ax.figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in ax.texts]
@@ -90,7 +90,7 @@ def test_texts_of_a_map_do_not_overlap(dark: bool) -> None:
 
 def test_where_nothing_moves_the_whole_map_says_why() -> None:
     grid = assur.Grid({"coupler.length": [9.0, 10.0, 11.0], "ground.D.x": [2.5, 3.0]})
-    found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.least_transmission("C")})
+    found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.min_transmission_angle("C")})
     ax = found.plot("angle")
     assert [text.get_text() for text in named(ax, "reason")] == ["cannot be assembled"]
     assert not named(ax, "colours")
@@ -124,11 +124,11 @@ def test_what_is_no_map_is_refused_by_name() -> None:
     found = assur.sweep(engine, grid, Q, metrics=asked)
     with pytest.raises(assur.InputError, match=r"3 dimensions .*fix the others, as at=.*bore"):
         found.plot("s")
-    ax = found.plot("s", at={"bore.offset": 0.1}, best="greatest")
+    ax = found.plot("s", at={"bore.offset": 0.1}, best="max")
     both = assur.SliderCrank(0.2, 0.6, offset=0.1), assur.SliderCrank(0.2, 0.5, offset=0.1)
     spans = [float(np.ptp(m.solve(Q).slide("bore").value)) for m in both]
     (text,) = named(ax, "best text")
-    assert text.get_text() == f"greatest {max(spans):.3f}"
+    assert text.get_text() == f"max {max(spans):.3f}"
     with pytest.raises(assur.InputError, match=r"0\.3 is not a value of the sweep; the nearest"):
         found.plot("s", at={"bore.offset": 0.3})
     with pytest.raises(assur.InputError, match=r"'crank' is not a dimension of the sweep"):

@@ -65,7 +65,7 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "drawing of an array": (lambda x: drawing(link=x), np.zeros(3), "link array name"),
     "paper": (lambda x: drawing(paper=x), [], "paper [] one of A4"),
     "labels": (lambda x: M.plot(labels=x), TABLE, "labels array 'first' 'all' 'none'"),
-    "best": (lambda x: measured().best(1, by=x), [], "by=[] 'swing'"),
+    "largest": (lambda x: measured().nlargest(1, by=x), [], "by=[] 'swing'"),
     "curvature of two": (MOTION.curvature, ["C", "D"], "curvature ['C', 'D'] string"),
     "curvature of one in a list": (MOTION.curvature, ["C"], "curvature ['C'] string"),
     "event": (lambda x: watched(x, 0.5), "Q", "event TransmissionAngle of 'Q': joint \"A\""),

@@ -249,14 +249,14 @@ def test_warnings_are_told() -> None:
 def test_map() -> None:
     x = {"dimension": "coupler.length", "low": 3.0, "high": 5.0}
     y = {"dimension": "rocker.length", "low": 1.0, "high": 4.0}
-    metric = {"metric": "least_transmission", "at": "C"}
+    metric = {"metric": "min_transmission_angle", "at": "C"}
     reply = ask("map", document=FOUR_BAR, x=x, y=y, n=9, metric=metric)
     mechanism = document.read_mechanism(FOUR_BAR)
     grid = assur.Grid(
         {"rocker.length": np.linspace(1.0, 4.0, 9), "coupler.length": np.linspace(3.0, 5.0, 9)}
     )
     q = np.linspace(0.0, TURN, 72, endpoint=False)
-    asked = {"value": assur.metric.least_transmission("C")}
+    asked = {"value": assur.metric.min_transmission_angle("C")}
     found = assur.sweep(mechanism, grid, q, metrics=asked)
     assert np.array_equal(reply.arrays["value"], found["value"], equal_nan=True)
     assert np.array_equal(reply.arrays["reason"] > 0, np.isnan(found["value"]))

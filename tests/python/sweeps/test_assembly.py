@@ -54,7 +54,7 @@ def test_the_best_design_has_its_value_with_an_engine_too() -> None:
     asked = {"y": metric.mean("C.y"), "own": metric.function(height, outputs=["C"])}
     with ThreadPoolExecutor(2) as engine:
         found = assur.sweep(four_bar(), SPACE, Q, assembly=CROSSED, metrics=asked, engine=engine)
-    best = found.designs(found.best(1, by="own"))
+    best = found.designs(found.nsmallest(1, by="own"))
     assert height(best.solve(Q)) == np.nanmin(found["own"])
     assert found["own"] == pytest.approx(found["y"], rel=1e-5)
 

@@ -215,8 +215,8 @@ def test_many_positions_of_a_design() -> None:
     q = np.linspace(0.0, 2 * np.pi, 200_001, endpoint=False)
     asked = {
         "span": metric.span("rocker", order=2),
-        "angle": metric.least_transmission("C"),
-        "at": metric.place_of_greatest("C.x"),
+        "angle": metric.min_transmission_angle("C"),
+        "at": metric.argmax("C.x"),
         "ratio": metric.time_ratio("rocker"),
     }
     found = assur.sweep(m, {}, q, metrics=asked)

@@ -45,23 +45,23 @@ def test_every_metric(name: str) -> None:
     at = at if name == "five-bar" else "stick_slide" if "stick_slide" in m.slides else at
     coordinates = [f"{point}.x", f"{point}.y", link, *m.slides]
     makes: dict[str, Any] = {
-        word: getattr(metric, word) for word in ("span", "least", "greatest", "mean", "rms")
+        word: getattr(metric, word) for word in ("span", "min", "max", "mean", "rms")
     }
     asked = {f"{word} {of}": make(of) for word, make in makes.items() for of in coordinates}
     asked["line"] = metric.deviation(point)
     asked["round"] = metric.deviation(point, shape="circle", part=0.4, relative=True)
-    asked["moves"] = metric.full_rotation()
+    asked["moves"] = metric.reachable()
     slides = [s for s in m.slides if m.slides[s].on != "ground"]
-    asked |= {f"at {s}": metric.least_transmission(s) for s in slides}
+    asked |= {f"at {s}": metric.min_transmission_angle(s) for s in slides}
     if name == "five-bar":
-        asked["at C"] = metric.least_transmission("C")
+        asked["at C"] = metric.min_transmission_angle("C")
     found = assur.sweep(m, {}, q, metrics=asked)
     motion = m.solve(q, order=0)
     assert found.kept.tolist() == [0]
     reductions: dict[str, Any] = {
         "span": np.ptp,
-        "least": np.min,
-        "greatest": np.max,
+        "min": np.min,
+        "max": np.max,
         "mean": np.mean,
         "rms": lambda v: np.sqrt(np.mean(v * v)),
     }
@@ -100,8 +100,8 @@ def coordinate(motion: assur.Motion, name: str) -> Float:
 @pytest.mark.parametrize(
     "refused",
     [
-        "place_of_least",
-        "place_of_greatest",
+        "argmin",
+        "argmax",
         "time_ratio",
         "order",
         "over",
@@ -111,12 +111,12 @@ def coordinate(motion: assur.Motion, name: str) -> Float:
 def test_what_needs_one_driver_is_refused(name: str, refused: str) -> None:
     m, q, point, link, _ = MECHANISMS[name]
     asked = {
-        "place_of_least": metric.place_of_least(link),
-        "place_of_greatest": metric.place_of_greatest(f"{point}.y"),
+        "argmin": metric.argmin(link),
+        "argmax": metric.argmax(f"{point}.y"),
         "time_ratio": metric.time_ratio(link),
         "order": metric.span(link, order=1),
         "over": metric.span(link, over=(0.0, 1.0)),
-        "over of a transmission": metric.least_transmission(
+        "over of a transmission": metric.min_transmission_angle(
             point, between=("B", "D") if name == "five-bar" else ("foot", "elbow"), over=(0.0, 1.0)
         ),
     }[refused]

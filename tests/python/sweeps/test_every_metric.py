@@ -25,21 +25,21 @@ ORDERS: list[dict[str, Any]] = [
 # Arguments for an engine: the pin B goes to and fro on a straight line.
 ARGUMENTS: dict[str, list[dict[str, Any]]] = {
     "span": ORDERS,
-    "least": ORDERS,
-    "greatest": ORDERS,
+    "min": ORDERS,
+    "max": ORDERS,
     "mean": ORDERS,
     "rms": ORDERS,
-    "place_of_least": ORDERS,
-    "place_of_greatest": ORDERS,
+    "argmin": ORDERS,
+    "argmax": ORDERS,
     "time_ratio": [{"of": "P.x"}, {"of": "bore"}],
-    "least_transmission": [{"at": "B"}, {"at": "bore"}, {"at": "A", "between": ("O", "B")}],
+    "min_transmission_angle": [{"at": "B"}, {"at": "bore"}, {"at": "A", "between": ("O", "B")}],
     "deviation": [
         {"of": of, "shape": shape, "relative": relative}
         for of in ("P", "B")
         for shape in ("line", "circle")
         for relative in (False, True)
     ],
-    "full_rotation": [{}],
+    "reachable": [{}],
 }
 
 

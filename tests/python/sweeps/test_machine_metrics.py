@@ -27,7 +27,7 @@ ASKED = {
     "peak A": metric.peak_reaction("A", **MOTION),
     "peak": metric.peak_effort(**MOTION),
     "rms": metric.rms_effort(**MOTION),
-    "inertia": metric.greatest_inertia(),
+    "inertia": metric.max_inertia(),
     "flywheel": metric.flywheel_inertia(0.02, mean_speed=6.0),
 }
 

@@ -12,7 +12,7 @@ from assur import metric
 
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 GRID = {"coupler.length": [2.0, 3.0, 9.0, -1.0], "ground.D.y": [0.0, 0.2, 0.4]}
-SWING, ANGLE = metric.span("rocker"), metric.least_transmission("C")
+SWING, ANGLE = metric.span("rocker"), metric.min_transmission_angle("C")
 
 
 def four_bar() -> assur.Mechanism:
@@ -20,7 +20,7 @@ def four_bar() -> assur.Mechanism:
 
 
 def found() -> assur.Measures:
-    asked = {"swing": SWING, "angle": ANGLE, "turns": metric.full_rotation()}
+    asked = {"swing": SWING, "angle": ANGLE, "turns": metric.reachable()}
     limit = float(
         np.median(assur.sweep(four_bar(), assur.Grid(GRID), Q, metrics=asked)["angle"][:2])
     )
@@ -45,8 +45,8 @@ def test_every_design_is_kept_missed_or_fails() -> None:
 
 
 def test_rotation_in_conditions_and_sums() -> None:
-    asked = {"turns": metric.full_rotation(), "twice": 2.0 * metric.full_rotation() + 1.0}
-    where = [metric.full_rotation() > 0.5]
+    asked = {"turns": metric.reachable(), "twice": 2.0 * metric.reachable() + 1.0}
+    where = [metric.reachable() > 0.5]
     some = assur.sweep(four_bar(), assur.Grid(GRID), Q, metrics=asked, where=where)
     assert some.kept.tolist() == [0, 1, 2, 3, 4, 5]
     assert (some["turns"] == [[1.0] * 3, [1.0] * 3, [0.0] * 3, [0.0] * 3]).all()
@@ -58,33 +58,32 @@ def test_the_best() -> None:
     values = some["swing"].reshape(-1)
     ascending = some.kept[np.argsort(values[some.kept])]
     for n in (1, 2, 3, 50):
-        assert some.best(n, by="swing").tolist() == ascending[:n].tolist()
-        best = some.best(n, by="swing", greatest=True)
+        assert some.nsmallest(n, by="swing").tolist() == ascending[:n].tolist()
+        best = some.nlargest(n, by="swing")
         assert best.tolist() == ascending[::-1][:n].tolist()
     # Of equal values the first is first.
-    assert some.best(2, by="turns").tolist() == [6, 7]
-    assert some.best(7, by="turns", greatest=True).tolist() == [*some.kept, 6, 7, 8, 9]
+    assert some.nsmallest(2, by="turns").tolist() == [6, 7]
+    assert some.nlargest(7, by="turns").tolist() == [*some.kept, 6, 7, 8, 9]
     many = np.random.default_rng(1).uniform(2.0, 3.0, 1000)
     more = assur.sweep(four_bar(), {"coupler.length": many}, Q, metrics={"swing": SWING})
-    assert more.best(10, by="swing").tolist() == np.argsort(more["swing"])[:10].tolist()
-    three = more.designs(more.best(3, by="swing"))
+    assert more.nsmallest(10, by="swing").tolist() == np.argsort(more["swing"])[:10].tolist()
+    three = more.designs(more.nsmallest(3, by="swing"))
     again = assur.sweep(three, {}, Q, metrics={"swing": SWING})["swing"]
     assert again.tolist() == np.sort(more["swing"])[:3].tolist()
     for arguments, message in [
         ({"n": 0, "by": "swing"}, "n is 0"),
         ({"n": 1, "by": "off"}, "by='off': one of 'swing', 'angle', 'turns'"),
         ({"n": 1, "by": "swin"}, "did you mean 'swing'"),
-        ({"n": "swing", "by": 10}, r"best\(10, by='swing'\)"),
-        ({"n": 1, "by": "swing", "greatest": 1}, "greatest is 1"),
+        ({"n": "swing", "by": 10}, r"nsmallest\(10, by='swing'\)"),
     ]:
         with pytest.raises(assur.InputError, match=message):
-            some.best(**arguments)  # type: ignore[arg-type]
+            some.nsmallest(**arguments)  # type: ignore[arg-type]
     none = assur.sweep(
         four_bar(), GRID | {"ground.D.y": 0.0}, Q, metrics={"swing": SWING}, where=[SWING > 9.5]
     )
     message = "no design has a value of 'swing': of 4 designs 2 do not move, 2 miss a condition, 0"
     with pytest.raises(assur.InputError, match=message):
-        none.best(1, by="swing")
+        none.nsmallest(1, by="swing")
 
 
 def test_designs_as_numpy_indexes() -> None:

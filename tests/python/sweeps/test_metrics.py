@@ -53,10 +53,10 @@ def test_metrics_are_those_of_the_motion(name: str) -> None:
         for order in (0, 1, 2):
             reductions: dict[str, tuple[Any, Callable[[Float], Any]]] = {
                 "span": (metric.span, lambda v: np.ptp(v, axis=-1)),
-                "least": (metric.least, lambda v: v.min(axis=-1)),
-                "greatest": (metric.greatest, lambda v: v.max(axis=-1)),
-                "at least": (metric.place_of_least, lambda v: q[v.argmin(axis=-1)]),
-                "at greatest": (metric.place_of_greatest, lambda v: q[v.argmax(axis=-1)]),
+                "least": (metric.min, lambda v: v.min(axis=-1)),
+                "greatest": (metric.max, lambda v: v.max(axis=-1)),
+                "at least": (metric.argmin, lambda v: q[v.argmin(axis=-1)]),
+                "at greatest": (metric.argmax, lambda v: q[v.argmax(axis=-1)]),
                 "mean": (metric.mean, lambda v: v.mean(axis=-1)),
                 "rms": (metric.rms, lambda v: np.sqrt((v * v).mean(axis=-1))),
             }
@@ -75,7 +75,7 @@ def test_least_transmission() -> None:
     for name, at in [("crank_rocker", "C"), ("engine", "B"), ("engine", "bore")]:
         batch = space(name)
         motion = batch.solve(Q, order=0, on_error="nan")
-        found = assur.sweep(batch, {}, Q, metrics={"angle": metric.least_transmission(at)})
+        found = assur.sweep(batch, {}, Q, metrics={"angle": metric.min_transmission_angle(at)})
         expected = motion.transmission_angle(at).min(axis=-1)
         np.testing.assert_allclose(found["angle"], expected, rtol=0, atol=1e-15)
     between = ("B", "D")
@@ -83,7 +83,7 @@ def test_least_transmission() -> None:
         space("crank_rocker"),
         {},
         Q,
-        metrics={"angle": metric.least_transmission("C", between=between)},
+        metrics={"angle": metric.min_transmission_angle("C", between=between)},
     )
     motion = space("crank_rocker").solve(Q, order=0, on_error="nan")
     expected = motion.transmission_angle("C", between=between).min(axis=-1)
@@ -135,7 +135,7 @@ def test_metrics_of_a_part_of_the_turn() -> None:
         {},
         Q,
         metrics={
-            "inside": metric.greatest("C.y", over=(1.0, 2.0)),
+            "inside": metric.max("C.y", over=(1.0, 2.0)),
             "across": metric.mean("rocker", over=(6.0, 7.0)),
             "none": metric.span("rocker", over=(0.001, 0.002)),
         },
@@ -156,13 +156,13 @@ def test_combinations_conditions_and_functions() -> None:
         highest: Float = motion.joint("C").value[..., 1].max(axis=-1)
         return highest
 
-    angle, high = metric.least_transmission("C"), metric.function(height, outputs=["C"])
+    angle, high = metric.min_transmission_angle("C"), metric.function(height, outputs=["C"])
     quality = 2.0 * metric.span("rocker") - high / 3.0 + 1.0
     found = assur.sweep(
         batch,
         {},
         Q,
-        metrics={"quality": quality, "high": high, "turns": metric.full_rotation()},
+        metrics={"quality": quality, "high": high, "turns": metric.reachable()},
         where=[angle > 0.5, metric.span("C.x") <= 2.0, quality < 2.0],
     )
     motion = batch.solve(Q, order=0, on_error="nan")
@@ -210,7 +210,7 @@ def test_a_link_that_keeps_its_angle_by_slides_is_no_crank() -> None:
     )
     q = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
     lengths = [1.0, 1.7, 1.9, 2.0, 2.2, 2.5, 3.0]
-    measures = {"full": assur.metric.full_rotation(), "x": assur.metric.greatest("B.x")}
+    measures = {"full": assur.metric.reachable(), "x": assur.metric.max("B.x")}
     found = assur.sweep(m, {"k5.length": lengths}, q, metrics=measures)
     for index, length in enumerate(lengths):
         reaches = (

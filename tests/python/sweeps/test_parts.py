@@ -77,7 +77,7 @@ def test_a_window_across_the_end_of_the_turn_is_one_stretch(turn: float) -> None
 
 def test_the_first_of_equal_extremes_is_the_first_of_the_part() -> None:
     q = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
-    place = metric.place_of_greatest("crank", order=1, over=(5.0, 7.5))
+    place = metric.argmax("crank", order=1, over=(5.0, 7.5))
     assert measured(q, at=place)["at"] == q[7]
 
 
@@ -109,7 +109,7 @@ def test_too_few_positions(asked: metric.Metric, message: str) -> None:
 )
 def test_positions_that_do_not_follow_each_other(q: Any) -> None:
     over = (6.0, 7.0)
-    found = measured(q, most=metric.greatest("P.y", over=over))
+    found = measured(q, most=metric.max("P.y", over=over))
     inside = ((q - 6.0) % (2 * np.pi)) <= 1.0
     assert found["most"] == COUPLER.solve(q[inside]).joint("P").value[:, 1].max()
     with pytest.raises(assur.InputError, match="do not follow each other"):

@@ -40,7 +40,7 @@ def four_bar() -> assur.Mechanism:
         ({"q": Q[None]}, r"q has shape \(1, 72\): metrics need \(N,\)"),
         ({"metrics": {"off": metric.deviation("C.x")}}, "C.x"),
         (
-            {"metrics": {"a": metric.least_transmission("C", between=("B", "B"))}},
+            {"metrics": {"a": metric.min_transmission_angle("C", between=("B", "B"))}},
             "two joints are needed",
         ),
     ],
@@ -78,9 +78,9 @@ def test_a_name_is_refused_as_in_extremes(name: str, kind: str) -> None:
         (lambda: metric.function(4), "a function of a motion is needed"),
         (lambda: metric.span("C.x", over=(6.0, 1.0)), r"write \(6.0, 7.283185307179586\)"),
         (lambda: metric.span("C.x", over=WRONG), r"\(from, to\)"),
-        (lambda: metric.least_transmission("C", between=WRONG), "between=5: two joints"),
+        (lambda: metric.min_transmission_angle("C", between=WRONG), "between=5: two joints"),
         (
-            lambda: metric.least_transmission("C", between=("B", WRONG)),
+            lambda: metric.min_transmission_angle("C", between=("B", WRONG)),
             "the name 5 is not a string",
         ),
         (lambda: metric.deviation("C", relative=WRONG), "relative is 5: True or False"),
@@ -157,7 +157,7 @@ def test_sums_and_multiples_stop_early(factor: float) -> None:
     """What they drop after a few positions is what they would drop after all."""
     rng = np.random.default_rng(4)
     space = {name: rng.uniform(1.5, 4.0, 400) for name in ("coupler.length", "rocker.length")}
-    swing, high, low = SWING, metric.greatest("C.y"), metric.least("C.x")
+    swing, high, low = SWING, metric.max("C.y"), metric.min("C.x")
     quality = factor * swing + 3.0 * factor * high - factor * low / 2.0 + 1.0
     asked = {"quality": quality, "swing": swing}
     every = assur.sweep(four_bar(), space, Q, metrics=asked)
@@ -186,7 +186,7 @@ def test_sums_are_asked_after_a_few_positions() -> None:
     short = metric.span("C.x")
     for condition in (
         *(2.0 * SWING < 0.01, SWING + short < 0.01, -SWING > -0.01, 1.0 - SWING / 2.0 > 0.99),
-        *(SWING - metric.least("C.y") < -9.0, -2.0 * short > SWING, SWING / -2.0 > 0.0),
+        *(SWING - metric.min("C.y") < -9.0, -2.0 * short > SWING, SWING / -2.0 > 0.0),
     ):
         found = assur.sweep(four_bar(), lengths, q, metrics=ASKED, where=[condition])
         assert found.missed.tolist() == [0, 1], condition

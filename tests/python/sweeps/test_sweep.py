@@ -114,7 +114,7 @@ def test_higher_classes_and_several_drivers() -> None:
     from_, to = (np.asarray(end, dtype=np.float64) for end in named_drawings.RANGES["excavator"])
     q = np.linspace(from_, to, 9)
     joint = [j for j in press.joints if j not in press.links["ground"]][-1]
-    found = assur.sweep(press, {}, q, metrics={"reach": metric.greatest(f"{joint}.x")})
+    found = assur.sweep(press, {}, q, metrics={"reach": metric.max(f"{joint}.x")})
     expected = press.solve(q, order=0).joint(joint).value[:, 0].max()
     assert found["reach"] == expected
     of_class_iv = higher_drawings.quadrilateral()
@@ -122,7 +122,7 @@ def test_higher_classes_and_several_drivers() -> None:
     motion = batch.solve(Q, order=1, on_error="nan")
     moves = (motion.status < assur.Status.SINGULAR).all(axis=-1)
     link = [link for link in batch.links if link != "ground"][-1]
-    turns = assur.sweep(batch, {}, Q, metrics={"most": metric.greatest(link, order=1)})
+    turns = assur.sweep(batch, {}, Q, metrics={"most": metric.max(link, order=1)})
     assert len(turns.kept) > 0
     assert turns.kept.tolist() == np.flatnonzero(moves).tolist()
     assert (turns["most"][moves] == motion.link(link).d1[moves].max(axis=-1)).all()
@@ -131,13 +131,13 @@ def test_higher_classes_and_several_drivers() -> None:
 def test_at_change_points_there_are_no_derivatives() -> None:
     """A parallelogram moves through them; what is asked besides does not matter."""
     q = np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
-    asked = {"swing": metric.span("rocker"), "rate": metric.greatest("rocker", order=1)}
+    asked = {"swing": metric.span("rocker"), "rate": metric.max("rocker", order=1)}
     found = assur.sweep(assur.FourBar(1.0, 2.0, 1.0, 2.0), {}, q, metrics=asked)
     assert found.status == assur.Status.SINGULAR
     assert found.kept.tolist() == [0]
     assert found["swing"] == pytest.approx(1.75 * np.pi, abs=1e-12)
     assert np.isnan(found["rate"])
-    where = [metric.greatest("rocker", order=1) < 9.0]
+    where = [metric.max("rocker", order=1) < 9.0]
     assert not assur.sweep(
         assur.FourBar(1.0, 2.0, 1.0, 2.0), {}, q, metrics=asked, where=where
     ).kept.size

@@ -35,8 +35,8 @@ def four_bars(count: int = 200) -> tuple[assur.Mechanism, textbook.FourBars]:
 
 REDUCTIONS: dict[str, tuple[Any, Callable[[Float], Float]]] = {
     "span": (metric.span, lambda v: np.ptp(v, axis=1)),
-    "least": (metric.least, lambda v: v.min(axis=1)),
-    "greatest": (metric.greatest, lambda v: v.max(axis=1)),
+    "least": (metric.min, lambda v: v.min(axis=1)),
+    "greatest": (metric.max, lambda v: v.max(axis=1)),
     "mean": (metric.mean, lambda v: v.mean(axis=1)),
     "rms": (metric.rms, lambda v: np.sqrt((v * v).mean(axis=1))),
 }
@@ -56,7 +56,7 @@ def test_coordinates_and_their_derivatives(order: int) -> None:
         for word, (make, _) in REDUCTIONS.items()
         for of in motion
     }
-    places = {f"at {of}": metric.place_of_greatest(of, order=order) for of in motion}
+    places = {f"at {of}": metric.argmax(of, order=order) for of in motion}
     found = assur.sweep(batch, {}, Q, metrics={**asked, **places})
     assert found.kept.tolist() == np.flatnonzero(moves).tolist()
     for of, series in motion.items():
@@ -79,7 +79,7 @@ def test_coordinates_and_their_derivatives(order: int) -> None:
 def test_transmission_and_rotation() -> None:
     batch, oracle = four_bars()
     moves = oracle.moves(Q)
-    asked = {"angle": metric.least_transmission("C"), "turns": metric.full_rotation()}
+    asked = {"angle": metric.min_transmission_angle("C"), "turns": metric.reachable()}
     found = assur.sweep(batch, {}, Q, metrics=asked)
     assert (found["turns"] == moves).all()
     with np.errstate(invalid="ignore"):
@@ -114,7 +114,7 @@ def test_strokes_of_offset_slider_cranks() -> None:
 def test_places_and_ratios_are_off_by_what_the_manual_says(count: int) -> None:
     offset = np.random.default_rng(5).uniform(-1.2, 1.2, 40)
     m = assur.SliderCrank(1.0, 3.0)
-    asked = {"ratio": metric.time_ratio("bore"), "place": metric.place_of_greatest("bore")}
+    asked = {"ratio": metric.time_ratio("bore"), "place": metric.argmax("bore")}
     even = np.linspace(0.0, 2 * np.pi, count, endpoint=False)
     found = assur.sweep(m, {"bore.offset": offset}, even, metrics=asked)
     exact = [m.with_dimensions({"bore.offset": one}).extremes("bore") for one in offset]
@@ -122,7 +122,7 @@ def test_places_and_ratios_are_off_by_what_the_manual_says(count: int) -> None:
     error = np.abs(found["ratio"] - ratio) * count / (1.0 + ratio) ** 2
     # Not better either: nothing is interpolated.
     assert 0.4 < error.max() < 1.0
-    away = found["place"] - [one.greatest.q for one in exact]
+    away = found["place"] - [one.max.q for one in exact]
     away = np.abs((away + np.pi) % (2 * np.pi) - np.pi) * count / (2 * np.pi)
     assert 0.4 < away.max() < 0.51
 

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.out is not None:
         output.write(_columns(extremes, of_driver, unit))
     if arguments.out != "-":
-        for name, at in (("least", extremes.least), ("greatest", extremes.greatest)):
+        for name, at in (("least", extremes.min), ("greatest", extremes.max)):
             value, q = _shown(at.value, unit), _shown(at.q, of_driver)
             print(f"{name:<10}  {value!r} {unit} at q = {q!r} {of_driver}")
         print(f"stroke      {_shown(extremes.stroke, unit)!r} {unit}")
@@ -98,7 +98,7 @@ def _columns(extremes: Extremes, of_driver: str, unit: str) -> list[Column]:
     """Return a row for each of the two."""
     from assur._table import Column
 
-    both = extremes.least, extremes.greatest
+    both = extremes.min, extremes.max
     return [
         Column("q", np.array([_shown(at.q, of_driver) for at in both]), of_driver, "extremes"),
         Column("value", np.array([_shown(at.value, unit) for at in both]), unit, "extremes"),

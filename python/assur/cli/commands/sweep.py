@@ -41,19 +41,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     describe(
         parser,
         "Measure every combination of some dimensions (--vary), or the designs of a table\n"
-        "(--designs). Metrics are those of assur.metric: span(B.x), least(bore), greatest,\n"
-        "mean, rms, least_transmission(C), deviation(P, line, part=0.5), time_ratio(bore);\n"
+        "(--designs). Metrics are those of assur.metric: span(B.x), min(bore), max,\n"
+        "mean, rms, min_transmission_angle(C), deviation(P, line, part=0.5), time_ratio(bore);\n"
         "of a machine peak_reaction(B, speed=20), peak_effort(); with order=1, over=(0,90deg),\n"
         "between=(B,D); with + - * / and numbers. A design that does not move over all\n"
         "positions, or misses a condition, has NaN; if no design is left, the exit status is 3.\n"
         "Results are in m and rad.",
         "assur sweep example:crank_rocker --vary coupler.length=90:150mm:20 "
-        "--vary rocker.length=60:120mm:20 --metric 'gamma=least_transmission(C)' --best 5 "
-        "--greatest",
+        "--vary rocker.length=60:120mm:20 --metric 'gamma=min_transmission_angle(C)' "
+        "--nlargest 5",
         "assur sweep example:engine --vary rod.length=0.1:0.2:50 --metric 'span(bore)' "
         "--out strokes.csv",
         "assur sweep example:crank_rocker --vary coupler.length=90:150mm:20 "
-        "--metric 'off=deviation(P, line, relative=true)' --where 'least_transmission(C) > 40deg'",
+        "--metric 'off=deviation(P, line, relative=true)' "
+        "--where 'min_transmission_angle(C) > 40deg'",
     )
     add_source(parser)
     parser.add_argument(
@@ -75,18 +76,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=METRIC",
         action="append",
         required=True,
-        help="a metric, gamma=least_transmission(C)",
+        help="a metric, gamma=min_transmission_angle(C)",
     )
     parser.add_argument(
         "--where",
         metavar="CONDITION",
         action="append",
         default=[],
-        help="drop designs that miss it: least_transmission(C) > 40deg",
+        help="drop designs that miss it: min_transmission_angle(C) > 40deg",
     )
-    parser.add_argument("--best", type=int, metavar="N", help="only the N best designs")
-    parser.add_argument("--by", metavar="NAME", help="the metric that is best; the first")
-    parser.add_argument("--greatest", action="store_true", help="the greatest is best, not least")
+    few = parser.add_mutually_exclusive_group()
+    few.add_argument("--nsmallest", type=int, metavar="N", help="only N designs, least first")
+    few.add_argument("--nlargest", type=int, metavar="N", help="only N designs, greatest first")
+    parser.add_argument("--by", metavar="NAME", help="the metric for them; the first")
     add_coordinates(parser)
     parser.add_argument(
         "--positions",
@@ -105,10 +107,12 @@ def run(arguments: argparse.Namespace) -> int:
     from assur.sweeps.measures import counts_text
     from assur.sweeps.sweep import sweep
 
-    if arguments.best is None and (arguments.by is not None or arguments.greatest):
-        arguments.parser.error("--by and --greatest need --best")
-    if arguments.best is not None and arguments.best < 1:
-        arguments.parser.error("--best needs a number of at least 1")
+    word = "nsmallest" if arguments.nlargest is None else "nlargest"
+    most: int | None = getattr(arguments, word)
+    if most is None and arguments.by is not None:
+        arguments.parser.error("--by needs --nsmallest or --nlargest")
+    if most is not None and most < 1:
+        arguments.parser.error(f"--{word} needs a number of at least 1")
     if arguments.positions is not None and arguments.q is not None:
         arguments.parser.error("--positions is in place of --q")
     output = Output(arguments.out, arguments.file)
@@ -122,7 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
     require_one(contents.mechanism, arguments.file)
     dimensions = _dimensions(arguments, contents.mechanism.core.dimension_names)
     rows = math.prod(np.broadcast_shapes(*map(np.shape, dimensions.values())))
-    output.require_few(rows if arguments.best is None else min(rows, arguments.best))
+    output.require_few(rows if most is None else min(rows, most))
     measures: Measures = sweep(
         contents.machine or contents.mechanism,
         dimensions,
@@ -136,12 +140,8 @@ def run(arguments: argparse.Namespace) -> int:
         output.write(_columns(measures, None))
         note(f"no design is left: {counts_text(measures)}")
         return INCOMPLETE
-    best = (
-        None
-        if arguments.best is None
-        else measures.best(arguments.best, by, greatest=arguments.greatest)
-    )
-    output.write(_columns(measures, best))
+    first = None if most is None else getattr(measures, word)(most, by)
+    output.write(_columns(measures, first))
     return 0
 
 

@@ -34,8 +34,8 @@ class FlywheelOfDesigns(Flywheel):
 
         def extreme(all_: list[Extreme]) -> Extreme:
             return Extreme(
-                stacked([peak.at for peak in all_]),
                 stacked([peak.value for peak in all_]),
+                stacked([peak.q for peak in all_]),
             )
 
         super().__init__(
@@ -43,8 +43,8 @@ class FlywheelOfDesigns(Flywheel):
             speed0=stacked([flywheel.speed0 for flywheel in each]),
             motor_moment=stacked([flywheel.motor_moment for flywheel in each]),
             extremes=(
-                extreme([flywheel.greatest for flywheel in each]),
-                extreme([flywheel.least for flywheel in each]),
+                extreme([flywheel.max for flywheel in each]),
+                extreme([flywheel.min for flywheel in each]),
             ),
             period=stacked([flywheel.period for flywheel in each]),
             mean=each[0].mean,

@@ -42,7 +42,7 @@ class SteadyFlywheel(Flywheel):
             inertia=steady.inertia,
             speed0=float(start.speed),
             motor_moment=steady.motor_moment,
-            extremes=(_in_turn(steady.greatest, turn), _in_turn(steady.least, turn)),
+            extremes=(_in_turn(steady.max, turn), _in_turn(steady.min, turn)),
             period=steady.period,
             mean=steady.mean,
             turn=(0.0, turn),
@@ -116,4 +116,4 @@ class SteadyFlywheel(Flywheel):
 
 
 def _in_turn(extreme: Extreme, turn: float) -> Extreme:
-    return Extreme(float(np.remainder(extreme.at, turn)), extreme.value)
+    return Extreme(extreme.value, float(np.remainder(extreme.q, turn)))

@@ -10,6 +10,7 @@ import numpy as np
 from assur import _trig
 from assur._arrays import in_range, real_number, short
 from assur._extreme import Extreme
+from assur._other_names import other_names
 from assur._validate import checked_name
 from assur.dynamics.preconditions import positive_number
 from assur.errors import InputError
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["Bearing"]
 
 
+@other_names(least="it is min", greatest="it is max")
 @dataclass(frozen=True)
 class Bearing:
     """The force on a link at a pin, in the frame of one of its links, by `Reactions.bearing`.
@@ -69,12 +71,12 @@ class Bearing:
         return np.mean(self._rows("a mean"), axis=-1)[()]
 
     @property
-    def least(self) -> Extreme:
+    def min(self) -> Extreme:
         """The least size, and the position where it is; of shape S."""
         return self._extreme(1.0)
 
     @property
-    def greatest(self) -> Extreme:
+    def max(self) -> Extreme:
         """The greatest size, and the position where it is; of shape S."""
         return self._extreme(-1.0)
 
@@ -205,7 +207,7 @@ class Bearing:
         index = np.argmin(np.where(np.isnan(size), np.inf, sign * size), axis=-1)[..., np.newaxis]
         value = np.take_along_axis(size, index, -1)[..., 0][()]
         at = np.take_along_axis(q, index[..., np.newaxis], -2)[..., 0, :]
-        return Extreme(at[..., 0][()] if is_single else at, value)
+        return Extreme(value, at[..., 0][()] if is_single else at)
 
 
 def bearing(

@@ -10,6 +10,7 @@ import numpy as np
 
 from assur._arrays import real_array, require_finite
 from assur._extreme import Extreme
+from assur._other_names import other_names
 from assur._summary import summary
 from assur.dynamics.forces import kinetostatics
 from assur.dynamics.forces.piecewise_cubic import Pieces
@@ -34,6 +35,12 @@ CLOSING_RTOL = 1e-9
 NUMBERS = 13
 
 
+@other_names(
+    least="it is min",
+    greatest="it is max",
+    least_power="it is min_power",
+    greatest_power="it is max_power",
+)
 class Duty(NamedTuple):
     """The effort of a drive over the positions of a cycle, by `Machine.duty`.
 
@@ -44,7 +51,7 @@ class Duty(NamedTuple):
     ----------
     effort : ndarray
         Torque (driven slide: force) of the drive at q, N·m or N, S + (N,).
-    greatest, least : Extreme
+    max, min : Extreme
         Its extreme values and their q, also between the positions.
     rms : float or ndarray
         Root mean square of the effort over time, N·m or N.
@@ -52,7 +59,7 @@ class Duty(NamedTuple):
         effort × speed, W, S + (N,): positive where the drive gives energy to the machine.
     mean_power : float or ndarray
         energy / time, W.
-    greatest_power, least_power : Extreme
+    max_power, min_power : Extreme
         Extreme values of the power, W, and q there.
     energy : float or ndarray
         Energy that the drive gives, ∫ effort dq, J: `work_in` − `work_out`.
@@ -79,13 +86,13 @@ class Duty(NamedTuple):
     """
 
     effort: Any
-    greatest: Extreme
-    least: Extreme
+    max: Extreme
+    min: Extreme
     rms: Any
     power: Any
     mean_power: Any
-    greatest_power: Extreme
-    least_power: Extreme
+    max_power: Extreme
+    min_power: Extreme
     energy: Any
     work_in: Any
     work_out: Any

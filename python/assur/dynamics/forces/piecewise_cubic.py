@@ -68,7 +68,7 @@ class Pieces:
         best = np.argmax(sign * values, axis=-1)[..., None]
         value = np.take_along_axis(values, best, axis=-1)[..., 0]
         place = np.take_along_axis(at, best, axis=-1)[..., 0]
-        return Extreme(at=np.where(np.isnan(value), np.nan, place)[()], value=value[()])
+        return Extreme(value=value[()], q=np.where(np.isnan(value), np.nan, place)[()])
 
 
 def _coefficients(x: Float, y: Float, closed: bool) -> tuple[Float, Float, Float, Float]:

@@ -393,7 +393,7 @@ class Reactions(Tabular):
         >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
         >>> machine = assur.Machine(linkage, loads=[assur.Torque("rocker", -20.0)])
         >>> pin = machine.reactions(np.linspace(0.0, 6.0, 7), speed=30.0).bearing("C", on="rocker")
-        >>> print(f"{pin.greatest.value:.1f} N at q = {pin.greatest.at}, mean {pin.mean:.1f} N")
+        >>> print(f"{pin.max.value:.1f} N at q = {pin.max.q}, mean {pin.mean:.1f} N")
         229.9 N at q = 0.0, mean 189.8 N
         >>> print(f"{pin.pv(diameter=0.02, width=0.015).max() / 1e6:.3f} MPa·m/s")
         0.082 MPa·m/s

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import in_range
+from assur._other_names import other_names
 from assur._validate import MAX_POINTS, one_of, whole_number
 from assur.dynamics.forces.kinetostatics import broadcast_motion
 from assur.dynamics.internal.beam import QUANTITIES
@@ -27,14 +28,17 @@ if TYPE_CHECKING:
 __all__ = ["InternalLoads", "LoadExtremes"]
 
 
+@other_names(
+    least="it is min", greatest="it is max", least_x="it is min_x", greatest_x="it is max_x"
+)
 class LoadExtremes(NamedTuple):
     """The least and greatest value along a link at each position, and where on it.
 
     Attributes
     ----------
-    least, greatest : ndarray
+    min, max : ndarray
         N or N·m, (N,).
-    least_x, greatest_x : ndarray
+    min_x, max_x : ndarray
         Distance from the first joint, m, (N,).
 
     Examples
@@ -42,14 +46,14 @@ class LoadExtremes(NamedTuple):
     >>> import assur, numpy as np
     >>> force = assur.Force("B", (-1000.0, 0.0), on="piston")
     >>> machine = assur.Machine(assur.SliderCrank(crank=0.3, rod=0.5), loads=[force])
-    >>> machine.internal_loads("rod", np.pi / 2).extremes("axial").least.round(6)  # N
+    >>> machine.internal_loads("rod", np.pi / 2).extremes("axial").min.round(6)  # N
     np.float64(-1250.0)
     """
 
-    least: Any
-    least_x: Any
-    greatest: Any
-    greatest_x: Any
+    min: Any
+    min_x: Any
+    max: Any
+    max_x: Any
 
 
 class InternalLoads:
@@ -121,7 +125,7 @@ class InternalLoads:
         >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
         >>> inside = machine.internal_loads("rod", np.pi / 2, speed=100.0)
         >>> found = inside.extremes("moment")
-        >>> print(f"{found.least:.2f} N·m at {found.least_x:.3f} m")
+        >>> print(f"{found.min:.2f} N·m at {found.min_x:.3f} m")
         -23.77 N·m at 0.144 m
         """
         one_of(quantity, QUANTITIES, "quantity")
@@ -135,7 +139,7 @@ class InternalLoads:
         ----------
         quantity : {"axial", "shear", "moment"}
             Which one.
-        of : {"size", "greatest", "least"}
+        of : {"size", "max", "min"}
             The value of greatest size, the greatest (of `axial` the tension), or the least one.
 
         Returns

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from assur.dynamics.internal.beam import Beam
     from assur.dynamics.internal.rod import Rod
 
-MEASURES = ("size", "greatest", "least")
+MEASURES = ("size", "max", "min")
 # Positions tried at a time between the neighbours of a peak, and the last distance of neighbours
 # relative to the first: a maximum is known to the square of that.
 TRIED = 9
@@ -42,7 +42,7 @@ class Peak(NamedTuple):
     >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
     >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
     >>> inside = machine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=100.0)
-    >>> peak = inside.peak("axial", of="greatest")
+    >>> peak = inside.peak("axial", of="max")
     >>> print(f"tension {peak.value:.1f} N at {peak.x:.3f} m, {peak.q:.3f} rad")
     tension 1371.4 N at 0.000 m, 0.000 rad
     """
@@ -105,7 +105,7 @@ def _refined(
 def _measured(beam: Beam, quantity: str, of: str) -> tuple[Float, Float, Float]:
     """Return the measure to maximise at each position (−inf: no value), the value and its place."""
     least, least_x, greatest, greatest_x = beam.extremes(quantity)
-    up = np.abs(greatest) >= np.abs(least) if of == "size" else np.full(least.shape, of != "least")
+    up = np.abs(greatest) >= np.abs(least) if of == "size" else np.full(least.shape, of != "min")
     value, x = np.where(up, greatest, least), np.where(up, greatest_x, least_x)
-    measure = {"size": np.abs(value), "greatest": value, "least": -value}[of]
+    measure = {"size": np.abs(value), "max": value, "min": -value}[of]
     return np.where(np.isfinite(measure), measure, -np.inf), value, x

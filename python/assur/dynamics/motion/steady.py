@@ -9,6 +9,7 @@ import numpy as np
 
 from assur._arrays import finite_array, flag
 from assur._extreme import Extreme
+from assur._other_names import other_names
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.dynamics.motion.run import Run
@@ -27,6 +28,7 @@ __all__ = ["SteadyState"]
 EXTREME = "extreme speed"
 
 
+@other_names(least="it is min", greatest="it is max")
 class SteadyState(Tabular):
     """A machine in periodic motion.
 
@@ -41,7 +43,7 @@ class SteadyState(Tabular):
         Coordinate and speed at the ends of its steps, rad and rad/s.
     period : float
         Time of a period, s.
-    greatest, least : Extreme
+    max, min : Extreme
         The extreme speeds (absolute values) and their coordinates.
     mean_speed : float
         Mean speed by the chosen definition, rad/s; the speed passed to `Machine.steady_state` if
@@ -87,8 +89,10 @@ class SteadyState(Tabular):
         self.run = Run(core, mechanism, 1, [EXTREME], along_q=True)
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
-        self.greatest, self.least = Extreme(**numbers["greatest"]), Extreme(**numbers["least"])
-        greatest, least = self.greatest.value, self.least.value
+        self.max, self.min = (
+            Extreme(numbers[end]["value"], numbers[end]["at"]) for end in ("greatest", "least")
+        )
+        greatest, least = self.max.value, self.min.value
         span = abs(float(self.q[-1] - self.q[0]))
         self.mean = mean
         self.mean_speed = span / self.period if mean == "period" else 0.5 * (least + greatest)

@@ -280,7 +280,7 @@ def rod_point(
 def greatest_speed(
     k: npt.ArrayLike, *, method: Literal["exact", "series", "perpendicular"] = "exact"
 ) -> Extreme:
-    """Return the crank angle of the slider's greatest speed in the first half turn, and the speed.
+    """Return the slider's greatest speed in the first half turn, and the crank angle there.
 
     Parameters
     ----------
@@ -293,13 +293,13 @@ def greatest_speed(
     Returns
     -------
     Extreme
-        Crank angle, rad, and the slider's speed per crank length and crank speed.
+        The slider's speed per crank length and crank speed, and the crank angle, rad.
 
     Examples
     --------
     >>> import assur, numpy as np
     >>> fastest = assur.slider_crank.greatest_speed(3.0)
-    >>> np.rad2deg(fastest.at).round(6), fastest.value.round(9)
+    >>> np.rad2deg(fastest.q).round(6), fastest.value.round(9)
     (np.float64(73.175297), np.float64(1.054639547))
     """
     ratios = real_array(k, "k")
@@ -307,14 +307,14 @@ def greatest_speed(
     one_of(method, ("exact", "series", "perpendicular"), "method")
     if method == "perpendicular":
         at = arctan2(ratios, 1.0)
-        return Extreme(at, stroke(at, 1.0, ratios).d1)
+        return Extreme(stroke(at, 1.0, ratios).d1, at)
     flat = np.ascontiguousarray(ratios).reshape(-1)
-    parts = _core.slider_crank_greatest_speed(flat, method == "exact")
-    return Extreme(*(part.reshape(ratios.shape) for part in parts))
+    at, value = _core.slider_crank_greatest_speed(flat, method == "exact")
+    return Extreme(value.reshape(ratios.shape), at.reshape(ratios.shape))
 
 
 def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
-    """Return the crank angle of the most negative acceleration of the stroke, and its value.
+    """Return the most negative acceleration of the stroke, and the crank angle there.
 
     The crank speed is constant. For k ≥ (3 + √21)/2 = 3.791 it is the inner dead point (φ = π); a
     shorter rod has two such angles; the one below π is returned.
@@ -327,20 +327,20 @@ def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
     Returns
     -------
     Extreme
-        Crank angle, rad, and acceleration per crank length and crank speed squared.
+        Acceleration per crank length and crank speed squared, and the crank angle, rad.
 
     Examples
     --------
     >>> import assur, numpy as np
     >>> least = assur.slider_crank.greatest_acceleration(3.0)
-    >>> np.rad2deg(least.at).round(6), least.value.round(9)
+    >>> np.rad2deg(least.q).round(6), least.value.round(9)
     (np.float64(137.612519), np.float64(-0.697525367))
     """
     ratios = real_array(k, "k")
     _ratio(ratios, "k")
     flat = np.ascontiguousarray(ratios).reshape(-1)
-    parts = _core.slider_crank_greatest_acceleration(flat)
-    return Extreme(*(part.reshape(ratios.shape) for part in parts))
+    at, value = _core.slider_crank_greatest_acceleration(flat)
+    return Extreme(value.reshape(ratios.shape), at.reshape(ratios.shape))
 
 
 def deviation(

@@ -76,7 +76,7 @@ def speed_diagram(
     start(axes, over, style)
     sign = float(np.copysign(1.0, speed[0]))
     least, greatest, mean = (
-        sign * float(value) for value in (of.least.value, of.greatest.value, of.mean_speed)
+        sign * float(value) for value in (of.min.value, of.max.value, of.mean_speed)
     )
     axes.plot(over.values, speed, color=style.driver, linewidth=chart.CURVE, gid="curve speed")
     axes.axhspan(
@@ -93,14 +93,14 @@ def speed_diagram(
     span = abs(greatest - least) / power
     notes = [
         Note(
-            over.of(float(extreme.at)),
+            over.of(float(extreme.q)),
             sign * float(extreme.value),
             f"{number(sign * float(extreme.value) / power, span)} at "
-            f"{over.place(over.of(float(extreme.at)))}",
+            f"{over.place(over.of(float(extreme.q)))}",
             style.driver,
             "extreme speed",
         )
-        for extreme in (of.greatest, of.least)
+        for extreme in (of.max, of.min)
     ]
     write_notes(axes, notes, style)
     write_mean(axes, over, speed, mean, f"mean {number(mean / power, span)}", style)

@@ -40,12 +40,12 @@ def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, style: Style) -> 
     inertia, energy = flywheel.energy_mass(points=len(q))
     axes.plot(inertia, energy, color=style.ink, linewidth=chart.CURVE, gid="curve loop", zorder=2.0)
     corner = -flywheel.inertia, -flywheel.inertia * flywheel.speed0**2 / 2.0
-    low, high, steep = _width(inertia, energy, float(flywheel.greatest.value))
+    low, high, steep = _width(inertia, energy, float(flywheel.max.value))
     reach = np.array([low, high])
     tangents = []
     for name, extreme, colour in (
-        ("greatest", flywheel.greatest, style.driver),
-        ("least", flywheel.least, style.error),
+        ("greatest", flywheel.max, style.driver),
+        ("least", flywheel.min, style.error),
     ):
         line = corner[1] + float(extreme.value) ** 2 / 2.0 * (reach - corner[0])
         axes.plot(reach, line, color=colour, linewidth=1.4, gid=f"tangent {name}", zorder=1.8)
@@ -60,12 +60,12 @@ def wittenbauer_diagram(flywheel: Flywheel, q: Float, ax: Any, style: Style) -> 
     _intercept(axes, lines, steep, style)
     notes = []
     for _, extreme, colour in tangents:
-        at = np.array([extreme.at])
+        at = np.array([extreme.q])
         point = _point(flywheel, at)
         notes.append(Note(float(point[0][0]), float(point[1][0]), "", colour, "contact"))
     write_notes(axes, [note._replace(gid="contact") for note in notes], style)
     _dots(axes, flywheel, q, style)
-    span = float(flywheel.greatest.value - flywheel.least.value)
+    span = float(flywheel.max.value - flywheel.min.value)
     gap = "\n" if steep else " "
     named = [
         Named(

@@ -57,7 +57,7 @@ def _extremes(
     except AssurError:
         # Not every assembly of a higher group can be followed to its ends.
         return None
-    return extremes.least.value, extremes.greatest.value
+    return extremes.min.value, extremes.max.value
 
 
 def draw_traces(subject: Subject, on: Canvas, listed: list[Swing]) -> list[Float]:

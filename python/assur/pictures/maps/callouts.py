@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 CANDIDATES = 48
 # About a text, points.
 PAD = 1.0
+# About texts that others make room for, px: when they are drawn they may be a little larger.
+CLEAR = 2.0
 
 
 def _write(ax: Any, text: str, middle: Float, colour: Any, gid: str) -> Any:
@@ -100,7 +102,7 @@ def write_along(
 
 def clear_of(ax: Any, texts: Sequence[Any], gid: str) -> None:
     """Remove texts of a name that lie on others or on one another, or leave the axes."""
-    taken = [text.get_window_extent() for text in texts]
+    taken = [text.get_window_extent().padded(CLEAR) for text in texts]
     low, high = ax.bbox.get_points()
     for text in [written for written in ax.texts if written.get_gid() == gid]:
         box = text.get_window_extent()

@@ -50,7 +50,7 @@ def metric_curve(
     _spans(ax, x, reasons, style)
     for text, i in extremes(values, best):
         caption = f"{text} {value_text(float(values[i]), values)}{unit}"
-        mark(ax, float(x[i]), float(values[i]), caption, text == "greatest", style.path, style)
+        mark(ax, float(x[i]), float(values[i]), caption, text == "max", style.path, style)
 
 
 def _spans(ax: Any, x: Float, reasons: Reasons, style: Style) -> None:

@@ -24,7 +24,7 @@ def extremes(values: Float, best: str) -> list[tuple[str, int]]:
     """Return the extremes that are marked, with their flat indices."""
     if not np.isfinite(values).any():
         return []
-    both = [("least", int(np.nanargmin(values))), ("greatest", int(np.nanargmax(values)))]
+    both = [("min", int(np.nanargmin(values))), ("max", int(np.nanargmax(values)))]
     return [extreme for extreme in both if best in (extreme[0], "both")]
 
 

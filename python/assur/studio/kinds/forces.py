@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.dynamics.forces.reactions import Reactions
     from assur.dynamics.machine import Machine
+    from assur.dynamics.motion.steady import SteadyState
+    from assur.flywheel.result import Flywheel
     from assur.kinematics.mechanism import Mechanism
     from assur.studio.session import Session
 
@@ -120,7 +122,7 @@ def flywheel(data: dict[str, Any], session: Session) -> Answer:
     inertia, energy = wheel.energy_mass(points=rows)
     names = ("inertia", "delta", "speed0", "mean_speed", "mean", "motor_moment", "power", "period")
     header = {name: getattr(wheel, name) for name in names}
-    header |= {name: getattr(wheel, name)._asdict() for name in ("greatest", "least")}
+    header |= _ends(wheel)
     arrays = {
         "q": q,
         "speed": wheel.speed(q),
@@ -149,11 +151,17 @@ def steady(data: dict[str, Any], session: Session) -> Answer:
     state = motion.at(q)
     names = ("period", "delta", "mean_speed", "multiplier", "motor_work", "power", "motor_moment")
     header = {name: getattr(motion, name) for name in names}
-    header |= {name: getattr(motion, name)._asdict() for name in ("greatest", "least")}
+    header |= _ends(motion)
     return Answer(
         header,
         {"q": q, "t": state.t, "speed": state.speed, "acceleration": state.acceleration},
     )
+
+
+def _ends(of: Flywheel | SteadyState) -> dict[str, dict[str, float]]:
+    """Return the greatest and the least speed, and where they are."""
+    ends = {"greatest": of.max, "least": of.min}
+    return {name: {"at": end.q, "value": end.value} for name, end in ends.items()}
 
 
 def _mechanism(machine: Machine) -> Mechanism:

@@ -25,7 +25,7 @@ def transmission_angles(motion: Motion) -> Iterator[tuple[str, Float]]:
             yield name, motion.transmission_angle(name)
 
 
-def least_transmission(mechanism: Mechanism, line: Float, place: Float) -> list[dict[str, Any]]:
+def min_transmission_angle(mechanism: Mechanism, line: Float, place: Float) -> list[dict[str, Any]]:
     """Return the least angle, rad, of each dyad at these coordinates, and where it is.
 
     `place` is what the page calls the coordinate: with several drivers that of the one that moves.

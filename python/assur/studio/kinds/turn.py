@@ -15,7 +15,7 @@ from assur.pictures.page.turn import Turn, frames_in_time, passing_turn, turn_of
 from assur.pictures.scene.course import FREE_STROKE, TURN
 from assur.studio import document
 from assur.studio.kinds.dead_ends import dead_ends
-from assur.studio.kinds.least import least_transmission
+from assur.studio.kinds.least import min_transmission_angle
 from assur.studio.kinds.structure import dimensions_of
 from assur.studio.request import Fields
 from assur.studio.session import Answer
@@ -64,7 +64,7 @@ def turn_answer(mechanism: Mechanism, q: Any, fields: Fields) -> Answer:
     if not is_single:
         line[:, axis] = place
     reach = None if is_single else [_reach(mechanism, np.asarray(q), i) for i in range(len(q))]
-    more = {"transmission": least_transmission(mechanism, line, place), "reach": reach}
+    more = {"transmission": min_transmission_angle(mechanism, line, place), "reach": reach}
     return Answer({**answer.header, **more}, answer.arrays)
 
 

@@ -38,13 +38,13 @@ impl Words for Kind {
     const WHAT: &'static str = "kind";
     const KNOWN: &'static [(&'static str, Self)] = &[
         ("moves", Self::Moves),
-        ("least_transmission", Self::LeastTransmission),
+        ("min_transmission_angle", Self::LeastTransmission),
         ("deviation", Self::Deviation),
         ("span", Self::Span),
-        ("least", Self::Least),
-        ("greatest", Self::Greatest),
-        ("place_of_least", Self::PlaceOfLeast),
-        ("place_of_greatest", Self::PlaceOfGreatest),
+        ("min", Self::Least),
+        ("max", Self::Greatest),
+        ("argmin", Self::PlaceOfLeast),
+        ("argmax", Self::PlaceOfGreatest),
         ("mean", Self::Mean),
         ("rms", Self::RootMeanSquare),
         ("time_ratio", Self::TimeRatio),

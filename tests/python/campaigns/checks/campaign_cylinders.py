@@ -64,6 +64,6 @@ class Cylinders(Findings):
             if found.min() < -1e-9:
                 self.fail("cylinder limits", f"{found.tolist()}")
         for name in self.case.cylinders:
-            least = m.extremes(name).least.value
+            least = m.extremes(name).min.value
             if least < -1e-9:
                 self.fail("cylinder extremes", f"{name} from {least!r}")

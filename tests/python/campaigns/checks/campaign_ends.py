@@ -120,7 +120,7 @@ class Ends(Findings):
         except assur.PositionError as error:
             self.fail("extremes refused", f"{name}: {error}")
             return
-        low, high = found.least.value, found.greatest.value
+        low, high = found.min.value, found.max.value
         angle = kind == "link" and order == 0
         if angle and (len(self.intervals) > 1 or not math.isfinite(high - low)):
             return  # each interval is counted from its own turn
@@ -135,7 +135,7 @@ class Ends(Findings):
             text = f"[{low!r}, {high!r}], a scan has [{value.min()!r}, {value.max()!r}]"
             self.fail("extremes beaten", f"order {order} of {name}: {text}")
             return
-        for end in (found.least, found.greatest):
+        for end in (found.min, found.max):
             if angle or not math.isfinite(end.value) or not math.isfinite(end.q):
                 continue
             motion = self.m.solve(np.array([end.q]), order=order, on_error="nan")

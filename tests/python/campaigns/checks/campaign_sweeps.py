@@ -54,7 +54,7 @@ class Swept(Findings):
         values = m.dimensions[name] * (1.0 + SPREAD * np.linspace(-1.0, 1.0, DESIGNS))
         joint = rng.choice(list(m.joints))
         asked = {
-            "greatest": metric.greatest(f"{joint}.x"),
+            "greatest": metric.max(f"{joint}.x"),
             "mean": metric.mean(f"{joint}.y"),
         }
         space: dict[str, Any] = {name: values}

@@ -62,10 +62,10 @@ def test_a_constant_motor_in_both_ways(name: str, mean: Any) -> None:
     size = np.abs(tables.reduced_moment(Q)).max()
     assert motion.motor_moment == pytest.approx(tables.motor_moment, abs=TABLES_RTOL * size)
     assert motion.power == pytest.approx(tables.power, abs=TABLES_RTOL * size * 20.0)
-    for extreme in ("greatest", "least"):
+    for extreme in ("max", "min"):
         one, other = getattr(motion, extreme), getattr(tables, extreme)
         assert one.value == pytest.approx(other.value, rel=TABLES_RTOL)
-        assert one.at == pytest.approx(other.at, abs=PLACE_ATOL)
+        assert one.q == pytest.approx(other.q, abs=PLACE_ATOL)
     for curve, x in CURVES.items():
         one, other = (np.asarray(getattr(f, curve)(x)) for f in (motion, tables))
         assert one.shape == other.shape == x.shape
@@ -122,9 +122,9 @@ def test_a_motor_of_its_own(ratio: float) -> None:
         assert getattr(f, number) == getattr(steady, number)
     assert f.power == pytest.approx(steady.power, rel=1e-14)
     assert f.delta == pytest.approx(0.02, rel=1e-10)
-    for extreme in (f.greatest, f.least):
-        assert 0.0 <= sign * extreme.at <= TURN
-        assert f.speed(extreme.at) == pytest.approx(sign * extreme.value, rel=1e-12)
+    for extreme in (f.max, f.min):
+        assert 0.0 <= sign * extreme.q <= TURN
+        assert f.speed(extreme.q) == pytest.approx(sign * extreme.value, rel=1e-12)
     assert f.time(sign * 3.0 * TURN) == pytest.approx(3.0 * f.period, rel=1e-14)
     # An ulp of 30 rad.
     assert np.abs(f.coordinate(f.time(Q)) - Q).max() < 1e-14
@@ -150,8 +150,8 @@ def test_its_pictures(ratio: float) -> None:
     assert (t[0], t[-1]) == (0.0, pytest.approx(f.period))
     np.testing.assert_array_equal(speed, f.speed(q))
     marks = [line.get_data() for line in f.plot().lines if line.get_gid() == "mark"]
-    for (x, y), extreme in zip(marks, (f.greatest, f.least), strict=True):
-        assert (x[0], y[0]) == (extreme.at, sign * extreme.value)
+    for (x, y), extreme in zip(marks, (f.max, f.min), strict=True):
+        assert (x[0], y[0]) == (extreme.q, sign * extreme.value)
     inertia, energy = f.plot("energy-mass").lines[0].get_data()
     np.testing.assert_array_equal((inertia, energy), f.energy_mass())
     plt.close("all")

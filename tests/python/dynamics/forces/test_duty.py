@@ -42,15 +42,15 @@ def test_a_weight_on_a_rotor(q: Any) -> None:
     most = 3.0 * 9.81 * 0.2
     np.testing.assert_allclose(duty.effort, most * np.cos(q), rtol=1e-13, atol=1e-13)
     steps = (q[1] - q[0]) ** 4 / 40
-    near(duty.greatest.value, most, steps)
-    near(duty.least.value, -most, steps)
-    near(math.cos(duty.greatest.at), 1.0, 1e-9)
-    near(math.cos(duty.least.at), -1.0, 1e-9)
+    near(duty.max.value, most, steps)
+    near(duty.min.value, -most, steps)
+    near(math.cos(duty.max.q), 1.0, 1e-9)
+    near(math.cos(duty.min.q), -1.0, 1e-9)
     near(duty.rms, most / math.sqrt(2.0))
     near(duty.energy, 0.0)
     near([duty.work_in, duty.work_out], [2 * most * turns] * 2, 2 * steps)
     near(duty.power, duty.effort * omega)
-    near([duty.greatest_power.value, duty.least_power.value], [4 * most, -4 * most], steps)
+    near([duty.max_power.value, duty.min_power.value], [4 * most, -4 * most], steps)
     near(duty.time, turns * TURN / 4.0)
     near(duty.mean_power, 0.0)
 
@@ -72,8 +72,8 @@ def test_a_constant_force_on_a_piston() -> None:
 
     near(duty.effort, [effort(q) for q in OPEN], 1e-12)
     peak = minimize_scalar(effort, bounds=(0.5, 2.0), options={"xatol": 1e-12})
-    near(duty.least.value, peak.fun, 1e-8)
-    near(duty.least.at, peak.x, 1e-5)
+    near(duty.min.value, peak.fun, 1e-8)
+    near(duty.min.q, peak.x, 1e-5)
     near(duty.rms, math.sqrt(quad(lambda q: effort(q) ** 2, 0, TURN)[0] / TURN), 1e-12)
     # Three quarters of the turn, of uneven steps, from their own definition.
     q = np.sort(np.append(np.random.default_rng(4).uniform(0.2, 4.7, 400), [0.2, 4.7]))
@@ -119,7 +119,7 @@ def test_numbers_change_with_the_fourth_power_of_the_step() -> None:
                 abs(coarse.energy - fine.energy),
                 abs(coarse.work_in - fine.work_in),
                 abs(coarse.rms - fine.rms),
-                abs(coarse.greatest.value - fine.greatest.value),
+                abs(coarse.max.value - fine.max.value),
             ]
         )
     assert (np.array(errors[0]) > 8 * np.array(errors[2])).all()
@@ -165,8 +165,8 @@ def test_a_spring_that_winds_up_is_not_periodic() -> None:
     for q in (OPEN, CLOSED):
         duty = machine.duty(q, 1.0)
         near(duty.energy, q[-1] ** 2)
-        near(duty.greatest, (q[-1], 2.0 * q[-1]))
-        near(duty.least, (0.0, 0.0))
+        near(duty.max, (2.0 * q[-1], q[-1]))
+        near(duty.min, (0.0, 0.0))
 
 
 def test_few_positions() -> None:
@@ -193,7 +193,7 @@ def test_batches_and_failed_designs() -> None:
     for index in (0, 2):
         alone = machine.design((0, index)).duty(OPEN, 5.0)
         assert alone.rms == duty.rms[0, index]
-        assert alone.greatest == (duty.greatest.at[0, index], duty.greatest.value[0, index])
+        assert alone.max == (duty.max.value[0, index], duty.max.q[0, index])
         assert (alone.energy, alone.work_in) == (duty.energy[0, index], duty.work_in[0, index])
     # Each design with its own q: one covers the turn, the other a part of it.
     q = np.stack([OPEN, OPEN / 2, CLOSED[1:] + 9.0])[None]
@@ -203,7 +203,7 @@ def test_batches_and_failed_designs() -> None:
     for index in range(3):
         alone = machine.design((0, index)).duty(q[0, index], 5.0)
         assert (alone.energy, alone.rms) == (duty.energy[0, index], duty.rms[0, index])
-        assert alone.least == (duty.least.at[0, index], duty.least.value[0, index])
+        assert alone.min == (duty.min.value[0, index], duty.min.q[0, index])
 
 
 def test_a_driven_slide_and_a_machine_of_tables() -> None:
@@ -223,7 +223,7 @@ def test_a_driven_slide_and_a_machine_of_tables() -> None:
 def test_it_can_be_pickled() -> None:
     duty = rotor().duty(OPEN, 2.0)
     again = pickle.loads(pickle.dumps(duty))
-    assert again.greatest == duty.greatest
+    assert again.max == duty.max
     assert np.array_equal(again.effort, duty.effort)
 
 

@@ -51,8 +51,8 @@ def test_bending_of_an_engine_rod() -> None:
     machine = engine()
     across = math.atan2(0.35, 0.1)
     found = machine.internal_loads("rod", across, 300.0).extremes("moment")
-    assert found.least == pytest.approx(-243.9454044, rel=6e-10)
-    assert found.least_x == pytest.approx(0.1482386029, rel=6e-10)
+    assert found.min == pytest.approx(-243.9454044, rel=6e-10)
+    assert found.min_x == pytest.approx(0.1482386029, rel=6e-10)
     for count in (19, 37, 400):  # whatever the positions
         q = np.linspace(0.0, math.pi, count)
         peak = machine.internal_loads("rod", q, 300.0).peak("moment")
@@ -69,15 +69,15 @@ def test_peaks_of_a_turn(quantity: str, loads: Any) -> None:
     q = np.linspace(0.0, math.tau, 20001)
     fine = machine.internal_loads("rod", q, 9.0, 3.0, n=2).extremes(quantity)
     scale = np.abs(few.axial).max() * (0.35 if quantity == "moment" else 1.0)
-    least, greatest = fine.least.min(), fine.greatest.max()
-    measures: dict[str, Any] = {"least": lambda v: -v, "greatest": lambda v: v, "size": abs}
+    least, greatest = fine.min.min(), fine.max.max()
+    measures: dict[str, Any] = {"min": lambda v: -v, "max": lambda v: v, "size": abs}
     for of, measure in measures.items():
         peak = few.peak(quantity, of)
         known = max((least, greatest), key=measure)
         assert measure(peak.value) >= measure(known) - 1e-12 * scale
         assert peak.value == pytest.approx(known, abs=1e-6 * scale)
         alone = machine.internal_loads("rod", peak.q, 9.0, 3.0).extremes(quantity)
-        assert min(abs(alone.least - peak.value), abs(alone.greatest - peak.value)) < 1e-12 * scale
+        assert min(abs(alone.min - peak.value), abs(alone.max - peak.value)) < 1e-12 * scale
 
 
 def test_whipping_moment() -> None:
@@ -92,7 +92,7 @@ def test_whipping_moment() -> None:
     turned = float(linkage.solve(1.0, order=1).link("rocker").d1)
     acceleration = omega**2 * r / length / turned
     found = machine.internal_loads("rocker", 1.0, 0.0, acceleration).extremes("moment")
-    size, place = max((abs(found.least), found.least_x), (abs(found.greatest), found.greatest_x))
+    size, place = max((abs(found.min), found.min_x), (abs(found.max), found.max_x))
     assert size == pytest.approx(51.2783, abs=6e-5)
     assert size == pytest.approx(1.64 * length**2 * omega**2 * r / (9 * math.sqrt(3.0)), rel=1e-12)
     assert place == pytest.approx(length / math.sqrt(3.0), rel=1e-12)
@@ -113,8 +113,8 @@ def test_bar_in_tension_and_simple_beam() -> None:
     found = beam.internal_loads("coupler", math.pi / 2, n=5)
     np.testing.assert_allclose(found.moment, [0.0, 11.25, 15.0, 11.25, 0.0], atol=1e-12)
     np.testing.assert_allclose(found.shear, [-30.0, -15.0, 0.0, 15.0, 30.0], atol=1e-12)
-    assert found.extremes("moment").greatest == pytest.approx(15.0)
-    assert found.extremes("moment").greatest_x == pytest.approx(1.0)
+    assert found.extremes("moment").max == pytest.approx(15.0)
+    assert found.extremes("moment").max_x == pytest.approx(1.0)
 
 
 # -- against the oracle ---------------------------------------------------------------------------
@@ -260,12 +260,12 @@ def test_extremes_are_where_a_fine_grid_has_them(name: str, quantity: str) -> No
     tiny = 1e-12 * (1.0 + np.abs(values).max())
     slope = np.abs(np.diff(values, axis=1)).max()
     for exact, grid, sign in (
-        (extremes.least, values.min(axis=1), 1.0),
-        (extremes.greatest, values.max(axis=1), -1.0),
+        (extremes.min, values.min(axis=1), 1.0),
+        (extremes.max, values.max(axis=1), -1.0),
     ):
         assert (sign * (exact - grid) <= tiny).all()
         assert (np.abs(exact - grid) <= slope + tiny).all()
-    for x, value in ((extremes.least_x, extremes.least), (extremes.greatest_x, extremes.greatest)):
+    for x, value in ((extremes.min_x, extremes.min), (extremes.max_x, extremes.max)):
         assert (x >= 0.0).all()
         assert (x <= found.x[-1]).all()
         near = [np.interp(a, found.x, row) for a, row in zip(x, values, strict=True)]
@@ -294,7 +294,7 @@ def test_shapes() -> None:
     machine = engine()
     one = machine.internal_loads("rod", 1.0, 3.0, n=7)
     assert (one.moment.shape, one.x.shape, one.q.shape) == ((7,), (7,), ())
-    assert one.extremes("shear").least.shape == ()
+    assert one.extremes("shear").min.shape == ()
     assert machine.internal_loads("rod", [1.0], 3.0, n=7).axial.shape == (1, 7)
     assert machine.internal_loads("rod", [], 3.0, n=7).axial.shape == (0, 7)
     two = robot().internal_loads("fore", [[0.3, -0.7]] * 4, [1.0, 2.0], n=3)
@@ -349,7 +349,7 @@ def test_positions_without_a_motion() -> None:
     found = machine.internal_loads("rocker", [0.2, 3.0], on_error="nan")
     assert np.isfinite(found.moment[0]).all()
     assert np.isnan(found.moment[1]).all()
-    assert np.isnan(found.extremes("moment").greatest[1])
+    assert np.isnan(found.extremes("moment").max[1])
     assert found.peak("moment").q == 0.2
     assert machine.internal_loads("rocker", [-3.0, 0.2], on_error="nan").peak("shear").q == 0.2
     with pytest.raises(assur.InputError, match="no position"):

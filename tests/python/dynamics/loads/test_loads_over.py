@@ -170,7 +170,7 @@ def test_designs_have_their_own_knots() -> None:
         own = one.flywheel(0.04, mean_speed=12.0)
         assert flywheels.inertia[index] == own.inertia
         assert flywheels.speed(1.0)[index] == own.speed(1.0)
-        assert flywheels.greatest.at[index] == own.greatest.at
+        assert flywheels.max.q[index] == own.max.q
     twin = pickle.loads(pickle.dumps(flywheels))
     np.testing.assert_array_equal(twin.inertia, flywheels.inertia)
     assert flywheels.explain(2) == batch.design(2).flywheel(0.04, mean_speed=12.0).explain()

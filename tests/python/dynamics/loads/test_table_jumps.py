@@ -109,8 +109,8 @@ def test_a_flywheel_by_hand() -> None:
     mean = 60.0 / TURN
     assert found.motor_moment == pytest.approx(mean, rel=1e-13)
     assert found.inertia == pytest.approx((20.0 - mean) * 3.0 / (0.05 * 100.0), rel=1e-12)
-    assert found.greatest.at == pytest.approx(1.0, abs=1e-12)
-    assert found.least.at == pytest.approx(4.0, abs=1e-12)
+    assert found.max.q == pytest.approx(1.0, abs=1e-12)
+    assert found.min.q == pytest.approx(4.0, abs=1e-12)
     seam = Table([0.0, 0.0, 3.0, 3.0, TURN], [0.0, -20.0, -20.0, 0.0, 0.0], spline="linear")
     other = loaded(Torque("crank", seam), inertia=0.0).flywheel(0.05, mean_speed=10.0)
     assert other.inertia == pytest.approx(found.inertia, rel=1e-12)

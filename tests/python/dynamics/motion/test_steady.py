@@ -41,9 +41,9 @@ def test_tables_without_a_motor_are_their_energy_integral(span: int) -> None:
     assert abs(own.delta - exact.delta) < 1e-11
     assert abs(own.motor_moment - exact.motor_moment) < 1e-9
     assert abs(own.found_moment - exact.motor_moment) < 1e-9
-    assert abs(own.greatest.value - exact.greatest.value) < 1e-10
-    assert abs(own.least.value - exact.least.value) < 1e-10
-    assert abs(own.greatest.at % TURN - exact.greatest.at) < 1e-7
+    assert abs(own.max.value - exact.max.value) < 1e-10
+    assert abs(own.min.value - exact.min.value) < 1e-10
+    assert abs(own.max.q % TURN - exact.max.q) < 1e-7
     assert abs(own.period - span * exact.period) < 1e-10
     assert abs(own.multiplier - 1.0) < 1e-10
     at = own.at(np.linspace(-10.0, 30.0, 17))
@@ -93,7 +93,7 @@ def test_a_table_of_torque_over_speed() -> None:
         phi, moment, np.full(13, 1.0), motor=motor, spline="periodic"
     )
     own = machine.steady_state()
-    assert own.least.value < 20.0 < own.greatest.value
+    assert own.min.value < 20.0 < own.max.value
     later = machine.run(60.0, q0=0.0, speed0=25.0, rtol=1e-12)
     settled = (later.q > later.q[-1] - TURN) & (later.q < later.q[-1])
     assert np.abs(later.speed[settled] - own.at(later.q[settled]).speed).max() < 1e-9
@@ -133,11 +133,11 @@ def test_shooting_is_waiting(motor: Any) -> None:
 def test_extremes_are_those_of_the_curve() -> None:
     own = press(assur.LinearMotor(90.0, 30.0)).steady_state()
     curve = own.at(np.linspace(0.0, TURN, 20001))
-    assert abs(curve.speed.max() - own.greatest.value) < 1e-6
-    assert abs(curve.speed.min() - own.least.value) < 1e-6
-    assert (curve.speed <= own.greatest.value + 1e-12).all()
-    assert (curve.speed >= own.least.value - 1e-12).all()
-    assert abs(own.at(own.greatest.at).acceleration) < 1e-6
+    assert abs(curve.speed.max() - own.max.value) < 1e-6
+    assert abs(curve.speed.min() - own.min.value) < 1e-6
+    assert (curve.speed <= own.max.value + 1e-12).all()
+    assert (curve.speed >= own.min.value - 1e-12).all()
+    assert abs(own.at(own.max.q).acceleration) < 1e-6
 
 
 def test_dampers_and_functions() -> None:

@@ -404,7 +404,7 @@ def test_corners_of_tables_are_knots() -> None:
     steady = machine.steady_state(20.0, mean="period", flywheel=made.inertia)
     assert steady.delta == pytest.approx(0.05, rel=1e-9)
     assert steady.motor_moment == pytest.approx(made.motor_moment, rel=1e-9)
-    assert steady.greatest.value == pytest.approx(made.greatest.value, rel=1e-9)
+    assert steady.max.value == pytest.approx(made.max.value, rel=1e-9)
 
     def jump(_: float, q: float, __: float) -> float:
         return -1500.0 if 4.0 < q % (2 * np.pi) < 5.0 else 0.0

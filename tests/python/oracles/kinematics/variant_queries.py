@@ -143,8 +143,8 @@ def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]
     if _in_other_interval(p, limits) or _runs_far(p, limits):
         return
     b = p.two.extremes(p.name(kind, name), order=order)
-    have = np.array([b.least.value, b.greatest.value])
-    own = np.array([a.least.value, a.greatest.value])
+    have = np.array([b.min.value, b.max.value])
+    own = np.array([a.min.value, a.max.value])
     if order:
         want = np.sort(own * p.grows(kind) / p.units[0] ** order)
     else:
@@ -155,7 +155,7 @@ def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]
         apart = have - want
     if kind == "link" and order == 0 and np.isfinite(apart).all():
         apart = apart - math.tau * np.round(apart[0] / math.tau)
-    allowed = CLOSE_VALUE + _rounding(p, limits, (a.least.q, a.greatest.q), order)
+    allowed = CLOSE_VALUE + _rounding(p, limits, (a.min.q, a.max.q), order)
     with np.errstate(invalid="ignore"):
         good = (have == want) | (np.abs(apart) <= allowed.max() * scale)
     if not good.all():

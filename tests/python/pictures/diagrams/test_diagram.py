@@ -58,11 +58,11 @@ def test_marks_are_the_exact_extremes(mechanism: assur.Mechanism, name: str) -> 
     axes = mechanism.solve(Q).diagram(name)
     for order, ax in enumerate(axes.flat):
         exact = mechanism.extremes(name, order=order)
-        size = max(abs(exact.greatest.value), abs(exact.least.value))
+        size = max(abs(exact.max.value), abs(exact.min.value))
         (x1, y1), (x0, y0) = marks(ax)
-        assert y1 == pytest.approx(exact.greatest.value, abs=1e-9 * size)
-        assert y0 == pytest.approx(exact.least.value, abs=1e-9 * size)
-        for x, end in ((x1, exact.greatest), (x0, exact.least)):
+        assert y1 == pytest.approx(exact.max.value, abs=1e-9 * size)
+        assert y0 == pytest.approx(exact.min.value, abs=1e-9 * size)
+        for x, end in ((x1, exact.max), (x0, exact.min)):
             # Nearly the same value may be taken elsewhere too.
             apart = abs(math.remainder(x - end.q, TURN))
             other = getattr(mechanism.solve(x)[name.split(".")[0]], ("value", "d1", "d2")[order])
@@ -140,8 +140,8 @@ def test_a_joint_has_components_and_a_magnitude() -> None:
     np.testing.assert_allclose(curve(axes[1], "|v|")[1], size, rtol=1e-14)
     assert {t.get_text() for t in axes[1].texts} >= {"x", "y", "|v|"}
     # C turns about D: the greatest of |v| is that of the rocker's speed.
-    fastest = max(abs(e.value) for e in (FOUR_BAR.extremes("rocker", order=1).greatest,
-                                         FOUR_BAR.extremes("rocker", order=1).least))  # fmt: skip
+    fastest = max(abs(e.value) for e in (FOUR_BAR.extremes("rocker", order=1).max,
+                                         FOUR_BAR.extremes("rocker", order=1).min))  # fmt: skip
     assert marks(axes[1])[0][1] == pytest.approx(2.0 * 2.5 * fastest, rel=1e-9)
     one = motion.diagram("C.y", speed=2.0, orders=1)
     np.testing.assert_array_equal(curve(one, "C.y")[1], velocity[:, 1])
@@ -183,8 +183,8 @@ def test_a_batch_is_a_band() -> None:
     assert ax.get_title(loc="right") == "rocker, 12 designs"
     exact = [batch.design(divmod(i, 4)).extremes("rocker", order=1)
              for i in range(12)]  # fmt: skip
-    greatest = max(one.greatest.value for one in exact)
-    least = min(one.least.value for one in exact)
+    greatest = max(one.max.value for one in exact)
+    least = min(one.min.value for one in exact)
     assert [y for _, y in marks(ax)] == pytest.approx([greatest, least], rel=1e-9)
 
 

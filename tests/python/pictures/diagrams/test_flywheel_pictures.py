@@ -52,7 +52,7 @@ def test_the_speed_has_its_band_mean_and_extremes() -> None:
     np.testing.assert_array_equal(y, f.speed(np.radians(x)))
     (band,) = (patch for patch in ax.patches if patch.get_gid() == "fluctuation")
     low, high = band.get_y(), band.get_y() + band.get_height()
-    assert (low, high) == pytest.approx((f.least.value, f.greatest.value))
+    assert (low, high) == pytest.approx((f.min.value, f.max.value))
     assert (high - low) / (3.0 * math.pi * 2.0) == pytest.approx(0.01, rel=1e-8)
     assert said(ax, "mean text") == [f"mean {6.0 * math.pi:.3f}"]
     texts = said(ax, "extreme speed")

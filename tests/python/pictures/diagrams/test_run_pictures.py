@@ -112,7 +112,7 @@ def test_a_period() -> None:
     # The area below is a turn.
     assert np.trapezoid(speed, t) == pytest.approx(TURN, rel=1e-5)
     marks = [x.get_data() for x in steady.plot("speed").lines if x.get_gid() == "mark"]
-    assert [float(y[0]) for _, y in marks] == [steady.greatest.value, steady.least.value]
+    assert [float(y[0]) for _, y in marks] == [steady.max.value, steady.min.value]
     ax = steady.plot("energy")
     assert said(ax, "event text") == []
     assert np.ptp(line(ax, "curve sum")[1]) < 1e-6 * line(ax, "curve kinetic")[1].max()

@@ -144,7 +144,7 @@ def test_the_map_has_the_values_of_a_sweep(studio: Window) -> None:
         studio.mechanism,
         {COUPLER: x[None, :], ROCKER: y[:, None]},
         q,
-        metrics={"least": assur.metric.least_transmission("C")},
+        metrics={"least": assur.metric.min_transmission_angle("C")},
     )["least"]
     np.testing.assert_array_equal(np.isnan(value), np.isnan(wanted))
     assert 100 < np.isnan(wanted).sum() < 1500

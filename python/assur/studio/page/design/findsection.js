@@ -12,7 +12,7 @@ import { metricChoices } from "./metrics.js";
 import { designRange, dimensionText, mostUsefulFirst, unitShown, valueText } from "./ranges.js";
 
 /** What can be wanted of a number that changes evenly. */
-const WANTED_OF = ["span", "least_transmission", "time_ratio"];
+const WANTED_OF = ["span", "min_transmission_angle", "time_ratio"];
 /** How many times its present value a dimension is looked for. */
 const FIND_REACH = 3;
 
@@ -93,7 +93,7 @@ export class FindSection {
 
   /** What it is now, where the page knows it: shown in the empty field. */
   #now({ spec: { metric, at } }) {
-    const own = metric === "least_transmission" ? this.model.transmission?.find((one) => one.at === at) : null;
+    const own = metric === "min_transmission_angle" ? this.model.transmission?.find((one) => one.at === at) : null;
     return own ? digits((own.least * 180) / Math.PI) : "–";
   }
 

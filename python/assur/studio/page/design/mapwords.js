@@ -31,7 +31,7 @@ export class MapWords {
   /** Write a value of the metric, SI. */
   value(value, write = digits) {
     const { name, factor } = this.valueUnit;
-    if (this.grid.chosen.spec.metric === "full_rotation") return say(value ? "turnsRound" : "doesNotTurn");
+    if (this.grid.chosen.spec.metric === "reachable") return say(value ? "turnsRound" : "doesNotTurn");
     return `${write(value * factor)}${name === "°" || !name ? "" : " "}${name}`;
   }
 

@@ -3,16 +3,16 @@
 import { say } from "../../../pictures/page/words.js";
 
 const METRIC_WORDS = {
-  least_transmission: "metricLeastTransmission",
+  min_transmission_angle: "metricLeastTransmission",
   span: "metricSpan",
   swing: "metricSwing",
-  full_rotation: "metricFullRotation",
+  reachable: "metricFullRotation",
   time_ratio: "metricTimeRatio",
   deviation: "metricDeviation",
 };
 
 /** What the help says of a metric: one of HELP_TERMS. */
-const METRIC_TERMS = { least_transmission: "transmissionAngle", full_rotation: "fullRotation", time_ratio: "timeRatio" };
+const METRIC_TERMS = { min_transmission_angle: "transmissionAngle", reachable: "fullRotation", time_ratio: "timeRatio" };
 
 /**
  * @typedef {Object} MetricChoice
@@ -46,10 +46,10 @@ export function metricChoices(data, assembly, isTurning) {
     made.push({ id, text: say(METRIC_WORDS[word], { of }), spec: { metric, ...spec }, unit, term, ...more });
   };
   // The dyad next to the output first.
-  for (const at of Object.keys(assembly ?? {}).reverse()) offer("least_transmission", at, "rad", { at });
+  for (const at of Object.keys(assembly ?? {}).reverse()) offer("min_transmission_angle", at, "rad", { at });
   for (const of of all) offer("span", of, isSlide(of) ? "m" : "rad", { of });
   if (isTurning) {
-    offer("full_rotation", [data.driver].flat()[0], "", {}, { isWhole: true });
+    offer("reachable", [data.driver].flat()[0], "", {}, { isWhole: true });
     for (const of of all) offer("time_ratio", of, "", { of }, { isWhole: true });
   }
   for (const joint of data.paths) {
