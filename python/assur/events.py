@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur._arrays import counted, flag, real_number, short
@@ -39,6 +39,7 @@ class Rest:
     Rest(stop=True, driver=0)
     """
 
+    _: KW_ONLY
     stop: bool = True
     driver: int = 0
 
@@ -68,6 +69,7 @@ class Position:
     """
 
     q: float
+    _: KW_ONLY
     stop: bool = True
     driver: int = 0
     direction: Direction = "either"
@@ -100,6 +102,7 @@ class Speed:
     """
 
     speed: float
+    _: KW_ONLY
     stop: bool = True
     driver: int = 0
     direction: Direction = "either"
@@ -135,6 +138,7 @@ class TransmissionAngle:
 
     name: str
     limit: float
+    _: KW_ONLY
     between: tuple[str, str] | None = None
     stop: bool = True
     direction: Direction = "falling"
@@ -170,6 +174,7 @@ class Crossing:
     """
 
     function: Function
+    _: KW_ONLY
     stop: bool = False
     direction: Direction = "either"
 
@@ -201,7 +206,7 @@ class Obstacle:
     ...     driver="rod",
     ... )
     >>> machine = assur.Machine(
-    ...     pendulum, bodies={"rod": assur.Body(1.0, at="A")}, loads=[assur.Gravity()]
+    ...     pendulum, bodies={"rod": assur.Body(mass=1.0, at="A")}, loads=[assur.Gravity()]
     ... )
     >>> wall = assur.events.Obstacle(assur.events.Position(-1.5, direction="falling"), 0.5)
     >>> hit = machine.run(t_end=1.0, q0=0.0, events=[wall]).events[0]
@@ -243,16 +248,20 @@ def checked(
     direction = "either" if isinstance(event, Rest) else _direction(event, event.direction)
     stop = flag(event.stop, f"{type(event).__name__} stop")
     if isinstance(event, Crossing):
-        return Crossing(_function(event, event.function), stop, direction)
+        return Crossing(_function(event, event.function), stop=stop, direction=direction)
     if isinstance(event, TransmissionAngle):
         limit, lines, complement = _angle(event, event.name, mechanism)
         return AngleLimit(lines, complement, limit, stop, direction)
     driver = _driver(event, event.driver, drivers)
     if isinstance(event, Rest):
-        return Rest(stop, driver)
+        return Rest(stop=stop, driver=driver)
     if isinstance(event, Position):
-        return Position(real_number(event.q, "Position q"), stop, driver, direction)
-    return Speed(real_number(event.speed, "Speed speed"), stop, driver, direction)
+        return Position(
+            real_number(event.q, "Position q"), stop=stop, driver=driver, direction=direction
+        )
+    return Speed(
+        real_number(event.speed, "Speed speed"), stop=stop, driver=driver, direction=direction
+    )
 
 
 def _obstacle(event: Obstacle, mechanism: Mechanism | None, drivers: int) -> Obstacle:

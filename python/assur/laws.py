@@ -13,7 +13,7 @@ from __future__ import annotations
 import itertools
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -106,6 +106,7 @@ class Rise(Law):
     start: float
     end: float
     duration: float
+    _: KW_ONLY
     begin: float = 0.0
 
     def __post_init__(self) -> None:
@@ -326,6 +327,7 @@ class Trapezoidal(Rise):
     1.333333333333
     """
 
+    _: KW_ONLY
     ramp: float = 1.0 / 3.0
 
     def __post_init__(self) -> None:

@@ -30,7 +30,10 @@ def case(quick: bool) -> Case:
 def subject(designs: int, positions: int) -> Subject:
     space, q = spaces.turning_four_bars(designs), turn(positions)
     links = {"crank": CRANK, "coupler": COUPLER, "rocker": ROCKER}
-    bodies = {link: assur.Body(m, inertia, at) for link, (m, inertia, *at) in links.items()}
+    bodies = {
+        link: assur.Body(mass=m, inertia=inertia, at=at)
+        for link, (m, inertia, *at) in links.items()
+    }
     loads = [assur.Gravity(), assur.Force("C", FORCE, on="rocker")]
     batch = space.batch()
     machine = assur.Machine(batch, bodies=bodies, loads=loads)

@@ -69,7 +69,7 @@ CRANK, ROD, WHEEL, PISTON, FORCE, SPEED = 0.1, 0.4, 0.5, 20.0, 300.0, 20.0
 def slider_crank(seconds: float) -> Subject:
     machine = assur.Machine(
         assur.SliderCrank(CRANK, ROD),
-        bodies={"crank": assur.Body(inertia=WHEEL), "piston": assur.Body(PISTON)},
+        bodies={"crank": assur.Body(inertia=WHEEL), "piston": assur.Body(mass=PISTON)},
         loads=[assur.Force("B", (-FORCE, 0.0))],
     )
 

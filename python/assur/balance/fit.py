@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -49,6 +49,7 @@ class MomentBounds:
     MomentBounds(x=(-0.5, 0.0), y=(-inf, inf))
     """
 
+    _: KW_ONLY
     x: tuple[float, float] = (-math.inf, math.inf)
     y: tuple[float, float] = (-math.inf, math.inf)
 
@@ -133,7 +134,9 @@ def fit(
     >>> import assur
     >>> import numpy as np
     >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
-    >>> machine = assur.Machine(linkage, bodies={"coupler": assur.Body(1.2, 3e-3, (0.08, 0.01))})
+    >>> machine = assur.Machine(
+    ...     linkage, bodies={"coupler": assur.Body(mass=1.2, inertia=3e-3, at=(0.08, 0.01))}
+    ... )
     >>> q = np.linspace(0.0, 2 * np.pi, 60, endpoint=False)
     >>> weights = assur.balance.fit(
     ...     machine, q, {"crank": (-0.04, 0.0), "rocker": (-0.06, 0.0)}, most=1.0
@@ -171,7 +174,9 @@ def fit(
         if unknown.axis is not None and unknown.link not in resting:
             _require_rest(mechanism, unknown.link, motion, weight)
             resting.add(unknown.link)
-        alone = Machine(mechanism, bodies={unknown.link: Body(1.0, 0.0, unknown.place)})
+        alone = Machine(
+            mechanism, bodies={unknown.link: Body(mass=1.0, inertia=0.0, at=unknown.place)}
+        )
         matrix[:, k] = _shaking(alone, motion, weight)
     lower, upper = (
         np.array([getattr(unknown, at) for unknown in unknowns]) for at in ("lower", "upper")
@@ -244,7 +249,7 @@ def _require_rest(mechanism: Mechanism, link: str, motion: tuple[Any, ...], weig
     if weight > 0.0:
         message = f"places[{link!r}]: with moment_weight its mass moment is not enough: give points"
         raise InputError(message, link=link)
-    if _shaking(Machine(mechanism, bodies={link: Body(1.0)}), motion, 0.0).any():
+    if _shaking(Machine(mechanism, bodies={link: Body(mass=1.0)}), motion, 0.0).any():
         message = (
             f"places[{link!r}]: its first joint moves, so the mass counts too and not only its "
             "moment: give points"
@@ -259,7 +264,9 @@ def _weights(unknowns: list[_Unknown], numbers: list[float]) -> Iterator[Counter
         elif unknown.axis is None:
             x, y = unknown.place
             placed = counterweight(unknown.link, None, complex(value * x, value * y))
-            yield Counterweight(unknown.link, placed.moment, placed.angle, None, value)
+            yield Counterweight(
+                unknown.link, placed.moment, angle=placed.angle, about=None, mass=value
+            )
 
 
 def _bounds(value: Any, what: str) -> tuple[float, float]:

@@ -122,7 +122,9 @@ def harmonics(q: npt.ArrayLike, values: npt.ArrayLike, *, count: int = 6) -> Har
 
     >>> import assur
     >>> import numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": assur.Body(1.0)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(1.0, 3.0), bodies={"piston": assur.Body(mass=1.0)}
+    ... )
     >>> q = np.arange(64) * (2 * np.pi / 64)
     >>> force = machine.reactions(q, speed=1.0).shaking_force
     >>> assur.balance.harmonics(q, force[:, 0], count=4).amplitude.round(6)
@@ -172,7 +174,9 @@ def rotating_parts(q: npt.ArrayLike, force: npt.ArrayLike, *, count: int = 6) ->
 
     >>> import assur
     >>> import numpy as np
-    >>> machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": assur.Body(1.0)})
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(1.0, 3.0), bodies={"piston": assur.Body(mass=1.0)}
+    ... )
     >>> q = np.arange(64) * (2 * np.pi / 64)
     >>> parts = assur.balance.rotating_parts(q, machine.reactions(q, 1.0).shaking_force, count=2)
     >>> parts.forward.round(6), parts.backward.round(6)

@@ -92,7 +92,9 @@ def four_bar(machine: Machine) -> tuple[Counterweight, Counterweight]:
     --------
     >>> import assur
     >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
-    >>> machine = assur.Machine(linkage, bodies={"coupler": assur.Body(1.2, 3e-3, (0.08, 0.01))})
+    >>> machine = assur.Machine(
+    ...     linkage, bodies={"coupler": assur.Body(mass=1.2, inertia=3e-3, at=(0.08, 0.01))}
+    ... )
     >>> weights = assur.balance.four_bar(machine)
     >>> [(w.link, round(w.moment, 4), round(w.angle, 4)) for w in weights]
     [('crank', 0.0283, 2.9997), ('rocker', 0.0774, -3.0172)]
@@ -158,7 +160,7 @@ def slider_crank(
     >>> import assur
     >>> engine = assur.Machine(
     ...     assur.SliderCrank(0.15, 0.6),
-    ...     bodies={"piston": assur.Body(50.0), "crank": assur.Body(37.0, at="A")},
+    ...     bodies={"piston": assur.Body(mass=50.0), "crank": assur.Body(mass=37.0, at="A")},
     ... )
     >>> (weight,) = assur.balance.slider_crank(engine, fraction=2 / 3)
     >>> round(weight.with_radius(0.4).mass, 3), round(weight.angle, 4)

@@ -134,7 +134,7 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
             message = f"slide {name!r} has both angle and along: give one"
             raise InputError(message, slide=name)
         way = _direction(name, slide.along, joints)
-        return Slide(link, on, way, origin, length=bool(length))
+        return Slide(link, on, angle=way, origin=origin, length=bool(length))
     try:
         angle = real_array(slide.angle, "angle")
     except InputError:
@@ -148,7 +148,7 @@ def slide(name: str, slide: Any, joints: Sequence[tuple[str, float, float]]) -> 
     if abs(float(angle)) > LIKE_DEGREES:
         message = f"slide {name!r} has an angle of {float(angle):g} rad: is it in degrees?"
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
-    return Slide(link, on, float(angle), origin, length=bool(length))
+    return Slide(link, on, angle=float(angle), origin=origin, length=bool(length))
 
 
 def _direction(name: str, ends: Any, joints: Sequence[tuple[str, float, float]]) -> float:
@@ -192,7 +192,7 @@ def cylinder(
     if (x, y) == (u, v):
         message = f"cylinder {name!r}: {base!r} and {end!r} are in one place"
         raise InputError(message, slide=name)
-    slide = Slide(rod, barrel, float(arctan2(v - y, u - x)), base, length=True)
+    slide = Slide(rod, barrel, angle=float(arctan2(v - y, u - x)), origin=base, length=True)
     return slide, [(barrel, (base,)), (rod, (end,))]
 
 
@@ -216,7 +216,10 @@ def drivers(driver: DriverLike | Sequence[DriverLike]) -> tuple[DriverLike, ...]
             )
             raise InputError(message)
         names = [checked_name(word, "driver") for word in words]
-        checked.append(Drive(*names) if isinstance(d, Drive) else names[0])
+        if isinstance(d, Drive):
+            checked.append(Drive(names[0], relative_to=names[1]))
+        else:
+            checked.append(names[0])
     return tuple(checked)
 
 

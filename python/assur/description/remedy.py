@@ -23,7 +23,8 @@ def find(description: dict[str, Any]) -> tuple[Remedy, ...]:
             _links=tuple((name, tuple(on)) for name, on in parts["links"]),
             _slides=tuple((name, Slide(**fields)) for name, fields in parts["slides"]),
             _drivers=tuple(
-                name if base is None else Drive(name, base) for name, base in parts["drivers"]
+                name if base is None else Drive(name, relative_to=base)
+                for name, base in parts["drivers"]
             ),
             _assembly=tuple(parts["assembly"]),
         )

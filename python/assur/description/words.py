@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from enum import IntEnum
 from typing import TypeAlias
 
@@ -114,6 +114,7 @@ class Slide:
 
     link: str
     on: str
+    _: KW_ONLY
     angle: float = math.nan
     origin: str | None = None
     along: tuple[str, str] | None = field(default=None, repr=False)
@@ -162,6 +163,7 @@ class Cylinder:
 
     base: str
     end: str
+    _: KW_ONLY
     barrel: str | None = None
     rod: str | None = None
 
@@ -185,6 +187,7 @@ class Drive:
     """
 
     link: str
+    _: KW_ONLY
     relative_to: str = "ground"
 
 

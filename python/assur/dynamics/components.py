@@ -80,7 +80,7 @@ def _in_its_frame(mechanism: Mechanism, link: str, body: Body) -> Body:
             "assembled at its q0: give at"
         )
         raise InputError(message, link=link)
-    return Body(body.mass, body.inertia, (x, y))
+    return Body(mass=body.mass, inertia=body.inertia, at=(x, y))
 
 
 def _frame(mechanism: Mechanism, link: str) -> tuple[complex, complex]:

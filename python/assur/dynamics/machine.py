@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from assur._other_names import other_names
 from assur.dynamics.flywheel import size as flywheel_size
 from assur.dynamics.forces import counterweight, duty, impact, kinetostatics
 from assur.dynamics.forces import self_locking as locking
@@ -41,6 +42,17 @@ __all__ = ["Machine"]
 Method: TypeAlias = Literal["DOP853", "RK45"]
 
 
+@other_names(
+    mass_matrix="reduced_inertia(q), with .value and .d1",
+    inverse_dynamics="effort(q, speed, acceleration), or reactions for all forces",
+    forward_dynamics="run(t_end, q0, speed0)",
+    acceleration="run(t_end, q0, speed0).at(t).acceleration",
+    simulate="run(t_end, q0, speed0)",
+    torque="effort(q, speed, acceleration)",
+    jacobian="mechanism.solve(q).joint(name).d1",
+    solve="mechanism.solve(q), or run(t_end, q0, speed0)",
+    kinetic_energy="run(t_end).energy",
+)
 class Machine(MachineModel):
     """A mechanism with its bodies, loads and motors.
 
@@ -388,7 +400,7 @@ class Machine(MachineModel):
 
         >>> import assur
         >>> import numpy as np
-        >>> bodies = {"rod": assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))}
+        >>> bodies = {"rod": assur.Body(mass=1.2, inertia=1.2 * 0.35**2 / 12, at=(0.175, 0.0))}
         >>> engine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies)
         >>> inside = engine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=300.0)
         >>> peak = inside.peak("moment")
@@ -677,7 +689,7 @@ class Machine(MachineModel):
         >>> import assur
         >>> linkage = assur.FourBar(0.05, 0.15, 0.12, 0.16)
         >>> machine = assur.Machine(
-        ...     linkage, bodies={"rocker": assur.Body(0.8, 1.5e-3, (0.06, 0.0))}
+        ...     linkage, bodies={"rocker": assur.Body(mass=0.8, inertia=1.5e-3, at=(0.06, 0.0))}
         ... )
         >>> stop = assur.Force(("rocker", (0.1, 0.0)), (0.0, -1.0), axes="rocker")
         >>> hit = machine.impact(stop, q=2.0, speed=20.0, restitution=0.4)

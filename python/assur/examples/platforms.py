@@ -56,7 +56,7 @@ def platform_on_cylinders() -> Mechanism:
         },
         slides={
             f"leg{number}": Slide(
-                f"rod{number}", f"tube{number}", float(direction), base, length=True
+                f"rod{number}", f"tube{number}", angle=float(direction), origin=base, length=True
             )
             for number, (base, direction) in enumerate(zip("ABC", directions, strict=True), 1)
         },

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -49,6 +49,7 @@ class Range:
 
     start: float | tuple[float, ...]
     stop: float | tuple[float, ...]
+    _: KW_ONLY
     step: float | None = None
     count: int | None = None
     endpoint: bool = True

@@ -72,7 +72,7 @@ def with_cylinders(
                 None if link == f"{name}_{part}" else link
                 for link, part in zip(names, ("barrel", "rod"), strict=True)
             ]
-            cylinder = Cylinder(barrel[0], rod[0], *ends)
+            cylinder = Cylinder(barrel[0], rod[0], barrel=ends[0], rod=ends[1])
             short_form = _same_cylinder(name, cylinder, description, slide)
         if short_form is None:
             slides.append((name, _slide(slide)))

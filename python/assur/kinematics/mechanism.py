@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._later import explorer, save
-from assur._other_names import renamed_rates
+from assur._other_names import other_names, renamed_rates
 from assur._validate import checked_index, checked_signs
 from assur.description import encode
 from assur.description.words import Cylinder
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from assur.description.words import DriverLike, Slide
     from assur.kinematics.curve.curve import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
+    from assur.kinematics.inverse.find import Solution
     from assur.kinematics.limits import Limits
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
@@ -42,6 +43,20 @@ if TYPE_CHECKING:
 __all__ = ["Mechanism"]
 
 
+@other_names(
+    forward_kinematics="solve(q) has positions, velocities and accelerations",
+    inverse_kinematics="find(name, value) has every q and assembly",
+    jacobian="solve(q).joint(name).d1 is by the drivers, solve(q).sensitivity(name) by a dimension",
+    dof="it is structure.mobility",
+    mobility="it is structure.mobility",
+    simulate="assur.Machine(mechanism, bodies=…).run(t_end)",
+    inverse_dynamics="assur.Machine(mechanism, bodies=…).effort(q, speed, acceleration)",
+    optimize="assur.sweep() measures designs; solve(q).sensitivity(name) has exact gradients",
+    joint="solve(q).joint(name)",
+    link="solve(q).link(name)",
+    slide="solve(q).slide(name)",
+    animate="solve(q).animate(path), or to_html(path)",
+)
 class Mechanism(MechanismModel):
     """A planar linkage with its drivers, or a batch of designs of one.
 
@@ -546,7 +561,7 @@ class Mechanism(MechanismModel):
         """
         return extreme_search.extremes(self, name, order, assembly)
 
-    def find(self, name: str, value: Any) -> list[tuple[Any, Assembly]]:
+    def find(self, name: str, value: Any) -> list[Solution]:
         """Return every coordinate and assembly at which a coordinate of the motion has a value.
 
         Parameters
@@ -559,15 +574,16 @@ class Mechanism(MechanismModel):
 
         Returns
         -------
-        list of (q, Assembly)
-            By q, in (−π, π] of an angle; an array of two with two drivers.
+        list of Solution
+            Each with ``.q`` and ``.assembly``, and ``q, assembly = solution``. By q, in (−π, π] of
+            an angle; an array of two with two drivers.
 
         Examples
         --------
         >>> import assur
         >>> engine = assur.SliderCrank(1.0, 3.0)
-        >>> [(round(q, 6), dict(assembly)) for q, assembly in engine.find("bore", 3.0)]
-        [(-1.403348, {'B': 1}), (1.403348, {'B': 1})]
+        >>> [round(solution.q, 6) for solution in engine.find("bore", 3.0)]
+        [-1.403348, 1.403348]
         """
         from assur.kinematics.inverse.find import find
 

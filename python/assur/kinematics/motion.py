@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import flag, short
-from assur._other_names import renamed_rates
+from assur._other_names import other_names, renamed_rates
 from assur._validate import (
     checked_index,
     checked_name,
@@ -32,6 +32,16 @@ if TYPE_CHECKING:
 __all__ = ["Motion"]
 
 
+@other_names(
+    jacobian="joint(name).d1 is by the drivers, sensitivity(dimension) by a dimension",
+    positions="joint(name).value",
+    angles="link(name).value",
+    velocity="joint(name).velocity(speed), link(name).velocity(speed)",
+    acceleration="joint(name).acceleration(speed, acceleration)",
+    angular_velocity="link(name).velocity(speed)",
+    to_csv="to_dataframe().to_csv(path)",
+    save="to_excel, to_parquet; to_dataframe().to_csv(path)",
+)
 class Motion(MotionModel):
     """Positions and analogues of a mechanism; made by `Mechanism.solve`.
 

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from assur import _core
-from assur._arrays import real_array, short
+from assur._arrays import finite_array, real_array, short
+from assur._trig import sin_cos
 from assur._validate import one_of
 from assur.description.words import Slide
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.model import at_place, copy_from
+from assur.mechanisms.grashof import Grashof, grashof_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -35,6 +37,8 @@ class FourBar(Mechanism):
         Whether C is to the right or the left of the ray from D to B.
     point : (array_like, array_like), optional
         A coupler point P: x from B toward C, y to the left, m.
+    ground_angle : array_like
+        Direction of the ground from A to D, rad; q is measured from +x all the same.
 
     Examples
     --------
@@ -58,6 +62,7 @@ class FourBar(Mechanism):
         *,
         mode: Literal["open", "crossed"] = "open",
         point: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        ground_angle: npt.ArrayLike = 0.0,
     ) -> None:
         length = real_array(ground, "ground")
         if length.ndim == 0 and length <= 0.0:
@@ -71,6 +76,11 @@ class FourBar(Mechanism):
             # In a batch, designs without a ground get Status.BAD_DIMENSION.
             "ground.D.x": np.where(length > 0.0, length, np.nan),
         }
+        angle = finite_array(ground_angle, "ground_angle")
+        if angle.any():
+            sine, cosine = sin_cos(angle)
+            along = np.where(length > 0.0, length, np.nan)
+            dimensions |= {"ground.D.x": along * cosine, "ground.D.y": along * sine}
         drawing = _core.four_bar_drawing(mode)
         if point is not None:
             dimensions |= _coupler_point(point)
@@ -78,6 +88,24 @@ class FourBar(Mechanism):
             joints["P"], links["coupler"] = joints["B"], [*links["coupler"], "P"]
             drawing = {**drawing, "joints": list(joints.items()), "links": list(links.items())}
         _copy_from(self, drawing, dimensions)
+
+    @property
+    def grashof(self) -> Grashof:
+        """Grashof's type, with the sums of lengths that decide it.
+
+        Examples
+        --------
+        >>> import assur
+        >>> assur.FourBar(1.0, 3.0, 2.5, 3.2).grashof.type
+        'crank-rocker'
+        """
+        own = self.dimensions
+        x, y = (np.asarray(own[f"ground.D.{axis}"]) for axis in "xy")
+        ground = np.sqrt(x * x + y * y)
+        links = [own[f"{link}.length"] for link in ("crank", "coupler", "rocker")]
+        arrays = np.broadcast_arrays(*links, ground)
+        flat = [np.array(array, dtype=np.float64).reshape(-1) for array in arrays]
+        return grashof_of(flat, arrays[0].shape)
 
 
 def _coupler_point(point: Any) -> dict[str, npt.ArrayLike]:

@@ -25,7 +25,7 @@ def slider_crank(
         {"O": (0, 0), "A": (crank.real, crank.imag), "B": (pin.real, pin.imag)},
         {"ground": ["O"], "crank": ["O", "A"], "coupler": ["A", "B"], "piston": ["B"]},
         driver,
-        slides={"way": assur.Slide("piston", "ground", angle, "O", length=length)},
+        slides={"way": assur.Slide("piston", "ground", angle=angle, origin="O", length=length)},
     )
 
 

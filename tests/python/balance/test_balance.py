@@ -34,9 +34,9 @@ def force(machine: assur.Machine, oracle: bool = False) -> float:
 
 def four_bar() -> assur.Machine:
     bodies = {
-        "crank": Body(0.5, 2e-4, polar(0.02, 0.3)),
-        "coupler": Body(1.2, 3e-3, polar(0.08, 0.15)),
-        "rocker": Body(0.8, 1.5e-3, polar(0.06, -0.2)),
+        "crank": Body(mass=0.5, inertia=2e-4, at=polar(0.02, 0.3)),
+        "coupler": Body(mass=1.2, inertia=3e-3, at=polar(0.08, 0.15)),
+        "rocker": Body(mass=0.8, inertia=1.5e-3, at=polar(0.06, -0.2)),
     }
     return assur.Machine(assur.FourBar(0.05, 0.15, 0.12, 0.16), bodies=bodies)
 
@@ -79,11 +79,13 @@ def chain(rng: random.Random, sliding: bool) -> assur.Machine:
         links["ground"].append(d)
     links |= dict(rng.sample(list(members.items()), 3))
     bodies = {
-        link: Body(rng.uniform(0.1, 3.0), 0.02, (rng.uniform(-1, 1), rng.uniform(-1, 1)))
+        link: Body(
+            mass=rng.uniform(0.1, 3.0), inertia=0.02, at=(rng.uniform(-1, 1), rng.uniform(-1, 1))
+        )
         for link in members
         if rng.random() < 0.8
     }
-    bodies[coupler] = Body(1.0, 0.1, rng.choice(["T", None, (0.4, -0.3)]))
+    bodies[coupler] = Body(mass=1.0, inertia=0.1, at=rng.choice(["T", None, (0.4, -0.3)]))
     return assur.Machine(assur.Mechanism(joints, links, crank, slides=slides), bodies=bodies)
 
 
@@ -115,7 +117,7 @@ def test_any_slider_crank_is_balanced_by_two_weights(seed: int) -> None:
 )
 def test_partly_balanced_engine(fraction: float, greatest: float) -> None:
     """The greatest force of a turn in parts of m ω² r, a rod of three cranks."""
-    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(1.0)})
+    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(mass=1.0)})
     weights = balance.slider_crank(machine, fraction=fraction)
     after = machine.with_counterweights(one.with_radius(0.5) for one in weights)
     found = after.reactions(np.linspace(0.0, math.tau, 1441), 1.0).shaking_force
@@ -131,7 +133,11 @@ def test_half_is_the_least_mean_square() -> None:
     """Also with the rod's centre off its line, where the reciprocating mass is complex."""
 
     def rms(fraction: float) -> float:
-        bodies = {"piston": Body(1.0), "rod": Body(0.6, 0.1, (1.0, 0.7)), "crank": Body(0.2)}
+        bodies = {
+            "piston": Body(mass=1.0),
+            "rod": Body(mass=0.6, inertia=0.1, at=(1.0, 0.7)),
+            "crank": Body(mass=0.2),
+        }
         machine = assur.Machine(assur.SliderCrank(1.0, 3.5), bodies=bodies)
         (weight,) = balance.slider_crank(machine, fraction=fraction)
         after = machine.with_counterweights([weight.with_radius(0.5)])
@@ -154,7 +160,7 @@ def test_published_partial_balance(
     digits: int,
 ) -> None:
     """Two examples of textbooks: two thirds of the reciprocating masses are balanced."""
-    bodies = {"piston": Body(reciprocating), "crank": Body(rotating, at="A")}
+    bodies = {"piston": Body(mass=reciprocating), "crank": Body(mass=rotating, at="A")}
     machine = assur.Machine(assur.SliderCrank(crank, 4 * crank), bodies=bodies)
     (weight,) = balance.slider_crank(machine, fraction=2 / 3)
     mass = weight.with_radius(radius).mass
@@ -165,7 +171,7 @@ def test_published_partial_balance(
 
 def test_published_residue_of_partial_balance() -> None:
     """At 30° and 250 rev/min, of the first harmonic: 3263.971 N in print, with π to few digits."""
-    bodies = {"piston": Body(120.0), "crank": Body(70.0, at="A")}
+    bodies = {"piston": Body(mass=120.0), "crank": Body(mass=70.0, at="A")}
     machine = assur.Machine(assur.SliderCrank(0.09, 0.36), bodies=bodies)
     (weight,) = balance.slider_crank(machine, fraction=2 / 3)
     after = machine.with_counterweights([weight.with_radius(0.15)])
@@ -183,11 +189,11 @@ def test_weights_count_as_bodies() -> None:
     machine = four_bar()
     mechanism = machine.mechanism
     assert mechanism is not None
-    weight = balance.Counterweight("coupler", 0.3, 2.0, about="C", mass=1.7)
+    weight = balance.Counterweight("coupler", 0.3, angle=2.0, about="C", mass=1.7)
     both = machine.with_counterweights([weight, balance.Counterweight("rocker", 0.0, mass=0.0)])
     coupler = mechanism.dimensions["coupler.length"]
     at = coupler + 0.3 / 1.7 * math.cos(2.0), 0.3 / 1.7 * math.sin(2.0)
-    alone = assur.Machine(mechanism, bodies={"coupler": Body(1.7, 0.0, at)})
+    alone = assur.Machine(mechanism, bodies={"coupler": Body(mass=1.7, inertia=0.0, at=at)})
     found = [one.reactions(TURN, 20.0, 5.0) for one in (both, machine, alone)]
     for name in ("shaking_force", "shaking_moment", "driver"):
         whole, first, second = (getattr(one, name) for one in found)
@@ -200,11 +206,11 @@ def test_machine_keeps_loads_and_motor() -> None:
     machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={}, loads=loads, motor=motor)
     after = machine.with_counterweights([balance.Counterweight("crank", 2.0, mass=1.0)])
     assert (after.loads, after.motor) == (machine.loads, machine.motor)
-    assert dict(after.bodies) == {"crank": Body(1.0, 0.0, (2.0, 0.0))}
+    assert dict(after.bodies) == {"crank": Body(mass=1.0, inertia=0.0, at=(2.0, 0.0))}
 
 
 FOUR_BAR = four_bar()
-ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"piston": Body(1.0)})
+ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"piston": Body(mass=1.0)})
 BATCH = assur.Machine(assur.FourBar([0.04, 0.05], 0.15, 0.12, 0.16))
 TABLE = assur.Machine.from_table([0.0, 3.0, math.tau], [0.0, 1.0, 0.0], 1.0)
 NAN: Any = math.nan
@@ -236,7 +242,7 @@ THREE_AT_A_PIN = assur.Mechanism(
         (lambda: balance.slider_crank(ENGINE, rod_radius=0.0), "rod_radius"),
         (lambda: balance.slider_crank(ENGINE, rod_radius=math.inf), "rod_radius"),
         (lambda: balance.Counterweight("rod", -1.0), "moment"),
-        (lambda: balance.Counterweight("rod", 1.0, NAN), "angle"),
+        (lambda: balance.Counterweight("rod", 1.0, angle=NAN), "angle"),
         (lambda: balance.Counterweight("rod", 1.0, mass=0.0), "mass is 0"),
         (lambda: balance.Counterweight(3, 1.0), "not a string"),  # type: ignore[arg-type]
         (lambda: balance.Counterweight("rod", 1.0).with_mass(-1.0), "mass"),
@@ -244,7 +250,9 @@ THREE_AT_A_PIN = assur.Mechanism(
         (lambda: ENGINE.with_counterweights([balance.Counterweight("rod", 1.0)]), "no mass"),
         (lambda: ENGINE.with_counterweights([balance.Counterweight("rods", 1.0)]), "rods"),
         (
-            lambda: ENGINE.with_counterweights([balance.Counterweight("rod", 1.0, 0, "O", 1.0)]),
+            lambda: ENGINE.with_counterweights(
+                [balance.Counterweight("rod", 1.0, angle=0, about="O", mass=1.0)]
+            ),
             "about 'O'",
         ),
         (lambda: ENGINE.with_counterweights(["rod"]), "'rod' is not"),  # type: ignore[list-item]

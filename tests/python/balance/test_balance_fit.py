@@ -69,9 +69,9 @@ def test_sizes_of_any_order(size: float, right_size: float) -> None:
 
 def four_bar() -> assur.Machine:
     bodies = {
-        "crank": Body(0.5, 2e-4, (0.02, 0.006)),
-        "coupler": Body(1.2, 3e-3, (0.08, 0.012)),
-        "rocker": Body(0.8, 1.5e-3, (0.06, -0.012)),
+        "crank": Body(mass=0.5, inertia=2e-4, at=(0.02, 0.006)),
+        "coupler": Body(mass=1.2, inertia=3e-3, at=(0.08, 0.012)),
+        "rocker": Body(mass=0.8, inertia=1.5e-3, at=(0.06, -0.012)),
     }
     return assur.Machine(assur.FourBar(0.05, 0.15, 0.12, 0.16), bodies=bodies)
 
@@ -147,7 +147,7 @@ def test_points_against_scipy(most: Any, moment_weight: float) -> None:
 @pytest.mark.parametrize("ratio", [1.5, 3.0, 10.0])
 def test_half_the_piston_is_the_best(ratio: float) -> None:
     """Whatever the rod: one weight on the crank balances half of the reciprocating mass."""
-    machine = assur.Machine(assur.SliderCrank(0.2, 0.2 * ratio), bodies={"piston": Body(3.0)})
+    machine = assur.Machine(assur.SliderCrank(0.2, 0.2 * ratio), bodies={"piston": Body(mass=3.0)})
     (found,) = balance.fit(machine, TURN, {"crank": balance.MomentBounds()})
     (known,) = balance.slider_crank(machine, fraction=0.5)
     assert found.moment == pytest.approx(0.5 * 3.0 * 0.2, rel=1e-12)
@@ -169,7 +169,13 @@ def test_several_drivers() -> None:
         links={"ground": "AE", "left": "AB", "l2": "BC", "l3": "CD", "right": "ED"},
         driver=["left", "right"],
     )
-    machine = assur.Machine(m, bodies={"left": Body(1.0, 0.1, "B"), "right": Body(2.0, 0.1, "D")})
+    machine = assur.Machine(
+        m,
+        bodies={
+            "left": Body(mass=1.0, inertia=0.1, at="B"),
+            "right": Body(mass=2.0, inertia=0.1, at="D"),
+        },
+    )
     q = np.asarray(m.q0) + np.random.default_rng(1).uniform(-0.2, 0.2, (20, 2))
     places: Any = {"left": balance.MomentBounds(), "right": [(-0.5, 0.0)]}
     found = balance.fit(machine, q, places, (2.0, -1.0), (0.5, 3.0))
@@ -183,7 +189,7 @@ def test_several_drivers() -> None:
 def test_parallel_cranks_replace_each_other() -> None:
     """Dependent columns: one of the solutions, without a shaking force."""
     m = assur.FourBar(0.1, 0.3, 0.1, 0.3)
-    machine = assur.Machine(m, bodies={"coupler": Body(1.0, 0.01, (0.15, 0.0))})
+    machine = assur.Machine(m, bodies={"coupler": Body(mass=1.0, inertia=0.01, at=(0.15, 0.0))})
     free = {"crank": balance.MomentBounds(), "rocker": balance.MomentBounds()}
     q = np.linspace(0.3, 2.5, 20)
     found = balance.fit(machine, q, free, 5.0)
@@ -193,7 +199,7 @@ def test_parallel_cranks_replace_each_other() -> None:
 
 
 FIT = four_bar()
-ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"piston": Body(1.0)})
+ENGINE = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"piston": Body(mass=1.0)})
 NAN = math.nan
 
 

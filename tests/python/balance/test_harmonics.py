@@ -17,7 +17,7 @@ TURN = np.arange(N) * (math.tau / N)
 
 def test_slider_crank() -> None:
     """The printed series of the piston's force: 4 n² A_2n of cos 2nq, a rod of three cranks."""
-    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(1.0)})
+    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(mass=1.0)})
     force = machine.reactions(TURN, 1.0).shaking_force
     found = balance.harmonics(TURN, force[:, 0], count=8)
     wanted = [1.0, 0.343108577285, -0.0100990791524, 3.34432153297e-4]
@@ -57,7 +57,8 @@ def test_rotating_parts() -> None:
     """The force is the sum of its rotating parts, for a batch of designs."""
     m = assur.FourBar(0.05, [0.15, 0.16], 0.12, 0.16)
     machine = assur.Machine(
-        m, bodies={"coupler": Body(1.2, 3e-3, (0.08, 0.01)), "rocker": Body(1.0)}
+        m,
+        bodies={"coupler": Body(mass=1.2, inertia=3e-3, at=(0.08, 0.01)), "rocker": Body(mass=1.0)},
     )
     force = machine.reactions(TURN + 0.3, 20.0).shaking_force
     parts = balance.rotating_parts(TURN + 0.3, force, count=31)
@@ -79,7 +80,9 @@ def test_rotating_parts() -> None:
 def test_one_weight_rotates_forward_only() -> None:
     crank = assur.SliderCrank(0.1, 0.3)
     for turn, speed in ((TURN, 7.0), (-TURN, -7.0)):
-        machine = assur.Machine(crank, bodies={"crank": Body(2.0, 0.0, (0.0, 0.05))})
+        machine = assur.Machine(
+            crank, bodies={"crank": Body(mass=2.0, inertia=0.0, at=(0.0, 0.05))}
+        )
         parts = balance.rotating_parts(turn, machine.reactions(turn, speed).shaking_force, count=3)
         np.testing.assert_allclose(parts.forward, [0.0, 4.9, 0.0, 0.0], atol=1e-14)
         assert parts.backward.max() < 1e-14

@@ -78,7 +78,7 @@ def crank(load: Any = None, motor: Any = None) -> Balance:
         links={"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"},
         driver="crank",
     )
-    body = {"crank": assur.Body(2.0, 0.5, (1.0, 0.25))}
+    body = {"crank": assur.Body(mass=2.0, inertia=0.5, at=(1.0, 0.25))}
     machine = assur.Machine(m, bodies=body, loads=[load] if load else [], motor=motor)
     return Balance(machine, [0.3], [[Q]], [[SPEED]])
 
@@ -106,16 +106,20 @@ LOADS: dict[str, tuple[Any, float, float]] = {
         0.0,
         float(-TURNED @ FORCE),
     ),
-    "force along a link": (assur.Force("B", FORCE, "crank"), 0.0, LENGTH * float(ACROSS @ AXES)),
+    "force along a link": (
+        assur.Force("B", FORCE, axes="crank"),
+        0.0,
+        LENGTH * float(ACROSS @ AXES),
+    ),
     "force on the ground": (assur.Force(("ground", (1.0, 2.0)), FORCE), 0.0, 0.0),
     "torque": (assur.Torque("ground", 3.0, on="crank"), 0.0, -3.0),
     "spring to the ground": (
-        assur.Spring("B", ("ground", (1.0, 4.0)), 20.0, 0.5, 3.0),
+        assur.Spring("B", ("ground", (1.0, 4.0)), 20.0, 0.5, preload=3.0),
         10.0 * (DISTANCE - 0.5) ** 2 + 3.0 * (DISTANCE - 0.5),
         -(20.0 * (DISTANCE - 0.5) + 3.0) * GROWS,
     ),
     "torsion spring": (
-        assur.TorsionSpring("crank", 6.0, 0.2, preload=-1.0),
+        assur.TorsionSpring("crank", 6.0, angle=0.2, preload=-1.0),
         3.0 * (Q - 0.2) ** 2 - (Q - 0.2),
         -(6.0 * (Q - 0.2) - 1.0),
     ),

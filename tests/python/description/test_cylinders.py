@@ -23,9 +23,13 @@ def test_it_is_two_links_and_a_slide() -> None:
         {"foot": (0, 0), "eye": (2, 1), "base": (1, -1)},
         {"ground": ["foot", "base"], "boom": ["foot", "eye"], "tube": ["base"], "ram": ["eye"]},
         "lift",
-        slides={"lift": assur.Slide("ram", "tube", np.arctan2(2.0, 1.0), "base", length=True)},
+        slides={
+            "lift": assur.Slide(
+                "ram", "tube", angle=np.arctan2(2.0, 1.0), origin="base", length=True
+            )
+        },
     )
-    assert boom(assur.Cylinder("base", "eye", "tube", "ram")) == by_hand
+    assert boom(assur.Cylinder("base", "eye", barrel="tube", rod="ram")) == by_hand
     assert list(boom(assur.Cylinder("base", "eye")).links)[2:] == ["lift_barrel", "lift_rod"]
 
 

@@ -129,8 +129,8 @@ def test_a_second_guide_typed_with_ten_digits_moves() -> None:
         {"ground": ["O", "E"], "crank": "OA", "rod": "AB", "cross": "BC"},
         "crank",
         slides={
-            "lower": assur.Slide("cross", "ground", round(angle, 10), "O"),
-            "upper": assur.Slide("cross", "ground", round(angle + 3e-11, 10), "E"),
+            "lower": assur.Slide("cross", "ground", angle=round(angle, 10), origin="O"),
+            "upper": assur.Slide("cross", "ground", angle=round(angle + 3e-11, 10), origin="E"),
         },
     )
     assert m.structure.redundant == ("upper",)

@@ -34,7 +34,7 @@ def local(link: str, at: tuple[float, float]) -> complex:
 
 @pytest.mark.parametrize("link", PLACES)
 def test_the_place_in_the_frame(link: str) -> None:
-    machine = Machine(four_bar(), bodies={link: Body(2.0, 0.1, drawn=PLACES[link])})
+    machine = Machine(four_bar(), bodies={link: Body(mass=2.0, inertia=0.1, drawn=PLACES[link])})
     body = machine.bodies[link]
     assert (body.mass, body.inertia, body.drawn) == (2.0, 0.1, None)
     assert body.at == pytest.approx(
@@ -45,7 +45,7 @@ def test_the_place_in_the_frame(link: str) -> None:
 
 def test_its_weight_acts_there() -> None:
     """By the work of the weights, for a small turn."""
-    bodies = {link: Body(3.0, drawn=at) for link, at in PLACES.items()}
+    bodies = {link: Body(mass=3.0, drawn=at) for link, at in PLACES.items()}
     machine = Machine(four_bar(), bodies=bodies, loads=[Gravity()])
     own = four_bar()
     assert own.q0 == pytest.approx(math.atan2(-0.6, -0.8))
@@ -63,7 +63,9 @@ def test_a_link_of_no_joints_and_the_ground() -> None:
             "along": assur.Slide("bar", on="ground", angle=0.0, origin="D"),
         },
     )
-    bodies = {link: Body(1.0, drawn=(1.5, 2.5)) for link in ("ground", "crank", "block", "bar")}
+    bodies = {
+        link: Body(mass=1.0, drawn=(1.5, 2.5)) for link in ("ground", "crank", "block", "bar")
+    }
     machine = Machine(own, bodies=bodies, loads=[Gravity()])
     assert machine.bodies["ground"].at == (1.5, 2.5)
     assert machine.potential(own.q0) == pytest.approx(4.0 * 9.81 * 2.5)
@@ -76,14 +78,16 @@ def test_the_drawing_is_that_of_the_design() -> None:
     for mechanism in (own, other):
         joints = mechanism.joints
         middle = tuple(np.mean([joints["B"], joints["C"]], axis=0))
-        machine = Machine(mechanism, bodies={"coupler": Body(1.0, drawn=middle)})
+        machine = Machine(mechanism, bodies={"coupler": Body(mass=1.0, drawn=middle)})
         assert machine.bodies["coupler"].at == pytest.approx((2.25, 0.0), abs=1e-14)
     batch = machine.of(other.with_dimensions({"coupler.length": [4.4, 4.6]}))
     assert batch.bodies == machine.bodies
 
 
 def test_copies_and_files(tmp_path: Path) -> None:
-    machine = Machine(four_bar(), bodies={link: Body(3.0, drawn=at) for link, at in PLACES.items()})
+    machine = Machine(
+        four_bar(), bodies={link: Body(mass=3.0, drawn=at) for link, at in PLACES.items()}
+    )
     assert pickle.loads(pickle.dumps(machine)) == machine
     path = tmp_path / "machine.toml"
     machine.save(path)
@@ -96,24 +100,24 @@ def test_copies_and_files(tmp_path: Path) -> None:
 
 
 def test_equality_and_repr() -> None:
-    one = Body(1.0, drawn=(0.5, 0.25))
-    assert one == Body(1.0, drawn=[0.5, 0.25])  # type: ignore[arg-type]
-    assert one != Body(1.0, drawn=(0.5, 0.3))
-    assert one != Body(1.0, at=(0.5, 0.25))
+    one = Body(mass=1.0, drawn=(0.5, 0.25))
+    assert one == Body(mass=1.0, drawn=[0.5, 0.25])  # type: ignore[arg-type]
+    assert one != Body(mass=1.0, drawn=(0.5, 0.3))
+    assert one != Body(mass=1.0, at=(0.5, 0.25))
     assert repr(one) == "Body(mass=1.0, inertia=0.0, at=None, drawn=(0.5, 0.25))"
     assert eval(repr(one), {"Body": Body}) == one
 
 
 def test_refused() -> None:
     with pytest.raises(assur.InputError, match="both at and drawn are given"):
-        Body(1.0, at="A", drawn=(0.0, 1.0))
+        Body(mass=1.0, at="A", drawn=(0.0, 1.0))
     with pytest.raises(assur.InputError, match="Body drawn is 'A': real numbers are"):
-        Body(1.0, drawn="A")  # type: ignore[arg-type]
+        Body(mass=1.0, drawn="A")  # type: ignore[arg-type]
     batch = four_bar().with_dimensions({"coupler.length": [4.4, 4.6]})
-    body = {"coupler": Body(1.0, drawn=(0.0, 1.0))}
+    body = {"coupler": Body(mass=1.0, drawn=(0.0, 1.0))}
     with pytest.raises(assur.InputError, match=r"this is a batch \(2,\): make the machine of one"):
         Machine(batch, bodies=body)
     with pytest.raises(assur.InputError, match="cannot be assembled at its q0: give at"):
         Machine(four_bar().with_dimensions({"coupler.length": 40.0}), bodies=body)
     with pytest.raises(assur.InputError, match="couplr"):
-        Machine(four_bar(), bodies={"couplr": Body(1.0, drawn=(0.0, 1.0))})
+        Machine(four_bar(), bodies={"couplr": Body(mass=1.0, drawn=(0.0, 1.0))})

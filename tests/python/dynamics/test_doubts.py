@@ -18,7 +18,7 @@ TURN = math.tau
 
 def press(*loads: Any) -> assur.Machine:
     return assur.Machine(
-        assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(20.0)}, loads=loads
+        assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}, loads=loads
     )
 
 

@@ -30,21 +30,21 @@ def loads(shift: tuple[float, float] = (0.0, 0.0)) -> list[Any]:
     x, y = shift
     return [
         Gravity(),
-        Spring("C", ("ground", (11.0 + x, 5.0 + y)), 300.0, 0.7, 20.0),
+        Spring("C", ("ground", (11.0 + x, 5.0 + y)), 300.0, 0.7, preload=20.0),
         Spring(("ground", (9.0 + x, -1.0 + y)), ("coupler", (1.0, 0.5)), 50.0, 1.0),
         Damper(("ground", (14.0 + x, 2.0 + y)), "B", 5.0),
         Force(("ground", (12.0 + x, 1.0 + y)), (40.0, 7.0)),
         Force("C", (3.0, -8.0), axes="ground"),
-        TorsionSpring("rocker", 10.0, 0.3),
+        TorsionSpring("rocker", 10.0, angle=0.3),
         Torque("coupler", 2.0),
     ]
 
 
 def machine(ground: str = "AD", shift: tuple[float, float] = (0.0, 0.0)) -> assur.Machine:
     bodies = {
-        "crank": Body(2.0, 0.5, (0.4, 0.1)),
-        "coupler": Body(3.0, 0.2, (1.2, 0.3)),
-        "ground": Body(7.0, 0.0, (11.0 + shift[0], 3.0 + shift[1])),
+        "crank": Body(mass=2.0, inertia=0.5, at=(0.4, 0.1)),
+        "coupler": Body(mass=3.0, inertia=0.2, at=(1.2, 0.3)),
+        "ground": Body(mass=7.0, inertia=0.0, at=(11.0 + shift[0], 3.0 + shift[1])),
     }
     return assur.Machine(four_bar(ground, shift), bodies=bodies, loads=loads(shift))
 
@@ -133,7 +133,10 @@ def test_moving_the_drawing_changes_only_positions() -> None:
 
 def test_springs_push_as_their_energy_falls() -> None:
     springs = [load for load in loads() if isinstance(load, Spring | TorsionSpring | Gravity)]
-    bodies = {"coupler": Body(3.0, 0.2, (1.2, 0.3)), "ground": Body(7.0, 0.0, (11.0, 3.0))}
+    bodies = {
+        "coupler": Body(mass=3.0, inertia=0.2, at=(1.2, 0.3)),
+        "ground": Body(mass=7.0, inertia=0.0, at=(11.0, 3.0)),
+    }
     own = assur.Machine(four_bar("DA"), bodies=bodies, loads=springs)
     step = 1e-4
     rise = (own.potential(Q + step) - own.potential(Q - step)) / (2.0 * step)

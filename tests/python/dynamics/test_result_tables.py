@@ -40,7 +40,10 @@ def test_a_run(tmp_path: Path) -> None:
 def test_a_run_of_two_drivers() -> None:
     at = {"A": (0.0, 0.0), "B": (1.0, 0.0), "C": (1.5, 0.8)}
     arm = assur.Mechanism(at, {"ground": "A", "upper": "AB", "lower": "BC"}, ["upper", "lower"])
-    bodies = {"upper": assur.Body(1.0, 0.1, at="B"), "lower": assur.Body(1.0, 0.1, at="C")}
+    bodies = {
+        "upper": assur.Body(mass=1.0, inertia=0.1, at="B"),
+        "lower": assur.Body(mass=1.0, inertia=0.1, at="C"),
+    }
     run = assur.Machine(arm, bodies=bodies, loads=[assur.Gravity((0.0, -9.81))]).run(
         0.1, arm.q0, np.zeros(2)
     )

@@ -136,8 +136,8 @@ def test_a_four_bar_drawn_where_it_exists(tmp_path: Path) -> None:
         assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0 / 3.0)),
         assur.SliderCrank(0.1, 0.3, -0.0),
         assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver("rocker", q=1.0),
-        assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver(assur.Drive("coupler", "rocker")),
-        five_bar().with_driver([assur.Drive("c1"), assur.Drive("c2", "b2")]),
+        assur.FourBar(1.0, 3.0, 2.5, 3.0).with_driver(assur.Drive("coupler", relative_to="rocker")),
+        five_bar().with_driver([assur.Drive("c1"), assur.Drive("c2", relative_to="b2")]),
         assur.Mechanism.from_lengths(
             {"A": (0, 0), "B": (0, 1), "C": (3, 2), "D": (3, 0)},
             {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "DC"},
@@ -198,7 +198,11 @@ def test_cylinders_stay_cylinders(tmp_path: Path) -> None:
         {"A": (0, 0), "B": (1.1, 0.9), "R": (0.9, 0.0)},
         {"ground": "AR", "lift_barrel": "R", "lift_rod": "B", "arm": "AB"},
         "lift",
-        slides={"lift": assur.Slide("lift_rod", "lift_barrel", math.atan2(0.9, 1.1 - 0.9), "R")},
+        slides={
+            "lift": assur.Slide(
+                "lift_rod", "lift_barrel", angle=math.atan2(0.9, 1.1 - 0.9), origin="R"
+            )
+        },
     )
     assert "angle" in text_of(plain)
     again(plain, tmp_path / "m.toml")
@@ -210,7 +214,9 @@ def test_a_slide_keeps_whether_it_is_a_length(tmp_path: Path) -> None:
             {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
             {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
             "lift",
-            slides={"lift": assur.Slide("ram", "tube", math.pi / 4, "foot", length=length)},
+            slides={
+                "lift": assur.Slide("ram", "tube", angle=math.pi / 4, origin="foot", length=length)
+            },
         )
 
     for mechanism, low in ((held(length=False), -2.0), (held(length=True), 0.0)):

@@ -166,7 +166,7 @@ def test_without_any_inertia_a_machine_of_a_table_does_not_move() -> None:
 
 def test_a_place_without_inertia_is_named() -> None:
     """A piston alone: at its dead points nothing resists the crank, but for rounding."""
-    press = Machine(assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(20.0)})
+    press = Machine(assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)})
     for q0 in (0.0, math.pi):
         with pytest.raises(InputError, match=r"the reduced inertia is \S+ kg·m² at q = .*positive"):
             press.steady_state(5.0, q0=q0)

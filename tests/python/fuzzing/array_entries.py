@@ -41,7 +41,7 @@ FIVE_BAR = assur.Mechanism(
 )
 MACHINE = assur.Machine(
     FOUR_BAR,
-    bodies={"crank": assur.Body(inertia=2.0), "rocker": assur.Body(1.0, 0.5)},
+    bodies={"crank": assur.Body(inertia=2.0), "rocker": assur.Body(mass=1.0, inertia=0.5)},
     loads=[assur.Gravity(), assur.TorsionDamper("rocker", 0.5)],
 )
 OF_TABLE = assur.Machine.from_table(PHI * (TURN / 6.0), MOMENT, INERTIA, spline="linear")
@@ -79,7 +79,7 @@ def inside(
 
 def inside_rod(x: npt.ArrayLike) -> Any:
     density = x, [2.0] * 4
-    rod = {"coupler": assur.Body(6.0, 4.5, (1.5, 0.0))}
+    rod = {"coupler": assur.Body(mass=6.0, inertia=4.5, at=(1.5, 0.0))}
     return assur.Machine(FOUR_BAR, bodies=rod).internal_loads("coupler", 0.3, density=density)
 
 

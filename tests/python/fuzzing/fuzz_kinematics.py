@@ -23,7 +23,7 @@ DESCRIPTION: dict[str, Any] = {
         "block": ["E"],
     },
     "driver": "crank",
-    "slides": {"bore": assur.Slide("block", "ground", 0.3, "A")},
+    "slides": {"bore": assur.Slide("block", "ground", angle=0.3, origin="A")},
     "assembly": {"C": 1},
 }
 CLASS_IV = {

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 PRESS = assur.SliderCrank(0.1, 0.4)
-MACHINE = Machine(PRESS, bodies={"crank": Body(inertia=0.5), "piston": Body(20.0)})
+MACHINE = Machine(PRESS, bodies={"crank": Body(inertia=0.5), "piston": Body(mass=20.0)})
 ROCKER = {"l1": 1.0, "l2": 9.0, "l3": 6.0}
 
 
@@ -41,21 +41,21 @@ ASKS: dict[str, Callable[[Any], object]] = {
     "guide": guided,
     "mass": lambda x: Body(mass=x),
     "inertia": lambda x: Body(inertia=x),
-    "centre of mass": lambda x: Body(1.0, at=(x, 0.0)),
+    "centre of mass": lambda x: Body(mass=1.0, at=(x, 0.0)),
     "gravity": lambda x: assur.Gravity((0.0, x)),
     "force": lambda x: assur.Force("B", (x, 0.0)),
     "place": lambda x: assur.Force(("rod", (x, 0.0)), (1.0, 0.0)),
     "torque": lambda x: assur.Torque("crank", x),
     "stiffness": lambda x: assur.Spring("A", "O", x, 0.1),
     "length": lambda x: assur.Spring("A", "O", 1.0, x),
-    "preload": lambda x: assur.Spring("A", "O", 1.0, 0.1, x),
+    "preload": lambda x: assur.Spring("A", "O", 1.0, 0.1, preload=x),
     "torsion": lambda x: assur.TorsionSpring("crank", x),
-    "angle": lambda x: assur.TorsionSpring("crank", 1.0, x),
+    "angle": lambda x: assur.TorsionSpring("crank", 1.0, angle=x),
     "damping": lambda x: assur.Damper("A", "O", x),
     "torsion damping": lambda x: assur.TorsionDamper("crank", x),
     "motor": assur.ConstantTorque,
-    "ratio": lambda x: assur.ConstantTorque(1.0, x),
-    "rotor": lambda x: assur.ConstantTorque(1.0, 1.0, x),
+    "ratio": lambda x: assur.ConstantTorque(1.0, ratio=x),
+    "rotor": lambda x: assur.ConstantTorque(1.0, ratio=1.0, rotor_inertia=x),
     "stall": lambda x: assur.LinearMotor(x, 10.0),
     "no_load": lambda x: assur.LinearMotor(10.0, x),
     "breakdown": lambda x: assur.InductionMotor(x, 0.1, 10.0),
@@ -199,7 +199,7 @@ def test_infinite_speeds_are_the_callers_own() -> None:
 @pytest.mark.filterwarnings("error", "ignore::assur.AssurWarning")
 def test_a_run_of_infinite_energy_is_refused() -> None:
     linkage = assur.FourBar(1.0, 3.0, 2.5, 3.0)
-    machine = Machine(linkage, bodies={"crank": Body(4.0), "coupler": Body(0.05)})
+    machine = Machine(linkage, bodies={"crank": Body(mass=4.0), "coupler": Body(mass=0.05)})
     with pytest.raises(assur.MotionError, match="energies of the run are infinite") as caught:
         machine.run(0.2, speed0=1e200, rtol=1e-6, max_steps=300)
     assert (caught.value.kind, caught.value.t) == ("not_finite", 0.0)

@@ -85,7 +85,10 @@ def named(owner: str, home: Any, /, **calls: dict[str, Any]) -> Iterable[tuple[s
 @functools.cache
 def machine(rubs: bool = False) -> assur.Machine:
     press = assur.SliderCrank(0.1, 0.4)
-    bodies = {"crank": assur.Body(inertia=0.5), "rod": assur.Body(1.0, 0.4**2 / 12.0, (0.2, 0.0))}
+    bodies = {
+        "crank": assur.Body(inertia=0.5),
+        "rod": assur.Body(mass=1.0, inertia=0.4**2 / 12.0, at=(0.2, 0.0)),
+    }
     force = assur.Force("B", (-100.0, 0.0), on="piston")
     rubbing = {"B": assur.JointFriction(0.1, 0.02)} if rubs else {}
     motor = None if rubs else assur.LinearMotor(50.0, 15.0)
@@ -242,13 +245,17 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         "balance",
         balance,
         fit={"machine": own, "q": TURN, "places": {"crank": (-0.1, 0.0)}, "speed": 1.0},
-        four_bar={"machine": assur.Machine(four_bar, bodies={"coupler": assur.Body(1.0, 0.1)})},
+        four_bar={
+            "machine": assur.Machine(
+                four_bar, bodies={"coupler": assur.Body(mass=1.0, inertia=0.1)}
+            )
+        },
         slider_crank={"machine": own},
         harmonics={"q": TURN[:-1], "values": MOMENT[:-1], "count": 2},
         rotating_parts={"q": TURN[:-1], "force": np.ones((6, 2)), "count": 2},
         Counterweight={"link": "crank", "moment": 1.0, "angle": 0.0, "about": "A"},
     )
-    weight = balance.Counterweight("crank", 1.0, 0.0, "A")
+    weight = balance.Counterweight("crank", 1.0, angle=0.0, about="A")
     yield from named("Counterweight", weight, with_mass={"mass": 1.0}, with_radius={"radius": 1.0})
 
 

@@ -108,7 +108,10 @@ def test_where_it_has_no_length_at_all_no_direction_is_made_up() -> None:
         {"A": (0, 0), "B": (1, 0)},
         {"ground": ["A"], "cart": ["B"]},
         "way",
-        slides={"way": assur.Slide("cart", "ground", 0.0, "A"), "lift": assur.Cylinder("A", "B")},
+        slides={
+            "way": assur.Slide("cart", "ground", angle=0.0, origin="A"),
+            "lift": assur.Cylinder("A", "B"),
+        },
     )
     motion = slider.solve([-1.0, 0.0, 1.0])
     assert motion.slide("lift").value.tolist() == [1.0, 0.0, 1.0]
@@ -283,7 +286,7 @@ def test_a_barrel_that_something_slides_on() -> None:
         ["crank", "move"],
         slides={
             "lift": assur.Cylinder("foot", "eye"),
-            "move": assur.Slide("sleeve", "lift_barrel", 0.4, "foot"),
+            "move": assur.Slide("sleeve", "lift_barrel", angle=0.4, origin="foot"),
         },
     )
     rng = np.random.default_rng(1)
@@ -363,7 +366,7 @@ def test_a_slide_keeps_its_sign() -> None:
         {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
         {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
         "door",
-        slides={"lift": assur.Slide("ram", "tube", np.pi / 4, "foot")},
+        slides={"lift": assur.Slide("ram", "tube", angle=np.pi / 4, origin="foot")},
     )
     assert plain.solve(-2.0).slide("lift").value < -0.4
     assert plain.with_driver("lift").limits().intervals.tolist() == [[-2.0, 2.0]]
@@ -375,6 +378,8 @@ def test_a_length_that_is_drawn_backward_is_refused() -> None:
         {"H": (0, 0), "foot": (0, -1.0), "eye": (1.0, 0)},
         {"ground": ["H", "foot"], "door": ["H", "eye"], "tube": ["foot"], "ram": ["eye"]},
         "door",
-        slides={"lift": assur.Slide("ram", "tube", -3 * np.pi / 4, "foot", length=True)},
+        slides={
+            "lift": assur.Slide("ram", "tube", angle=-3 * np.pi / 4, origin="foot", length=True)
+        },
     )
     refused(assur.StructureError, "lift -1.414 length", backward)

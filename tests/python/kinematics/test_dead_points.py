@@ -132,7 +132,11 @@ def turning_guide(rng: np.random.Generator) -> Linkage | None:
     drawn = assur.Mechanism(
         joints={"O": (0, 0), "A": (0, 1), "D": (1, 0), "E": (0, 1)},
         links={"ground": "OD", "crank": "OA", "block": "A", "lever": "DE"},
-        slides={"slot": assur.Slide("block", "lever", math.radians(135 - (sign < 0) * 180), "D")},
+        slides={
+            "slot": assur.Slide(
+                "block", "lever", angle=math.radians(135 - (sign < 0) * 180), origin="D"
+            )
+        },
         driver="crank",
     )
     lengths = {"crank.length": float(r), "ground.D.x": float(d), "slot.offset": float(offset)}

@@ -131,7 +131,7 @@ def test_refusals() -> None:
     refused(assur.InputError, "duration positive", partial(laws.Harmonic, 0.0, 1.0, 0.0))
     refused(assur.InputError, "start finite", partial(laws.Harmonic, math.nan, 1.0, 1.0))
     refused(assur.InputError, "Harmonic duration", partial(laws.Harmonic, 0.0, 1.0, 1e-320))
-    refused(assur.InputError, "ramp", partial(laws.Trapezoidal, 0.0, 1.0, 1.0, 0.0, 0.6))
+    refused(assur.InputError, "ramp", partial(laws.Trapezoidal, 0.0, 1.0, 1.0, ramp=0.6))
     refused(assur.InputError, "t finite", partial(law.at, [0.0, math.inf]))
     wrong: Any = 1.0
     refused(assur.InputError, "law", partial(engine.follow, wrong, [0.0]))

@@ -47,7 +47,7 @@ def test_other_methods_raise_the_same_error() -> None:
     motion = m.solve(Q, on_error="nan")
     assert np.isnan(motion.condition[1]).all()
     assert np.isnan(motion.sensitivity("crank.length").joint("K").value[1]).all()
-    machine = assur.Machine(m, bodies={"r1": assur.Body(1.0, 0.1)})
+    machine = assur.Machine(m, bodies={"r1": assur.Body(mass=1.0, inertia=0.1)})
     inertia = machine.reduced_inertia(Q, on_error="nan").value
     assert np.isfinite(inertia[0]).all()
     assert np.isnan(inertia[1]).all()

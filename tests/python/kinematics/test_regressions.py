@@ -82,7 +82,7 @@ def test_a_locked_angle_makes_a_group_of_class_three() -> None:
             "q": "CF",
             "m": "MF",
         },
-        driver=assur.Drive("q", "h"),
+        driver=assur.Drive("q", relative_to="h"),
     )
     assert m.structure.cls == 3
     # Solved at the drawing, and beside it.

@@ -161,7 +161,7 @@ def test_half_a_turn_is_clockwise(side: float, turned: float) -> None:
         joints={"A": (0, 0), "B": (2, 0), "C": (1, side)},
         links={"ground": ["A", "B"], "boom": ["A", "C"], "barrel": ["B"], "rod": ["C"]},
         driver="drive",
-        slides={"drive": assur.Slide("rod", "barrel", angle, "B")},
+        slides={"drive": assur.Slide("rod", "barrel", angle=angle, origin="B")},
     )
     assert isinstance(m.q0, float)
     (gap,) = gap_steps.gaps(m, np.linspace(m.q0, -m.q0, 4001))

@@ -55,7 +55,9 @@ def crank_space(seed: int, designs: int = DESIGNS) -> assur.Mechanism:
         slides = {}
         if seed % 3 == 0:
             links["rocker"] = ["C"]
-            slides["guide"] = assur.Slide("rocker", "ground", rng.uniform(-3.0, 3.0), "D")
+            slides["guide"] = assur.Slide(
+                "rocker", "ground", angle=rng.uniform(-3.0, 3.0), origin="D"
+            )
         try:
             one = assur.Mechanism({"A": a, "B": b, "C": c, "D": d}, links, "crank", slides=slides)
         except ValueError:
@@ -77,18 +79,20 @@ def slide_space(seed: int, designs: int = DESIGNS) -> assur.Mechanism:
     if seed % 2:
         links = {"ground": ["A", "B"], "boom": ["A", "C", "P"], "barrel": ["B"], "rod": ["C"]}
         angle = float(np.arctan2(*(c - b)[::-1]))
-        slides = {"drive": assur.Slide("rod", "barrel", angle, "B")}
+        slides = {"drive": assur.Slide("rod", "barrel", angle=angle, origin="B")}
         joints["P"] = p
     else:
         links = {"ground": ["A"], "boom": ["A", "B"], "rod": ["B", "C"], "piston": ["C"]}
-        slides = {"drive": assur.Slide("piston", "ground", rng.uniform(-3.0, 3.0), "A")}
+        slides = {
+            "drive": assur.Slide("piston", "ground", angle=rng.uniform(-3.0, 3.0), origin="A")
+        }
     if seed % 5 < 2:
         links["ground"].append("F")
         links |= {"arm": ["P" if seed % 2 else "B", "E"], "tip": ["E", "F"]}
         joints |= {"E": e, "F": f}
     elif seed % 5 == 2:
         links |= {"arm": ["P" if seed % 2 else "B", "E"], "block": ["E"]}
-        slides["guide"] = assur.Slide("block", "ground", rng.uniform(-3.0, 3.0), "A")
+        slides["guide"] = assur.Slide("block", "ground", angle=rng.uniform(-3.0, 3.0), origin="A")
         joints["E"] = e
     one = assur.Mechanism({n: tuple(at) for n, at in joints.items()}, links, "drive", slides=slides)
     return space(one, rng, designs)

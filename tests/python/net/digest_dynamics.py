@@ -102,8 +102,8 @@ def press(motor: Any = None, *loads: Any) -> assur.Machine:
         assur.SliderCrank(0.1, 0.4),
         bodies={
             "crank": assur.Body(inertia=0.5),
-            "rod": assur.Body(5.0, 0.1, (0.15, 0.0)),
-            "piston": assur.Body(20.0),
+            "rod": assur.Body(mass=5.0, inertia=0.1, at=(0.15, 0.0)),
+            "piston": assur.Body(mass=20.0),
         },
         loads=[assur.Gravity(), assur.Force("B", (work, 0.0)), *loads],
         motor=motor,
@@ -113,7 +113,7 @@ def press(motor: Any = None, *loads: Any) -> assur.Machine:
 def pumped() -> assur.Machine:
     """A mechanism of class III with bodies."""
     m = again(named_drawings.HIGHER["triad"]())
-    bodies = {name: assur.Body(1.0, 0.2) for name in m.links if name != "ground"}
+    bodies = {name: assur.Body(mass=1.0, inertia=0.2) for name in m.links if name != "ground"}
     return assur.Machine(m, bodies=bodies, loads=[assur.Gravity()])
 
 
@@ -131,7 +131,10 @@ def table(spline: Any = "not-a-knot", motor: Any = None) -> assur.Machine:
 
 
 def four_bar(loads: Any = ()) -> assur.Machine:
-    bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(2.0, 2.0, (0.5, 0.2))}
+    bodies = {
+        "crank": assur.Body(inertia=0.3),
+        "rocker": assur.Body(mass=2.0, inertia=2.0, at=(0.5, 0.2)),
+    }
     return assur.Machine(assur.FourBar(1.0, 3.0, 3.0, 3.0), bodies=bodies, loads=loads)
 
 
@@ -207,7 +210,7 @@ FLYWHEELS: dict[str, Callable[[], Any]] = {
     "of a machine": lambda: press().flywheel(0.05, mean_speed=15.0),
     "of machines": lambda: assur.Machine(
         assur.SliderCrank(np.array([0.1, 0.12, 5.0]), 0.4),
-        bodies={"crank": assur.Body(inertia=0.5), "piston": assur.Body(20.0)},
+        bodies={"crank": assur.Body(inertia=0.5), "piston": assur.Body(mass=20.0)},
         loads=[assur.Force("B", (assur.Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -9e3, 0.0]), 0.0))],
     ).flywheel(0.05, mean_speed=15.0, on_error="nan"),
 }

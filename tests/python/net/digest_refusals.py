@@ -45,8 +45,8 @@ CASES: dict[str, Callable[[], object]] = {
     "no slide": lambda: MOTION.slide("crank"),
     "design": lambda: BATCH.design(9),
     "driver": lambda: M.with_driver("cranck"),
-    "body": lambda: Machine(M, bodies={"cranck": Body(1.0)}),
-    "mass": lambda: Body(-1.0),
+    "body": lambda: Machine(M, bodies={"cranck": Body(mass=1.0)}),
+    "mass": lambda: Body(mass=-1.0),
     "force": lambda: Machine(M, loads=[assur.Force("cranck", (1.0, 0.0))]),
     "spring": lambda: assur.Spring("A", "A", 1.0, 0.5),
     "motor": lambda: Machine(M, motor=WRONG),
@@ -56,7 +56,9 @@ CASES: dict[str, Callable[[], object]] = {
         1.0, q0=5.0
     ),
     "run outside": lambda: press(LINEAR).run(0.1, q0=0.0).at(5.0),
-    "reduced": lambda: Machine(ROCKER, bodies={"rocker": Body(1.0)}).reduced_inertia([2.0, 5.0]),
+    "reduced": lambda: Machine(ROCKER, bodies={"rocker": Body(mass=1.0)}).reduced_inertia(
+        [2.0, 5.0]
+    ),
     "steady over a dead point": lambda: Machine(
         ROCKER, bodies={"rocker": Body(inertia=1.0)}
     ).steady_state(3.0),

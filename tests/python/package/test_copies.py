@@ -58,7 +58,7 @@ def loaded() -> tuple[Machine, list[Any]]:
     at, force, place = [0.2, 0.1], [3.0, -4.0], [1.0, 2.0]
     gravity, mass, torque = [0.0, -9.81], np.array(2.0), np.array(40.0)
     ends: list[Any] = ["ground", [3.0, 1.0]]
-    bodies = {"crank": Body(inertia=0.5), "coupler": Body(mass, 0.1, at)}  # type: ignore[arg-type]
+    bodies = {"crank": Body(inertia=0.5), "coupler": Body(mass=mass, inertia=0.1, at=at)}  # type: ignore[arg-type]
     loads: list[Any] = [
         Gravity(gravity),  # type: ignore[arg-type]
         Torque("crank", Table(q, value)),
@@ -112,7 +112,10 @@ def test_a_list_of_motors_may_change() -> None:
     m = assur.Mechanism(joints=joints, links=links, driver=["left", "right"])
     motors: list[Any] = [assur.ConstantTorque(2.0, rotor_inertia=0.5), None]
     machine = Machine(
-        m, bodies={name: Body(1.0, 0.1) for name in ("l2", "l3")}, loads=[], motor=motors
+        m,
+        bodies={name: Body(mass=1.0, inertia=0.1) for name in ("l2", "l3")},
+        loads=[],
+        motor=motors,
     )
     before = machine.run(0.2).q
     motors[0] = None

@@ -164,7 +164,7 @@ CLASSES: dict[Any, dict[str, tuple[Any, Any]]] = {
     assur.SliderCrank: {"crank": (0.1, 0.11), "rod": (0.4, 0.41), "offset": (0.0, 0.02)},
     assur.Machine: {
         "mechanism": (assur.FourBar(1.0, 3.0, 2.5, 3.0), assur.FourBar(1.0, 3.1, 2.5, 3.0)),
-        "bodies": ({"rocker": assur.Body(2.0)}, {"rocker": assur.Body(2.1)}),
+        "bodies": ({"rocker": assur.Body(mass=2.0)}, {"rocker": assur.Body(mass=2.1)}),
         "loads": ([assur.Torque("rocker", table())], [assur.Torque("rocker", load)]),
         "motor": (assur.ConstantTorque(table()), None),
         "friction": ({"C": assur.JointFriction(0.1, 0.2)}, {}),
@@ -333,7 +333,7 @@ def test_a_machine_that_is_loaded_is_equal(name: str, tmp_path: Path) -> None:
 
 
 def test_batches_and_designs() -> None:
-    batch = assur.Machine(assur.SliderCrank(0.1, [0.4, 0.5]), bodies={"rod": assur.Body(1.0)})
+    batch = assur.Machine(assur.SliderCrank(0.1, [0.4, 0.5]), bodies={"rod": assur.Body(mass=1.0)})
     assert batch.design(0) == batch.design(0)
     assert batch.design(0) != batch.design(1)
     assert batch.mechanism is not None

@@ -361,7 +361,7 @@ def _moving(count: int) -> tuple[Any, ...]:
 
 
 def _rod() -> assur.Machine:
-    bodies = {"coupler": assur.Body(1.0, 0.75, (1.5, 0.0))}
+    bodies = {"coupler": assur.Body(mass=1.0, inertia=0.75, at=(1.5, 0.0))}
     return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import re
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -74,3 +75,25 @@ def test_an_old_attribute_is_refused_by_the_new_one(name: str) -> None:
         _ = owner.unheard_of
     again = pickle.loads(pickle.dumps(owner)) if not isinstance(owner, ModuleType) else owner
     assert type(again) is type(owner)
+
+
+OWNERS: dict[str, Any] = {"mechanism": MOTION.mechanism, "motion": MOTION, "machine": MACHINE}
+# What hints may call.
+CALLS = {
+    name
+    for place in (assur, assur.Mechanism, assur.Motion, assur.Machine, assur.Analogues, assur.Run)
+    for name in dir(place)
+} | {"to_csv"}
+
+
+@pytest.mark.parametrize("owner", OWNERS)
+def test_a_name_of_another_tool_says_what_there_is(owner: str) -> None:
+    one = OWNERS[owner]
+    hints = type(one)._other_names
+    assert len(hints) > 5
+    for name, hint in hints.items():
+        assert not hasattr(one, name)
+        with pytest.raises(AttributeError, match=re.escape(f"no attribute '{name}': {hint}")):
+            getattr(one, name)
+        called = set(re.findall(r"([A-Za-z_]+)\(", hint))
+        assert called <= CALLS, (name, called - CALLS)

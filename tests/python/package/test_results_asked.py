@@ -112,7 +112,7 @@ def cases(seed: int) -> Iterator[tuple[assur.Machine, Any, Any]]:
     for some in (friction, inner):
         q = mechanism.q0 + np.linspace(-0.1, 0.1, 2)
         loads = [assur.Torque("crank", -1.0)] if seed % 3 else []
-        bodies = {"rocker": assur.Body(2.0, 0.3)}
+        bodies = {"rocker": assur.Body(mass=2.0, inertia=0.3)}
         yield assur.Machine(mechanism, bodies=bodies, loads=loads, friction=some), q, 1.0
 
 

@@ -38,9 +38,9 @@ def runs() -> dict[str, assur.Run]:
         "no steps": machine.run(0.0, speed0=1.0),
         "dead point": lever.run(9.0, speed0=1.0),
         "near change point": near.run(q_end=4.0, q0=1.0, speed0=1.0),
-        "two drivers": Machine(two, bodies={n: Body(1.0, 0.1) for n in ("l2", "l3")}).run(
-            0.2, speed0=[0.3, 0.1]
-        ),
+        "two drivers": Machine(
+            two, bodies={n: Body(mass=1.0, inertia=0.1) for n in ("l2", "l3")}
+        ).run(0.2, speed0=[0.3, 0.1]),
         "limit": limited,
     }
 

@@ -17,7 +17,10 @@ from pictures.picture_reading import gids, named, one, overlapping, texts, vecto
 
 
 def _engine(**more: Any) -> assur.Machine:
-    bodies = {"rod": assur.Body(1.2, 0.015, (0.12, 0.01)), "piston": assur.Body(2.0)}
+    bodies = {
+        "rod": assur.Body(mass=1.2, inertia=0.015, at=(0.12, 0.01)),
+        "piston": assur.Body(mass=2.0),
+    }
     loads: list[Any] = [assur.Force("B", (-800.0, 0.0), on="piston"), assur.Gravity()]
     return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=loads, **more)
 
@@ -25,9 +28,9 @@ def _engine(**more: Any) -> assur.Machine:
 def _loaded() -> assur.Machine:
     """Return a four-bar with a load of every kind."""
     bodies = {
-        "crank": assur.Body(0.5, 2e-4, (0.02, 0.005)),
-        "coupler": assur.Body(1.2, 3e-3, (0.08, 0.012)),
-        "rocker": assur.Body(0.8, 1.5e-3, (0.06, -0.01)),
+        "crank": assur.Body(mass=0.5, inertia=2e-4, at=(0.02, 0.005)),
+        "coupler": assur.Body(mass=1.2, inertia=3e-3, at=(0.08, 0.012)),
+        "rocker": assur.Body(mass=0.8, inertia=1.5e-3, at=(0.06, -0.01)),
     }
     loads: list[Any] = [
         assur.Gravity(),
@@ -49,20 +52,25 @@ MACHINES: dict[str, Any] = {
     ).reactions([0.4, 1.1], speed=60.0),
     "shaper": lambda: assur.Machine(
         assur.examples.shaper(),
-        bodies={"lever": assur.Body(4.0, 0.05, (0.1, 0.0)), "ram": assur.Body(6.0)},
+        bodies={
+            "lever": assur.Body(mass=4.0, inertia=0.05, at=(0.1, 0.0)),
+            "ram": assur.Body(mass=6.0),
+        },
         loads=[assur.Force("F", (-900.0, 0.0)), assur.Gravity()],
     ).reactions([0.4, 1.1], speed=8.0),
     "class III": lambda: assur.Machine(
         assur.examples.triad(),
-        bodies={"plate": assur.Body(2.0, 0.01, (0.02, 0.01))},
+        bodies={"plate": assur.Body(mass=2.0, inertia=0.01, at=(0.02, 0.01))},
         loads=[assur.Gravity()],
     ).reactions([0.4, 1.1], speed=8.0),
     "class IV": lambda: assur.Machine(
-        assur.examples.loom(), bodies={"l234": assur.Body(2.0, 0.01)}, loads=[assur.Gravity()]
+        assur.examples.loom(),
+        bodies={"l234": assur.Body(mass=2.0, inertia=0.01)},
+        loads=[assur.Gravity()],
     ).reactions([0.4, 1.1], speed=8.0),
     "three cylinders": lambda: assur.Machine(
         assur.examples.platform_on_cylinders(),
-        bodies={"platform": assur.Body(20.0, 1.0, (0.1, 0.1))},
+        bodies={"platform": assur.Body(mass=20.0, inertia=1.0, at=(0.1, 0.1))},
         loads=[assur.Gravity()],
     ).reactions([[1.2, 1.1, 0.8]] * 2, speed=[0.1, -0.2, 0.1]),
 }

@@ -124,7 +124,10 @@ def test_a_free_slide_moves_by_half_the_size() -> None:
     slider = assur.Mechanism(
         joints={"A": (0, 0), "B": (1, 1), "C": (2, 0)},
         links={"ground": [], "block": ["A"], "rod": ["A", "B"], "other": ["B", "C"], "end": ["C"]},
-        slides={"x": assur.Slide("block", "ground", 0.0), "y": assur.Slide("end", "ground", 0.0)},
+        slides={
+            "x": assur.Slide("block", "ground", angle=0.0),
+            "y": assur.Slide("end", "ground", angle=0.0),
+        },
         driver=("x", "y"),
     )
     assert course(slider).shape == ()

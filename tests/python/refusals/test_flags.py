@@ -22,7 +22,9 @@ pytest.importorskip("matplotlib").use("Agg")
 PRESS = assur.SliderCrank(0.1, 0.4)
 WHEEL = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 MOTION = WHEEL.solve([0.5, 1.0, 1.5], order=3)
-MACHINE = assur.Machine(PRESS, bodies={"crank": assur.Body(inertia=0.5), "piston": assur.Body(1.0)})
+MACHINE = assur.Machine(
+    PRESS, bodies={"crank": assur.Body(inertia=0.5), "piston": assur.Body(mass=1.0)}
+)
 RUN = MACHINE.run(t_end=0.5, q0=0.0, speed0=3.0)
 PHI, MOMENT = np.linspace(0.0, math.tau, 7), np.array([0.0, 4.0, 2.0, -3.0, 1.0, -4.0, 0.0])
 LENGTHS = {"rocker.length": np.linspace(2.4, 2.6, 3)}

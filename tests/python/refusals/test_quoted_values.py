@@ -32,7 +32,9 @@ def four_bar() -> assur.Mechanism:
 
 
 def machine(*loads: Any, **options: Any) -> assur.Machine:
-    return assur.Machine(four_bar(), bodies={ROD: assur.Body(1.0, 0.1, C)}, loads=loads, **options)
+    return assur.Machine(
+        four_bar(), bodies={ROD: assur.Body(mass=1.0, inertia=0.1, at=C)}, loads=loads, **options
+    )
 
 
 def swept(name: Any) -> Any:
@@ -67,15 +69,17 @@ NAMES: dict[str, Callable[[], Any]] = {
     "shape": lambda: four_bar().with_dimensions({np.str_("rod.length"): [1.0, 2.0]}).solve(TABLE),
     "member": lambda: assur.Mechanism({A: (0, 0)}, {GROUND: [A], CRANK: [A, X]}, CRANK),
     "driver": lambda: assur.Mechanism({A: (0, 0), B: (1, 0)}, {CRANK: [A, B]}, X),
-    "drive": lambda: assur.Mechanism({A: (0, 0), B: (1, 0)}, {CRANK: [A, B]}, assur.Drive(X, X)),
+    "drive": lambda: assur.Mechanism(
+        {A: (0, 0), B: (1, 0)}, {CRANK: [A, B]}, assur.Drive(X, relative_to=X)
+    ),
     "slide": lambda: slides(link=X),
     "along": lambda: slides(angle=float("nan"), along=(A, X)),
     "along itself": lambda: slides(angle=float("nan"), along=(A, A)),
     "cylinder": lambda: assur.Mechanism(
         {A: (0, 0)}, {GROUND: [A]}, "x", slides={"x": assur.Cylinder(A, X)}
     ),
-    "body": lambda: assur.Machine(four_bar(), bodies={X: assur.Body(1.0)}),
-    "body at": lambda: assur.Machine(four_bar(), bodies={ROD: assur.Body(1.0, at=D)}),
+    "body": lambda: assur.Machine(four_bar(), bodies={X: assur.Body(mass=1.0)}),
+    "body at": lambda: assur.Machine(four_bar(), bodies={ROD: assur.Body(mass=1.0, at=D)}),
     "load": lambda: machine(assur.Force(X, (0, 1))),
     "on": lambda: machine(assur.Force(C, (0, 1), on=CRANK)),
     "torque": lambda: machine(assur.Torque(ROD, 1.0, on=ROD)),
@@ -129,8 +133,8 @@ def test_names_of_numpy_become_plain() -> None:
 
 
 ARRAYS: dict[str, Callable[[], Any]] = {
-    "body": lambda: assur.Body(1.0, 0.1, TABLE),
-    "mass": lambda: assur.Body(TABLE),
+    "body": lambda: assur.Body(mass=1.0, inertia=0.1, at=TABLE),
+    "mass": lambda: assur.Body(mass=TABLE),
     "force": lambda: assur.Force("B", TABLE),
     "point": lambda: assur.Force(("rod", TABLE), (0, 1)),
     "gravity": lambda: assur.Gravity(TABLE),
@@ -179,7 +183,9 @@ def test_find_of_a_joint_that_rests_has_no_internal_words() -> None:
 
 def test_a_batch_with_its_own_motor() -> None:
     batch = assur.SliderCrank(0.1, [0.4, 0.5])
-    own = assur.Machine(batch, bodies={"rod": assur.Body(1.0)}, motor=assur.ConstantTorque(9.0))
+    own = assur.Machine(
+        batch, bodies={"rod": assur.Body(mass=1.0)}, motor=assur.ConstantTorque(9.0)
+    )
     with pytest.raises(assur.InputError, match=r"^flywheel\(fluctuation\) .* is a batch \(2,\)"):
         own.flywheel(0.05)
 
@@ -187,7 +193,7 @@ def test_a_batch_with_its_own_motor() -> None:
 def test_values_of_a_wrong_kind_are_refused_by_name() -> None:
     """Infinity in a table, one mechanism for a list, an array for a name."""
     crank = assur.SliderCrank(0.1, 0.4)
-    bodies = {"crank": assur.Body(1.0, 1.0), "rod": assur.Body(1.0, 0.1)}
+    bodies = {"crank": assur.Body(mass=1.0, inertia=1.0), "rod": assur.Body(mass=1.0, inertia=0.1)}
     machine = assur.Machine(
         crank, bodies=bodies, loads=[assur.Force("B", (-100.0, 0.0), on="piston")]
     )

@@ -25,20 +25,26 @@ NAMES: dict[str, Callable[[Any], object]] = {
     "driver": lambda x: build(driver=x),
     "drivers": lambda x: build(driver=["crank", x]),
     "drive": lambda x: build(driver=Drive(x)),
-    "drive against": lambda x: build(driver=Drive("crank", x)),
+    "drive against": lambda x: build(driver=Drive("crank", relative_to=x)),
     "slide": lambda x: assur.Mechanism(**{**engine(), "slides": {x: BORE}}),
-    "sliding link": lambda x: assur.Mechanism(**engine(bore=Slide(x, "ground", 0.0, "O"))),
-    "guide's link": lambda x: assur.Mechanism(**engine(bore=Slide("piston", x, 0.0, "O"))),
-    "origin": lambda x: assur.Mechanism(**engine(bore=Slide("piston", "ground", 0.0, x))),
+    "sliding link": lambda x: assur.Mechanism(
+        **engine(bore=Slide(x, "ground", angle=0.0, origin="O"))
+    ),
+    "guide's link": lambda x: assur.Mechanism(
+        **engine(bore=Slide("piston", x, angle=0.0, origin="O"))
+    ),
+    "origin": lambda x: assur.Mechanism(
+        **engine(bore=Slide("piston", "ground", angle=0.0, origin=x))
+    ),
     "assembly": lambda x: build(assembly={x: 1}),
     "assembly of a motion": lambda x: M.solve(1.0, assembly={x: 1}),
     "body": lambda x: Machine(M, bodies={x: Body()}),
-    "centre of mass": lambda x: Machine(M, bodies={"crank": Body(1.0, at=x)}),
+    "centre of mass": lambda x: Machine(M, bodies={"crank": Body(mass=1.0, at=x)}),
     "force": lambda x: Machine(M, loads=[Force(x, (1.0, 0.0))]),
     "place of a force": lambda x: Machine(M, loads=[Force((x, (0.0, 0.0)), (1.0, 0.0))]),
     "axes": lambda x: Machine(M, loads=[Force("C", (1.0, 0.0), axes=x)]),
     "torque": lambda x: Machine(M, loads=[Torque(x, 1.0)]),
-    "counterpart": lambda x: Machine(M, loads=[Torque("crank", 1.0, x)]),
+    "counterpart": lambda x: Machine(M, loads=[Torque("crank", 1.0, on=x)]),
     "spring": lambda x: Machine(M, loads=[Spring("C", x, 1.0, 1.0)]),
     "damper": lambda x: Machine(M, loads=[Damper(x, "C", 1.0)]),
     "event": lambda x: Machine(M, bodies={"crank": Body(inertia=1.0)}).run(
@@ -68,7 +74,7 @@ def test_non_names_are_refused(name: str, wrong: Any) -> None:
 @pytest.mark.parametrize("origin", [0, 0.0, False, b"", [], np.array("O")])
 def test_an_origin_that_is_not_a_name_is_refused(origin: Any) -> None:
     with pytest.raises(assur.InputError, match="origin") as caught:
-        assur.Mechanism(**engine(bore=Slide("piston", "ground", 0.0, origin)))
+        assur.Mechanism(**engine(bore=Slide("piston", "ground", angle=0.0, origin=origin)))
     assert caught.value.slide == "bore"
 
 

@@ -163,7 +163,7 @@ def test_relative_drives_stay() -> None:
     arm = {
         "joints": {"A": (0, 0), "B": (1, 2), "C": (4, 2.5), "D": (5, 4)},
         "links": {"ground": "A", "upper": "AB", "fore": "BC", "hand": "CD"},
-        "driver": ["upper", assur.Drive("fore", "upper")],
+        "driver": ["upper", assur.Drive("fore", relative_to="upper")],
     }
     remedies = error_of(**arm).remedies
     assert len(remedies) == 3

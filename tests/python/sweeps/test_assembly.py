@@ -94,7 +94,7 @@ def test_metrics_of_a_found_assembly_above_class_two() -> None:
 
 def test_a_machine_is_measured_in_the_assembly() -> None:
     own = four_bar()
-    bodies = {"coupler": assur.Body(2.0, 0.3, at=(1.0, 0.4))}
+    bodies = {"coupler": assur.Body(mass=2.0, inertia=0.3, at=(1.0, 0.4))}
     machine = assur.Machine(own, bodies=bodies, loads=[assur.Gravity()])
     asked = {"torque": metric.peak_effort()}
     found = assur.sweep(machine, SPACE, Q, assembly=CROSSED, metrics=asked)

@@ -26,7 +26,7 @@ MACHINE_METRICS: dict[str, Any] = {
 
 
 def press(**options: Any) -> Machine:
-    bodies = {"crank": assur.Body(inertia=0.01), "piston": assur.Body(1.0)}
+    bodies = {"crank": assur.Body(inertia=0.01), "piston": assur.Body(mass=1.0)}
     return Machine(
         assur.SliderCrank(0.05, 0.4), bodies=bodies, loads=[Force("B", (SHORT, 0.0))], **options
     )

@@ -14,7 +14,10 @@ import assur
 from assur import Body, Force, Gravity, InputError, metric
 
 Q = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
-BODIES = {"coupler": Body(2.0, 0.05, (1.0, 0.3)), "rocker": Body(3.0, 0.1, (0.9, 0.0))}
+BODIES = {
+    "coupler": Body(mass=2.0, inertia=0.05, at=(1.0, 0.3)),
+    "rocker": Body(mass=3.0, inertia=0.1, at=(0.9, 0.0)),
+}
 LOADS: list[Any] = [Gravity(), Force("C", (4.0, -7.0))]
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.2)
 MACHINE = assur.Machine(FOUR_BAR, bodies=BODIES, loads=LOADS)
@@ -94,7 +97,7 @@ def test_an_effort_at_a_change_point_has_a_value() -> None:
     turn = np.linspace(0.0, np.pi, 5)
     pairs = assur.Machine(
         assur.FourBar(1.0, 3.0, 1.0, 3.0),
-        bodies={"coupler": Body(2.0, 1.5, (1.5, 0.0))},
+        bodies={"coupler": Body(mass=2.0, inertia=1.5, at=(1.5, 0.0))},
         loads=[Gravity()],
     )
     asked = {"effort": metric.peak_effort(speed=3.0), "pin": metric.peak_reaction("C", speed=3.0)}
@@ -109,7 +112,7 @@ def test_an_effort_does_not_depend_on_the_designs_beside_it() -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, 48)
     pairs = assur.Machine(
         assur.FourBar(1.0, 3.0, 1.0, 3.0),
-        bodies={"coupler": Body(2.0, 1.5, (1.5, 0.0))},
+        bodies={"coupler": Body(mass=2.0, inertia=1.5, at=(1.5, 0.0))},
         loads=[Gravity()],
     )
     rockers = np.array([1.0, 1.3, 1.4])
@@ -140,7 +143,7 @@ def test_any_number_of_positions(count: int) -> None:
     turn = np.linspace(0.1, 5.0, count)
     engine = assur.Machine(
         assur.SliderCrank(1.0, 3.0, 0.1),
-        bodies={"rod": Body(2.0, 0.3, (1.2, 0.1)), "piston": Body(1.5)},
+        bodies={"rod": Body(mass=2.0, inertia=0.3, at=(1.2, 0.1)), "piston": Body(mass=1.5)},
         loads=[Gravity(), Force("B", (lambda _t, q, speed: 40.0 * np.sin(3.0 * q) + speed, 0.0))],
     )
     speed = np.linspace(2.0, 7.0, count)
@@ -169,7 +172,9 @@ def test_an_undetermined_force_has_no_peak() -> None:
     joints = {"A": (0, 0), "B": (0, 1), "C": (3, 1), "D": (3, 0), "E": (1.5, 0), "F": (1.5, 1)}
     links = {"ground": "ADE", "crank": "AB", "rod": "BCF", "rocker": "CD", "third": "EF"}
     three = assur.Mechanism(joints, {name: list(of) for name, of in links.items()}, "crank")
-    machine = assur.Machine(three, bodies={"rod": Body(2.0, 0.5, (1.0, 0.0))}, loads=[Gravity()])
+    machine = assur.Machine(
+        three, bodies={"rod": Body(mass=2.0, inertia=0.5, at=(1.0, 0.0))}, loads=[Gravity()]
+    )
     q = three.q0 + np.linspace(-0.5, 0.5, 11)
     asked = {"F": metric.peak_reaction("F", on="third"), "effort": metric.peak_effort()}
     found = assur.sweep(machine, {}, q, metrics=asked)
@@ -221,7 +226,7 @@ def three_at_a_pin() -> assur.Machine:
             "arm": ["P"],
             "guide": ["E"],
         },
-        slides={"s": assur.Slide("arm", "guide", np.pi / 2, "E")},
+        slides={"s": assur.Slide("arm", "guide", angle=np.pi / 2, origin="E")},
         driver="crank",
     )
     return assur.Machine(m, loads=[Gravity()])

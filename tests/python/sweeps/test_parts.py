@@ -49,7 +49,9 @@ def test_ends_of_a_slide() -> None:
     cylinder = assur.Mechanism(
         joints={"A": (0, 0), "B": (1.0, 0), "C": (0.2, 0.9)},
         links={"ground": "AB", "boom": "AC", "barrel": ["B"], "rod": ["C"]},
-        slides={"drive": assur.Slide("rod", "barrel", float(np.arctan2(0.9, -0.8)), "B")},
+        slides={
+            "drive": assur.Slide("rod", "barrel", angle=float(np.arctan2(0.9, -0.8)), origin="B")
+        },
         driver="drive",
     )
     q = np.arange(1.0, 1.61, 0.1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,6 +53,7 @@ class Counterweight:
 
     link: str
     moment: float
+    _: KW_ONLY
     angle: float = 0.0
     about: str | None = None
     mass: float | None = None
@@ -136,7 +137,7 @@ def counterweight(link: str, about: str | None, moment: complex) -> Counterweigh
     # Not −0, whose angle would be −π.
     x, y = moment.real + 0.0, moment.imag + 0.0
     size = float(np.sqrt(x * x + y * y))
-    return Counterweight(link, size, float(_trig.arctan2(y, x)), about)
+    return Counterweight(link, size, angle=float(_trig.arctan2(y, x)), about=about)
 
 
 def with_counterweights(machine: AnyMachine, weights: Any) -> AnyMachine:
@@ -184,7 +185,7 @@ def _with_point_mass(
 ) -> Body:
     """Return a body and a point mass as one, by the theorem of parallel axes."""
     if body is None:
-        return Body(mass, 0.0, (place.real, place.imag))
+        return Body(mass=mass, inertia=0.0, at=(place.real, place.imag))
     total = body.mass + mass
     if mass == 0.0 or total == 0.0:
         return body
@@ -193,4 +194,8 @@ def _with_point_mass(
     away = place - centre
     middle = centre + share * away
     squared = away.real * away.real + away.imag * away.imag
-    return Body(total, body.inertia + body.mass * share * squared, (middle.real, middle.imag))
+    return Body(
+        mass=total,
+        inertia=body.inertia + body.mass * share * squared,
+        at=(middle.real, middle.imag),
+    )

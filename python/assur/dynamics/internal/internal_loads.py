@@ -121,7 +121,7 @@ class InternalLoads:
         Examples
         --------
         >>> import assur, numpy as np
-        >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
+        >>> rod = assur.Body(mass=1.2, inertia=1.2 * 0.35**2 / 12, at=(0.175, 0.0))
         >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
         >>> inside = machine.internal_loads("rod", np.pi / 2, speed=100.0)
         >>> found = inside.extremes("moment")
@@ -157,7 +157,7 @@ class InternalLoads:
         Examples
         --------
         >>> import assur, numpy as np
-        >>> rod = assur.Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
+        >>> rod = assur.Body(mass=1.2, inertia=1.2 * 0.35**2 / 12, at=(0.175, 0.0))
         >>> machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": rod})
         >>> inside = machine.internal_loads("rod", np.linspace(0.0, np.pi, 37), speed=100.0)
         >>> peak = inside.peak("moment")

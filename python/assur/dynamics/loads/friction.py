@@ -6,7 +6,7 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur._arrays import not_negative, short
@@ -49,6 +49,7 @@ class JointFriction:
 
     coefficient: float
     radius: float
+    _: KW_ONLY
     viscous: float = 0.0
     static_coefficient: float | None = None
 
@@ -89,6 +90,7 @@ class SlideFriction:
 
     coefficient: float
     length: float
+    _: KW_ONLY
     viscous: float = 0.0
     static_coefficient: float | None = None
 

@@ -5,7 +5,7 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -64,11 +64,12 @@ class Body:
     >>> m = assur.Mechanism(
     ...     joints={"A": (1, 1), "B": (1, 3)}, links={"ground": "A", "rod": "AB"}, driver="rod"
     ... )
-    >>> machine = assur.Machine(m, bodies={"rod": assur.Body(2.0, drawn=(0.75, 2.0))})
+    >>> machine = assur.Machine(m, bodies={"rod": assur.Body(mass=2.0, drawn=(0.75, 2.0))})
     >>> machine.bodies["rod"]
     Body(mass=2.0, inertia=0.0, at=(1.0, 0.25))
     """
 
+    _: KW_ONLY
     mass: float = 0.0
     inertia: float = 0.0
     at: str | tuple[float, float] | None = None
@@ -159,6 +160,7 @@ class Force:
 
     at: PointLike
     force: tuple[Value, Value]
+    _: KW_ONLY
     axes: str | None = None
     on: str | None = None
     while_: Way | None = None
@@ -214,6 +216,7 @@ class Torque:
 
     link: str
     torque: Value
+    _: KW_ONLY
     on: str = "ground"
     while_: Way | None = None
     over: str | None = None
@@ -253,6 +256,7 @@ class Spring:
     second: PointLike
     stiffness: float
     length: float
+    _: KW_ONLY
     preload: float = 0.0
 
     def __post_init__(self) -> None:
@@ -288,6 +292,7 @@ class TorsionSpring:
 
     link: str
     stiffness: float
+    _: KW_ONLY
     angle: float = 0.0
     on: str = "ground"
     preload: float = 0.0
@@ -350,6 +355,7 @@ class TorsionDamper:
 
     link: str
     damping: float
+    _: KW_ONLY
     on: str = "ground"
 
     def __post_init__(self) -> None:

@@ -5,7 +5,7 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
@@ -38,6 +38,7 @@ class ConstantTorque:
     """
 
     torque: Value
+    _: KW_ONLY
     ratio: float = 1.0
     rotor_inertia: float = 0.0
 
@@ -69,6 +70,7 @@ class LinearMotor:
 
     stall: float
     no_load: float
+    _: KW_ONLY
     ratio: float = 1.0
     rotor_inertia: float = 0.0
 
@@ -105,6 +107,7 @@ class InductionMotor:
     breakdown: float
     slip: float
     synchronous: float
+    _: KW_ONLY
     ratio: float = 1.0
     rotor_inertia: float = 0.0
 

@@ -5,7 +5,7 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 from assur._arrays import not_negative, real_number
@@ -51,6 +51,7 @@ class Gas:
     pressure: float
     volume: float
     at: float
+    _: KW_ONLY
     exponent: float = 1.4
 
     def __post_init__(self) -> None:
@@ -111,6 +112,7 @@ class Pressure:
     area: float
     pressure: Gas | Value
     expands: Way
+    _: KW_ONLY
     ambient: float = ATMOSPHERE
     while_: Way | None = None
     over: str | None = None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import astuple
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -39,7 +39,29 @@ AT_FOLD = 1e-3
 BESIDE = 1e-9
 
 
-def find(mechanism: MechanismModel, name: str, value: Any) -> list[tuple[Any, Assembly]]:
+class Solution(NamedTuple):
+    """A position at which a coordinate of the motion has a value, by `Mechanism.find`.
+
+    Attributes
+    ----------
+    q : float or ndarray
+        The driver's coordinate, rad or m; an array of two with two drivers.
+    assembly : Assembly
+        The assembly, for ``m.solve(q, assembly=assembly)``.
+
+    Examples
+    --------
+    >>> import assur
+    >>> _, second = assur.SliderCrank(1.0, 3.0).find("bore", 3.0)
+    >>> round(second.q, 6), dict(second.assembly)
+    (1.403348, {'B': 1})
+    """
+
+    q: Any
+    assembly: Assembly
+
+
+def find(mechanism: MechanismModel, name: str, value: Any) -> list[Solution]:
     """See `Mechanism.find`."""
     name = checked_name(name, "find")
     drivers = mechanism.driver_count
@@ -60,20 +82,20 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[tuple[Any, As
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     inverse, coordinates = _driven_by(mechanism, name, target)
     size = size_of(mechanism)
-    answers: list[tuple[Any, Assembly]] = []
+    answers: list[Solution] = []
     for assembly in assemblies(inverse, coordinates):
         place = assembly.place
         assert place is not None
         answer = _of_original(mechanism, place.numbers, size)
         if answer is not None and not any(_is_same(answer, known) for known in answers):
             answers.append(answer)
-    return sorted(answers, key=lambda answer: np.ravel(answer[0]).tolist())
+    return sorted(answers, key=lambda answer: np.ravel(answer.q).tolist())
 
 
-def _is_same(answer: tuple[Any, Assembly], known: tuple[Any, Assembly]) -> bool:
+def _is_same(answer: Solution, known: Solution) -> bool:
     """Whether two answers are the same: a double one is found twice."""
-    gap = np.abs(np.ravel(answer[0]) - np.ravel(known[0])).max()
-    return bool(gap == 0.0) and answer[1] == known[1]
+    gap = np.abs(np.ravel(answer.q) - np.ravel(known.q)).max()
+    return bool(gap == 0.0) and answer.assembly == known.assembly
 
 
 def driven_by_joint(
@@ -198,7 +220,7 @@ def _free(word: str, taken: set[str]) -> str:
 
 def _of_original(
     mechanism: MechanismModel, numbers: AssemblyNumbers, size: float
-) -> tuple[Any, Assembly] | None:
+) -> Solution | None:
     """Return the coordinate and assembly of a pose that was found with another driver."""
     links, slides = len(mechanism.links), len(mechanism.slides)
     pose = Pose.found(numbers)
@@ -212,7 +234,8 @@ def _of_original(
         except StructureError:
             pass  # at a fold: the assembly is one of those beside it
         else:
-            return coordinates, Assembly._found(Place(mechanism, tuple(q), drawn_numbers), ())
+            assembly = Assembly._found(Place(mechanism, tuple(q), drawn_numbers), ())
+            return Solution(coordinates, assembly)
     there = place_vector(np.array(pose.joints), np.array(pose.angles), np.array(pose.slides), size)
     unit = size if mechanism.description.drivers[0] in mechanism.slides else 1.0
     for beside, far in ((0.0, SAME), *((side * BESIDE * unit, AT_FOLD) for side in (1.0, -1.0))):
@@ -221,7 +244,7 @@ def _of_original(
             float(np.abs(place_of(_numbers(assembly), size) - there).max()) for assembly in near
         ]
         if gaps and min(gaps) <= far:
-            return coordinates, near[int(np.argmin(gaps))]
+            return Solution(coordinates, near[int(np.argmin(gaps))])
     return None
 
 

@@ -12,6 +12,7 @@ from assur import _core
 from assur._arrays import Float, finite_array, flag, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
+from assur.mechanisms.grashof import CHANGE_TOLERANCE, types_of
 
 if TYPE_CHECKING:
     from assur.papers.crank_rocker.jamming import Side
@@ -30,10 +31,6 @@ __all__ = [
 ]
 
 LENGTHS = ("l1", "l2", "l3", "l4")
-# Sums of lengths that agree to this fraction of the greatest make a change point, up to rounding.
-CHANGE_TOLERANCE = 1e-12
-# Names that NumPy makes an array of at once, some milliseconds.
-NAMES_AT_ONCE = 1 << 16
 # The value of π in the paper, and the lengths of its Table 1.
 PRINTED_PI = 3.14
 TABLE = (1.0, 4.5, 1.5)
@@ -203,12 +200,7 @@ def grashof(
     array(['crank-rocker', 'rocker-crank'], dtype='<U12')
     """
     flat, shape = _designs(l1, l2, l3, l4)
-    names = _core.crank_rocker_grashof(flat, real_number(tolerance, "tolerance"))
-    if not shape:
-        return names[0]
-    # In parts: NumPy hears no signal within an operation.
-    starts = range(0, max(len(names), 1), NAMES_AT_ONCE)
-    return np.concatenate([np.array(names[i : i + NAMES_AT_ONCE]) for i in starts]).reshape(shape)
+    return types_of(flat, shape, real_number(tolerance, "tolerance"))
 
 
 def crank_turns(

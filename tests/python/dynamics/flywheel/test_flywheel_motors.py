@@ -27,7 +27,11 @@ PLACE_ATOL = 1e-7
 
 def four_bar() -> assur.Machine:
     """It is drawn at a quarter turn: there the integrated motion begins, tables at 0."""
-    bodies = {"crank": Body(inertia=0.8), "coupler": Body(1.0, 0.1), "rocker": Body(2.0, 0.5, "C")}
+    bodies = {
+        "crank": Body(inertia=0.8),
+        "coupler": Body(mass=1.0, inertia=0.1),
+        "rocker": Body(mass=2.0, inertia=0.5, at="C"),
+    }
     return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=[Gravity()])
 
 

@@ -21,7 +21,7 @@ def four_bar() -> assur.Mechanism:
 
 def test_machines_without_loads_have_any_speed() -> None:
     free = assur.Machine(
-        assur.SliderCrank(0.1, 0.4), bodies={"crank": Body(inertia=0.5), "piston": Body(2.0)}
+        assur.SliderCrank(0.1, 0.4), bodies={"crank": Body(inertia=0.5), "piston": Body(mass=2.0)}
     )
     own = free.steady_state(10.0, mean="period")
     assert abs(own.mean_speed - 10.0) < 1e-9
@@ -60,7 +60,7 @@ def test_periods_must_be_the_same() -> None:
     # Of this mechanism the inertia is the same after a turn from 0, the assembly is not.
     kite = assur.Machine(
         assur.FourBar(1.0, 2.0, 3.0, 4.0),
-        bodies={"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(1.0)},
+        bodies={"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(mass=1.0)},
         loads=[TorsionDamper("rocker", 0.5)],
     )
     with pytest.raises(assur.MotionError, match=r"not periodic over this span.*turns=2"):
@@ -87,7 +87,7 @@ def test_speeds_that_cannot_be_met() -> None:
         press().steady_state(1e8, mean="period")
     overrun = assur.Machine(
         four_bar(),
-        bodies={"crank": Body(inertia=0.05), "rocker": Body(0.9, 0.1)},
+        bodies={"crank": Body(inertia=0.05), "rocker": Body(mass=0.9, inertia=0.1)},
         loads=[Torque("crank", 50.0)],
         motor=assur.InductionMotor(3.78, 0.145, 14.64),
     )
@@ -133,7 +133,7 @@ def test_moments_of_rounding_are_the_same_a_turn_on() -> None:
         [Torque("crank", 0.1), Torque("crank", 0.2), Torque("crank", -0.3)],
         [assur.Spring("O", "A", 100.0, 0.1)],
     ):
-        bodies = {"crank": Body(inertia=0.5), "piston": Body(20.0)}
+        bodies = {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)}
         assert (
             assur.Machine(tilted, bodies=bodies, loads=loads)
             .flywheel(0.01, mean_speed=12.0)
@@ -144,7 +144,11 @@ def test_moments_of_rounding_are_the_same_a_turn_on() -> None:
 
 def test_designs_that_are_others_a_turn_on_are_nan() -> None:
     lengths = ([3.0, 2.5, 4.0], [1.0, 2.5, 2.5], [3.0, 1.0, 4.5])
-    bodies = {"crank": Body(inertia=0.1), "coupler": Body(2.0, 0.3), "rocker": Body(1.0, 0.2)}
+    bodies = {
+        "crank": Body(inertia=0.1),
+        "coupler": Body(mass=2.0, inertia=0.3),
+        "rocker": Body(mass=1.0, inertia=0.2),
+    }
     batch = assur.Machine(assur.FourBar(1.0, *lengths), bodies=bodies)
     with pytest.raises(assur.MotionError, match=r"design \(1,\): the reduced inertia") as caught:
         batch.flywheel(0.001, mean_speed=10.0)
@@ -162,7 +166,7 @@ def test_designs_that_are_others_a_turn_on_are_nan() -> None:
 
 
 def test_steady_state_raises_at_a_dead_point() -> None:
-    bodies = {"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2)}
+    bodies = {"crank": Body(inertia=0.1), "rocker": Body(mass=1.0, inertia=0.2)}
     swinging = assur.Machine(
         assur.FourBar(2.0, 1.0, 3.0, 4.0), bodies=bodies, loads=(), motor=assur.LinearMotor(5, 9)
     )

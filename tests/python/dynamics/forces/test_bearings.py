@@ -21,7 +21,10 @@ def four_bar(rocker: tuple[str, str] = ("D", "C")) -> assur.Machine:
         links={"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": rocker},
         driver="crank",
     )
-    bodies = {"coupler": Body(1.2, 3e-3, (0.08, 0.01)), "rocker": Body(0.8, 1.5e-3, "D")}
+    bodies = {
+        "coupler": Body(mass=1.2, inertia=3e-3, at=(0.08, 0.01)),
+        "rocker": Body(mass=0.8, inertia=1.5e-3, at="D"),
+    }
     return assur.Machine(m, bodies=bodies, loads=[Gravity(), Torque("rocker", -20.0)])
 
 
@@ -90,7 +93,9 @@ def test_three_links_at_a_pin() -> None:
         links={"ground": "ADF", "crank": "AB", "l2": "BC", "l3": "DC", "l4": "CE", "l5": "FE"},
         driver="crank",
     )
-    machine = assur.Machine(m, bodies={"l4": Body(1.0, 0.3, "E")}, loads=[Gravity()])
+    machine = assur.Machine(
+        m, bodies={"l4": Body(mass=1.0, inertia=0.3, at="E")}, loads=[Gravity()]
+    )
     q = float(m.q0) + np.array([0.0, 0.1])
     found = machine.reactions(q, 3.0)
     pin = found.bearing("C", on="l3")
@@ -134,7 +139,9 @@ def test_several_drivers() -> None:
         links={"ground": "A", "upper": "AB", "fore": "BE"},
         driver=["upper", assur.Drive("fore", relative_to="upper")],
     )
-    machine = assur.Machine(m, bodies={"fore": Body(2.0, 0.1, "E")}, loads=[Gravity()])
+    machine = assur.Machine(
+        m, bodies={"fore": Body(mass=2.0, inertia=0.1, at="E")}, loads=[Gravity()]
+    )
     q = np.asarray(m.q0) + np.array([[0.0, 0.0], [0.2, -0.4], [0.1, 0.3]])
     pin = machine.reactions(q, (3.0, -2.0)).bearing("B", on="fore")
     np.testing.assert_allclose(pin.relative_speed, -2.0)
@@ -143,7 +150,9 @@ def test_several_drivers() -> None:
 
 def test_positions_without_a_motion_count_for_no_extreme() -> None:
     m = assur.FourBar(1.0, 2.0, 1.5, 3.6)
-    machine = assur.Machine(m, bodies={"rocker": Body(1.0, 0.1, (0.7, 0.0))}, loads=[Gravity()])
+    machine = assur.Machine(
+        m, bodies={"rocker": Body(mass=1.0, inertia=0.1, at=(0.7, 0.0))}, loads=[Gravity()]
+    )
     pin = machine.reactions([3.0, 0.2], on_error="nan").bearing("C", on="rocker")
     assert np.isnan([pin.size[0], pin.angle[0], pin.pv(0.1, 0.1)[0], pin.mean]).all()
     assert pin.max.q == pin.min.q == 0.2

@@ -30,7 +30,9 @@ def rotor(mass: float = 3.0, radius: float = 0.2, *loads: Any) -> Machine:
         links={"ground": ["O"], "rotor": ["O", "A"]},
         driver="rotor",
     )
-    return Machine(m, bodies={"rotor": Body(mass, 0.05, "A")}, loads=[Gravity(), *loads])
+    return Machine(
+        m, bodies={"rotor": Body(mass=mass, inertia=0.05, at="A")}, loads=[Gravity(), *loads]
+    )
 
 
 @pytest.mark.parametrize("q", [OPEN, CLOSED, OPEN + 0.1234, CLOSED[::-1], OPEN[::-1], 3 * OPEN])
@@ -88,7 +90,10 @@ def test_a_constant_force_on_a_piston() -> None:
 
 def test_the_mean_effort_is_the_net_work_of_the_loads() -> None:
     """At constant speed over a whole turn inertia, weights and springs do no work."""
-    bodies = {"crank": Body(3.0, 0.4, (0.3, 0.2)), "coupler": Body(2.0, 0.5, (1.1, 0.4))}
+    bodies = {
+        "crank": Body(mass=3.0, inertia=0.4, at=(0.3, 0.2)),
+        "coupler": Body(mass=2.0, inertia=0.5, at=(1.1, 0.4)),
+    }
     idle: list[Any] = [Gravity(), Spring("P", "D", 30.0, 0.4), Force("C", (3.0, 9.0))]
     near(Machine(four_bar(), bodies=bodies, loads=idle).duty(OPEN, 7.0).energy, 0.0, 1e-10)
     loads = [*idle, TorsionDamper("rocker", 0.8), Torque("crank", -5.0)]
@@ -145,7 +150,7 @@ def test_a_speed_that_changes_weights_means_by_time() -> None:
 
 def test_the_drive_of_a_steady_state_is_its_motor() -> None:
     """Found by shooting: its effort is the motor's torque, its energy the motor's work."""
-    bodies = {"crank": Body(inertia=0.5), "piston": Body(20.0)}
+    bodies = {"crank": Body(inertia=0.5), "piston": Body(mass=20.0)}
     loads: list[Any] = [TorsionDamper("crank", 1.5), Gravity((0.0, -9.81))]
     motor = assur.LinearMotor(stall=90.0, no_load=30.0)
     machine = Machine(assur.SliderCrank(0.1, 0.4), bodies=bodies, loads=loads, motor=motor)
@@ -180,7 +185,7 @@ def test_few_positions() -> None:
 
 def test_batches_and_failed_designs() -> None:
     m = assur.FourBar(1.0, 4.0, 3.0, 3.5).with_dimensions({"coupler.length": [[4.0, 9.0, 4.2]]})
-    machine = Machine(m, bodies={"coupler": Body(2.0, 0.1)}, loads=[Gravity()])
+    machine = Machine(m, bodies={"coupler": Body(mass=2.0, inertia=0.1)}, loads=[Gravity()])
     with pytest.raises(assur.PositionError, match=r"design \(0, 1\)"):
         machine.duty(OPEN, 5.0)
     duty = machine.duty(OPEN, 5.0, on_error="nan")
@@ -198,7 +203,7 @@ def test_batches_and_failed_designs() -> None:
     # Each design with its own q: one covers the turn, the other a part of it.
     q = np.stack([OPEN, OPEN / 2, CLOSED[1:] + 9.0])[None]
     m = assur.FourBar(1.0, 4.0, 3.0, 3.5).with_dimensions({"coupler.length": [[4.0, 4.1, 4.2]]})
-    machine = Machine(m, bodies={"coupler": Body(2.0, 0.1)}, loads=[Gravity()])
+    machine = Machine(m, bodies={"coupler": Body(mass=2.0, inertia=0.1)}, loads=[Gravity()])
     duty = machine.duty(q, 5.0)
     for index in range(3):
         alone = machine.design((0, index)).duty(q[0, index], 5.0)
@@ -207,13 +212,17 @@ def test_batches_and_failed_designs() -> None:
 
 
 def test_a_driven_slide_and_a_machine_of_tables() -> None:
-    machine = Machine(cylinder(), bodies={"arm": Body(9.0, 0.3, "P")}, loads=[Gravity()])
+    machine = Machine(
+        cylinder(), bodies={"arm": Body(mass=9.0, inertia=0.3, at="P")}, loads=[Gravity()]
+    )
     q = np.linspace(0.7, 1.2, 401)
     duty = machine.duty(q, 0.2)
     near(duty.time, 2.5)
     rise = machine.potential(q[-1]) - machine.potential(q[0])
     near(duty.energy, quad(lambda x: float(machine.effort(x, 0.2)), 0.7, 1.2)[0], 1e-8)
-    still = Machine(cylinder(), bodies={"arm": Body(9.0, 0.0, "P")}, loads=[Gravity()])
+    still = Machine(
+        cylinder(), bodies={"arm": Body(mass=9.0, inertia=0.0, at="P")}, loads=[Gravity()]
+    )
     near(still.duty(q, 1e-9).energy, rise, 1e-8)
     phi = np.linspace(0.0, TURN, 100)
     table = Machine.from_table(phi, np.sin(phi) - 2.0, 1.0, spline="periodic")

@@ -17,7 +17,9 @@ def linkage() -> Machine:
     """The four-bar of the balance of forces, without counterweights."""
 
     def body(mass: float, radius: float, angle: float, inertia: float) -> Body:
-        return Body(mass, inertia, (radius * math.cos(angle), radius * math.sin(angle)))
+        return Body(
+            mass=mass, inertia=inertia, at=(radius * math.cos(angle), radius * math.sin(angle))
+        )
 
     return Machine(
         assur.FourBar(0.05, 0.15, 0.12, 0.16),
@@ -61,7 +63,7 @@ def test_centre_of_percussion() -> None:
         joints={"O": (0, 0), "A": (1, 0)}, links={"ground": "O", "rod": "OA"}, driver="rod"
     )
     mass, centre, inertia = 2.0, 0.4, 0.1
-    machine = Machine(rod, bodies={"rod": Body(mass, inertia, (centre, 0.0))})
+    machine = Machine(rod, bodies={"rod": Body(mass=mass, inertia=inertia, at=(centre, 0.0))})
     at = (inertia + mass * centre**2) / (mass * centre)
     struck = machine.impact(Force(("rod", (at, 0.0)), (0.0, 1.0)), 0.0, 0.0, impulse=3.0)
     np.testing.assert_allclose(struck.speed, 3.0 * at / (inertia + mass * centre**2), rtol=1e-14)
@@ -154,10 +156,10 @@ def ball() -> Machine:
     one = assur.Mechanism(
         joints={"O": (0, 0), "B": (0, 2.0)},
         links={"ground": "O", "ball": "B"},
-        slides={"way": assur.Slide("ball", "ground", math.pi / 2, "O")},
+        slides={"way": assur.Slide("ball", "ground", angle=math.pi / 2, origin="O")},
         driver="way",
     )
-    return Machine(one, bodies={"ball": Body(3.0)}, loads=[assur.Gravity()])
+    return Machine(one, bodies={"ball": Body(mass=3.0)}, loads=[assur.Gravity()])
 
 
 def test_a_ball_bounces() -> None:

@@ -41,7 +41,7 @@ def test_random_machines_load_their_links_as_the_oracle_says(seed: int) -> None:
 
 
 def test_a_pressure_pushes_both_links_of_its_slide_at_the_sliding_point() -> None:
-    gas = Pressure("bore", 0.01, 3e5, "backward", 1e5)
+    gas = Pressure("bore", 0.01, 3e5, "backward", ambient=1e5)
     slider = assur.SliderCrank(0.1, 0.4)
     machine = Machine(slider, loads=[Gravity(), gas])
     piston, ground = loads_of(machine.reactions([0.5, 2.0], speed=1.0))

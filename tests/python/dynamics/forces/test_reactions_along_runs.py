@@ -17,13 +17,13 @@ from assur import Body, Damper, Force, Gravity, LinearMotor, Spring
 from models.machines.machines import four_bar
 
 BODIES = {
-    "crank": Body(3.0, 0.4, (0.3, 0.2)),
-    "coupler": Body(2.0, 0.5, (1.1, 0.4)),
-    "rocker": Body(4.0, 0.6, (0.7, -0.3)),
+    "crank": Body(mass=3.0, inertia=0.4, at=(0.3, 0.2)),
+    "coupler": Body(mass=2.0, inertia=0.5, at=(1.1, 0.4)),
+    "rocker": Body(mass=4.0, inertia=0.6, at=(0.7, -0.3)),
 }
 LOADS: list[Any] = [
     Gravity(),
-    Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, 3.0),
+    Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, preload=3.0),
     Damper("C", ("ground", (3.0, 1.0)), 0.7),
 ]
 # Rounding of sums of some ten terms, of the greatest load.
@@ -75,8 +75,8 @@ def test_the_motor_of_a_motion(kind: str) -> None:
 def test_loads_inside_a_link_along_a_run() -> None:
     """As at the run's numbers, and not at other times."""
     load = Force(("coupler", (1.0, 0.0)), (0.0, waves))
-    rod = Body(2.0, 2.0 * 3.0**2 / 12, (1.5, 0.0))
-    bodies = {"crank": Body(3.0, 0.4), "coupler": rod}
+    rod = Body(mass=2.0, inertia=2.0 * 3.0**2 / 12, at=(1.5, 0.0))
+    bodies = {"crank": Body(mass=3.0, inertia=0.4), "coupler": rod}
     heavy = assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.2), bodies=bodies, loads=[load])
     run = heavy.run(t_end=0.3, q0=0.3, speed0=9.0)
     own = heavy.internal_loads("coupler", run)

@@ -18,9 +18,9 @@ Q = np.array([0.3, 1.1, 2.9, 4.0])
 
 def machine(m: assur.Mechanism | None = None, *loads: Any) -> Any:
     bodies = {
-        "crank": Body(0.7, 0.002, (0.04, 0.01)),
-        "rod": Body(1.2, 0.015, (0.12, -0.02)),
-        "piston": Body(2.0, 0.0, (0.01, 0.03)),
+        "crank": Body(mass=0.7, inertia=0.002, at=(0.04, 0.01)),
+        "rod": Body(mass=1.2, inertia=0.015, at=(0.12, -0.02)),
+        "piston": Body(mass=2.0, inertia=0.0, at=(0.01, 0.03)),
     }
     return assur.Machine(
         m or assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=[Gravity(), *loads]
@@ -51,7 +51,9 @@ def test_speeds_broadcast() -> None:
 @pytest.mark.parametrize("speed", [2.0, (2.0, -3.0), ((2.0,), (-3.0,)), ((2.0, -3.0),)])
 def test_speeds_of_two_drivers_broadcast(speed: Any) -> None:
     """Two numbers are of the drivers, or of two positions: as NumPy has it."""
-    two = assur.Machine(machines.five_bar(), bodies={"b1": Body(2.0, 0.1)}, loads=[Gravity()])
+    two = assur.Machine(
+        machines.five_bar(), bodies={"b1": Body(mass=2.0, inertia=0.1)}, loads=[Gravity()]
+    )
     q = np.add(machines.five_bar().q0, [[0.0, 0.0], [0.1, -0.05]])
     found, exact = (two.reactions(q, v) for v in (speed, np.broadcast_to(speed, (2, 2))))
     assert np.array_equal(found.driver, exact.driver)
@@ -101,7 +103,7 @@ def test_a_motor_is_not_a_load() -> None:
         bare.mechanism,
         bodies=bare.bodies,
         loads=bare.loads,
-        motor=assur.ConstantTorque(50.0, 3.0, 0.4),
+        motor=assur.ConstantTorque(50.0, ratio=3.0, rotor_inertia=0.4),
     )
     one, other = bare.reactions(Q, 9.0, 2.0), driven.reactions(Q, 9.0, 2.0)
     np.testing.assert_array_equal(one.driver, other.driver)
@@ -142,7 +144,7 @@ def test_bad_numbers(where: tuple[Any, ...], method: str) -> None:
 def test_unreachable_positions() -> None:
     """A dead point beyond which nothing is: an error, or NaN where asked for."""
     m = assur.FourBar(1.0, 2.0, 1.5, 3.6)  # opens only near q = 0
-    rocking: Any = assur.Machine(m, bodies={"rocker": Body(1.0, 0.1, (0.7, 0.0))})
+    rocking: Any = assur.Machine(m, bodies={"rocker": Body(mass=1.0, inertia=0.1, at=(0.7, 0.0))})
     q = [0.2, 3.0]
     with pytest.raises(assur.PositionError):
         rocking.reactions(q, 1.0, 0.0)
@@ -166,7 +168,7 @@ def test_moments_too_great_are_refused() -> None:
     """1e308 N·m·s at 1e10 rad/s: once moment and effort were infinite without a word."""
     crank = assur.SliderCrank(crank=0.1, rod=0.35)
     machine = assur.Machine(
-        crank, bodies={"piston": Body(5.0)}, loads=[assur.TorsionDamper("crank", 1e308)]
+        crank, bodies={"piston": Body(mass=5.0)}, loads=[assur.TorsionDamper("crank", 1e308)]
     )
     assert math.isfinite(machine.reduced_moment(1.0, 0.0))
     for call in (machine.reduced_moment, machine.effort, machine.reactions):
@@ -178,7 +180,9 @@ def test_moments_too_great_are_refused() -> None:
 @pytest.mark.filterwarnings("error")
 def test_an_effort_too_great_is_refused() -> None:
     """Inertia forces at 1e200 rad/s, without loads."""
-    machine = assur.Machine(assur.SliderCrank(crank=0.1, rod=0.35), bodies={"piston": Body(5.0)})
+    machine = assur.Machine(
+        assur.SliderCrank(crank=0.1, rod=0.35), bodies={"piston": Body(mass=5.0)}
+    )
     with pytest.raises(assur.MotionError) as caught:
         machine.effort([0.5, 1.0], 1e200)
     assert (caught.value.kind, caught.value.q) == ("not_finite", 0.5)
@@ -188,7 +192,7 @@ def test_an_effort_too_great_is_refused() -> None:
 def test_an_infinite_load_leaves_nan_in_its_place() -> None:
     press = assur.SliderCrank(crank=0.1, rod=0.35)
     load = assur.Force("B", (lambda _t, q, _speed: math.inf if q > 1.0 else 1.0, 0.0))
-    machine = assur.Machine(press, bodies={"piston": assur.Body(2.0)}, loads=[load])
+    machine = assur.Machine(press, bodies={"piston": assur.Body(mass=2.0)}, loads=[load])
     found = machine.reactions([0.5, 1.5, 0.7], 3.0, on_error="nan")
     for array in (
         found.driver,

@@ -30,16 +30,16 @@ def block(*loads: Any, **friction: float) -> Machine:
     way = assur.Mechanism(
         joints={"O": (0, 0), "B": (0.5, 0)},
         links={"ground": "O", "block": "B"},
-        slides={"way": assur.Slide("block", "ground", 0.0, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=0.0, origin="O")},
         driver="way",
     )
     own = {"way": SlideFriction(**friction)}
-    return Machine(way, bodies={"block": Body(2.0)}, loads=[Gravity(), *loads], friction=own)
+    return Machine(way, bodies={"block": Body(mass=2.0)}, loads=[Gravity(), *loads], friction=own)
 
 
 def engine(*loads: Any, motor: Any = None) -> Machine:
-    rod = Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0))
-    bodies = {"crank": Body(inertia=0.2), "rod": rod, "piston": Body(2.0)}
+    rod = Body(mass=1.2, inertia=1.2 * 0.35**2 / 12, at=(0.175, 0.0))
+    bodies = {"crank": Body(inertia=0.2), "rod": rod, "piston": Body(mass=2.0)}
     friction: dict[str, Any] = {
         "O": JointFriction(0.08, 0.02),
         "A": JointFriction(0.08, 0.025),
@@ -132,7 +132,7 @@ def test_loads_of_one_way_at_rest() -> None:
     way = block(coefficient=0.3, length=0.1).mechanism
     assert way is not None
     machine = Machine(
-        way, bodies={"block": Body(2.0)}, loads=[brake, Force("B", (8.0, 0.0), on="block")]
+        way, bodies={"block": Body(mass=2.0)}, loads=[brake, Force("B", (8.0, 0.0), on="block")]
     )
     run = machine.run(t_end=1.0)
     assert np.abs(machine.effort(run)).max() < 1e-12

@@ -74,7 +74,7 @@ def test_whipping(solve: Solver) -> None:
         driver="rod",
     )
     machine = assur.Machine(
-        rocker, bodies={"rod": Body(mass, mass * length**2 / 12, (length / 2, 0.0))}
+        rocker, bodies={"rod": Body(mass=mass, inertia=mass * length**2 / 12, at=(length / 2, 0.0))}
     )
     alpha = omega**2 * r / length
     found = solve(machine, 0.0, 0.0, alpha)
@@ -121,7 +121,10 @@ def test_residue(solve: Solver) -> None:
     )
     # the rotating mass and the balance mass opposite: one body with their moment
     mass, moment = 70.0 + 90.0, 70.0 * r - 90.0 * 0.15
-    bodies = {"crank": Body(mass, 0.0, (moment / mass, 0.0)), "yoke": Body(120.0)}
+    bodies = {
+        "crank": Body(mass=mass, inertia=0.0, at=(moment / mass, 0.0)),
+        "yoke": Body(mass=120.0),
+    }
     q = np.array([30.0 / 57.3, math.radians(30.0)])
     force = solve(assur.Machine(yoke, bodies=bodies), q, omega, 0.0).shaking_force
     size = np.hypot(force[:, 0], force[:, 1])

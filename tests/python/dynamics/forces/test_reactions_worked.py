@@ -35,7 +35,10 @@ def same(found: Any, *wanted: float) -> None:
 
 def engine(length: float = 0.35, **loads: Any) -> assur.Machine:
     """Crank 0.1, rod 1.2 kg with its centre 0.12 from A, piston 2 kg."""
-    bodies = {"rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0, at="B")}
+    bodies = {
+        "rod": Body(mass=1.2, inertia=0.015, at=(0.12, 0.0)),
+        "piston": Body(mass=2.0, at="B"),
+    }
     return assur.Machine(assur.SliderCrank(0.1, length), bodies=bodies, **loads)
 
 
@@ -97,7 +100,7 @@ def test_shaking_force_of_an_engine(solve: Solver) -> None:
 @both
 def test_harmonics_of_an_engine(solve: Solver) -> None:
     """Of a piston alone, k = 3: cos φ and the even harmonics, nothing else."""
-    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(1.0)})
+    machine = assur.Machine(assur.SliderCrank(1.0, 3.0), bodies={"piston": Body(mass=1.0)})
     count = 64
     force = solve(machine, np.arange(count) * (math.tau / count), 1.0, 0.0).shaking_force[:, 0]
     harmonics = np.fft.rfft(force) * 2 / count
@@ -115,7 +118,10 @@ def test_partly_balanced_engine(fraction: float, greatest: float, solve: Solver)
     """A counterweight for a part of the piston: the greatest force of a turn, k = 3."""
     machine = assur.Machine(
         assur.SliderCrank(1.0, 3.0),
-        bodies={"piston": Body(1.0), "crank": Body(1.0, 0.0, (-fraction, 0.0))},
+        bodies={
+            "piston": Body(mass=1.0),
+            "crank": Body(mass=1.0, inertia=0.0, at=(-fraction, 0.0)),
+        },
     )
     force = solve(machine, np.linspace(0.0, math.tau, 721), 1.0, 0.0).shaking_force
     size = np.hypot(force[:, 0], force[:, 1])
@@ -167,7 +173,7 @@ def four_bar(balanced: bool) -> assur.Machine:
             middle = (mass * centre + added * place) / own
             turning += mass * abs(centre - middle) ** 2 + added * abs(place - middle) ** 2
             centre = middle
-        bodies[link] = Body(own, turning, (centre.real, centre.imag))
+        bodies[link] = Body(mass=own, inertia=turning, at=(centre.real, centre.imag))
     return assur.Machine(assur.FourBar(*LENGTHS), bodies=bodies)
 
 
@@ -226,7 +232,10 @@ def bending(machine: assur.Machine, q: float, omega: float, solve: Solver) -> tu
 @both
 def test_bending_moment_of_a_rod(solve: Solver) -> None:
     """Of the engine's rod at ω = 300: with the crank across the rod, and over the turn."""
-    bodies = {"rod": Body(1.2, 1.2 * 0.35**2 / 12, (0.175, 0.0)), "piston": Body(2.0)}
+    bodies = {
+        "rod": Body(mass=1.2, inertia=1.2 * 0.35**2 / 12, at=(0.175, 0.0)),
+        "piston": Body(mass=2.0),
+    }
     machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies)
     across = math.atan2(0.35, 0.1)
     same(math.degrees(across), 74.0546041)

@@ -22,8 +22,8 @@ def engine(speed: float = 1.0, load: float = 0.0) -> Machine:
         assur.SliderCrank(RADIUS, ROD),
         bodies={
             "crank": Body(inertia=INERTIA),
-            "rod": Body(MASS, ROD_INERTIA, (CENTRE, 0.0)),
-            "piston": Body(PISTON),
+            "rod": Body(mass=MASS, inertia=ROD_INERTIA, at=(CENTRE, 0.0)),
+            "piston": Body(mass=PISTON),
         },
         loads=[Torque("crank", load * speed**2)] if load else [],
         friction={"A": JointFriction(0.1, 0.025), "B": JointFriction(0.1, 0.012)},
@@ -89,7 +89,7 @@ def test_accelerations_have_all_digits(speed: float, load: float) -> None:
 @pytest.mark.parametrize("load", [1.0, 1e3, 1e6, 1e9])
 def test_friction_that_is_nothing_changes_nothing(load: float) -> None:
     m = assur.SliderCrank(0.1, 0.35)
-    bodies = {"piston": Body(1.0), "crank": Body(inertia=0.01)}
+    bodies = {"piston": Body(mass=1.0), "crank": Body(inertia=0.01)}
     free, rubbing = (
         Machine(m, bodies=bodies, loads=[Torque("crank", load)], friction=friction)
         .run(t_end=1e-9, q0=1.0, speed0=1e-3)
@@ -101,7 +101,7 @@ def test_friction_that_is_nothing_changes_nothing(load: float) -> None:
 
 def test_effort_of_computing_does_not_depend_on_the_speed() -> None:
     """The same motion in other units of time, to a dead point."""
-    bars = {name: Body(1.0, 0.5) for name in ("crank", "coupler", "rocker")}
+    bars = {name: Body(mass=1.0, inertia=0.5) for name in ("crank", "coupler", "rocker")}
     m = assur.FourBar(3.0, 2.5, 2.0, 4.0)
     for w in (1.0, 1e2, 1e4):
         machine = Machine(
@@ -175,7 +175,7 @@ def test_a_small_and_fast_six_bar_comes_to_its_dead_point() -> None:
         },
         driver="lever",
     )
-    bodies = {name: Body(1.0, 0.5 * length**2) for name in m.links if name != "ground"}
+    bodies = {name: Body(mass=1.0, inertia=0.5 * length**2) for name in m.links if name != "ground"}
     torque = 20.0 * length**2 / time**2
     friction = {name: JointFriction(0.1, 0.05 * length) for name in "BCE"}
     for own in ({}, friction):

@@ -43,7 +43,7 @@ def test_a_pin_of_one_body_has_no_friction() -> None:
 
 
 def test_it_does_not_slow_a_run() -> None:
-    bodies = {"w": assur.Body(2.0, 0.5)}
+    bodies = {"w": assur.Body(mass=2.0, inertia=0.5)}
     runs = [
         Machine(one_body(), bodies=bodies, loads=[Torque("crank", 3.0)], friction=friction).run(
             t_end=1.0

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 def press(times: float) -> Machine:
     """Pins and a bore with two solutions beyond about 0.5 times these coefficients."""
     bodies = {
-        "crank": Body(2.07, 0.0023, (0.176, -0.0066)),
-        "rod": Body(0.427, 0.0476, (0.0977, -0.0076)),
-        "piston": Body(3.94),
+        "crank": Body(mass=2.07, inertia=0.0023, at=(0.176, -0.0066)),
+        "rod": Body(mass=0.427, inertia=0.0476, at=(0.0977, -0.0076)),
+        "piston": Body(mass=3.94),
     }
     friction: dict[str, PairFriction] = {
         "A": JointFriction(0.82 * times, 0.034),
@@ -75,13 +75,19 @@ def test_the_path_may_turn_back_at_a_corner_where_nothing_is_singular(times: flo
     }
     bodies = {
         "crank": Body(
-            3.901445797808873, 0.003347392584418952, (-0.03617870697824903, 0.01590788676987244)
+            mass=3.901445797808873,
+            inertia=0.003347392584418952,
+            at=(-0.03617870697824903, 0.01590788676987244),
         ),
         "rod": Body(
-            3.4882303443817575, 0.04491111667190858, (-0.03007397482214262, -0.01543584513949571)
+            mass=3.4882303443817575,
+            inertia=0.04491111667190858,
+            at=(-0.03007397482214262, -0.01543584513949571),
         ),
         "piston": Body(
-            0.4559905865891969, 0.022556371274955626, (-0.018703925477693048, -0.03623695293373248)
+            mass=0.4559905865891969,
+            inertia=0.022556371274955626,
+            at=(-0.018703925477693048, -0.03623695293373248),
         ),
     }
     loads: list[Any] = [

@@ -73,7 +73,7 @@ def test_a_loom_of_class_iv() -> None:
     """Its pins depend on one another: some thousand paths are followed if friction is great."""
     one = loom()
     pins = [name for name in one.joints if sum(name in of for of in one.links.values()) > 1]
-    bodies = {name: Body(1.0, 0.1) for name in one.links if name != "ground"}
+    bodies = {name: Body(mass=1.0, inertia=0.1) for name in one.links if name != "ground"}
     for coefficient, several in ((0.01, False), (0.8, True)):
         friction = {name: JointFriction(coefficient, 0.3) for name in pins}
         rubbing = Machine(one, bodies=bodies, loads=[assur.Gravity()], friction=friction)

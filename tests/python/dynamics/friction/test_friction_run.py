@@ -19,13 +19,13 @@ def block(**friction: float) -> Machine:
     way = assur.Mechanism(
         joints={"O": (0, 0), "B": (0.05, 0)},
         links={"ground": "O", "block": "B"},
-        slides={"way": assur.Slide("block", "ground", 0.0, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=0.0, origin="O")},
         driver="way",
     )
     spring = assur.Spring("O", "B", stiffness=800.0, length=0.0)
     return Machine(
         way,
-        bodies={"block": Body(2.0)},
+        bodies={"block": Body(mass=2.0)},
         loads=[Gravity(), spring],
         friction={"way": SlideFriction(**friction)},
     )
@@ -80,7 +80,7 @@ def test_a_wheel_comes_to_rest() -> None:
     )
     machine = Machine(
         wheel,
-        bodies={"wheel": Body(10.0, 0.2, "O")},
+        bodies={"wheel": Body(mass=10.0, inertia=0.2, at="O")},
         loads=[Gravity()],
         friction={"O": JointFriction(0.1, 0.02)},
     )
@@ -101,7 +101,7 @@ def test_a_rotor_with_an_unbalance() -> None:
     )
     machine = Machine(
         rotor,
-        bodies={"rotor": Body(4.0, 0.02, (0.03, 0.0))},
+        bodies={"rotor": Body(mass=4.0, inertia=0.02, at=(0.03, 0.0))},
         friction={"O": JointFriction(0.15, 0.05)},
     )
     kappa = 0.15 * 0.05 * 4.0 * 0.03 / (0.02 + 4.0 * 0.03**2)
@@ -119,13 +119,13 @@ def test_it_slips_when_the_load_allows() -> None:
     way = assur.Mechanism(
         joints={"O": (0, 0), "B": (0.5, 0)},
         links={"ground": "O", "block": "B"},
-        slides={"way": assur.Slide("block", "ground", 0.0, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=0.0, origin="O")},
         driver="way",
     )
     push = Force("B", (lambda t, _q, _v: 10.0 * t, 0.0), on="block")
     machine = Machine(
         way,
-        bodies={"block": Body(2.0)},
+        bodies={"block": Body(mass=2.0)},
         loads=[Gravity(), push],
         friction={"way": SlideFriction(0.3, 0.1, static_coefficient=0.5)},
     )
@@ -160,8 +160,8 @@ def engine(part: float) -> Machine:
         assur.SliderCrank(crank=0.1, rod=0.35),
         bodies={
             "crank": Body(inertia=0.2),
-            "rod": Body(1.2, 0.015, (0.12, 0.0)),
-            "piston": Body(2.0),
+            "rod": Body(mass=1.2, inertia=0.015, at=(0.12, 0.0)),
+            "piston": Body(mass=2.0),
         },
         loads=[Gravity(), Torque("crank", -3.0)],
         friction={**friction, "bore": SlideFriction(0.1 * part, 0.06)} if part else {},
@@ -221,10 +221,10 @@ def test_efficiency_over_a_cycle() -> None:
 
 def test_friction_bends_a_rod() -> None:
     """Its moments act at the pins: beyond the last one nothing is left inside."""
-    rod = Body(4.0, 4.0 * 0.4**2 / 12, at=(0.2, 0.0))
+    rod = Body(mass=4.0, inertia=4.0 * 0.4**2 / 12, at=(0.2, 0.0))
     pins = {name: JointFriction(0.1, 0.03) for name in "OAB"}
     machine = Machine(
-        assur.SliderCrank(0.1, 0.4), bodies={"rod": rod, "piston": Body(20.0)}, friction=pins
+        assur.SliderCrank(0.1, 0.4), bodies={"rod": rod, "piston": Body(mass=20.0)}, friction=pins
     )
     q = np.linspace(0.1, 6.0, 7)
     inside = machine.internal_loads("rod", q, speed=30.0)
@@ -251,7 +251,8 @@ def test_friction_is_of_the_interval_in_which_it_moves() -> None:
         slides={"guide": assur.Slide("block", on="ground", angle=0.0)},
     )
     bodies = {
-        name: assur.Body(1.0, 0.05) for name in ("crank", "coupler", "rocker", "rod", "block")
+        name: assur.Body(mass=1.0, inertia=0.05)
+        for name in ("crank", "coupler", "rocker", "rod", "block")
     }
     friction = {"guide": assur.SlideFriction(0.2, 0.3)}
     machine = assur.Machine(mechanism, bodies=bodies, loads=[assur.Gravity()], friction=friction)

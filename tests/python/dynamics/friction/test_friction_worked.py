@@ -69,7 +69,7 @@ TILTED = [
 @pytest.mark.parametrize("case", TILTED, ids=str)
 def test_a_tilted_piston_with_masses(case: Any) -> None:
     degrees, bare, driver, normal, moment, pin = case
-    bodies = {"rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0)}
+    bodies = {"rod": Body(mass=1.2, inertia=0.015, at=(0.12, 0.0)), "piston": Body(mass=2.0)}
     load = Force(("piston", (0.03, 0.02)), (-800.0, 0.0))
     one = assur.SliderCrank(crank=0.1, rod=0.35)
     friction: Any = {**ENGINE_FRICTION, "bore": SlideFriction(0.1, 0.06)}
@@ -120,7 +120,7 @@ def test_two_solutions_or_none() -> None:
     one = assur.Mechanism(
         joints={"O": (0, 0), "A": (0, 0.1), "B": (0.15, -0.2)},
         links={"ground": "O", "crank": "OA", "rod": "AB", "block": "B"},
-        slides={"way": assur.Slide("block", "ground", 0.0)},
+        slides={"way": assur.Slide("block", "ground", angle=0.0)},
         driver="crank",
     )
 

@@ -17,11 +17,11 @@ NAMES = ("axial", "shear", "moment")
 
 def thin(mass: float, length: float) -> Body:
     """A uniform thin rod from the link's first joint to its second."""
-    return Body(mass, mass * length**2 / 12, (length / 2, 0.0))
+    return Body(mass=mass, inertia=mass * length**2 / 12, at=(length / 2, 0.0))
 
 
 def engine(*loads: Any, piston: float = 2.0) -> assur.Machine:
-    bodies = {"rod": thin(1.2, 0.35), "piston": Body(piston)}
+    bodies = {"rod": thin(1.2, 0.35), "piston": Body(mass=piston)}
     return assur.Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=loads)
 
 
@@ -37,7 +37,7 @@ ON_THE_ROD = [
     Force("A", (3.0, 5.0), on="crank"),
     Force(("rod", (0.1, 0.02)), (TABLE, pull)),
     Force(("rod", (0.3, 0.0)), (10.0, TABLE), axes="crank"),
-    Spring(("rod", (0.2, -0.05)), "O", 300.0, 0.1, 2.0),
+    Spring(("rod", (0.2, -0.05)), "O", 300.0, 0.1, preload=2.0),
     Spring("A", ("ground", (0.3, 0.4)), 100.0, 0.2),
     Damper(("piston", (0.02, 0.03)), ("rod", (0.05, 0.01)), 4.0),
 ]
@@ -139,7 +139,11 @@ def slotted() -> assur.Machine:
         },
     )
     length = m.dimensions["rocker.length"]
-    bodies = {"rocker": thin(3.0, length), "block": Body(0.5, 0.01), "ram": Body(2.0)}
+    bodies = {
+        "rocker": thin(3.0, length),
+        "block": Body(mass=0.5, inertia=0.01),
+        "ram": Body(mass=2.0),
+    }
     return assur.Machine(m, bodies=bodies, loads=[Gravity(), Force("F", (-40.0, 3.0))])
 
 
@@ -152,7 +156,11 @@ def telescope() -> assur.Machine:
         slides={"jack": assur.Slide("piston", on="barrel", angle=math.atan2(1.5, 2.0))},
     )
     length = m.dimensions["piston.length"]
-    bodies = {"piston": thin(2.0, length), "boom": Body(4.0, 0.3, (0.6, 0.1)), "barrel": Body(1.0)}
+    bodies = {
+        "piston": thin(2.0, length),
+        "boom": Body(mass=4.0, inertia=0.3, at=(0.6, 0.1)),
+        "barrel": Body(mass=1.0),
+    }
     return assur.Machine(m, bodies=bodies, loads=[Gravity()])
 
 
@@ -170,8 +178,8 @@ def six_bar() -> assur.Machine:
         driver="crank",
     )  # fmt: skip
     bodies = {
-        "arm": Body(2.0, 0.4, "Q"),
-        "link": Body(1.0),
+        "arm": Body(mass=2.0, inertia=0.4, at="Q"),
+        "link": Body(mass=1.0),
         "crank": thin(2.0, math.hypot(0.3, 0.8)),
     }
     return assur.Machine(m, bodies=bodies, loads=[Gravity()])
@@ -207,7 +215,7 @@ def with_mass(machine: assur.Machine, link: str, density: Any) -> assur.Machine:
     whole = mass.sum()
     centre = (mass * s).sum() / whole
     at = centre * end / abs(end)
-    body = Body(whole, (mass * (s - centre) ** 2).sum(), (at.real, at.imag))
+    body = Body(mass=whole, inertia=(mass * (s - centre) ** 2).sum(), at=(at.real, at.imag))
     return assur.Machine(mechanism, bodies={**machine.bodies, link: body}, loads=machine.loads)
 
 
@@ -402,7 +410,9 @@ def test_refusals(machine: assur.Machine, given: dict[str, Any], said: str) -> N
         machine.internal_loads(**{"link": "rod", "q": 1.0, **given})
 
 
-@pytest.mark.parametrize("body", [Body(1.2, 0.015, (0.12, 0.0)), thin(1.2, 0.34), Body(1.2)])
+@pytest.mark.parametrize(
+    "body", [Body(mass=1.2, inertia=0.015, at=(0.12, 0.0)), thin(1.2, 0.34), Body(mass=1.2)]
+)
 def test_a_body_that_is_no_thin_rod_is_refused(body: Body) -> None:
     machine = assur.Machine(assur.SliderCrank(0.1, 0.35), bodies={"rod": body})
     with pytest.raises(assur.InputError, match="the mass along its line"):

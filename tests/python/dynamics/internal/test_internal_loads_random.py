@@ -39,7 +39,7 @@ def rods(case: Case) -> Any:
         along = rng.sample(list(joints), 2)
         a, b = (place(m, link, joint) for joint in along)
         mass, middle = case.machine.bodies[link].mass, (a + b) / 2
-        body = Body(mass, mass * abs(b - a) ** 2 / 12, (middle.real, middle.imag))
+        body = Body(mass=mass, inertia=mass * abs(b - a) ** 2 / 12, at=(middle.real, middle.imag))
         yield link, along, assur.Machine(m, bodies={**case.machine.bodies, link: body}, loads=loads)
 
 

@@ -211,7 +211,7 @@ def test_a_file_keeps_the_rule(tmp_path: Path) -> None:
 
 def test_motion_without_friction_does_not_depend_on_it() -> None:
     slider = assur.SliderCrank(0.1, 0.3)
-    bodies = {"piston": assur.Body(2.0), "crank": assur.Body(inertia=0.01)}
+    bodies = {"piston": assur.Body(mass=2.0), "crank": assur.Body(inertia=0.01)}
     runs = [
         Machine(slider, bodies=bodies, loads=[Force("B", (-20.0, 0.0), on=on)]).run(
             t_end=0.5, q0=1.0

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 Q = np.linspace(0.0, 2.0 * np.pi, 25)
-BODIES = {"piston": Body(2.0), "crank": Body(inertia=0.1)}
+BODIES = {"piston": Body(mass=2.0), "crank": Body(inertia=0.1)}
 SHORT = Table([0.35, 0.45], [0.0, 10.0], over="bore")
 
 

@@ -25,7 +25,9 @@ def test_change_points_have_reductions() -> None:
 
 def test_beside_change_points_analogues_are_known() -> None:
     """The joint of a kite is on its axis: its place and two derivatives in closed form."""
-    machine = assur.Machine(assur.FourBar(1.0, 2.5, 2.5, 1.0), bodies={"rocker": Body(1.0, at="C")})
+    machine = assur.Machine(
+        assur.FourBar(1.0, 2.5, 2.5, 1.0), bodies={"rocker": Body(mass=1.0, at="C")}
+    )
     steps = np.logspace(-9, math.log10(0.4), 60)
     for change in (0.0, TURN):
         q = change + np.concatenate([-steps, [0.0], steps])
@@ -45,8 +47,8 @@ def test_beside_change_points_analogues_are_known() -> None:
 def test_periods_through_change_points_meet_tight_tolerances(lengths: Any) -> None:
     bodies = {
         "crank": Body(inertia=0.3),
-        "rocker": Body(1.0, 0.4, (0.2, 0.3)),
-        "coupler": Body(2.0, 0.3, (1.0, 0.5)),
+        "rocker": Body(mass=1.0, inertia=0.4, at=(0.2, 0.3)),
+        "coupler": Body(mass=2.0, inertia=0.3, at=(1.0, 0.5)),
     }
     loads = (Torque("rocker", -1.0), Gravity())
     machine = assur.Machine(
@@ -106,7 +108,11 @@ def test_change_points_with_something_beside(lengths: Any, accuracy: float) -> N
 def test_motions_through_near_deltoids_come_to_an_end() -> None:
     machine = assur.Machine(
         assur.FourBar(0.05, 0.08, 0.082, 0.052),
-        bodies={"crank": Body(inertia=1e-3), "coupler": Body(0.2, 1e-4), "rocker": Body(0.1, 1e-4)},
+        bodies={
+            "crank": Body(inertia=1e-3),
+            "coupler": Body(mass=0.2, inertia=1e-4),
+            "rocker": Body(mass=0.1, inertia=1e-4),
+        },
         loads=[Torque("crank", -0.1)],
         motor=assur.LinearMotor(1.0, 30.0),
     )
@@ -121,7 +127,11 @@ def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
     nearly = assur.FourBar(1.0 - 3e-14, 3.0, 1.0, 3.0)
     machine = assur.Machine(
         nearly,
-        bodies={"crank": Body(inertia=0.1), "rocker": Body(1.0, 0.2), "coupler": Body(2.0, 0.3)},
+        bodies={
+            "crank": Body(inertia=0.1),
+            "rocker": Body(mass=1.0, inertia=0.2),
+            "coupler": Body(mass=2.0, inertia=0.3),
+        },
     )
     run = machine.run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == "near_change_point"
@@ -136,7 +146,7 @@ def test_forces_grow_toward_a_change_point_and_the_drive_has_a_limit() -> None:
     """
     machine = assur.Machine(
         assur.FourBar(1.0, 3.0, 1.0, 3.0),
-        bodies={"coupler": Body(2.0, 1.5, (1.5, 0.0))},
+        bodies={"coupler": Body(mass=2.0, inertia=1.5, at=(1.5, 0.0))},
         loads=[Gravity()],
     )
     q = np.pi + np.array([-1e-3, -1e-6, 0.0, 1e-6, 1e-3])
@@ -157,10 +167,10 @@ def test_reactions_at_a_dead_point_are_refused() -> None:
     linkage = assur.Mechanism(
         joints={"O": (0.0, 0.0), "A": (0.6, 0.8), "B": (3.0, 0.0)},
         links={"ground": ["O"], "crank": ["O", "A"], "rod": ["A", "B"], "piston": ["B"]},
-        slides={"bore": assur.Slide("piston", "ground", 0.0, "O")},
+        slides={"bore": assur.Slide("piston", "ground", angle=0.0, origin="O")},
         driver="bore",
     )
-    machine = assur.Machine(linkage, bodies={"rod": Body(1.0, 0.1)}, loads=[Gravity()])
+    machine = assur.Machine(linkage, bodies={"rod": Body(mass=1.0, inertia=0.1)}, loads=[Gravity()])
     top = linkage.dimensions["crank.length"] + linkage.dimensions["rod.length"]
     for method in (machine.reactions, machine.effort):
         with pytest.raises(assur.PositionError, match='dyad "A" is flat'):

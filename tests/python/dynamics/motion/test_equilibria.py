@@ -29,14 +29,14 @@ STEPS = 240  # of the search over a turn
 def held() -> Machine:
     """A four-bar with weights, springs and a constant force."""
     bodies = {
-        "crank": Body(3.0, 0.4, (0.3, 0.2)),
-        "coupler": Body(2.0, 0.5, (1.1, 0.4)),
-        "rocker": Body(4.0, 0.6, (0.7, -0.3)),
+        "crank": Body(mass=3.0, inertia=0.4, at=(0.3, 0.2)),
+        "coupler": Body(mass=2.0, inertia=0.5, at=(1.1, 0.4)),
+        "rocker": Body(mass=4.0, inertia=0.6, at=(0.7, -0.3)),
     }
     loads: list[Any] = [
         Gravity(),
-        Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, 3.0),
-        TorsionSpring("rocker", 6.0, 1.9),
+        Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, preload=3.0),
+        TorsionSpring("rocker", 6.0, angle=1.9),
         Force("C", (11.0, -4.0)),
         Torque("crank", 2.5),
     ]

@@ -75,7 +75,7 @@ def test_a_column_with_a_hinge_spring_buckles(excess: float) -> None:
     """k θ = P l sin θ: upright alone below P l = k, above it two more that lean (a pitchfork)."""
     k, length, mass = 3.0, 0.5, 2.0
     load = (1.0 + excess) * k / length
-    bodies = {"bar": Body(mass, at="A")}
+    bodies = {"bar": Body(mass=mass, at="A")}
     hinge = TorsionSpring("bar", k, angle=math.pi / 2)
     found = Machine(column(), bodies=bodies, loads=[hinge, Force("A", (0.0, -load))]).equilibria()
     lean = root(lambda x: (1.0 + excess) * math.sin(x) / x - 1.0, 1e-7, 3.0)
@@ -95,7 +95,7 @@ def test_below_the_buckling_load_it_stays_upright(excess: float) -> None:
         TorsionSpring("bar", k, angle=math.pi / 2),
         Force("A", (0.0, -(1.0 + excess) * k / length)),
     ]
-    found = Machine(column(), bodies={"bar": Body(2.0, at="A")}, loads=loads).equilibria()
+    found = Machine(column(), bodies={"bar": Body(mass=2.0, at="A")}, loads=loads).equilibria()
     # At the buckling load V is of the fourth order: flat, still stable.
     # The moment is known to 1e-15 and its slope is the excess: so is the place.
     near(found.q, [math.pi / 2], 1e-4 if excess == 0.0 else 1e-15 / -excess + 1e-15)
@@ -114,7 +114,7 @@ def test_a_bar_on_two_guides_lifted_against_a_spring(force: float) -> None:
     spring = Spring("A", ("ground", (9.0, 0.0)), k, 9.0 - length)
     loads: list[Any] = [Force("M", (0.0, force)), spring]
     found = Machine(
-        m, bodies={"bar": Body(mass, mass * length**2 / 12, "M")}, loads=loads
+        m, bodies={"bar": Body(mass=mass, inertia=mass * length**2 / 12, at="M")}, loads=loads
     ).equilibria(between=(-1.55, 0.0))
     ratio = force / (2 * k * length)
     theta = root(lambda x: (1 - math.cos(x)) * math.tan(x) - ratio, 1e-9, 1.5707963)
@@ -162,7 +162,7 @@ def test_a_mass_on_a_spring_is_driven_by_its_slide() -> None:
         driver="rail",
     )
     machine = Machine(
-        m, bodies={"block": Body(mass)}, loads=[Gravity((0.0, -G)), Spring("O", "B", k, free)]
+        m, bodies={"block": Body(mass=mass)}, loads=[Gravity((0.0, -G)), Spring("O", "B", k, free)]
     )
     hangs = free + mass * G / k
     found = machine.equilibria(between=(0.1, 5.0))
@@ -176,7 +176,7 @@ def test_a_mass_on_a_spring_is_driven_by_its_slide() -> None:
 
 
 def test_a_pendulum_over_several_turns_and_at_the_seam_of_a_turn() -> None:
-    bodies = {"crank": Body(2.0, at="A")}
+    bodies = {"crank": Body(mass=2.0, at="A")}
     for turned in (0.0, 0.5, 1e-17, math.pi / 2, math.pi, -3.0):
         gravity = (G * math.cos(turned), G * math.sin(turned))
         machine = Machine(crank(), bodies=bodies, loads=[Gravity(gravity)])
@@ -192,7 +192,7 @@ def test_a_pendulum_over_several_turns_and_at_the_seam_of_a_turn() -> None:
 def test_a_spring_that_balances_a_weight_leaves_it_indifferent() -> None:
     """V = m g l sin q + ½ k (l² + a² − 2 a l sin q) is constant if k a = m g."""
     mass, length, a = 2.0, 0.5, 0.8
-    bodies = {"bar": Body(mass, 0.1, at="A")}
+    bodies = {"bar": Body(mass=mass, inertia=0.1, at="A")}
     for factor in (1.0, 1.0 + 1e-9):
         spring = Spring("A", ("ground", (0.0, a)), factor * mass * G / a, 0.0)
         found = Machine(
@@ -208,10 +208,10 @@ def test_a_spring_that_balances_a_weight_leaves_it_indifferent() -> None:
 
 def test_a_balanced_crank_is_indifferent() -> None:
     m = column(0.7)
-    at_pin = Machine(m, bodies={"bar": Body(3.0, at="O")}, loads=[Gravity()]).equilibria()
-    no_load = Machine(m, bodies={"bar": Body(3.0, at="A")}).equilibria()
+    at_pin = Machine(m, bodies={"bar": Body(mass=3.0, at="O")}, loads=[Gravity()]).equilibria()
+    no_load = Machine(m, bodies={"bar": Body(mass=3.0, at="A")}).equilibria()
     two = [Force("A", (3.1, -7.7)), Force("B", (3.1, -7.7))]
-    both = Machine(m, bodies={"bar": Body(3.0, at="O")}, loads=two).equilibria()
+    both = Machine(m, bodies={"bar": Body(mass=3.0, at="O")}, loads=two).equilibria()
     for found in (at_pin, no_load, both):
         assert found.q.size == found.stable.size == found.frequency.size == 0
         near(found.indifferent, [[-math.pi / 2, 3 * math.pi / 2]])
@@ -219,7 +219,7 @@ def test_a_balanced_crank_is_indifferent() -> None:
 
 def test_without_equilibrium_nothing_is_listed() -> None:
     found = Machine(
-        crank(), bodies={"crank": Body(1.0, at="A")}, loads=[Torque("crank", 5.0)]
+        crank(), bodies={"crank": Body(mass=1.0, at="A")}, loads=[Torque("crank", 5.0)]
     ).equilibria()
     assert found.q.shape == found.stable.shape == found.frequency.shape == (0,)
     assert found.indifferent.shape == (0, 2)
@@ -228,7 +228,7 @@ def test_without_equilibrium_nothing_is_listed() -> None:
 @pytest.mark.parametrize("part", [1.0 - 1e-6, 1.0, 1.0 + 1e-6])
 def test_a_moment_that_only_just_holds_the_weight(part: float) -> None:
     """m g l cos q = M: two positions, one where they meet, then none."""
-    weight = Body(2.0, at="A")
+    weight = Body(mass=2.0, at="A")
     machine = Machine(
         crank(),
         bodies={"crank": weight},
@@ -249,12 +249,12 @@ def test_a_moment_that_only_just_holds_the_weight(part: float) -> None:
 def test_rest_at_change_points() -> None:
     """A parallelogram pulled along its ground rests where all its links are in line."""
     m = assur.FourBar(1.0, 3.0, 1.0, 3.0)
-    pulled = Machine(m, bodies={"coupler": Body(2.0, 0.3)}, loads=[Gravity((-G, 0.0))])
+    pulled = Machine(m, bodies={"coupler": Body(mass=2.0, inertia=0.3)}, loads=[Gravity((-G, 0.0))])
     found = pulled.equilibria(between=(-1.0, 5.5))
     near(found.q, [0.0, math.pi], 1e-12)
     assert found.stable.tolist() == [False, True]
     near(found.frequency[1], math.sqrt(G), 1e-9)
-    hung = Machine(m, bodies={"coupler": Body(2.0, 0.3)}, loads=[Gravity((0.0, -G))])
+    hung = Machine(m, bodies={"coupler": Body(mass=2.0, inertia=0.3)}, loads=[Gravity((0.0, -G))])
     found = hung.equilibria(between=(-2.0, 2.0))
     near(found.q, [-math.pi / 2, math.pi / 2], 1e-12)
     assert found.stable.tolist() == [True, False]
@@ -287,7 +287,7 @@ def test_a_machine_of_tables() -> None:
 
 
 def test_a_motor_and_dampers_are_no_load_but_the_rotor_is_inertia() -> None:
-    bodies, loads = {"crank": Body(2.0, at="A")}, [Gravity((G, 0.0))]
+    bodies, loads = {"crank": Body(mass=2.0, at="A")}, [Gravity((G, 0.0))]
     plain = Machine(crank(), bodies=bodies, loads=loads).equilibria()
     damped: list[Any] = [
         *loads,
@@ -314,7 +314,7 @@ def test_without_inertia_there_is_no_frequency() -> None:
 def test_a_spring_whose_length_goes_through_zero_is_refused_there() -> None:
     """Its force turns round at once: the moment jumps, and no position there is one of rest."""
     spring = Spring("A", ("ground", (0.3, 0.0)), 100.0, 0.2)
-    machine = Machine(crank(), bodies={"crank": Body(1.0, at="A")}, loads=[spring])
+    machine = Machine(crank(), bodies={"crank": Body(mass=1.0, at="A")}, loads=[spring])
     with pytest.raises(assur.MotionError, match=r"jump at q = .*between="):
         machine.equilibria()
     found = machine.equilibria(between=(0.1, 6.0))
@@ -326,7 +326,10 @@ def test_a_spring_whose_length_goes_through_zero_is_refused_there() -> None:
 def test_gaps_between_positions_of_rest() -> None:
     """A driver that cannot turn fully: nothing beyond its dead points, and all between them."""
     m = assur.FourBar(2.0, 1.7, 1.5, 3.0)
-    bodies = {"coupler": Body(2.0, 0.1, (0.8, 0.3)), "rocker": Body(1.0, 0.1, (0.5, 0.1))}
+    bodies = {
+        "coupler": Body(mass=2.0, inertia=0.1, at=(0.8, 0.3)),
+        "rocker": Body(mass=1.0, inertia=0.1, at=(0.5, 0.1)),
+    }
     for angle in np.linspace(0.0, 6.0, 13):
         gravity = Gravity((G * math.cos(angle), G * math.sin(angle)))
         machine = Machine(m, bodies=bodies, loads=[gravity, Spring("A", "C", 9.0, 1.0)])
@@ -341,7 +344,10 @@ def test_gaps_between_positions_of_rest() -> None:
 
 def test_stiffness_of_every_load() -> None:
     """Against differences of the moment, of the fourth order, at any position of rest."""
-    bodies = {"crank": Body(3.0, 0.4, (0.3, 0.2)), "coupler": Body(2.0, 0.5, (1.1, 0.4))}
+    bodies = {
+        "crank": Body(mass=3.0, inertia=0.4, at=(0.3, 0.2)),
+        "coupler": Body(mass=2.0, inertia=0.5, at=(1.1, 0.4)),
+    }
     table = assur.Table([0.0, 2.0, 4.0, math.tau], [1.0, 4.0, -3.0, 1.0], spline="periodic")
     each: list[Any] = [
         Force("P", (11.0, -4.0), axes="coupler"),
@@ -349,9 +355,9 @@ def test_stiffness_of_every_load() -> None:
         Force("P", (table, -4.0), axes="rocker"),
         Torque("coupler", 3.0, on="rocker"),
         Torque("rocker", table),
-        Spring("P", "D", 30.0, 0.4, 2.0),
+        Spring("P", "D", 30.0, 0.4, preload=2.0),
         Spring("P", "D", 30.0, 0.0),
-        TorsionSpring("coupler", 8.0, 0.3, on="rocker", preload=2.0),
+        TorsionSpring("coupler", 8.0, angle=0.3, on="rocker", preload=2.0),
         Damper("P", "D", 30.0),
         TorsionDamper("coupler", 8.0, on="rocker"),
     ]
@@ -378,13 +384,13 @@ def test_stiffness_of_every_load() -> None:
 def five_bar_machine() -> Machine:
     from models.machines.machines import five_bar
 
-    return Machine(five_bar(), bodies={"b1": Body(1.0)})
+    return Machine(five_bar(), bodies={"b1": Body(mass=1.0)})
 
 
 def driven_slide() -> Machine:
     from models.machines.machines import cylinder
 
-    return Machine(cylinder(), bodies={"arm": Body(1.0)}, loads=[Gravity()])
+    return Machine(cylinder(), bodies={"arm": Body(mass=1.0)}, loads=[Gravity()])
 
 
 REFUSED: list[tuple[Any, Any, str]] = [
@@ -422,10 +428,14 @@ def test_a_range_without_positions_names_the_dyad() -> None:
 
 def test_a_range_without_a_moment_is_refused() -> None:
     table = assur.Table([5.0, 6.0], [1.0, 2.0], spline="linear", periodic=False)
-    machine = Machine(four_bar(), bodies={"coupler": Body(1.0)}, loads=[Torque("crank", table)])
+    machine = Machine(
+        four_bar(), bodies={"coupler": Body(mass=1.0)}, loads=[Torque("crank", table)]
+    )
     with pytest.raises(assur.MotionError, match=r"no finite moment from q = 0 to 1: a table"):
         machine.equilibria(between=(0.0, 1.0))
-    great = Machine(crank(), bodies={"crank": Body(1e300, at="A")}, loads=[Gravity((0.0, -1e10))])
+    great = Machine(
+        crank(), bodies={"crank": Body(mass=1e300, at="A")}, loads=[Gravity((0.0, -1e10))]
+    )
     with pytest.raises(assur.MotionError, match="too great"):
         great.equilibria()
 
@@ -434,7 +444,7 @@ def test_a_range_without_a_moment_is_refused() -> None:
 def test_the_size_of_a_mechanism_does_not_matter(size: float) -> None:
     machine = Machine(
         assur.FourBar(size, 3.0 * size, 2.5 * size, 3.0 * size),
-        bodies={"coupler": Body(1.0)},
+        bodies={"coupler": Body(mass=1.0)},
         loads=[Gravity((0.3, -1.0))],
     )
     found = machine.equilibria()

@@ -15,7 +15,10 @@ from assur import Body
 def in_line(miss: float) -> assur.Machine:
     """Crank and ground are as long as coupler and rocker together, but for the miss."""
     linkage = assur.FourBar(1.0, 3.0, 2.0 + miss, 4.0)
-    return assur.Machine(linkage, bodies={"rocker": Body(1.0, 0.5), "coupler": Body(2.0, 0.3)})
+    return assur.Machine(
+        linkage,
+        bodies={"rocker": Body(mass=1.0, inertia=0.5), "coupler": Body(mass=2.0, inertia=0.3)},
+    )
 
 
 @pytest.mark.parametrize("miss", [1e-9, 1e-10, 1e-12, 1e-13])
@@ -60,7 +63,7 @@ def test_lengths_off_in_the_other_direction_are_named() -> None:
 
 def test_a_slider_crank_that_nearly_passes_its_dead_point_says_so() -> None:
     """As long a rod as the crank, but for the miss: the piston could stay in the middle."""
-    machine = assur.Machine(assur.SliderCrank(1.0, 1.0 + 1e-10), bodies={"piston": Body(1.0)})
+    machine = assur.Machine(assur.SliderCrank(1.0, 1.0 + 1e-10), bodies={"piston": Body(mass=1.0)})
     run = machine.run(q_end=3.0, q0=0.5, speed0=1.0)
     assert run.end == "near_change_point"
     assert run.events[-1].event.miss == pytest.approx(1e-10, rel=0.02)
@@ -78,7 +81,7 @@ def test_drawings_of_eleven_digits_are_named() -> None:
         "crank",
     )
     machine = assur.Machine(
-        m, bodies={"rocker": Body(2.0, 0.02)}, loads=[assur.Gravity((0.0, -9.81))]
+        m, bodies={"rocker": Body(mass=2.0, inertia=0.02)}, loads=[assur.Gravity((0.0, -9.81))]
     )
     run = machine.run(3.0, float(m.q0), 5.0, rtol=1e-11)
     miss = abs(m.dimensions["rocker.length"] + m.dimensions["coupler.length"] - 5.0)

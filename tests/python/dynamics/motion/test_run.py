@@ -36,9 +36,9 @@ def loaded_four_bar() -> assur.Machine:
     return assur.Machine(
         four_bar(),
         bodies={
-            "crank": Body(1.0, 0.4),
-            "coupler": Body(2.0, 0.7, (1.1, 0.3)),
-            "rocker": Body(1.5, 0.6, (1.0, -0.1)),
+            "crank": Body(mass=1.0, inertia=0.4),
+            "coupler": Body(mass=2.0, inertia=0.7, at=(1.1, 0.3)),
+            "rocker": Body(mass=1.5, inertia=0.6, at=(1.0, -0.1)),
         },
         loads=[
             Gravity((0.3, -9.81)),
@@ -46,21 +46,31 @@ def loaded_four_bar() -> assur.Machine:
             Torque("rocker", 1.5, on="coupler"),
             Damper("P", "D", 0.4),
             TorsionDamper("coupler", 0.3, on="crank"),
-            TorsionSpring("rocker", 2.0, 0.7),
+            TorsionSpring("rocker", 2.0, angle=0.7),
         ],
     )
 
 
 def stiff() -> assur.Machine:
     """Springs that oscillate some hundred times in a turn."""
-    crank = {"crank": Body(inertia=0.02), "rod": Body(0.6, 0.01, (0.2, 0.0)), "piston": Body(1.2)}
-    springs = [Spring("B", ("ground", (0.9, 0.02)), 4e5, 0.4), Spring("A", "B", 1e3, 0.2, 5.0)]
+    crank = {
+        "crank": Body(inertia=0.02),
+        "rod": Body(mass=0.6, inertia=0.01, at=(0.2, 0.0)),
+        "piston": Body(mass=1.2),
+    }
+    springs = [
+        Spring("B", ("ground", (0.9, 0.02)), 4e5, 0.4),
+        Spring("A", "B", 1e3, 0.2, preload=5.0),
+    ]
     return assur.Machine(slider_crank(), bodies=crank, loads=[*springs, Gravity()])
 
 
 def class_iv() -> assur.Machine:
     m = loom()
-    masses = {name: Body(1.0 + i, 0.2) for i, name in enumerate(("l234", "l365", "l48", "l876"))}
+    masses = {
+        name: Body(mass=1.0 + i, inertia=0.2)
+        for i, name in enumerate(("l234", "l365", "l48", "l876"))
+    }
     return assur.Machine(
         m, bodies={**masses, "crank": Body(inertia=3.0)}, loads=[Gravity(), Torque("l107", 2.0)]
     )
@@ -93,7 +103,8 @@ def test_two_drivers() -> None:
     machine = assur.Machine(
         five_bar(),
         bodies={
-            name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))
+            name: Body(mass=1.0 + i, inertia=0.3, at=(0.4, 0.1))
+            for i, name in enumerate(("c1", "b1", "b2", "c2"))
         },
         loads=[Gravity((0.0, -4.0)), Damper("C", "E", 0.3), Torque("c2", 0.5)],
     )
@@ -118,7 +129,11 @@ def test_two_drivers() -> None:
     ids=["linear", "induction", "constant"],
 )
 def test_motors(motor: Any) -> None:
-    bodies = {"crank": Body(inertia=0.1), "rod": Body(0.6, 0.01, (0.2, 0.0)), "piston": Body(1.2)}
+    bodies = {
+        "crank": Body(inertia=0.1),
+        "rod": Body(mass=0.6, inertia=0.01, at=(0.2, 0.0)),
+        "piston": Body(mass=1.2),
+    }
     machine = assur.Machine(slider_crank(), bodies=bodies, loads=[Gravity()], motor=motor)
 
     def drive(speed: float) -> tuple[float, float]:
@@ -142,7 +157,7 @@ def test_motors(motor: Any) -> None:
 def test_over_the_coordinate_and_over_the_time() -> None:
     machine = assur.Machine(
         slider_crank(),
-        bodies={"crank": Body(inertia=0.3), "piston": Body(2.0)},
+        bodies={"crank": Body(inertia=0.3), "piston": Body(mass=2.0)},
         loads=[
             Force(
                 "B", (assur.Table([0.0, 2.0, 4.0, math.tau], [0, 30, -20, 0], spline="linear"), 0.0)
@@ -203,7 +218,7 @@ def test_free_fall_of_a_piston() -> None:
         slides={"bore": assur.Slide("piston", on="ground", angle=0.0, origin="O")},
         driver="bore",
     )
-    machine = assur.Machine(m, bodies={"piston": Body(3.0)}, loads=[Gravity((-2.0, 0.0))])
+    machine = assur.Machine(m, bodies={"piston": Body(mass=3.0)}, loads=[Gravity((-2.0, 0.0))])
     run = machine.run(1.0, speed0=-0.1, events=[events.Position(0.4)], rtol=1e-12)
     # 0.05 = 0.1 t + t².
     exact = (-0.1 + math.sqrt(0.01 + 0.2)) / 2.0
@@ -307,8 +322,8 @@ def test_energy_of_a_thousand_turns() -> None:
         four_bar(),
         bodies={
             "crank": Body(inertia=2.0),
-            "coupler": Body(1.0, 0.5, (1.1, 0.3)),
-            "rocker": Body(1.0, 0.6),
+            "coupler": Body(mass=1.0, inertia=0.5, at=(1.1, 0.3)),
+            "rocker": Body(mass=1.0, inertia=0.6),
         },
         loads=[Gravity((0.0, -1.0))],
     )

@@ -51,7 +51,8 @@ def test_loose_tolerances_make_no_dead_points(rtol: float) -> None:
     machine = assur.Machine(
         five_bar(),
         bodies={
-            name: Body(1.0 + i, 0.3, (0.4, 0.1)) for i, name in enumerate(("c1", "b1", "b2", "c2"))
+            name: Body(mass=1.0 + i, inertia=0.3, at=(0.4, 0.1))
+            for i, name in enumerate(("c1", "b1", "b2", "c2"))
         },
         loads=[Gravity((0.0, -4.0)), Torque("c2", 0.5)],
     )
@@ -66,7 +67,10 @@ def test_loose_tolerances_make_no_dead_points(rtol: float) -> None:
 def test_two_drivers_come_to_a_dead_point() -> None:
     """Both bars in one line: the joint between goes through, the drivers turn back."""
     machine = assur.Machine(
-        five_bar(), bodies={name: Body(1.0, 0.3, (0.4, 0.1)) for name in ("c1", "b1", "b2", "c2")}
+        five_bar(),
+        bodies={
+            name: Body(mass=1.0, inertia=0.3, at=(0.4, 0.1)) for name in ("c1", "b1", "b2", "c2")
+        },
     )
     run = machine.run(20.0, speed0=[0.6, -0.6])
     assert run.end == "dead point"
@@ -88,7 +92,9 @@ def two_driven_slides(scale: float) -> assur.Machine:
         },
         driver=["p", "r"],
     )
-    return assur.Machine(m, bodies={name: Body(1.0, 0.3 * scale**2) for name in ("b1", "b2")})
+    return assur.Machine(
+        m, bodies={name: Body(mass=1.0, inertia=0.3 * scale**2) for name in ("b1", "b2")}
+    )
 
 
 @cache

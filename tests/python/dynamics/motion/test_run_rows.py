@@ -79,7 +79,7 @@ def rubbing(length: float = 1.0, time: float = 1.0) -> Machine:
     ways = Table(np.multiply(WAYS, length), np.multiply(FORCES, force), over="bore")
     return Machine(
         assur.SliderCrank(CRANK * length, ROD * length),
-        bodies={"crank": Body(2.0, inertia=0.05 * mass_moment), "piston": Body(MASS)},
+        bodies={"crank": Body(mass=2.0, inertia=0.05 * mass_moment), "piston": Body(mass=MASS)},
         loads=[Force("B", (ways, WEIGHT * force), on="piston")],
         friction={
             "bore": SlideFriction(SLIDING, LENGTH * length),

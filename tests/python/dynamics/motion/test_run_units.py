@@ -33,22 +33,22 @@ from models.mechanisms.higher_drawings import triad_press
 
 TURN = math.tau
 BODIES = {
-    "crank": Body(3.0, 0.4, (0.3, 0.2)),
-    "coupler": Body(2.0, 0.5, (1.1, 0.4)),
-    "rocker": Body(4.0, 0.6, (0.7, -0.3)),
+    "crank": Body(mass=3.0, inertia=0.4, at=(0.3, 0.2)),
+    "coupler": Body(mass=2.0, inertia=0.5, at=(1.1, 0.4)),
+    "rocker": Body(mass=4.0, inertia=0.6, at=(0.7, -0.3)),
 }
 LOADS: list[Any] = [
     Gravity(),
-    Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, 3.0),
+    Spring("P", ("ground", (2.0, 4.5)), 40.0, 0.8, preload=3.0),
     # At C, of the coupler: there is friction, which depends on whose it is.
     Damper(("coupler", (math.hypot(3.0, 1.3), 0.0)), ("ground", (3.0, 1.0)), 0.7),
-    TorsionSpring("rocker", 20.0, 0.3, "coupler"),
+    TorsionSpring("rocker", 20.0, angle=0.3, on="coupler"),
     TorsionDamper("coupler", 0.4),
     Force("P", (Table([0.0, 1.0, 2.5, 4.0, TURN], [0.0, 9.0, -7.0, 3.0, 0.0]), 2.0)),
     Torque("crank", lambda t, q, v: 3.0 * t - q + 0.1 * v),
 ]
 PINS = {
-    "B": JointFriction(0.1, 0.06, 0.02),
+    "B": JointFriction(0.1, 0.06, viscous=0.02),
     "C": JointFriction(0.2, 0.05),
     "D": JointFriction(0.1, 0.1),
 }
@@ -66,40 +66,49 @@ def block(*loads: Any, **friction: float) -> Machine:
     way = assur.Mechanism(
         joints={"O": (0, 0), "B": (0.5, 0), "C": (0.7, 0)},
         links={"ground": "O", "block": "BC"},
-        slides={"way": assur.Slide("block", "ground", 0.0, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=0.0, origin="O")},
         driver="way",
     )
     own = {"way": SlideFriction(**friction)}
-    return Machine(way, bodies={"block": Body(2.0)}, loads=[Gravity(), *loads], friction=own)
+    return Machine(way, bodies={"block": Body(mass=2.0)}, loads=[Gravity(), *loads], friction=own)
 
 
 def crank_press(*loads: Any, **parts: Any) -> Machine:
-    bodies = {"crank": Body(inertia=0.2), "rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0)}
+    bodies = {
+        "crank": Body(inertia=0.2),
+        "rod": Body(mass=1.2, inertia=0.015, at=(0.12, 0.0)),
+        "piston": Body(mass=2.0),
+    }
     return Machine(assur.SliderCrank(0.1, 0.35), bodies=bodies, loads=[Gravity(), *loads], **parts)
 
 
 def cases() -> dict[str, Case]:
     rubbing = {
-        "A": JointFriction(0.1, 0.025, 0.01),
+        "A": JointFriction(0.1, 0.025, viscous=0.01),
         "B": JointFriction(0.08, 0.012),
-        "bore": SlideFriction(0.1, 0.06, 0.3),
+        "bore": SlideFriction(0.1, 0.06, viscous=0.3),
     }
-    motor = LinearMotor(30.0, 200.0, 8.0, 0.01)
+    motor = LinearMotor(30.0, 200.0, ratio=8.0, rotor_inertia=0.01)
     cut = Force("B", (-300.0, 0.0), on="piston", while_="backward", over="bore")
     wall = events.Obstacle(events.Position(2.0, direction="rising"), 0.6)
     push = Force("B", (lambda t, _q, _v: 10.0 * t, 0.0), on="block")
     spring = Spring("O", "B", 800.0, 0.4)
     dead = assur.FourBar(3.0, 2.5, 2.0, 4.0)
-    bars = {name: Body(1.0, 0.5) for name in ("crank", "coupler", "rocker")}
+    bars = {name: Body(mass=1.0, inertia=0.5) for name in ("crank", "coupler", "rocker")}
     light = {"C": JointFriction(0.1, 0.1)}
     five = Machine(
-        five_bar(), bodies={n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2", "c2")}
+        five_bar(),
+        bodies={n: Body(mass=1.0, inertia=0.3, at=(0.4, 0.1)) for n in ("c1", "b1", "b2", "c2")},
     )
     ram = Machine(
         cylinder(),
-        bodies={"arm": Body(3.0, 0.5, (0.8, 0.1)), "rod": Body(0.5, 0.1), "barrel": Body(1.0, 0.2)},
+        bodies={
+            "arm": Body(mass=3.0, inertia=0.5, at=(0.8, 0.1)),
+            "rod": Body(mass=0.5, inertia=0.1),
+            "barrel": Body(mass=1.0, inertia=0.2),
+        },
         loads=[Gravity(), Damper("P", ("ground", (2.0, 0.0)), 3.0)],
-        friction={"B": JointFriction(0.1, 0.03), "ram": SlideFriction(0.1, 0.2, 2.0)},
+        friction={"B": JointFriction(0.1, 0.03), "ram": SlideFriction(0.1, 0.2, viscous=2.0)},
     )
     mixed = assur.Mechanism(
         joints={"A": (0, 0), "B": (1, 0.4), "C": (2.2, 1.5), "E": (3, 0)},
@@ -108,7 +117,11 @@ def cases() -> dict[str, Case]:
         driver=["c1", "way"],
     )
     triad = triad_press()
-    heavy = {name: Body(1.0, 0.2) for name, own in triad.links.items() if name != "ground" and own}
+    heavy = {
+        name: Body(mass=1.0, inertia=0.2)
+        for name, own in triad.links.items()
+        if name != "ground" and own
+    }
     pins = {name: JointFriction(0.1, 0.03) for name in list(triad.joints)[1:4]}
     return {
         "loads": Case(Machine(four_bar(), bodies=BODIES, loads=LOADS), 0.3, 5.0, {"t_end": 2.0}),
@@ -154,13 +167,20 @@ def cases() -> dict[str, Case]:
         ),
         "dead point of a slide": Case(ram, ram.mechanism.q0, 0.5, {"t_end": 20.0}),  # type: ignore[union-attr]
         "over a driven slide": Case(
-            Machine(cylinder(), bodies={"arm": Body(3.0, 0.5, (0.8, 0.1))}, loads=[Gravity()]),
+            Machine(
+                cylinder(),
+                bodies={"arm": Body(mass=3.0, inertia=0.5, at=(0.8, 0.1))},
+                loads=[Gravity()],
+            ),
             ram.mechanism.q0,  # type: ignore[union-attr]
             5.0,
             {"q_end": ram.mechanism.q0 + 0.2},  # type: ignore[union-attr]
         ),
         "slide and angle": Case(
-            Machine(mixed, bodies={n: Body(1.0, 0.3, (0.4, 0.1)) for n in ("c1", "b1", "b2")}),
+            Machine(
+                mixed,
+                bodies={n: Body(mass=1.0, inertia=0.3, at=(0.4, 0.1)) for n in ("c1", "b1", "b2")},
+            ),
             mixed.q0,
             [0.6, 0.01],
             {"t_end": 0.5},
@@ -247,10 +267,10 @@ def test_a_bouncing_block_comes_to_rest_after_as_many_hits_in_all_units(length: 
     way = assur.Mechanism(
         joints={"O": (0, 0), "B": (0, 2.0), "C": (0.7, 2.0)},
         links={"ground": "O", "block": "BC"},
-        slides={"way": assur.Slide("block", "ground", math.pi / 2, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=math.pi / 2, origin="O")},
         driver="way",
     )
-    machine = Machine(way, bodies={"block": Body(3.0)}, loads=[Gravity()])
+    machine = Machine(way, bodies={"block": Body(mass=3.0)}, loads=[Gravity()])
     floor = events.Obstacle(events.Position(0.0, direction="falling"), 0.95)
     hits = [
         len(units.run(machine, 2.0, 0.0, t_end=99.0, rtol=1e-6, events=[floor]).events)

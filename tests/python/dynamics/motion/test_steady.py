@@ -225,7 +225,9 @@ def test_pictures() -> None:
     q, speeds = ax.lines[0].get_data()
     assert np.ptp(q) == pytest.approx(TURN)
     np.testing.assert_allclose(speeds, steady.at(q).speed, rtol=1e-12)
-    run = press(assur.LinearMotor(90.0, 30.0)).run(1.0, events=[assur.events.Position(3.0, False)])
+    run = press(assur.LinearMotor(90.0, 30.0)).run(
+        1.0, events=[assur.events.Position(3.0, stop=False)]
+    )
     for what in ("speed", "q", "acceleration", "energy"):
         ax = run.plot(what)
         t, drawn = ax.lines[0].get_data()

@@ -18,7 +18,11 @@ PHI = np.linspace(0.0, TURN, 241)
 
 def slider_crank() -> assur.Machine:
     work = Table([0.0, 3.5, 5.0, TURN], [0.0, 0.0, -150.0, 0.0], spline="linear")
-    bodies = {"crank": Body(inertia=0.5), "rod": Body(5.0, 0.1, (0.15, 0.0)), "piston": Body(20.0)}
+    bodies = {
+        "crank": Body(inertia=0.5),
+        "rod": Body(mass=5.0, inertia=0.1, at=(0.15, 0.0)),
+        "piston": Body(mass=20.0),
+    }
     return assur.Machine(
         assur.SliderCrank(0.1, 0.4), bodies=bodies, loads=[Gravity(), Force("B", (work, 0.0))]
     )
@@ -27,14 +31,14 @@ def slider_crank() -> assur.Machine:
 def four_bar() -> assur.Machine:
     bodies = {
         "crank": Body(inertia=0.8),
-        "coupler": Body(1.0, 0.2, (1.0, 0.2)),
-        "rocker": Body(2.0),
+        "coupler": Body(mass=1.0, inertia=0.2, at=(1.0, 0.2)),
+        "rocker": Body(mass=2.0),
     }
     return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=[Gravity()])
 
 
 def damped() -> assur.Machine:
-    bodies = {"crank": Body(inertia=0.8), "rocker": Body(2.0, 0.5)}
+    bodies = {"crank": Body(inertia=0.8), "rocker": Body(mass=2.0, inertia=0.5)}
     damper = TorsionDamper("rocker", 2.0)
     return assur.Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=[damper])
 
@@ -120,7 +124,7 @@ def test_a_motor_that_sets_its_own_speed_keeps_it() -> None:
     motor = assur.LinearMotor(50.0, 15.0)
     machine = assur.Machine(
         assur.SliderCrank(0.1, 0.4),
-        bodies={"piston": Body(20.0), "crank": Body(inertia=0.5)},
+        bodies={"piston": Body(mass=20.0), "crank": Body(inertia=0.5)},
         loads=[assur.Torque("crank", -20.0)],
         motor=motor,
     )

@@ -18,12 +18,14 @@ def test_a_block_falls_along_its_guide(degrees: float) -> None:
     one = assur.Mechanism(
         joints={"O": (0, 0), "B": tuple(2.0 * along)},
         links={"ground": "O", "block": "B"},
-        slides={"way": assur.Slide("block", "ground", angle, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=angle, origin="O")},
         driver="way",
     )
     assert one.dimensions["way.offset"] == 0.0
     pull = assur.Force("B", tuple(-30.0 * along))
-    run = assur.Machine(one, bodies={"block": assur.Body(3.0)}, loads=[pull]).run(t_end=0.5, q0=2.0)
+    run = assur.Machine(one, bodies={"block": assur.Body(mass=3.0)}, loads=[pull]).run(
+        t_end=0.5, q0=2.0
+    )
     assert run.statistics.steps < 30
     np.testing.assert_allclose(run.at(0.5).q, 2.0 - 0.5 * 10.0 * 0.25, rtol=1e-10)
 
@@ -32,7 +34,7 @@ def test_an_offset_that_is_drawn_stays() -> None:
     one = assur.Mechanism(
         joints={"O": (0, 0), "B": (1e-9, 2.0)},
         links={"ground": "O", "block": "B"},
-        slides={"way": assur.Slide("block", "ground", math.pi / 2, "O")},
+        slides={"way": assur.Slide("block", "ground", angle=math.pi / 2, origin="O")},
         driver="way",
     )
     assert one.dimensions["way.offset"] == pytest.approx(-1e-9, rel=1e-6)

@@ -100,7 +100,8 @@ def test_inertia_is_kinetic_energy(name: str) -> None:
     make, links, _, _ = CASES[name]
     m = make()
     bodies = {
-        link: Body(1.5 + i, 0.2 + i / 7, (0.3 - i / 9, 0.1 * i)) for i, link in enumerate(links)
+        link: Body(mass=1.5 + i, inertia=0.2 + i / 7, at=(0.3 - i / 9, 0.1 * i))
+        for i, link in enumerate(links)
     }
     machine = Machine(m, bodies=bodies)
     for q in positions(m):
@@ -123,7 +124,9 @@ def test_moment_is_power(name: str) -> None:
     make, links, joint, (link, on) = CASES[name]
     m = make()
     ground = m.links["ground"][0]
-    bodies = {name: Body(2.0 + i, 0.1, (0.2, -0.1 * i)) for i, name in enumerate(links)}
+    bodies = {
+        name: Body(mass=2.0 + i, inertia=0.1, at=(0.2, -0.1 * i)) for i, name in enumerate(links)
+    }
     loads: list[Any] = [
         Gravity((0.5, -9.81)),
         Force(
@@ -134,7 +137,7 @@ def test_moment_is_power(name: str) -> None:
         # With several drivers q and speed are tuples.
         Torque(link, lambda t, q, v: t + 3.0 * np.ravel(q)[0] + np.ravel(v)[0], on=on),
         Spring(ground, joint, 40.0, 0.5, preload=6.0),
-        TorsionSpring(link, 12.0, 0.3, on=on, preload=2.0),
+        TorsionSpring(link, 12.0, angle=0.3, on=on, preload=2.0),
         Damper(ground, (link, (0.3, 0.3)), 5.0),
         TorsionDamper(link, 4.0, on=on),
     ]
@@ -177,10 +180,10 @@ def test_moments_are_slopes_of_the_potential() -> None:
     m = four_bar()
     loads: list[Any] = [
         Gravity(),
-        Spring("A", "P", 30.0, 1.0, 4.0),
-        TorsionSpring("rocker", 9.0, 0.4),
+        Spring("A", "P", 30.0, 1.0, preload=4.0),
+        TorsionSpring("rocker", 9.0, angle=0.4),
     ]
-    machine = Machine(m, bodies={"coupler": Body(3.0, at="P")}, loads=loads)
+    machine = Machine(m, bodies={"coupler": Body(mass=3.0, at="P")}, loads=loads)
     q, h = np.linspace(-7.0, 7.0, 57), 1e-5
     slope = (machine.potential(q + h) - machine.potential(q - h)) / (2 * h)
     assert np.abs(machine.reduced_moment(q) + slope).max() < 1e-7
@@ -219,7 +222,7 @@ def test_a_flywheel_from_the_machine_itself() -> None:
     assert f.delta == pytest.approx(0.05, rel=1e-12)
     assert f.mean_speed == pytest.approx(20.0, rel=1e-12)
     with pytest.raises(assur.InputError, match="a flywheel needs a single driver that turns"):
-        Machine(cylinder(), bodies={"arm": Body(1.0)}).flywheel(0.1, mean_speed=10.0)
+        Machine(cylinder(), bodies={"arm": Body(mass=1.0)}).flywheel(0.1, mean_speed=10.0)
     swinging = Machine(assur.FourBar(3.0, 1.0, 2.0, 3.0), bodies={"crank": Body(inertia=1.0)})
     with pytest.raises(assur.PositionError, match=r"\"C\" cannot be assembled"):
         swinging.flywheel(0.1, mean_speed=10.0)
@@ -227,7 +230,7 @@ def test_a_flywheel_from_the_machine_itself() -> None:
 
 def test_shapes_and_places_without_a_position() -> None:
     m = five_bar()
-    machine = Machine(m, bodies={"b1": Body(1.0)}, loads=[Gravity()])
+    machine = Machine(m, bodies={"b1": Body(mass=1.0)}, loads=[Gravity()])
     q = np.broadcast_to(m.q0, (4, 3, 2))
     assert machine.reduced_inertia(q).value.shape == (4, 3, 2, 2)
     assert machine.reduced_inertia(q).d1.shape == (4, 3, 2, 2, 2)
@@ -343,10 +346,10 @@ def test_designs_are_those_one_by_one() -> None:
     m = four_bar().with_dimensions({"crank.length": lengths})
     bodies = {
         "crank": Body(inertia=0.5),
-        "coupler": Body(2.0, 0.3, (1.0, 0.2)),
-        "rocker": Body(1.0),
+        "coupler": Body(mass=2.0, inertia=0.3, at=(1.0, 0.2)),
+        "rocker": Body(mass=1.0),
     }
-    machine = Machine(m, bodies=bodies, loads=[Gravity(), TorsionSpring("rocker", 3.0, 0.2)])
+    machine = Machine(m, bodies=bodies, loads=[Gravity(), TorsionSpring("rocker", 3.0, angle=0.2)])
     assert machine.shape == (2, 3)
     q = np.linspace(0.0, 6.0, 7)
     value, d1 = machine.reduced_inertia(q, on_error="nan")
@@ -419,7 +422,7 @@ def test_corners_of_tables_are_knots() -> None:
 
 
 def test_an_interrupt_is_heard() -> None:
-    machine = Machine(four_bar(), bodies={"coupler": Body(1.0)}, loads=[Gravity()])
+    machine = Machine(four_bar(), bodies={"coupler": Body(mass=1.0)}, loads=[Gravity()])
 
     def work(size: int) -> Callable[[], object]:
         q = np.linspace(0.0, 6.0, size)

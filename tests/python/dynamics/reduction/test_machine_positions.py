@@ -41,7 +41,9 @@ def test_reduced_inertias_are_those_of_the_motion(name: str) -> None:
 def test_a_position_lost_beside_a_fold_has_no_moment(before: float) -> None:
     """It once had one, which depended on the positions asked for with it."""
     m = reaction_case(108).mechanism
-    machine = assur.Machine(m, bodies={"L4": assur.Body(1.0, 0.1)}, loads=[assur.Gravity()])
+    machine = assur.Machine(
+        m, bodies={"L4": assur.Body(mass=1.0, inertia=0.1)}, loads=[assur.Gravity()]
+    )
     q = 1.8877209835496425 - before
     lost = m.solve(q, on_error="nan").status > assur.Status.NEAR_SINGULAR
     for asked in ([q], [q, 1.5], [1.7, q]):
@@ -53,7 +55,10 @@ def test_a_position_lost_beside_a_fold_has_no_moment(before: float) -> None:
 def test_positions_after_a_change_point_are_those_alone() -> None:
     """There a state is interpolated: even the ground in it is rounded."""
     m = assur.FourBar(1.0, 3.0, 1.0, 3.0)
-    body, about = assur.Body(2.0, 0.5, at=(0.3, 0.1)), assur.Body(1.0, 0.2)
+    body, about = (
+        assur.Body(mass=2.0, inertia=0.5, at=(0.3, 0.1)),
+        assur.Body(mass=1.0, inertia=0.2),
+    )
     machine = assur.Machine(
         m, bodies={"crank": body, "coupler": about, "rocker": body}, loads=[assur.Gravity()]
     )

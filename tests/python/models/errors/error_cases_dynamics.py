@@ -59,7 +59,7 @@ def overrun() -> Machine:
     """A load so much stronger than its motor that the speed hardly depends on the motor."""
     return Machine(
         assur.FourBar(1.0, 3.0, 2.5, 3.2),
-        bodies={"crank": Body(inertia=0.05), "rocker": Body(0.9, 0.1)},
+        bodies={"crank": Body(inertia=0.05), "rocker": Body(mass=0.9, inertia=0.1)},
         loads=[Torque("crank", 50.0)],
         motor=assur.InductionMotor(3.78, 0.145, 14.64),
     )
@@ -67,7 +67,7 @@ def overrun() -> Machine:
 
 def through_change_points() -> Machine:
     """A four-bar that takes two turns to come back."""
-    bodies = {"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(1.0)}
+    bodies = {"crank": Body(inertia=0.2), "rocker": Body(inertia=2.0), "coupler": Body(mass=1.0)}
     damper = TorsionDamper("rocker", 0.5)
     return Machine(assur.FourBar(1.0, 2.0, 3.0, 4.0), bodies=bodies, loads=[damper])
 

@@ -134,7 +134,11 @@ def to_infinity() -> assur.Motion:
 def nearly_in_line() -> assur.Machine:
     linkage = assur.FourBar(1.0, 3.0, 2.0 + 1e-10, 4.0)
     return assur.Machine(
-        linkage, bodies={"rocker": assur.Body(1.0, 0.5), "coupler": assur.Body(2.0, 0.3)}
+        linkage,
+        bodies={
+            "rocker": assur.Body(mass=1.0, inertia=0.5),
+            "coupler": assur.Body(mass=2.0, inertia=0.3),
+        },
     )
 
 

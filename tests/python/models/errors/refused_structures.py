@@ -109,8 +109,16 @@ REFUSED: dict[str, Refusal] = {
     "no driver": ({"driver": []}, ("driver",), {}),
     "ground driven": ({"driver": "ground"}, ("ground",), {}),
     "unknown driver": ({"driver": "cranck"}, ("cranck", '"crank"'), {}),
-    "unknown Drive": ({"driver": assur.Drive("crank", "rockr")}, ("rockr", '"rocker"'), {}),
-    "Drive itself": ({"driver": assur.Drive("crank", "crank")}, ("crank",), {"link": "crank"}),
+    "unknown Drive": (
+        {"driver": assur.Drive("crank", relative_to="rockr")},
+        ("rockr", '"rocker"'),
+        {},
+    ),
+    "Drive itself": (
+        {"driver": assur.Drive("crank", relative_to="crank")},
+        ("crank",),
+        {"link": "crank"},
+    ),
     "driven twice": (
         {"driver": ["crank", assur.Drive("crank")]},
         ("crank", "twice"),

@@ -28,10 +28,10 @@ PRESS = assur.Mechanism(
     slides={"bore": assur.Slide("ram", on="ground", angle=0.0, origin="A")},
 )
 BODIES = {
-    "crank": Body(0.7, 0.05, (0.04, 0.01)),
-    "second": Body(0.9, 0.03, (0.05, 0.01)),
-    "rod": Body(1.2, 0.015, (0.12, -0.02)),
-    "ram": Body(2.0, 0.0, (0.01, 0.03)),
+    "crank": Body(mass=0.7, inertia=0.05, at=(0.04, 0.01)),
+    "second": Body(mass=0.9, inertia=0.03, at=(0.05, 0.01)),
+    "rod": Body(mass=1.2, inertia=0.015, at=(0.12, -0.02)),
+    "ram": Body(mass=2.0, inertia=0.0, at=(0.01, 0.03)),
 }
 EVERY_LOAD: dict[type, Load] = {
     assur.Gravity: assur.Gravity((0.5, -9.81)),
@@ -39,7 +39,7 @@ EVERY_LOAD: dict[type, Load] = {
     assur.Torque: assur.Torque("rod", lambda _t, _q, v: 3.0 - 0.2 * v, on="second"),
     assur.Pressure: assur.Pressure("bore", 1e-3, lambda _t, _q, v: 2e5 + 1e3 * v, "backward"),
     assur.Spring: assur.Spring("E", ("ground", (0.2, 0.3)), 300.0, 0.1, preload=2.0),
-    assur.TorsionSpring: assur.TorsionSpring("second", 3.0, 0.2, on="rod", preload=-1.0),
+    assur.TorsionSpring: assur.TorsionSpring("second", 3.0, angle=0.2, on="rod", preload=-1.0),
     assur.Damper: assur.Damper(("rod", (0.1, 0.02)), ("ground", (0.2, 0.3)), 40.0),
     assur.TorsionDamper: assur.TorsionDamper("rod", 0.7, on="second"),
 }

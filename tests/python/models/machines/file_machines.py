@@ -25,13 +25,13 @@ LOADS: dict[str, Any] = {
     "spring of points": assur.Spring(
         ("ground", (1.0, -2.0)), ("coupler", (0.3, THIRD)), 100.0, 0.0, preload=7.0
     ),
-    "torsion spring": assur.TorsionSpring("rocker", 3.0, THIRD, on="crank", preload=-1.0),
+    "torsion spring": assur.TorsionSpring("rocker", 3.0, angle=THIRD, on="crank", preload=-1.0),
     "damper": assur.Damper("P", "D", THIRD),
     "torsion damper": assur.TorsionDamper("rocker", THIRD, on="coupler"),
 }
 
 IN_PRACTICE: list[Any] = [
-    assur.Pressure("ram", 0.01, assur.Gas(2e5 * THIRD, 0.003, 1.0, 1.3), "forward"),
+    assur.Pressure("ram", 0.01, assur.Gas(2e5 * THIRD, 0.003, 1.0, exponent=1.3), "forward"),
     assur.Pressure("ram", 0.01, assur.Gas(2e5, 0.03, 0.9), "backward", ambient=0.0),
     assur.Pressure("ram", THIRD, Table([0.1, 9.0], [1e5, 2e5], over="ram"), "forward"),
     assur.Pressure("ram", 0.01, 3e5, "forward", while_="backward", over="arm"),
@@ -62,7 +62,7 @@ def one_part_machines() -> dict[str, assur.Machine]:
     """A machine for each load and motor."""
     m = four_bar()
     made = {
-        name: assur.Machine(m, bodies={"rocker": Body(2.0)}, loads=[load])
+        name: assur.Machine(m, bodies={"rocker": Body(mass=2.0)}, loads=[load])
         for name, load in LOADS.items()
     }
     made |= {
@@ -80,11 +80,11 @@ def whole_machines() -> dict[str, assur.Machine]:
     }
     bodies = {
         "crank": Body(inertia=-0.0),
-        "coupler": Body(THIRD, 0.1, "P"),
-        "rocker": Body(1e22, 5e-324, (-0.0, THIRD)),
+        "coupler": Body(mass=THIRD, inertia=0.1, at="P"),
+        "rocker": Body(mass=1e22, inertia=5e-324, at=(-0.0, THIRD)),
     }
     m = four_bar()
-    guide = assur.SlideFriction(0.1, THIRD, 2.0, 0.1)
+    guide = assur.SlideFriction(0.1, THIRD, viscous=2.0, static_coefficient=0.1)
     lengths = {"coupler.length": [3.1, 3.2, math.nan], "ground.D.x": 4.0}
     return {
         "nothing": assur.Machine(m),
@@ -95,9 +95,11 @@ def whole_machines() -> dict[str, assur.Machine]:
             motor=MOTORS["induction"],
             friction=friction,
         ),
-        "cylinder": assur.Machine(cylinder(), bodies={"arm": Body(3.0)}, friction={"ram": guide}),
-        "in practice": assur.Machine(cylinder(), bodies={"arm": Body(3.0)}, loads=IN_PRACTICE),
+        "cylinder": assur.Machine(
+            cylinder(), bodies={"arm": Body(mass=3.0)}, friction={"ram": guide}
+        ),
+        "in practice": assur.Machine(cylinder(), bodies={"arm": Body(mass=3.0)}, loads=IN_PRACTICE),
         "two motors": assur.Machine(five_bar(), motor=[MOTORS["linear"], MOTORS["table"]]),
         "one motor of two": assur.Machine(five_bar(), motor=[None, MOTORS["constant"]]),
-        "designs": assur.Machine(m.with_dimensions(lengths), bodies={"rocker": Body(2.0)}),
+        "designs": assur.Machine(m.with_dimensions(lengths), bodies={"rocker": Body(mass=2.0)}),
     }

@@ -105,7 +105,7 @@ def friction_cases() -> list[FrictionCase]:
         )
         for degrees, speed, driver, efficiency, normal, moment in PUSHED
     ]
-    bodies = {"rod": Body(1.2, 0.015, (0.12, 0.0)), "piston": Body(2.0)}
+    bodies = {"rod": Body(mass=1.2, inertia=0.015, at=(0.12, 0.0)), "piston": Body(mass=2.0)}
     running = assur.Machine(
         m, bodies=bodies, loads=[Force(("piston", (0.03, 0.02)), (-800.0, 0.0))]
     )

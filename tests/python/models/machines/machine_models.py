@@ -96,7 +96,7 @@ class Parts:
         if not own:
             return assur.Body(inertia=inertia)
         at = rng.choice((None, rng.choice(own), (rng.uniform(-1, 1), rng.uniform(-1, 1))))
-        return assur.Body(rng.uniform(0.2, 3.0), inertia, at)
+        return assur.Body(mass=rng.uniform(0.2, 3.0), inertia=inertia, at=at)
 
     # -- loads --------------------------------------------------------------------------------
 
@@ -119,11 +119,11 @@ class Parts:
 
     def force(self) -> assur.Force:
         axes = self.rng.choice((None, self.rng.choice(self.links)))
-        return assur.Force(self.place(), (self.value(20.0), self.value(20.0)), axes)
+        return assur.Force(self.place(), (self.value(20.0), self.value(20.0)), axes=axes)
 
     def torque(self) -> assur.Torque:
         link, on = self.two_links()
-        return assur.Torque(link, self.value(20.0), on)
+        return assur.Torque(link, self.value(20.0), on=on)
 
     def two_places(self) -> tuple[Any, Any]:
         first, second = self.place(), self.place()
@@ -133,20 +133,20 @@ class Parts:
 
     def spring(self) -> assur.Spring:
         rng = self.rng
-        numbers = rng.uniform(1, 50), rng.uniform(0, 2), rng.uniform(-5, 5)
-        return assur.Spring(*self.two_places(), *numbers)
+        stiffness, length, preload = rng.uniform(1, 50), rng.uniform(0, 2), rng.uniform(-5, 5)
+        return assur.Spring(*self.two_places(), stiffness, length, preload=preload)
 
     def torsion_spring(self) -> assur.TorsionSpring:
         rng, (link, on) = self.rng, self.two_links()
         angle, preload = rng.uniform(-3, 3), rng.uniform(-5, 5)
-        return assur.TorsionSpring(link, rng.uniform(1, 30), angle, on, preload)
+        return assur.TorsionSpring(link, rng.uniform(1, 30), angle=angle, on=on, preload=preload)
 
     def damper(self) -> assur.Damper:
         return assur.Damper(*self.two_places(), self.rng.uniform(0.1, 5.0))
 
     def torsion_damper(self) -> assur.TorsionDamper:
         link, on = self.two_links()
-        return assur.TorsionDamper(link, self.rng.uniform(0.1, 5.0), on)
+        return assur.TorsionDamper(link, self.rng.uniform(0.1, 5.0), on=on)
 
     # -- values -------------------------------------------------------------------------------
 
@@ -186,13 +186,15 @@ class Parts:
         ratio = rng.choice((-1, 1)) * rng.uniform(0.5, 5.0)
         kind = rng.choice(("constant", "linear", "induction", "table"))
         if kind == "constant":
-            return assur.ConstantTorque(self.motor_torque(), ratio, rng.uniform(0, 0.1))
+            return assur.ConstantTorque(
+                self.motor_torque(), ratio=ratio, rotor_inertia=rng.uniform(0, 0.1)
+            )
         if kind == "linear":
             stall, no_load = rng.uniform(1, 10), rng.uniform(5, 30)
-            return assur.LinearMotor(stall, no_load, ratio, rng.uniform(0, 0.1))
+            return assur.LinearMotor(stall, no_load, ratio=ratio, rotor_inertia=rng.uniform(0, 0.1))
         if kind == "induction":
             breakdown, slip = rng.uniform(1, 10), rng.uniform(0.1, 0.4)
-            return assur.InductionMotor(breakdown, slip, rng.uniform(20, 60), ratio)
+            return assur.InductionMotor(breakdown, slip, rng.uniform(20, 60), ratio=ratio)
         speeds = np.linspace(-500.0, 500.0, rng.randint(6, 12))
         torques = [rng.uniform(-10, 10) for _ in speeds]
         return assur.Table(speeds, torques, spline="not-a-knot", ratio=ratio, rotor_inertia=0.02)

@@ -73,7 +73,7 @@ def body(one: assur.Body, u: Units) -> assur.Body:
     at = one.at
     if isinstance(at, tuple):
         at = (u.length * at[0], u.length * at[1])
-    return assur.Body(u.mass * one.mass, u.inertia * one.inertia, at)
+    return assur.Body(mass=u.mass * one.mass, inertia=u.inertia * one.inertia, at=at)
 
 
 def place(at: Any, u: Units) -> Any:
@@ -175,13 +175,13 @@ def with_friction(d: Description, machine: assur.Machine, rng: Any) -> assur.Mac
         if len(links) == 2 and rng.random() < 0.5:
             viscous = rng.choice((0.0, rng.uniform(0.01, 0.5)))
             friction[name] = assur.JointFriction(
-                part * rng.uniform(0.3, 1.0), size * rng.uniform(0.01, 0.1), viscous
+                part * rng.uniform(0.3, 1.0), size * rng.uniform(0.01, 0.1), viscous=viscous
             )
     for name in d.slides:
         if rng.random() < 0.5:
             viscous = rng.choice((0.0, rng.uniform(0.01, 0.5)))
             friction[name] = assur.SlideFriction(
-                part * rng.uniform(0.3, 1.0), size * rng.uniform(0.1, 0.5), viscous
+                part * rng.uniform(0.3, 1.0), size * rng.uniform(0.1, 0.5), viscous=viscous
             )
     mechanism = machine.mechanism
     assert mechanism is not None

@@ -49,8 +49,8 @@ def press(motor: Any = None, **more: Any) -> assur.Machine:
         assur.SliderCrank(0.1, 0.4),
         bodies={
             "crank": Body(inertia=0.5),
-            "rod": Body(5.0, 0.1, (0.15, 0.0)),
-            "piston": Body(20.0),
+            "rod": Body(mass=5.0, inertia=0.1, at=(0.15, 0.0)),
+            "piston": Body(mass=20.0),
         },
         loads=[assur.Gravity(), Force("B", (work, 0.0)), *more.get("loads", [])],
         motor=motor,

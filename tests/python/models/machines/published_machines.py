@@ -58,9 +58,9 @@ def marghitu() -> list[Published]:
     machine = assur.Machine(
         assur.SliderCrank(1.0, 1.0),
         bodies={
-            "crank": Body(1.0, inertia, (0.5, 0.0)),
-            "rod": Body(1.0, inertia, (0.5, 0.0)),
-            "piston": Body(1.0),
+            "crank": Body(mass=1.0, inertia=inertia, at=(0.5, 0.0)),
+            "rod": Body(mass=1.0, inertia=inertia, at=(0.5, 0.0)),
+            "piston": Body(mass=1.0),
         },
         loads=[Gravity((0.0, -10.0)), Force("B", (100.0, 0.0))],
     )
@@ -84,9 +84,9 @@ def linkage_sim() -> list[Published]:
     four_bar = assur.Machine(
         assur.FourBar(1.0, 3.0, 2.0, 4.0),
         bodies={
-            "crank": Body(2.0, 0.01, (0.5, 0.0)),
-            "coupler": Body(3.0, 0.05, (1.5, 0.0)),
-            "rocker": Body(2.0, 0.02, (1.0, 0.0)),
+            "crank": Body(mass=2.0, inertia=0.01, at=(0.5, 0.0)),
+            "coupler": Body(mass=3.0, inertia=0.05, at=(1.5, 0.0)),
+            "rocker": Body(mass=2.0, inertia=0.02, at=(1.0, 0.0)),
         },
         loads=[Gravity()],
     )
@@ -107,9 +107,9 @@ def linkage_sim() -> list[Published]:
     crank_slider = assur.Machine(
         assur.SliderCrank(1.0, 3.0),
         bodies={
-            "crank": Body(1.0, 0.01, (0.5, 0.0)),
-            "rod": Body(2.0, 0.1, (1.5, 0.0)),
-            "piston": Body(0.5),
+            "crank": Body(mass=1.0, inertia=0.01, at=(0.5, 0.0)),
+            "rod": Body(mass=2.0, inertia=0.1, at=(1.5, 0.0)),
+            "piston": Body(mass=0.5),
         },
         loads=[Gravity()],
     )
@@ -226,7 +226,9 @@ def pmks() -> list[Published]:
 
 def six_bar_machine(m: assur.Mechanism, heavy: Sequence[str], load: assur.Force) -> assur.Machine:
     bodies = {
-        link: Body(10.0, 0.2, "s" + link) if link in heavy else Body(5.0, 0.1, "s" + link)
+        link: Body(mass=10.0, inertia=0.2, at="s" + link)
+        if link in heavy
+        else Body(mass=5.0, inertia=0.1, at="s" + link)
         for link in m.links
         if link != "ground"
     }
@@ -337,7 +339,9 @@ def khurmi() -> list[Published]:
         inertia = mass * omega**2 * crank * terms
         static = assur.Machine(m, loads=[Force("B", (inertia - load, 0.0))])
         out.append(Published(f"Khurmi {name}", static, theta, 0.0, printed))
-        true = assur.Machine(m, bodies={"piston": Body(mass)}, loads=[Force("B", (-load, 0.0))])
+        true = assur.Machine(
+            m, bodies={"piston": Body(mass=mass)}, loads=[Force("B", (-load, 0.0))]
+        )
         near = [Printed(p.what, p.value, 0.01 * p.value, p.signed) for p in printed]
         out.append(Published(f"Khurmi {name}, true motion", true, theta, omega, near))
     return out

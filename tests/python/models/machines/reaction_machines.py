@@ -111,7 +111,9 @@ class Everywhere(Parts):
         inertia = rng.uniform(0.05, 1.0)
         if not self.description.links[link]:
             return assur.Body(inertia=inertia)
-        return assur.Body(rng.uniform(0.2, 3.0), inertia, (rng.uniform(-1, 1), rng.uniform(-1, 1)))
+        return assur.Body(
+            mass=rng.uniform(0.2, 3.0), inertia=inertia, at=(rng.uniform(-1, 1), rng.uniform(-1, 1))
+        )
 
     def loads(self) -> list[Any]:
         kinds = [*KINDS, *self.rng.choices(KINDS, k=self.rng.randint(0, 3))]

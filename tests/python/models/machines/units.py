@@ -70,7 +70,9 @@ class Units:
         return tuple(x * self.length for x in place)
 
     def body(self, body: assur.Body) -> assur.Body:
-        return assur.Body(body.mass * self.mass, body.inertia * self.inertia, self.place(body.at))
+        return assur.Body(
+            mass=body.mass * self.mass, inertia=body.inertia * self.inertia, at=self.place(body.at)
+        )
 
     def load(self, load: Any, m: Mechanism) -> Any:
         by = getattr(load, "over", None)
@@ -98,7 +100,7 @@ class Units:
                     self.place(load.second),
                     load.stiffness * self.force / self.length,
                     load.length * self.length,
-                    load.preload * self.force,
+                    preload=load.preload * self.force,
                 )
             case assur.Damper():
                 damping = load.damping * self.mass / self.time

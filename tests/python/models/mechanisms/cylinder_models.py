@@ -45,7 +45,12 @@ def cylinder_case(seed: int) -> Case:
         slides[f"lift{k}"] = assur.Cylinder(base, eye)
         before = f"boom{k}"
     drives: list[Any] = [
-        rng.choice([f"lift{k}", f"boom{k}" if k == 0 else assur.Drive(f"boom{k}", f"boom{k - 1}")])
+        rng.choice(
+            [
+                f"lift{k}",
+                f"boom{k}" if k == 0 else assur.Drive(f"boom{k}", relative_to=f"boom{k - 1}"),
+            ]
+        )
         for k in range(count)
     ]
     driver = drives[0] if count == 1 else drives

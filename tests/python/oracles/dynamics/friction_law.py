@@ -71,7 +71,7 @@ class FrictionLaw:
     def load(self, rub: Rub, size: float) -> Iterator[Any]:
         """Friction as loads: a torque, or forces along the guide at the sliding point."""
         if not rub.is_slide:
-            yield assur.Torque(rub.link, size, rub.other)
+            yield assur.Torque(rub.link, size, on=rub.other)
             return
         places = self.without.places
         force = size * places.guide[rub.name]

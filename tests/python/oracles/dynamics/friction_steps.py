@@ -44,7 +44,9 @@ class WithFriction:
     def friction(self) -> Iterator[Any]:
         for name, one in self.case.friction.items():
             if isinstance(one, Journal):
-                yield assur.Torque(one.link, -sign(self.turning(one)) * self.size(name), one.other)
+                yield assur.Torque(
+                    one.link, -sign(self.turning(one)) * self.size(name), on=one.other
+                )
             else:
                 yield from self.pushes(name, -sign(self.sliding(name)) * self.size(name))
 

@@ -53,16 +53,16 @@ class Known:
 
     def __init__(self, kind: str) -> None:
         bodies = {
-            "crank": Body(1.3, 0.2, (0.3, 0.1)),
-            "a": Body(0.9, 0.15, (0.6, -0.3)),
-            "b": Body(1.7, 0.4, (-0.2, 0.5)),
+            "crank": Body(mass=1.3, inertia=0.2, at=(0.3, 0.1)),
+            "a": Body(mass=0.9, inertia=0.15, at=(0.6, -0.3)),
+            "b": Body(mass=1.7, inertia=0.4, at=(-0.2, 0.5)),
         }
         loads: list[Any] = [
             assur.Gravity((1.1, -9.0)),
             assur.Force(("a", (0.2, 0.4)), (-7.0, 5.0)),
             assur.Force(("b", (0.5, -0.7)), (3.0, 11.0)),
             assur.Torque("a", 4.0),
-            assur.Torque("b", -6.0, "crank"),
+            assur.Torque("b", -6.0, on="crank"),
         ]
         m = dyad(kind)
         self.found = Reactions(
@@ -212,7 +212,9 @@ def test_three_cranks() -> None:
     cranks = {f"crank{n}": [n, n.lower()] for n in "ABC"}
     links = {"ground": list("ABC"), "rod": list("abc")} | cranks
     m = assur.Mechanism(joints, links, driver="crankA")
-    machine = assur.Machine(m, bodies={"rod": Body(2.0, 0.1, (0.7, 0.2))}, loads=[assur.Gravity()])
+    machine = assur.Machine(
+        m, bodies={"rod": Body(mass=2.0, inertia=0.1, at=(0.7, 0.2))}, loads=[assur.Gravity()]
+    )
     found = Reactions(machine, m.q0, 3.0, 1.0)
     assert found.self_stress.shape[0] == 1
     along = complex(*tip) / 0.3

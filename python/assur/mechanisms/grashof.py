@@ -1,0 +1,77 @@
+"""Grashof's law of four-bars."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+__all__ = ["CHANGE_TOLERANCE", "Grashof", "grashof_of", "types_of"]
+
+# Sums of lengths that agree to this fraction of the longest make a change point.
+CHANGE_TOLERANCE = 1e-12
+# NumPy hears no signal within an operation.
+NAMES_AT_ONCE = 1 << 16
+
+
+class Grashof(NamedTuple):
+    """Grashof's type of a four-bar, with the sums of lengths that decide it.
+
+    Attributes
+    ----------
+    type : str or ndarray of str
+        ``"crank-rocker"``, ``"rocker-crank"`` (the rocker turns), ``"double-crank"``,
+        ``"double-rocker"`` (the coupler turns), ``"triple-rocker"`` (none turns) or
+        ``"change-point"``.
+    s_plus_l : float or ndarray
+        Shortest and longest length together, m.
+    p_plus_q : float or ndarray
+        The other two together, m: a link turns fully if s + l ≤ p + q.
+
+    References
+    ----------
+    F. Grashof, *Theoretische Maschinenlehre*, vol. 2 (Leipzig, 1883).
+
+    Examples
+    --------
+    >>> import assur
+    >>> assur.FourBar(1.0, 3.0, 2.5, 3.2).grashof
+    crank-rocker: s + l = 4.2 < p + q = 5.5
+    """
+
+    type: Any
+    s_plus_l: Any
+    p_plus_q: Any
+
+    def __repr__(self) -> str:
+        if np.ndim(self.s_plus_l):
+            return f"<Grashof types of {np.size(self.s_plus_l)} four-bars>"
+        sums = f"s + l = {self.s_plus_l:.6g}", f"p + q = {self.p_plus_q:.6g}"
+        sign = {"triple-rocker": ">", "change-point": "="}.get(self.type, "<")
+        return f"{self.type}: {sums[0]} {sign} {sums[1]}"
+
+
+def types_of(
+    lengths: Sequence[npt.NDArray[np.float64]], shape: tuple[int, ...], tolerance: float
+) -> Any:
+    """Return the types of four-bars by crank, coupler, rocker and ground, flat."""
+    names = _core.crank_rocker_grashof(list(lengths), tolerance)
+    if not shape:
+        return names[0]
+    starts = range(0, max(len(names), 1), NAMES_AT_ONCE)
+    return np.concatenate([np.array(names[i : i + NAMES_AT_ONCE]) for i in starts]).reshape(shape)
+
+
+def grashof_of(lengths: Sequence[npt.NDArray[np.float64]], shape: tuple[int, ...]) -> Grashof:
+    """Return the types and sums of four-bars by crank, coupler, rocker and ground, flat."""
+    ordered = np.sort(np.stack(lengths), axis=0)
+    outer, inner = ordered[0] + ordered[3], ordered[1] + ordered[2]
+    types = types_of(lengths, shape, CHANGE_TOLERANCE)
+    return Grashof(types, outer.reshape(shape)[()], inner.reshape(shape)[()])
