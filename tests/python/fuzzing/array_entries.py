@@ -220,7 +220,15 @@ ENTRIES: dict[str, Entry] = {
     "Mechanism.with_driver.q": Entry(
         lambda q: FOUR_BAR.with_driver("rocker", q=q).q0, numbers(1.0)
     ),
-    **each_of("FourBar.__init__", assur.FourBar, crank=1.0, coupler=3.0, rocker=2.0, ground=3.0),
+    **each_of(
+        "FourBar.__init__",
+        assur.FourBar,
+        crank=1.0,
+        coupler=3.0,
+        rocker=2.0,
+        ground=3.0,
+        ground_angle=0.3,
+    ),
     **each_of("SliderCrank.__init__", assur.SliderCrank, crank=1.0, rod=5.0, offset=0.0),
     **each_of("Analogues.velocity", MOTION.joint("C").velocity, speed=1.0),
     **each_of(

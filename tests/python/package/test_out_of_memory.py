@@ -30,7 +30,7 @@ few = np.linspace(0.0, 6.0, 5)
 four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 designs = four_bar.with_dimensions({"coupler.length": np.linspace(2.9, 3.1, N)})
 crank = assur.SliderCrank(0.1, 0.35)
-bodies = {"piston": assur.Body(1.0), "crank": assur.Body(inertia=0.01)}
+bodies = {"piston": assur.Body(mass=1.0), "crank": assur.Body(inertia=0.01)}
 loads = [assur.Force("B", (-100.0, 0.0), on="piston")]
 smooth = assur.Machine(crank, bodies=bodies, loads=loads)
 pin = {"A": assur.JointFriction(0.1, 0.01)}

@@ -50,8 +50,9 @@ def workspace() -> assur.Workspace:
     return five.workspace(joint, positions=4)
 
 
-def watched(*given: Any) -> assur.Run:
-    return MACHINE.run(0.1, speed0=1.0, events=[assur.events.TransmissionAngle(*given)])
+def watched(name: Any, limit: float, **lines: Any) -> assur.Run:
+    event = assur.events.TransmissionAngle(name, limit, **lines)
+    return MACHINE.run(0.1, speed0=1.0, events=[event])
 
 
 def measured() -> Any:
@@ -70,7 +71,7 @@ CALLS: dict[str, tuple[Callable[..., object], Any, str]] = {
     "curvature of one in a list": (MOTION.curvature, ["C"], "curvature ['C'] string"),
     "event": (lambda x: watched(x, 0.5), "Q", "event TransmissionAngle of 'Q': joint \"A\""),
     "lines of an event": (
-        lambda x: watched("B", 0.5, x),
+        lambda x: watched("B", 0.5, between=x),
         ("A", "Q"),
         "event TransmissionAngle of 'B': joint \"Q\"",
     ),

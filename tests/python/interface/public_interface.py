@@ -1,7 +1,7 @@
 """The public interface: every callable that a user names, with its arguments.
 
-``python -m package.public_interface --write`` (with ``tests/python`` on the path) writes the table
-anew.
+``python -m interface.public_interface --write``, with ``tests/python`` on the path, writes the
+table anew.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from package.public_interface import TABLE, callables, table
+from interface.public_interface import TABLE, callables, table
 
 POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
 # What users read, and do not make.
@@ -112,7 +112,7 @@ def parameters() -> list[tuple[str, inspect.Parameter]]:
 
 
 def test_the_table_is_the_interface() -> None:
-    """After a change: ``python -m package.public_interface --write``, and read what changed."""
+    """After a change: ``python -m interface.public_interface --write``, and read what changed."""
     assert table() == TABLE.read_text(encoding="utf-8")
 
 
