@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from assur.description.words import DriverLike, Slide
     from assur.kinematics.curve.curve import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
-    from assur.kinematics.inverse.find import Solution
+    from assur.kinematics.inverse.find import InverseSolution
     from assur.kinematics.limits import Limits
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
@@ -561,7 +561,7 @@ class Mechanism(MechanismModel):
         """
         return extreme_search.extremes(self, name, order, assembly)
 
-    def find(self, name: str, value: Any) -> list[Solution]:
+    def find(self, name: str, value: Any) -> list[InverseSolution]:
         """Return every coordinate and assembly at which a coordinate of the motion has a value.
 
         Parameters
@@ -574,7 +574,7 @@ class Mechanism(MechanismModel):
 
         Returns
         -------
-        list of Solution
+        list of InverseSolution
             Each with ``.q`` and ``.assembly``, and ``q, assembly = solution``. By q, in (−π, π] of
             an angle; an array of two with two drivers.
 

@@ -39,7 +39,7 @@ AT_FOLD = 1e-3
 BESIDE = 1e-9
 
 
-class Solution(NamedTuple):
+class InverseSolution(NamedTuple):
     """A position at which a coordinate of the motion has a value, by `Mechanism.find`.
 
     Attributes
@@ -61,7 +61,7 @@ class Solution(NamedTuple):
     assembly: Assembly
 
 
-def find(mechanism: MechanismModel, name: str, value: Any) -> list[Solution]:
+def find(mechanism: MechanismModel, name: str, value: Any) -> list[InverseSolution]:
     """See `Mechanism.find`."""
     name = checked_name(name, "find")
     drivers = mechanism.driver_count
@@ -82,7 +82,7 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[Solution]:
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     inverse, coordinates = _driven_by(mechanism, name, target)
     size = size_of(mechanism)
-    answers: list[Solution] = []
+    answers: list[InverseSolution] = []
     for assembly in assemblies(inverse, coordinates):
         place = assembly.place
         assert place is not None
@@ -92,7 +92,7 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[Solution]:
     return sorted(answers, key=lambda answer: np.ravel(answer.q).tolist())
 
 
-def _is_same(answer: Solution, known: Solution) -> bool:
+def _is_same(answer: InverseSolution, known: InverseSolution) -> bool:
     """Whether two answers are the same: a double one is found twice."""
     gap = np.abs(np.ravel(answer.q) - np.ravel(known.q)).max()
     return bool(gap == 0.0) and answer.assembly == known.assembly
@@ -220,7 +220,7 @@ def _free(word: str, taken: set[str]) -> str:
 
 def _of_original(
     mechanism: MechanismModel, numbers: AssemblyNumbers, size: float
-) -> Solution | None:
+) -> InverseSolution | None:
     """Return the coordinate and assembly of a pose that was found with another driver."""
     links, slides = len(mechanism.links), len(mechanism.slides)
     pose = Pose.found(numbers)
@@ -235,7 +235,7 @@ def _of_original(
             pass  # at a fold: the assembly is one of those beside it
         else:
             assembly = Assembly._found(Place(mechanism, tuple(q), drawn_numbers), ())
-            return Solution(coordinates, assembly)
+            return InverseSolution(coordinates, assembly)
     there = place_vector(np.array(pose.joints), np.array(pose.angles), np.array(pose.slides), size)
     unit = size if mechanism.description.drivers[0] in mechanism.slides else 1.0
     for beside, far in ((0.0, SAME), *((side * BESIDE * unit, AT_FOLD) for side in (1.0, -1.0))):
@@ -244,7 +244,7 @@ def _of_original(
             float(np.abs(place_of(_numbers(assembly), size) - there).max()) for assembly in near
         ]
         if gaps and min(gaps) <= far:
-            return Solution(coordinates, near[int(np.argmin(gaps))])
+            return InverseSolution(coordinates, near[int(np.argmin(gaps))])
     return None
 
 
