@@ -17,6 +17,7 @@ from assur.dynamics.motion.motion_input import motion_of
 from assur.dynamics.motion.run import Run
 from assur.dynamics.motion.steady import SteadyState
 from assur.dynamics.reduction import reduce
+from assur.kinematics.solve_arguments import q_or_deg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -103,7 +104,13 @@ class Machine(MachineModel):
     np.float64(100.0)
     """
 
-    def reduced_inertia(self, q: npt.ArrayLike, *, on_error: OnError = "raise") -> Reduced:
+    def reduced_inertia(
+        self,
+        q: npt.ArrayLike | None = None,
+        *,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+    ) -> Reduced:
         """Return the reduced inertia Σ m (dS/dq)² + I (dθ/dq)² and its exact derivative.
 
         Parameters
@@ -113,6 +120,8 @@ class Machine(MachineModel):
             drivers (..., n).
         on_error : {"raise", "nan"}
             Where there is no position or no analogue: raise an error, or return NaN.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -135,10 +144,16 @@ class Machine(MachineModel):
         >>> value.round(6)
         array([0.5     , 0.015382])
         """
+        q = q_or_deg(self.mechanism, q, deg, "reduced_inertia")
         return reduce.reduced_inertia(self, q, on_error)
 
     def reduced_moment(
-        self, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, *, on_error: OnError = "raise"
+        self,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
+        *,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
     ) -> Any:
         """Return the reduced moment of all loads, without the motor.
 
@@ -151,6 +166,8 @@ class Machine(MachineModel):
             ``while_`` need them. (Functions of time are evaluated at t = 0.)
         on_error : {"raise", "nan"}
             See `reduced_inertia`.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -177,9 +194,16 @@ class Machine(MachineModel):
         >>> machine.reduced_moment([0.0, np.pi / 2]).round(6)  # N·m
         array([  0., 100.])
         """
+        q = q_or_deg(self.mechanism, q, deg, "reduced_moment")
         return reduce.reduced_moment(self, q, speed, on_error)
 
-    def potential(self, q: npt.ArrayLike, *, on_error: OnError = "raise") -> Any:
+    def potential(
+        self,
+        q: npt.ArrayLike | None = None,
+        *,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+    ) -> Any:
         """Return the potential energy of weights, springs and closed gases.
 
         Parameters
@@ -188,6 +212,8 @@ class Machine(MachineModel):
             Coordinates, see `reduced_inertia`.
         on_error : {"raise", "nan"}
             See `reduced_inertia`.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -217,11 +243,12 @@ class Machine(MachineModel):
         >>> assur.Machine(press, loads=[spring]).potential([0.0, 3.141592653589793]).round(9)
         array([1., 1.])
         """
+        q = q_or_deg(self.mechanism, q, deg, "potential")
         return reduce.potential(self, q, on_error)
 
     def reactions(
         self,
-        q: MotionLike,
+        q: MotionLike | None = None,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
@@ -229,6 +256,7 @@ class Machine(MachineModel):
         sense: float | Sequence[float] | None = None,
         threads: int | None = None,
         on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
     ) -> Reactions:
         """Return the forces in all pairs, and the torque or force of the drive (kinetostatics).
 
@@ -254,6 +282,8 @@ class Machine(MachineModel):
             Largest number of threads; all cores by default.
         on_error : {"raise", "nan"}
             Where there is no position or no analogue: raise an error, or return NaN.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -294,18 +324,20 @@ class Machine(MachineModel):
         >>> found.joint("B", on="piston").round(4)
         array([ 800.    , -204.3016])
         """
+        q = q_or_deg(self.mechanism, q, deg, "reactions")
         motion = driven_motion(self, q, speed, acceleration, t)
         return kinetostatics.reactions(self, motion, threads, on_error, sense=sense)
 
     def effort(
         self,
-        q: MotionLike,
+        q: MotionLike | None = None,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
         t: npt.ArrayLike = 0.0,
         sense: float | Sequence[float] | None = None,
         on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
     ) -> Any:
         """Return the torque or force of the drive, by virtual power alone.
 
@@ -315,6 +347,8 @@ class Machine(MachineModel):
             See `reactions`. With friction the effort is that of `reactions`.
         on_error : {"raise", "nan"}
             See `reactions`.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -335,13 +369,14 @@ class Machine(MachineModel):
         >>> machine.effort([0.5, 1.5], speed=10.0).round(4)
         array([11.9002, -3.753 ])
         """
+        q = q_or_deg(self.mechanism, q, deg, "effort")
         motion = driven_motion(self, q, speed, acceleration, t)
         return kinetostatics.effort(self, motion, on_error, sense)
 
     def internal_loads(
         self,
         link: str,
-        q: MotionLike,
+        q: MotionLike | None = None,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
@@ -350,6 +385,7 @@ class Machine(MachineModel):
         density: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
         n: int = 101,
         on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
     ) -> InternalLoads:
         """Return normal force, shear and bending moment inside a link.
 
@@ -370,6 +406,8 @@ class Machine(MachineModel):
             Places along the rod at which the loads are given, ends included.
         on_error : {"raise", "nan"}
             See `reactions`.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -407,6 +445,7 @@ class Machine(MachineModel):
         >>> print(f"{peak.value:.4f} N·m at {peak.x:.4f} m, {np.degrees(peak.q):.3f}°")
         -253.0759 N·m at 0.1517 m, 61.356°
         """
+        q = q_or_deg(self.mechanism, q, deg, "internal_loads")
         motion = driven_motion(self, q, speed, acceleration, t)
         return inside.internal_loads(self, link, motion, along, density, n, on_error)
 
@@ -444,12 +483,13 @@ class Machine(MachineModel):
 
     def duty(
         self,
-        q: MotionLike,
+        q: MotionLike | None = None,
         speed: npt.ArrayLike = 0.0,
         acceleration: npt.ArrayLike = 0.0,
         *,
         t: npt.ArrayLike = 0.0,
         on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
     ) -> Duty:
         """Return extremes, rms, power and energy of the drive's effort over a cycle.
 
@@ -468,6 +508,8 @@ class Machine(MachineModel):
             Times for functions among the loads, s, broadcast to the positions.
         on_error : {"raise", "nan"}
             For a position that fails: raise an error, or return NaN for its design.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -516,6 +558,7 @@ class Machine(MachineModel):
         >>> duty.max_power.value.round(6), abs(duty.energy) < 1e-12
         (np.float64(10.0), np.True_)
         """
+        q = q_or_deg(self.mechanism, q, deg, "duty")
         motion = driven_motion(self, q, speed, acceleration, t)
         if not isinstance(q, Run | SteadyState):
             duty.warn_of_jumps(self, motion)

@@ -20,7 +20,7 @@ from assur.kinematics.assembly import Assembly
 from assur.kinematics.drawn import in_assembly, redrive
 from assur.kinematics.model import MechanismModel, at_place, with_values
 from assur.kinematics.named_dimensions import with_dimensions
-from assur.kinematics.solve_arguments import in_radians
+from assur.kinematics.solve_arguments import in_radians, q_or_deg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -277,6 +277,7 @@ class Mechanism(MechanismModel):
         *,
         assembly: Mapping[str, int] | None = None,
         q: npt.ArrayLike | None = None,
+        deg: npt.ArrayLike | None = None,
     ) -> Mechanism:
         """Return the same linkage with another driver.
 
@@ -290,6 +291,8 @@ class Mechanism(MechanismModel):
         q : float or array_like, optional
             Coordinate of the present driver, for one design: the new mechanism is drawn at that
             position, which with the assembly is kept. By default it is `q0`.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -306,6 +309,8 @@ class Mechanism(MechanismModel):
         >>> four_bar.solve(1.0).link("rocker").value - turned.q0
         np.float64(0.0)
         """
+        if deg is not None:
+            q = in_radians(self, q, deg, "with_driver")
         drivers, signs = encode.drivers(driver), checked_signs(assembly, strict=False)
         return redrive(self, drivers, signs, q)._moved_as(self)
 
@@ -462,7 +467,13 @@ class Mechanism(MechanismModel):
 
         return follow(self, laws, t, on_error)
 
-    def assemblies(self, q: npt.ArrayLike, *, threads: int | None = None) -> Any:
+    def assemblies(
+        self,
+        q: npt.ArrayLike | None = None,
+        *,
+        threads: int | None = None,
+        deg: npt.ArrayLike | None = None,
+    ) -> Any:
         """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.
 
         Dyads are solved in closed form. For a group above class II, all complex assemblies with
@@ -475,6 +486,8 @@ class Mechanism(MechanismModel):
             Coordinate of the driver, as for `solve`.
         threads : int, optional
             Most threads; by default one per core.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -499,6 +512,7 @@ class Mechanism(MechanismModel):
         >>> assur.FourBar(40, 120, 80, 100).assemblies(0.7)
         [Assembly({'C': 1}), Assembly({'C': -1})]
         """
+        q = q_or_deg(self, q, deg, "assemblies")
         return assembly_search.assemblies(self, q, threads)
 
     def limits(
@@ -819,6 +833,7 @@ class Mechanism(MechanismModel):
         labels: Literal["first", "all", "none"] = "first",
         groups: bool = False,
         dark: bool = False,
+        deg: npt.ArrayLike | None = None,
     ) -> Any:
         """Draw the mechanism at one position or at many (needs matplotlib).
 
@@ -840,6 +855,8 @@ class Mechanism(MechanismModel):
             Each Assur group in a colour of its own, and the structural formula.
         dark : bool
             For dark backgrounds.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -861,6 +878,8 @@ class Mechanism(MechanismModel):
         ['driver', 'link coupler', 'link crank']
         >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).plot(np.arange(0.0, 6.0, 0.5))
         """
+        if deg is not None:
+            q = in_radians(self, q, deg, "plot")
         from assur.pictures.linkage.mechanism import mechanism_picture
 
         return mechanism_picture(self, q, ax, assembly, labels, groups, dark)
@@ -876,6 +895,7 @@ class Mechanism(MechanismModel):
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
         dark: bool | None = None,
+        deg: npt.ArrayLike | None = None,
     ) -> None:
         """Write one self-contained page that plays the mechanism in a browser.
 
@@ -903,6 +923,8 @@ class Mechanism(MechanismModel):
             Above the page; the name of the file by default.
         dark : bool, optional
             As the reader's system by default.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Raises
         ------
@@ -919,6 +941,8 @@ class Mechanism(MechanismModel):
         ...     page.stat().st_size < 150_000
         True
         """
+        if deg is not None:
+            q = in_radians(self, q, deg, "to_html")
         from assur.pictures.page.html import write_page
 
         write_page(
@@ -968,6 +992,7 @@ class Mechanism(MechanismModel):
         width: float | None = None,
         hole: float | None = None,
         assembly: Assembly | None = None,
+        deg: npt.ArrayLike | None = None,
     ) -> float:
         """Write a drawing to scale: DXF, SVG or PDF, by the suffix.
 
@@ -999,6 +1024,8 @@ class Mechanism(MechanismModel):
             Width of the links and diameter of the holes, m; in proportion by default.
         assembly : Assembly, optional
             As for `solve`; the drawing's by default.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -1023,6 +1050,8 @@ class Mechanism(MechanismModel):
         >>> four_bar.to_drawing(folder / "parts.svg", link="all", scale="1:2")
         0.5
         """
+        if deg is not None:
+            q = in_radians(self, q, deg, "to_drawing")
         from assur.pictures.drawing.export import write_drawing
 
         return write_drawing(

@@ -62,17 +62,25 @@ def checked_assembly(mechanism: MechanismModel, assembly: Mapping[str, int] | No
     return list(signs.values())
 
 
-def in_radians(mechanism: MechanismModel, q: Any, deg: npt.ArrayLike | None) -> Float:
-    """Return the coordinates that are given in degrees."""
+def in_radians(
+    mechanism: MechanismModel | None, q: Any, deg: npt.ArrayLike | None, call: str = "solve"
+) -> Float:
+    """Return the coordinates that are given in degrees; without a mechanism those of a crank."""
     if q is not None or deg is None:
         both = "both q and deg are" if q is not None else "neither q nor deg is"
-        message = f"solve(): {both} given: pass q in rad (or m), or deg in degrees"
+        message = f"{call}(): {both} given: pass q in rad (or m), or deg in degrees"
         raise InputError(message)
-    for driver in mechanism.description.drivers:
-        if isinstance(driver, str) and driver in mechanism.slides:
+    slides = mechanism.slides if mechanism is not None else {}
+    for driver in mechanism.description.drivers if mechanism is not None else ():
+        if isinstance(driver, str) and driver in slides:
             message = f"deg: the driver {driver!r} is a slide; its coordinate q is a length, m"
             raise InputError(message)
     return real_array(deg, "deg") * (np.pi / 180.0)
+
+
+def q_or_deg(mechanism: MechanismModel | None, q: Any, deg: Any, call: str) -> Any:
+    """Return the coordinates of a call that needs some: in rad or m, or in degrees."""
+    return q if q is not None and deg is None else in_radians(mechanism, q, deg, call)
 
 
 def warn_if_degrees(mechanism: MechanismModel, q: Float) -> None:

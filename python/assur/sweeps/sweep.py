@@ -9,6 +9,7 @@ from assur.description.words import has_analogues
 from assur.dynamics.machine import Machine
 from assur.errors import InputError
 from assur.kinematics import solve as solver
+from assur.kinematics.solve_arguments import q_or_deg
 from assur.sweeps.degrees import warn_of_degrees
 from assur.sweeps.designs import Designs
 from assur.sweeps.engine import checked_engine
@@ -35,8 +36,9 @@ __all__ = ["sweep"]
 def sweep(
     mechanism: Mechanism,
     dimensions: Mapping[str, npt.ArrayLike] | Any,
-    q: npt.ArrayLike,
+    q: npt.ArrayLike | None = ...,
     *,
+    deg: npt.ArrayLike | None = ...,
     outputs: Iterable[str] | None = ...,
     order: int | None = ...,
     assembly: Mapping[str, int] | None = ...,
@@ -52,8 +54,9 @@ def sweep(
 def sweep(
     mechanism: Mechanism | Machine,
     dimensions: Mapping[str, npt.ArrayLike] | Any,
-    q: npt.ArrayLike,
+    q: npt.ArrayLike | None = ...,
     *,
+    deg: npt.ArrayLike | None = ...,
     assembly: Mapping[str, int] | None = ...,
     metrics: Mapping[str, Metric],
     where: Iterable[Condition] | None = ...,
@@ -64,7 +67,7 @@ def sweep(
 def sweep(
     mechanism: Mechanism | Machine,
     dimensions: Mapping[str, npt.ArrayLike] | Any,
-    q: npt.ArrayLike,
+    q: npt.ArrayLike | None = None,
     *,
     outputs: Iterable[str] | None = None,
     order: int | None = None,
@@ -76,6 +79,7 @@ def sweep(
     progress: Progress = False,
     out: Motion | None = None,
     engine: Engine | None = None,
+    deg: npt.ArrayLike | None = None,
 ) -> Motion | Measures:
     """Solve many designs of a mechanism, or measure them.
 
@@ -120,6 +124,8 @@ def sweep(
         Where blocks of designs are solved: a Dask client, a
         `concurrent.futures.ProcessPoolExecutor`, or anything with ``submit(function, argument)``
         that returns a future. Results are the same bits. Functions in `metrics` must be picklable.
+    deg : array_like, optional
+        The coordinates in degrees, in place of `q`.
 
     Returns
     -------
@@ -162,6 +168,7 @@ def sweep(
     """
     machine = mechanism if isinstance(mechanism, Machine) else None
     designs = Designs(machine.mechanism if machine else mechanism, dimensions, assembly)
+    q = q_or_deg(designs.mechanism, q, deg, "sweep")
     one_of(on_error, ("nan", "raise", "drop"), "on_error")
     engine, threads = checked_engine(engine), checked_threads(threads)
     # Each worker of an engine is a core by itself.

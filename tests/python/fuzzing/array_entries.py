@@ -160,6 +160,28 @@ PLACES = FOUR_BAR.solve(TIMES).joint("C").value
 ENDS = [2.0, 3.0]
 SPACE = FIVE_BAR.workspace("C", positions=4)
 
+
+def machine_in_degrees(name: str) -> Callable[[Any], Any]:
+    return lambda deg: getattr(MACHINE, name)(deg=deg)
+
+
+QUESTIONS = ("reactions", "effort", "reduced_inertia", "reduced_moment", "potential")
+IN_DEGREES = {
+    **{f"Machine.{name}.deg": Entry(machine_in_degrees(name), numbers(30.0)) for name in QUESTIONS},
+    "Machine.duty.deg": Entry(
+        lambda deg: MACHINE.duty(deg=deg, speed=1.0), (np.linspace(0.0, 360.0, 7),)
+    ),
+    "Machine.internal_loads.deg": Entry(
+        lambda deg: MACHINE.internal_loads("coupler", deg=deg).moment, numbers(30.0)
+    ),
+    "assur.sweep.deg": Entry(
+        lambda deg: dict(assur.sweep(FOUR_BAR, {}, deg=deg, metrics=SWING)), numbers(30.0)
+    ),
+    "Mechanism.assemblies.deg": Entry(lambda deg: FOUR_BAR.assemblies(deg=deg), numbers(60.0)),
+    "Mechanism.with_driver.deg": Entry(
+        lambda deg: FOUR_BAR.with_driver("rocker", deg=deg).q0, numbers(60.0)
+    ),
+}
 LENGTHS = {"l1": 1.0, "l2": 9.0, "l3": 6.0, "l4": 10.0}
 SLIDER = {"phi": 0.0, "crank": 1.0, "rod": 5.0}
 COLUMNS = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
@@ -188,6 +210,7 @@ ENTRIES: dict[str, Entry] = {
     ),
     "Mechanism.assemblies.q": Entry(FOUR_BAR.assemblies, numbers(1.0)),
     "Mechanism.solve.deg": Entry(lambda deg: FOUR_BAR.solve(deg=deg), numbers(0.0)),
+    **IN_DEGREES,
     "Mechanism.follow.t": Entry(
         lambda t: FOUR_BAR.follow(assur.laws.Cycloidal(0.5, 1.5, 2.0), t).joint("C"),
         (np.array(0.5), np.array([0.0, 0.5, 1.0])),

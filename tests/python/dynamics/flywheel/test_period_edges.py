@@ -156,7 +156,7 @@ def test_designs_that_are_others_a_turn_on_are_nan() -> None:
     assert (error.kind, error.design) == ("inertia_not_periodic", (1,))
     # The same kind, and the same inertia there, as of the one design in a steady state.
     alone = batch.design(1)
-    assert error.value == alone.reduced_inertia(error.q).value  # type: ignore[arg-type]
+    assert error.value == alone.reduced_inertia(error.q).value
     with pytest.raises(assur.MotionError) as caught:
         alone.steady_state(10.0)
     assert caught.value.kind == error.kind
