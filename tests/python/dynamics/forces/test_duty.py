@@ -254,7 +254,7 @@ REFUSED: list[tuple[Any, str]] = [
     (([0.0, 1.0], 1.0, math.inf), "acceleration is inf"),
     (([0.0, 1.0], 1.0, [1.0] * 3), "acceleration has the shape"),
     (("turn", 1.0), "q is 'turn'"),
-    ((None, 1.0), "q is None"),
+    ((None, 1.0), "neither q nor deg is given"),
     (([0.0, 1.0], "fast"), "speed is 'fast'"),
 ]
 
