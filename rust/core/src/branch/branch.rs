@@ -11,7 +11,6 @@ use std::f64::consts::TAU;
 use super::hermite::HermiteCell;
 use super::knot::{ChangePoint, InitialGuess, Knot, SignInterval};
 use super::tracer::BranchTracer;
-use crate::math::angle::whole_part;
 use crate::plan::plan::Plan;
 use crate::state::state::{Context, State};
 
@@ -178,10 +177,8 @@ impl Branch {
         let even = (reach * CELLS_PER_UNIT).ceil();
         let goes_on = cx.plan.groups().next().is_some();
         // What is so far away changes little over a length of a link.
-        let end = |cell: f64| {
-            let beyond = i32::try_from(whole_part((cell - even).max(0.0))).unwrap_or(i32::MAX);
-            cell.min(even) / CELLS_PER_UNIT * GROWTH.powi(beyond)
-        };
+        let end =
+            |cell: f64| cell.min(even) / CELLS_PER_UNIT * libm::pow(GROWTH, (cell - even).max(0.0));
         let cells = [q0 - low, high - q0].map(|length| {
             let mut cells = (length.min(reach) * CELLS_PER_UNIT).ceil();
             while goes_on && end(cells) < length {

@@ -20,7 +20,7 @@ const OFF: f64 = 0.123_456_7;
 /// Beside this coordinate (in sizes) of a driven length the branch of a group ends at length 0.
 const AT_ZERO: f64 = 1.0e-6;
 /// Number of widenings of the range of a slide that nothing ends, and their factor.
-const WIDENINGS: i32 = 3;
+const WIDENINGS: u32 = 3;
 const WIDENING: f64 = 8.0;
 
 /// Where an assembly of a design exists.
@@ -153,7 +153,7 @@ impl<'m> LimitsFinder<'m> {
         let size = self.design.constants.scale;
         let reach = self.design.reach();
         // Guides that are nearly parallel carry a slide farther than all lengths together.
-        let farthest = reach * WIDENING.powi(WIDENINGS);
+        let farthest = reach * libm::pow(WIDENING, f64::from(WIDENINGS));
         self.design.trace(&[-farthest * size, farthest * size]);
         let branch = &self.design.branch;
         if branch.covered.is_some_and(|[low, high]| low > high) {
@@ -204,7 +204,7 @@ impl<'m> LimitsFinder<'m> {
                 let mut is_wider = false;
                 for (side, far) in [-reach, reach].into_iter().enumerate() {
                     if first.iter().any(|stretch| touches(stretch, &within)[side]) {
-                        within.ends[side] = q0 + far * WIDENING.powi(widening);
+                        within.ends[side] = q0 + far * libm::pow(WIDENING, f64::from(widening));
                         is_wider = true;
                     }
                 }
