@@ -48,6 +48,7 @@ __all__ = ["Mechanism"]
     inverse_kinematics="find(name, value) has every q and assembly",
     jacobian="solve(q).joint(name).d1 is by the drivers, solve(q).sensitivity(name) by a dimension",
     dof="it is structure.mobility",
+    grashof="assur.crank_rocker.grashof(crank, coupler, rocker, ground); a FourBar has it",
     mobility="it is structure.mobility",
     simulate="assur.Machine(mechanism, bodies=…).run(t_end)",
     inverse_dynamics="assur.Machine(mechanism, bodies=…).effort(q, speed, acceleration)",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur import _core
+from assur.errors import DimensionError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,7 +30,7 @@ class Grashof(NamedTuple):
     type : str or ndarray of str
         ``"crank-rocker"``, ``"rocker-crank"`` (the rocker turns), ``"double-crank"``,
         ``"double-rocker"`` (the coupler turns), ``"triple-rocker"`` (none turns) or
-        ``"change-point"``.
+        ``"change-point"``; in a batch ``""`` for a design that cannot be assembled.
     s_plus_l : float or ndarray
         Shortest and longest length together, m.
     p_plus_q : float or ndarray
@@ -74,4 +75,15 @@ def grashof_of(lengths: Sequence[npt.NDArray[np.float64]], shape: tuple[int, ...
     ordered = np.sort(np.stack(lengths), axis=0)
     outer, inner = ordered[0] + ordered[3], ordered[1] + ordered[2]
     types = types_of(lengths, shape, CHANGE_TOLERANCE)
+    rest = ordered[0] + inner
+    # NaN, the mark of an invalid length, is sorted last.
+    closes = (ordered[0] > 0.0) & (ordered[3] <= rest)
+    if not shape and not closes[0]:
+        message = (
+            f"grashof: the longest link, {ordered[3, 0]:g} m, is longer than the others together, "
+            f"{rest[0]:g} m: this four-bar cannot be assembled"
+        )
+        raise DimensionError(message, value=float(ordered[3, 0]))
+    if shape:
+        types = np.where(closes.reshape(shape), types, "")
     return Grashof(types, outer.reshape(shape)[()], inner.reshape(shape)[()])

@@ -79,6 +79,11 @@ class FourBar(Mechanism):
         angle = finite_array(ground_angle, "ground_angle")
         if angle.any():
             sine, cosine = sin_cos(angle)
+            try:
+                np.broadcast_shapes(length.shape, angle.shape)
+            except ValueError as error:
+                message = f"ground has shape {length.shape} and ground_angle {angle.shape}"
+                raise InputError(message) from error
             along = np.where(length > 0.0, length, np.nan)
             dimensions |= {"ground.D.x": along * cosine, "ground.D.y": along * sine}
         drawing = _core.four_bar_drawing(mode)

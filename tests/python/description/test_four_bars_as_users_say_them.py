@@ -69,6 +69,17 @@ def test_change_points_and_batches() -> None:
     assert repr(batch) == "<Grashof types of 2 four-bars>"
 
 
+def test_what_cannot_be_assembled_has_no_type() -> None:
+    refused = assur.FourBar(1.0, 9.0, 2.5, 3.2)
+    with pytest.raises(assur.DimensionError, match=r"longest link, 9 m, .* together, 6.7 m"):
+        _ = refused.grashof
+    batch = assur.FourBar([1.0, 1.0, math.nan], [3.0, 9.0, 3.0], 2.5, 3.2)
+    assert batch.grashof.type.tolist() == ["crank-rocker", "", ""]
+    assert assur.FourBar(1.0, 3.0, 2.5, [3.2, -1.0]).grashof.type.tolist() == ["crank-rocker", ""]
+    with pytest.raises(assur.InputError, match=r"shape \(2,\) and ground_angle \(3,\)"):
+        assur.FourBar(1.0, 3.0, 2.5, [3.2, 3.3], ground_angle=[0.1, 1.0, 2.0])
+
+
 def test_solutions_have_names() -> None:
     engine = assur.SliderCrank(1.0, 3.0)
     for solution in engine.find("bore", 3.0):

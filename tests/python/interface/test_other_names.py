@@ -77,11 +77,23 @@ def test_an_old_attribute_is_refused_by_the_new_one(name: str) -> None:
     assert type(again) is type(owner)
 
 
-OWNERS: dict[str, Any] = {"mechanism": MOTION.mechanism, "motion": MOTION, "machine": MACHINE}
+OWNERS: dict[str, Any] = {
+    "mechanism": assur.SliderCrank(1.0, 3.0),
+    "motion": MOTION,
+    "machine": MACHINE,
+}
 # What hints may call.
 CALLS = {
     name
-    for place in (assur, assur.Mechanism, assur.Motion, assur.Machine, assur.Analogues, assur.Run)
+    for place in (
+        assur,
+        assur.crank_rocker,
+        assur.Mechanism,
+        assur.Motion,
+        assur.Machine,
+        assur.Analogues,
+        assur.Run,
+    )
     for name in dir(place)
 } | {"to_csv"}
 
