@@ -229,3 +229,22 @@ def test_a_dead_point_just_beyond_where_a_joint_goes_to_infinity() -> None:
         found = m.extremes("L5", order=order)
         assert found.min.value <= jet.min()
         assert found.max.value >= jet.max()
+
+
+@pytest.mark.parametrize(("seed", "name", "side"), [(56062, "J5.x", 1), (57742, "s1", 1)])
+def test_a_joint_goes_to_infinity_just_beyond_a_dead_point(
+    seed: int, name: str, side: int
+) -> None:
+    """As C/(π − q), 8e-8 rad before π; the coordinate does not take part in the fold."""
+    m = assur.Mechanism(**arguments(mixed_models.mixed_case(seed).description))
+    end = m.limits().intervals[0][side]
+    motion = m.solve(end - np.geomspace(1e-9, 1.0, 200), order=3)
+    for order in range(4):
+        found = m.extremes(name, order=order)
+        scan = column(motion, name, order)
+        assert found.min.value <= scan.min()
+        assert found.max.value >= scan.max()
+    if seed == 56062:
+        distance = math.pi - end
+        values = [m.extremes(name, order=order).max.value for order in (0, 2)]
+        assert values[1] == pytest.approx(2.0 * values[0] / distance**2, rel=1e-3)

@@ -15,6 +15,9 @@ const MARGIN: f64 = 2.0;
 /// Number of pairs of the nearest sets that also show rounding. In a single set all errors may be the same:
 /// so near to the place the motion hardly changes.
 const NEAREST: usize = 2;
+/// Greatest distance of the nearest values from a polynomial, and error of its limit, as parts of their terms.
+/// Rounding is 1e-6 of them at most: where they are greater, another singularity is as near as the nodes.
+const FOLLOWED: f64 = 1.0e-4;
 
 /// The cause of a singular motion at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +37,28 @@ pub(super) struct Side {
     /// Greatest distance of nodes from it.
     pub most: f64,
     pub singularity: Singularity,
+}
+
+impl Side {
+    /// A pole at the place, as the poles of a weight.
+    fn poles(&self, pole: usize) -> [usize; 2] {
+        let end = usize::from(self.way < 0.0);
+        [0, 1].map(|i| if i == end { pole } else { 0 })
+    }
+
+    /// The distance of a sample, with its weighted value and slope away from the place.
+    fn weighted(&self, sample: &Sample, poles: [usize; 2]) -> (f64, f64, f64) {
+        let weight = Weight::new(sample.angle, poles);
+        let [value, slope] = weight.of([sample.jet[0], sample.jet[1]]);
+        (sample.distance, value, self.way * slope)
+    }
+
+    /// Distance of a sample from a polynomial, as a part of its terms.
+    fn apart(&self, sample: &Sample, poles: [usize; 2], series: &Series) -> f64 {
+        let (distance, value, _) = self.weighted(sample, poles);
+        let factor = Weight::new(sample.angle, poles).factor;
+        (value - series.at(distance)[0]).abs() / (factor * sample.size)
+    }
 }
 
 /// A value on one side of a place.
@@ -86,15 +111,16 @@ impl Beside {
 }
 
 impl Samples {
-    /// The polynomial of values, weighted by a pole, with the smallest error.
+    /// Whether a polynomial of them, weighted by a pole, has a limit with small error.
+    pub(super) fn have_limit(&self, pole: usize) -> bool {
+        self.fit(pole).is_some_and(|fit| fit.error < FOLLOWED * fit.size)
+    }
+
+    /// The polynomial of values, weighted by a pole, with the smallest error, of those that the values
+    /// between the nearest nodes follow.
     pub(super) fn fit(&self, pole: usize) -> Option<Fit> {
-        let end = usize::from(self.side.way < 0.0);
-        let poles = [0, 1].map(|i| if i == end { pole } else { 0 });
-        let weighted = |sample: &Sample| {
-            let weight = Weight::new(sample.angle, poles);
-            let [value, slope] = weight.of([sample.jet[0], sample.jet[1]]);
-            (sample.distance, value, self.side.way * slope)
-        };
+        let poles = self.side.poles(pole);
+        let weighted = |sample: &Sample| self.side.weighted(sample, poles);
         let factor = |sample: &Sample| Weight::new(sample.angle, poles).factor;
         let through = |is_even: bool| -> Vec<Series> {
             let nodes = self.sets.iter().map(|nodes| nodes.map(|node| weighted(&node)));
@@ -102,10 +128,7 @@ impl Samples {
         };
         let general = through(false);
         let nearest = general.first()?;
-        let apart = |sample: &Sample, series: &Series| {
-            let (distance, value, _) = weighted(sample);
-            (value - series.at(distance)[0]).abs() / (factor(sample) * sample.size)
-        };
+        let apart = |sample: &Sample, series: &Series| self.side.apart(sample, poles, series);
         let within = self.between.iter().map(|sample| apart(sample, nearest));
         let farther = self.sets.iter().skip(1).zip(&general[1..]);
         let across = self.sets.iter().zip(farther).take(NEAREST);
@@ -129,6 +152,9 @@ impl Samples {
         };
         // A coordinate that does not take part in a fold is a function of the square, the distance itself.
         let even = if pole == 0 { through(true) } else { Vec::new() };
-        fits(general).chain(fits(even)).min_by(|a, b| a.error.total_cmp(&b.error))
+        let is_followed =
+            |fit: &Fit| self.between.iter().all(|sample| apart(sample, &fit.series) < FOLLOWED);
+        let followed = fits(general).chain(fits(even)).filter(is_followed);
+        followed.min_by(|a, b| a.error.total_cmp(&b.error))
     }
 }

@@ -10,8 +10,11 @@ use super::window::Window;
 const NODES: [f64; 3] = [0.004, 0.008, 0.012];
 const FACTORS: [f64; 13] =
     [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
+/// Nearer nodes, if the nearest of these show that another singularity is as near.
+const NEARER: [f64; 3] = [0.125, 0.015_625, 0.001_953_125];
 /// Places between the nearest nodes (in multiples of these) that show the size of rounding.
 const BETWEEN: [f64; 6] = [0.005, 0.006, 0.007, 0.009, 0.010, 0.011];
+
 impl Curve<'_> {
     /// The derivative with its first two derivatives by the window's angle: as computed, or from the
     /// polynomial where that has more digits.
@@ -49,10 +52,22 @@ impl Curve<'_> {
         Some(limit)
     }
 
-    /// Values on one side of a place.
-    pub(super) fn samples(&mut self, window: &Window, side: Side) -> Samples {
+    /// Values on one side of a place where the derivative may have a pole. The nodes are as near as they
+    /// must be for the values to follow a polynomial: another singularity may lie just beyond the place.
+    pub(super) fn samples(&mut self, window: &Window, side: Side, pole: usize) -> Samples {
+        let usual = self.samples_at(window, side, 1.0);
+        if usual.sets.is_empty() || usual.have_limit(pole) {
+            return usual;
+        }
+        let nearer = NEARER.iter().map(|&scale| self.samples_at(window, side, scale));
+        let followed = nearer.into_iter().find(|samples| samples.have_limit(pole));
+        followed.unwrap_or(usual)
+    }
+
+    /// Values on one side of a place, at nodes that are nearer by a scale.
+    fn samples_at(&mut self, window: &Window, side: Side, scale: f64) -> Samples {
         let mut samples = Samples { side, between: Vec::new(), sets: Vec::new() };
-        for factor in FACTORS {
+        for factor in FACTORS.map(|factor| scale * factor) {
             if factor * NODES[2] > side.most {
                 break;
             }

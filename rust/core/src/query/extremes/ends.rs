@@ -108,7 +108,8 @@ impl Curve<'_> {
         if near.abs() > (GROWS * far.abs()).max(rounding) {
             return Some(ValueAt { value: f64::INFINITY.copysign(near), q });
         }
-        let samples = self.samples(window, inward(window, side, Singularity::Pole));
+        let pole = window.poles(self.order)[side];
+        let samples = self.samples(window, inward(window, side, Singularity::Pole), pole);
         let limit = samples.fit(0).map(|fit| fit.limit());
         // Another singularity just beyond the end: no polynomial reaches past it.
         if limit.is_none_or(|limit| (near - limit).abs() > FOLLOWS * near.abs().max(rounding)) {
@@ -140,7 +141,7 @@ impl Curve<'_> {
         node_values: &mut NodeValues,
         (side, singularity): (usize, Singularity),
     ) -> Option<f64> {
-        let samples = self.samples(window, inward(window, side, singularity));
+        let samples = self.samples(window, inward(window, side, singularity), 0);
         self.limit(window, node_values, &samples)
     }
 
@@ -165,17 +166,20 @@ impl Curve<'_> {
         side: usize,
     ) -> Option<ValueAt> {
         let q = window.ends()[side];
-        let samples = self.samples(window, inward(window, side, Singularity::Pole));
+        let greatest = window.poles(self.order)[side];
+        let samples = self.samples(window, inward(window, side, Singularity::Pole), greatest);
         // Even terms of the series in the square root of the distance have no poles.
-        for pole in (1..=window.poles(self.order)[side]).rev().step_by(2) {
-            let fit = samples.fit(pole)?;
+        for pole in (1..=greatest).rev().step_by(2) {
+            let Some(fit) = samples.fit(pole) else { break };
             let coefficient = fit.limit();
             let bound = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
             if coefficient.abs() > bound {
                 return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
             }
         }
-        let value = self.limit(window, node_values, &samples)?;
+        let value = self.limit(window, node_values, &samples);
+        // Another singularity just beyond: the nearest value is the best known.
+        let value = value.or_else(|| Some(samples.sets.first()?[0].jet[0]))?;
         Some(ValueAt { value, q })
     }
 }

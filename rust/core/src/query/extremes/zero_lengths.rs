@@ -37,8 +37,8 @@ impl Curve<'_> {
             let most = window.to_next(zero.angle);
             for way in [-1.0, 1.0] {
                 let singularity = Singularity::ZeroLength;
-                let samples =
-                    self.samples(window, Side { place: zero.angle, way, most, singularity });
+                let side = Side { place: zero.angle, way, most, singularity };
+                let samples = self.samples(window, side, 0);
                 let limit = self.limit(window, node_values, &samples);
                 values.extend(limit.map(|value| ValueAt { value, q }));
             }
