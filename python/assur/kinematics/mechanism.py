@@ -18,6 +18,7 @@ from assur.kinematics import limits as limit_search
 from assur.kinematics import solve as solver
 from assur.kinematics.assembly import Assembly
 from assur.kinematics.drawn import in_assembly, redrive
+from assur.kinematics.grashof import grashof
 from assur.kinematics.model import MechanismModel, at_place, with_values
 from assur.kinematics.named_dimensions import with_dimensions
 from assur.kinematics.solve_arguments import in_radians, q_or_deg
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from assur.description.words import DriverLike, Slide
     from assur.kinematics.curve.curve import ConfigurationCurve
     from assur.kinematics.extremes import Extremes
+    from assur.kinematics.grashof import Grashof
     from assur.kinematics.inverse.find import InverseSolution
     from assur.kinematics.limits import Limits
     from assur.kinematics.loci.maps import DesignMap
@@ -48,7 +50,6 @@ __all__ = ["Mechanism"]
     inverse_kinematics="find(name, value) has every q and assembly",
     jacobian="solve(q).joint(name).d1 is by the drivers, solve(q).sensitivity(name) by a dimension",
     dof="it is structure.mobility",
-    grashof="assur.crank_rocker.grashof(crank, coupler, rocker, ground); a FourBar has it",
     mobility="it is structure.mobility",
     simulate="assur.Machine(mechanism, bodies=…).run(t_end)",
     inverse_dynamics="assur.Machine(mechanism, bodies=…).effort(q, speed, acceleration)",
@@ -518,6 +519,31 @@ class Mechanism(MechanismModel):
         """
         q = q_or_deg(self, q, deg, "assemblies")
         return assembly_search.assemblies(self, q, threads)
+
+    @property
+    def grashof(self) -> Grashof:
+        """Grashof's type of a four-bar, with the sums of lengths that decide it.
+
+        Any four links in a ring of four turning pairs, however drawn. The crank of the type is the
+        link on the ground that the driver turns.
+
+        Raises
+        ------
+        InputError
+            A mechanism that is no four-bar.
+        DimensionError
+            One design that cannot be assembled.
+
+        Examples
+        --------
+        >>> import assur
+        >>> four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+        >>> four_bar.grashof
+        crank-rocker: s + l = 4.2 < p + q = 5.5
+        >>> four_bar.with_dimensions({"ground.D.x": 0.4}).grashof.type
+        'double-crank'
+        """
+        return grashof(self)
 
     def limits(
         self, *, assembly: Mapping[str, int] | None = None, threads: int | None = None

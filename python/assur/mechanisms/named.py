@@ -15,7 +15,6 @@ from assur.description.words import Slide
 from assur.errors import DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.model import at_place, copy_from
-from assur.mechanisms.grashof import Grashof, grashof_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -93,24 +92,6 @@ class FourBar(Mechanism):
             joints["P"], links["coupler"] = joints["B"], [*links["coupler"], "P"]
             drawing = {**drawing, "joints": list(joints.items()), "links": list(links.items())}
         _copy_from(self, drawing, dimensions)
-
-    @property
-    def grashof(self) -> Grashof:
-        """Grashof's type, with the sums of lengths that decide it.
-
-        Examples
-        --------
-        >>> import assur
-        >>> assur.FourBar(1.0, 3.0, 2.5, 3.2).grashof.type
-        'crank-rocker'
-        """
-        own = self.dimensions
-        x, y = (np.asarray(own[f"ground.D.{axis}"]) for axis in "xy")
-        ground = np.sqrt(x * x + y * y)
-        links = [own[f"{link}.length"] for link in ("crank", "coupler", "rocker")]
-        arrays = np.broadcast_arrays(*links, ground)
-        flat = [np.array(array, dtype=np.float64).reshape(-1) for array in arrays]
-        return grashof_of(flat, arrays[0].shape)
 
 
 def _coupler_point(point: Any) -> dict[str, npt.ArrayLike]:

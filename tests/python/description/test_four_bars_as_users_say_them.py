@@ -80,6 +80,39 @@ def test_what_cannot_be_assembled_has_no_type() -> None:
         assur.FourBar(1.0, 3.0, 2.5, [3.2, 3.3], ground_angle=[0.1, 1.0, 2.0])
 
 
+@pytest.mark.parametrize("names", [*itertools.permutations(["in", "mid", "out"])])
+def test_a_four_bar_however_it_is_drawn(names: tuple[str, ...]) -> None:
+    """Pins anywhere in their links' lists, links in any order, a ground that is not along +x."""
+    crank, coupler, rocker = names
+    places = {"A": (0.3, -0.2), "B": (0.6, 0.4), "C": (2.9, 1.6), "D": (2.4, -0.9), "P": (1.0, 3.0)}
+    links = {
+        rocker: ["P", "D", "C"],
+        "ground": ["D", "A"],
+        coupler: ["C", "B"],
+        crank: ["B", "A"],
+    }
+
+    def apart(one: str, two: str) -> float:
+        return math.dist(places[one], places[two])
+
+    lengths = apart("A", "B"), apart("B", "C"), apart("C", "D"), apart("A", "D")
+    m = assur.Mechanism(places, links, crank)
+    found = m.grashof
+    assert found.type == assur.crank_rocker.grashof(*lengths)
+    assert found.s_plus_l == pytest.approx(min(lengths) + max(lengths))
+    batch = m.with_dimensions({f"{coupler}.length": [lengths[1], 0.7 * lengths[1]]})
+    assert batch.grashof.type[0] == found.type
+    assert batch.design(1).grashof.type == batch.grashof.type[1]
+    turned = assur.crank_rocker.grashof(lengths[2], lengths[1], lengths[0], lengths[3])
+    assert m.with_driver(rocker).grashof.type == turned
+
+
+def test_what_is_no_four_bar() -> None:
+    for m in (assur.SliderCrank(1.0, 3.0), assur.examples.watt_1(), assur.examples.five_bar()):
+        with pytest.raises(assur.InputError, match="grashof is for four-bars"):
+            _ = m.grashof
+
+
 def test_solutions_have_names() -> None:
     engine = assur.SliderCrank(1.0, 3.0)
     for solution in engine.find("bore", 3.0):

@@ -12,7 +12,7 @@ from assur import _core
 from assur._arrays import Float, finite_array, flag, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
-from assur.mechanisms.grashof import CHANGE_TOLERANCE, types_of
+from assur.kinematics.grashof import CHANGE_TOLERANCE, types_of
 
 if TYPE_CHECKING:
     from assur.papers.crank_rocker.jamming import Side
