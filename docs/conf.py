@@ -20,7 +20,7 @@ for _name in ("crank_rocker", "slider_crank"):
 # The classes that the pages of api/ list, by the names under which they are documented.
 _LINE = re.compile(r"^   ((?:\w+\.)*[A-Z]\w*)$", re.MULTILINE)
 API = Path(__file__).parent / "reference" / "api"
-_PAGES = [page.read_text("utf-8") for page in sorted(API.glob("*.rst"))]
+_PAGES = [page.read_text("utf-8") for page in API.glob("*.rst")]
 CLASSES = {
     name: import_by_name(name)[1]
     for name in (f"assur.{line}" for page in _PAGES for line in _LINE.findall(page))
@@ -147,7 +147,9 @@ def _api_index(_app: Any, page: str, source: list[str]) -> None:
     """Put every public name in the place of a comment, with a sentence each."""
     mark = "% every name\n"
     if page == "reference/api/index":
-        source[0] = source[0].replace(mark, "".join(_of_page(text) for text in _PAGES))
+        pages = re.findall(r"^(\w+)$", source[0].partition("```{toctree}")[2], re.MULTILINE)
+        texts = [(API / f"{name}.rst").read_text("utf-8") for name in pages]
+        source[0] = source[0].replace(mark, "".join(map(_of_page, texts)))
 
 
 def _of_page(text: str) -> str:
