@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import json
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from assur._arrays import flag, short
-from assur._files import checked_path, writing
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -67,6 +63,9 @@ def write_excel(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     except ImportError as error:  # pragma: no cover
         message = "to_excel needs openpyxl: pip install assur[excel]"
         raise ImportError(message) from error
+    # `import assur` does without files.
+    from assur._files import checked_path, writing
+
     out = checked_path(path)
     listed = list(columns)
     rows = max((len(column.values) for column in listed), default=0)
@@ -97,6 +96,10 @@ def _workbook(book: Any, listed: list[Column]) -> Any:
 
 def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
     """Write one table; the units are in its metadata."""
+    from importlib.util import find_spec
+
+    from assur._files import checked_path, writing
+
     if find_spec("pyarrow") is None:  # pragma: no cover
         message = "to_parquet needs pyarrow: pip install assur[parquet]"
         raise ImportError(message)
@@ -113,6 +116,9 @@ def write_parquet(path: str | PathLike[str], columns: Iterable[Column]) -> None:
 
 def _in_parts(file: Any, table: Any) -> None:
     """Write a DataFrame as pandas does, but in parts: between two of them signals are heard."""
+    import json
+    from importlib import import_module
+
     pa: Any = import_module("pyarrow")
     parquet: Any = import_module("pyarrow.parquet")
     schema = pa.Schema.from_pandas(table, preserve_index=False)

@@ -33,7 +33,7 @@ from assur.sweeps.machine_metrics import (
     rms_effort,
     rms_reaction,
 )
-from assur.sweeps.terms import Condition, Function, Leaf, Metric, Part
+from assur.sweeps.terms import Condition, FullRotation, Function, Leaf, Metric, Part
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -47,6 +47,7 @@ __all__ = [
     "argmin",
     "deviation",
     "flywheel_inertia",
+    "full_rotation",
     "function",
     "max",
     "max_inertia",
@@ -497,8 +498,8 @@ def deviation(
 def reachable() -> Metric:
     """Whether a design reaches all positions of q.
 
-    It says what the positions of q show. A gap between two of them is not seen; whether a
-    driver goes round is proved by `Mechanism.limits`, ``.full_rotation``.
+    It says what the positions of q show. A gap between two of them is not seen: `full_rotation`
+    proves that there is none.
 
     Returns
     -------
@@ -516,6 +517,38 @@ def reachable() -> Metric:
     array([1., 0.])
     """
     return Leaf("moves")
+
+
+def full_rotation() -> Metric:
+    """Whether the driver goes round and the motion closes, proved for each design.
+
+    It is ``full_rotation`` of `Mechanism.limits`, and does not depend on the positions of q.
+
+    Returns
+    -------
+    Metric
+        1 or 0, also for a design with a position that cannot be reached; NaN for one with a bad
+        dimension, or that misses a condition of ``where=``.
+
+    Raises
+    ------
+    InputError
+        By `assur.sweep` with several drivers.
+
+    Examples
+    --------
+    A gap of 5° lies between positions of 30°:
+
+    >>> import assur, numpy as np
+    >>> from assur import metric
+    >>> q = np.radians(np.arange(15, 360, 30))
+    >>> asked = {"samples": metric.reachable(), "proof": metric.full_rotation()}
+    >>> found = assur.sweep(assur.FourBar(1.0, 2.0, 2.0, 3.0), {"ground.D.x": [2.9, 3.003]}, q,
+    ...                     metrics=asked)
+    >>> found["samples"], found["proof"]
+    (array([1., 1.]), array([1., 0.]))
+    """
+    return FullRotation()
 
 
 def function(
@@ -575,8 +608,6 @@ def function(
 
 if not TYPE_CHECKING:
     _OTHER_NAMES = {
-        "full_rotation": "metric.reachable says what the positions show; limits().full_rotation "
-        "of a batch is proved",
         "least": "it is metric.min",
         "greatest": "it is metric.max",
         "place_of_least": "it is metric.argmin",

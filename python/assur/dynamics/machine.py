@@ -17,7 +17,7 @@ from assur.dynamics.motion.motion_input import motion_of
 from assur.dynamics.motion.run import Run
 from assur.dynamics.motion.steady import SteadyState
 from assur.dynamics.reduction import reduce
-from assur.kinematics.solve_arguments import q_or_deg
+from assur.kinematics.solve_arguments import in_radians, q_or_deg
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -678,12 +678,13 @@ class Machine(MachineModel):
     def impact(
         self,
         load: Force | Torque,
-        q: npt.ArrayLike,
-        speed: npt.ArrayLike,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
         *,
         restitution: npt.ArrayLike = 0.0,
         impulse: npt.ArrayLike | None = None,
         on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
     ) -> Impact:
         """Return speeds and impulses when a link hits an obstacle, or is struck.
 
@@ -703,6 +704,8 @@ class Machine(MachineModel):
             A given impulse along `load` instead of an obstacle, N·s.
         on_error : {"raise", "nan"}
             See `reduced_inertia`.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -739,6 +742,7 @@ class Machine(MachineModel):
         >>> hit.speed.round(6), hit.energy_lost.round(6)
         (np.float64(-8.0), np.float64(0.12814))
         """
+        q = q_or_deg(self.mechanism, q, deg, "impact")
         return impact.impact(
             self, load, motion_of(q, speed, 0.0, 0.0), restitution, impulse, on_error
         )
@@ -824,6 +828,8 @@ class Machine(MachineModel):
         max_step: float = math.inf,
         max_steps: int = 1_000_000,
         max_seconds: float | None = None,
+        deg0: npt.ArrayLike | None = None,
+        deg_end: float | None = None,
     ) -> Run:
         """Integrate the motion under loads and motor: J q̈ + ½ J′ q̇² = M.
 
@@ -857,6 +863,8 @@ class Machine(MachineModel):
             Largest number of attempted steps.
         max_seconds : float, optional
             Limit of computing time, s.
+        deg0, deg_end : array_like, float, optional
+            Initial and final coordinate in degrees, in place of `q0` and `q_end`.
 
         Returns
         -------
@@ -906,6 +914,10 @@ class Machine(MachineModel):
         >>> run.at(1.0).speed.round(4)
         np.float64(16.1541)
         """
+        if deg0 is not None:
+            q0 = in_radians(self.mechanism, q0, deg0, "run", "q0")
+        if deg_end is not None:
+            q_end = float(in_radians(self.mechanism, q_end, deg_end, "run", "q_end"))
         return integrate.run(
             self,
             t_end,
@@ -936,6 +948,7 @@ class Machine(MachineModel):
         breaks: npt.ArrayLike = (),
         max_steps: int = 100_000,
         max_seconds: float | None = 60.0,
+        deg0: float | None = None,
     ) -> SteadyState:
         """Return the periodic motion under loads and motor, found by shooting.
 
@@ -957,6 +970,8 @@ class Machine(MachineModel):
             Moment of inertia added to the driver's, kg·m².
         rtol, method, breaks, max_steps, max_seconds
             See `run`.
+        deg0 : float, optional
+            Coordinate at the start of the period in degrees, in place of `q0`.
 
         Returns
         -------
@@ -1000,6 +1015,8 @@ class Machine(MachineModel):
         >>> print(f"{steady.mean_speed:.4f} rad/s, δ = {steady.delta:.4f}, {steady.power:.3f} W")
         8.9681 rad/s, δ = 0.1755, 179.363 W
         """
+        if deg0 is not None:
+            q0 = float(in_radians(self.mechanism, q0, deg0, "steady_state", "q0"))
         return integrate.steady_state(
             self,
             speed,

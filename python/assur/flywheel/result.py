@@ -13,6 +13,7 @@ from assur._other_names import other_names
 from assur._table import Column, Tabular, angle_column, design_columns
 from assur._validate import MAX_POINTS, checked_index, one_of, whole_number
 from assur.errors import InputError
+from assur.kinematics.solve_arguments import q_or_deg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -110,13 +111,15 @@ class Flywheel(Tabular, ABC):
             f"mean {self.mean_speed:.6g} rad/s, speed0 {self.speed0:.6g} rad/s>"
         )
 
-    def speed(self, q: npt.ArrayLike) -> Any:
+    def speed(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Any:
         """Return the speed at coordinates of the driver, over any number of turns.
 
         Parameters
         ----------
         q : array_like
             Coordinates, rad: a number or (N,), the same for every table.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -133,15 +136,18 @@ class Flywheel(Tabular, ABC):
         >>> round(f.speed(np.pi), 3)
         10.954
         """
+        q = q_or_deg(None, q, deg, "speed")
         return self._curve("speed", finite_array(q, "q"))
 
-    def time(self, q: npt.ArrayLike) -> Any:
+    def time(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Any:
         """Return the time at which coordinates are reached, s; 0 at the start of the turn.
 
         Parameters
         ----------
         q : array_like
             Coordinates, rad.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -157,6 +163,7 @@ class Flywheel(Tabular, ABC):
         >>> f.time([0.0, 2 * np.pi]).round(6), round(f.period, 6)  # s
         (array([0.      , 0.628712]), 0.628712)
         """
+        q = q_or_deg(None, q, deg, "time")
         return self._curve("time", finite_array(q, "q"))
 
     def coordinate(self, t: npt.ArrayLike) -> Any:
@@ -210,7 +217,9 @@ class Flywheel(Tabular, ABC):
             raise InputError(message)
         return self.speed(self.coordinate(t))
 
-    def reduced_moment(self, q: npt.ArrayLike) -> Any:
+    def reduced_moment(
+        self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None
+    ) -> Any:
         """Return the reduced moment of the loads at coordinates, N·m, without the motor.
 
         For a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
@@ -219,6 +228,8 @@ class Flywheel(Tabular, ABC):
         ----------
         q : array_like
             Coordinates, rad.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -234,15 +245,20 @@ class Flywheel(Tabular, ABC):
         >>> round(f.reduced_moment(np.pi / 2), 6)  # N·m
         100.0
         """
+        q = q_or_deg(None, q, deg, "reduced_moment")
         return self._curve("moment", finite_array(q, "q"))
 
-    def reduced_inertia(self, q: npt.ArrayLike) -> Any:
+    def reduced_inertia(
+        self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None
+    ) -> Any:
         """Return the reduced inertia at coordinates, kg·m², without the flywheel.
 
         Parameters
         ----------
         q : array_like
             Coordinates, rad.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -260,15 +276,18 @@ class Flywheel(Tabular, ABC):
         >>> round(f.reduced_inertia(1.0), 6)  # kg·m², without the flywheel's 8
         2.0
         """
+        q = q_or_deg(None, q, deg, "reduced_inertia")
         return self._curve("inertia", finite_array(q, "q"))
 
-    def work(self, q: npt.ArrayLike) -> Any:
+    def work(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Any:
         """Return the work of loads and motor since the start of the turn, J.
 
         Parameters
         ----------
         q : array_like
             Coordinates, rad.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -284,6 +303,7 @@ class Flywheel(Tabular, ABC):
         >>> round(f.work(np.pi), 2)  # J
         200.0
         """
+        q = q_or_deg(None, q, deg, "work")
         return self._curve("work", finite_array(q, "q"))
 
     def explain(self, index: Any = ()) -> str:
@@ -348,11 +368,11 @@ class Flywheel(Tabular, ABC):
         return inertia, self.work(q) + start[..., np.newaxis]
 
     def _columns(self, degrees: bool) -> list[Column]:
-        """Return one turn, row after row of the batch."""
+        """Return one turn of one flywheel; of a batch a row for each."""
+        if self.shape:
+            return self._row_columns(degrees)
         q = np.linspace(*self.turn, PLOT_POINTS)
-        shape = (*self.shape, PLOT_POINTS)
-        columns = design_columns(shape, len(self.shape))
-        columns.append(angle_column("q", np.broadcast_to(q, shape).reshape(-1), degrees))
+        columns = [angle_column("q", q, degrees)]
         for name, curve, unit in (
             ("time", self.time, "s"),
             ("speed", self.speed, "rad/s"),
@@ -360,8 +380,29 @@ class Flywheel(Tabular, ABC):
             ("reduced_inertia", self.reduced_inertia, "kg m2"),
             ("work", self.work, "J"),
         ):
-            values = np.broadcast_to(curve(q), shape).reshape(-1)
-            columns.append(Column(name, values, unit, name))
+            columns.append(Column(name, np.broadcast_to(curve(q), q.shape), unit, name))
+        return columns
+
+    def _row_columns(self, degrees: bool) -> list[Column]:
+        columns = design_columns(self.shape, len(self.shape))
+        for name, values, unit in (
+            ("inertia", self.inertia, "kg m2"),
+            ("speed0", self.speed0, "rad/s"),
+            ("delta", self.delta, ""),
+            ("mean_speed", self.mean_speed, "rad/s"),
+            ("max", self.max.value, "rad/s"),
+            ("max.q", self.max.q, "rad"),
+            ("min", self.min.value, "rad/s"),
+            ("min.q", self.min.q, "rad"),
+            ("motor_moment", self.motor_moment, "N m"),
+            ("power", self.power, "W"),
+            ("period", self.period, "s"),
+        ):
+            shown = np.broadcast_to(values, self.shape).reshape(-1)
+            column = Column(name, shown, unit, "flywheel")
+            if unit == "rad":
+                column = angle_column(name, shown, degrees)._replace(quantity="flywheel")
+            columns.append(column)
         return columns
 
     @property

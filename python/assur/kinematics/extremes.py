@@ -39,9 +39,9 @@ class Extremes:
     ----------
     min, max : Extreme
         The value (m or rad, per unit of the driver's coordinate to the power of the order) and
-        its place q. Derivatives are infinite at dead points, and so is the angle of a link that
-        goes round. Turns of q and of angles count as in the intervals of `limits`: in the one that
-        `q0` is in they are those of the motion from the drawing.
+        its place q. Derivatives are infinite at dead points. Turns of q and of angles count as in
+        the intervals of `limits`: in the one that `q0` is in they are those of the motion from the
+        drawing.
     time_ratio : float or None
         Time from one extreme to the other over the time back at constant speed, the longer over the
         shorter; None if the driver does not go round.
@@ -163,6 +163,12 @@ def extremes(
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
     least, greatest = Extreme(*ends[0]), Extreme(*ends[1])
+    if math.isnan(least.q):
+        message = (
+            f"extremes({name!r}): the link turns fully with the driver, so its angle has no "
+            f"extremes; its analogues have: extremes({name!r}, order=1)"
+        )
+        raise InputError(message, link=name)
     own_limits = limits(mechanism, assembly)
     ratio = None
     unit = 1.0 if name in mechanism.links else size_of(mechanism)

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from assur._table import Column, Tabular, design_columns, in_degrees
 from assur._validate import checked_index, checked_threads
 from assur.errors import InputError
 from assur.kinematics.assembly import Assembly, drawn_in
+from assur.kinematics.select import designs_of
 from assur.kinematics.solve_arguments import checked_assembly
+from assur.kinematics.table import dimension_columns, driven_angles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -22,6 +25,9 @@ if TYPE_CHECKING:
     from assur.kinematics.model import MechanismModel
 
 __all__ = ["DeadPoint", "Limits"]
+
+# Error of an end of an interval.
+END = 1e-10
 
 
 class FoundLimits(TypedDict):
@@ -66,7 +72,7 @@ class DeadPoint:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Limits:
+class Limits(Tabular):
     """Where an assembly of one design, or of each of a batch, exists.
 
     Attributes
@@ -77,6 +83,8 @@ class Limits:
         that of the mechanism's `q0`: the interval that `q0` is in holds `q0` itself, the others are
         next to it. With a group above class II the one that holds `q0`, in counted turns.
         (−inf, inf) where nothing ends it.
+    interval : ndarray
+        The one of these that holds the mechanism's `q0`, shape S + (2,); NaN where none does.
     full_rotation : bool or ndarray of bool
         Whether the driver goes round and the motion closes.
     period : int or None, or ndarray
@@ -93,6 +101,8 @@ class Limits:
     >>> drawn = assur.Mechanism(joints, four_bar.links, "crank")
     >>> round(drawn.q0, 9), drawn.limits().intervals.round(5).tolist()
     (-1.5, [[-5.88567, -0.39751]])
+    >>> drawn.limits().interval.round(5)
+    array([-5.88567, -0.39751])
     >>> turning = assur.FourBar(1.0, 3.0, 2.5, 3.0).limits()
     >>> turning.full_rotation, turning.period
     (True, 1)
@@ -104,6 +114,45 @@ class Limits:
     _folds: npt.NDArray[np.int32]
     # What may fold: its name, and the inner pair of a dyad.
     _names: tuple[tuple[str, str | None], ...]
+    # The design or batch, and which part of it these limits are of.
+    _of: MechanismModel
+    _entry: tuple[int, ...] = ()
+
+    @property
+    def interval(self) -> Float:
+        """The interval that holds the drawing's coordinate; NaN where none does."""
+        low, high = self.intervals[..., 0], self.intervals[..., 1]
+        # An end is known to 1e-10.
+        q0 = float(self._of.q0)
+        holds: Any = (low - END <= q0) & (q0 <= high + END)
+        if not self.intervals.shape[-2]:
+            return np.full((*self.intervals.shape[:-2], 2), np.nan)
+        which = holds.argmax(axis=-1)[..., np.newaxis, np.newaxis]
+        held = np.take_along_axis(self.intervals, which, axis=-2)[..., 0, :]
+        found: Float = np.where(holds.any(axis=-1)[..., np.newaxis], held, np.nan)
+        return found
+
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return a row for each design: its dimensions, whether it turns fully, its interval."""
+        is_angle = driven_angles(self._of)[0]
+        of = designs_of(self._of, self._entry) if self._entry else self._of
+        columns = [
+            *design_columns(of.shape, len(of.shape)),
+            *dimension_columns(of, of.shape, degrees),
+        ]
+
+        def add(name: str, values: Any, unit: str) -> None:
+            columns.append(Column(name, np.reshape(values, -1), unit, "limits"))
+
+        add("full_rotation", self.full_rotation, "")
+        add("period", np.nan if self.period is None else self.period, "turns")
+        add("intervals", (~np.isnan(self.intervals[..., 0])).sum(axis=-1), "")
+        interval = self.interval
+        if is_angle and degrees:
+            interval = in_degrees(interval)
+        for name, k in (("q_min", 0), ("q_max", 1)):
+            add(name, interval[..., k], "m" if not is_angle else "deg" if degrees else "rad")
+        return columns
 
     @property
     def dead_points(self) -> Any:
@@ -132,7 +181,8 @@ class Limits:
             is_row = ~np.isnan(intervals[:, 0])
             intervals, folds = intervals[is_row], folds[is_row]
             rotation, period = bool(rotation), None if np.isnan(period) else int(period)
-        return Limits(intervals, rotation, period, folds, self._names)
+        place = (*self._entry, *entry)
+        return Limits(intervals, rotation, period, folds, self._names, self._of, place)
 
     def __len__(self) -> int:
         shape = self.intervals.shape[:-2]
@@ -183,6 +233,7 @@ def limits(
         period,
         answer["folds"].reshape(shape),
         names,
+        mechanism,
     )
     return batch if mechanism.shape else batch[()]
 

@@ -432,22 +432,25 @@ class Mechanism(MechanismModel):
 
     def follow(
         self,
-        laws: Law | Sequence[Law | float],
-        t: npt.ArrayLike,
+        laws: Law | Sequence[Law | float] | None = None,
+        t: npt.ArrayLike | None = None,
         *,
         on_error: Literal["raise", "nan"] = "raise",
+        deg: Law | Sequence[Law | float] | None = None,
     ) -> TimedMotion:
         """Solve positions over time, the driver moving by an input law.
 
         Parameters
         ----------
         laws : Law or sequence of Law or float
-            An input law (`assur.laws`); for several drivers one each, or the coordinate of a driver
-            that is held.
+            An input law (`assur.laws`), rad or m; for several drivers one each, or the coordinate
+            of a driver that is held.
         t : array_like
             Times, s, shape (N,).
         on_error : {"raise", "nan"}
             As for `solve`.
+        deg : Law or sequence of Law or float, optional
+            The laws in degrees, in place of `laws`: ``follow(deg=law, t=t)``.
 
         Returns
         -------
@@ -461,12 +464,12 @@ class Mechanism(MechanismModel):
         >>> law = assur.laws.Cycloidal(0.0, np.pi, duration=0.5)
         >>> moved = engine.follow(law, np.linspace(0.0, 0.5, 101))
         >>> piston = moved.slide("bore")
-        >>> round(float(abs(piston.velocity).max()), 6), float(piston.velocity[-1])
+        >>> round(float(abs(piston.velocity()).max()), 6), float(piston.velocity()[-1])
         (0.641267, 0.0)
         """
         from assur.kinematics.timed import follow
 
-        return follow(self, laws, t, on_error)
+        return follow(self, laws, t, on_error, deg)
 
     def assemblies(
         self,
@@ -565,6 +568,14 @@ class Mechanism(MechanismModel):
         Extremes
             The least and the greatest value, the stroke and the time ratio.
 
+        Raises
+        ------
+        InputError
+            An unknown name, a batch of designs, several drivers; the angle of a link that turns
+            fully with the driver, which has no extremes.
+        PositionError
+            An assembly that does not exist at any coordinate.
+
         Examples
         --------
         >>> import assur
@@ -576,7 +587,9 @@ class Mechanism(MechanismModel):
         """
         return extreme_search.extremes(self, name, order, assembly)
 
-    def find(self, name: str, value: Any) -> list[InverseSolution]:
+    def find(
+        self, name: str, value: Any = None, *, deg: float | None = None
+    ) -> list[InverseSolution]:
         """Return every coordinate and assembly at which a coordinate of the motion has a value.
 
         Parameters
@@ -586,6 +599,8 @@ class Mechanism(MechanismModel):
             with two drivers a joint.
         value : float or array_like
             The value, m or rad; with two drivers the joint's place (x, y).
+        deg : float, optional
+            The angle of a link in degrees, in place of `value`.
 
         Returns
         -------
@@ -602,7 +617,7 @@ class Mechanism(MechanismModel):
         """
         from assur.kinematics.inverse.find import find
 
-        return find(self, name, value)
+        return find(self, name, value, deg)
 
     def configuration_curve(self, *, positions: int = 32) -> ConfigurationCurve:
         """Return all positions of a design as a curve: branches, folds, circuits.
@@ -757,7 +772,12 @@ class Mechanism(MechanismModel):
         return workspace(self, joint, drivers, positions)
 
     def map(
-        self, of: str, dimensions: Mapping[str, npt.ArrayLike], *, q: npt.ArrayLike | None = None
+        self,
+        of: str,
+        dimensions: Mapping[str, npt.ArrayLike],
+        *,
+        q: npt.ArrayLike | None = None,
+        deg: npt.ArrayLike | None = None,
     ) -> DesignMap:
         """Return a count for every design over two dimensions, and where it changes.
 
@@ -770,6 +790,8 @@ class Mechanism(MechanismModel):
             Two names of dimensions, each with ascending values, m or rad.
         q : float or array_like, optional
             Coordinate for ``"assemblies"``; the drawing's by default.
+        deg : float or array_like, optional
+            The coordinate in degrees, in place of `q`.
 
         Returns
         -------
@@ -794,6 +816,8 @@ class Mechanism(MechanismModel):
         """
         from assur.kinematics.loci.maps import design_map
 
+        if deg is not None:
+            q = in_radians(self, q, deg, "map")
         return design_map(self, of, dimensions, q)
 
     def save(self, path: str | PathLike[str]) -> None:

@@ -393,10 +393,11 @@ class Motion(MotionModel):
         Returns
         -------
         pandas.DataFrame
-            The design's index, q, status, and everything held: values ``C.x``, ``coupler``,
-            ``bore``; their analogues ``C.x.d1``, ``coupler.d2`` or, with `speed`, ``C.vx``,
-            ``C.ax``, ``coupler.omega``, ``coupler.alpha``, ``bore.v``. A link or slide whose name
-            is one of the first columns appears as ``link q``. ``attrs["units"]`` has the units.
+            The design's index and the dimensions that differ between designs, q, status, and
+            everything held: values ``C.x``, ``coupler``, ``bore``; their analogues ``C.x.d1``,
+            ``coupler.d2`` or, with `speed`, ``C.vx``, ``C.ax``, ``coupler.omega``,
+            ``coupler.alpha``, ``bore.v``. A link or slide whose name is one of the first columns
+            appears as ``link q``. ``attrs["units"]`` has the units.
 
         Examples
         --------
@@ -479,16 +480,31 @@ class Motion(MotionModel):
             path, motion_columns(self, Options(speed, acceleration, jerk, degrees, moving))
         )
 
-    def to_xarray(self) -> Any:
-        """Return an xarray Dataset with named dimensions and units (needs xarray).
+    @renamed_rates
+    def to_xarray(
+        self,
+        *,
+        speed: npt.ArrayLike | None = None,
+        acceleration: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
+        degrees: bool = False,
+        moving: bool = False,
+    ) -> Any:
+        """Return `to_dataframe` as an xarray Dataset with named axes and units (needs xarray).
+
+        Parameters
+        ----------
+        speed, acceleration, jerk, degrees, moving
+            As for `to_dataframe`.
 
         Returns
         -------
         xarray.Dataset
-            Variables ``C``, ``C.d1``, ``coupler``, ``bore.d2`` …, each with its ``units``, over
-            the dimensions design, position, component (x, y of a joint) and, with several
-            drivers, driver0, driver1 … of each derivative. Coordinates: q, status, and the
-            dimensions that differ between designs.
+            Variables ``C``, ``C.d1``, ``coupler``, ``bore.d2`` … or, with `speed`, ``C.v``,
+            ``coupler.omega``, ``bore.a`` …, each with its ``units``, over the axes design,
+            position, component (x, y of a joint) and, with several drivers, driver0, driver1 …
+            of each derivative. Coordinates: q, status, and the dimensions that differ between
+            designs.
 
         Examples
         --------
@@ -499,9 +515,9 @@ class Motion(MotionModel):
         >>> dict(data["C"].sizes), data["C.d1"].attrs["units"]
         ({'design': 3, 'position': 5, 'component': 2}, 'm/rad')
         """
-        from assur.kinematics.table import dataset
+        from assur.kinematics.table import Options, dataset
 
-        return dataset(self)
+        return dataset(self, Options(speed, acceleration, jerk, degrees, moving))
 
     @renamed_rates
     def diagram(

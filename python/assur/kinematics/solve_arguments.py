@@ -63,19 +63,26 @@ def checked_assembly(mechanism: MechanismModel, assembly: Mapping[str, int] | No
 
 
 def in_radians(
-    mechanism: MechanismModel | None, q: Any, deg: npt.ArrayLike | None, call: str = "solve"
+    mechanism: MechanismModel | None,
+    q: Any,
+    deg: npt.ArrayLike | None,
+    call: str = "solve",
+    name: str = "q",
 ) -> Float:
     """Return the coordinates that are given in degrees; without a mechanism those of a crank."""
+    in_deg = name.replace("q", "deg")
     if q is not None or deg is None:
-        both = "both q and deg are" if q is not None else "neither q nor deg is"
-        message = f"{call}(): {both} given: pass q in rad (or m), or deg in degrees"
+        both = (
+            f"both {name} and {in_deg} are" if q is not None else f"neither {name} nor {in_deg} is"
+        )
+        message = f"{call}(): {both} given: pass {name} in rad (or m), or {in_deg} in degrees"
         raise InputError(message)
     slides = mechanism.slides if mechanism is not None else {}
     for driver in mechanism.description.drivers if mechanism is not None else ():
         if isinstance(driver, str) and driver in slides:
-            message = f"deg: the driver {driver!r} is a slide; its coordinate q is a length, m"
+            message = f"{in_deg}: the driver {driver!r} is a slide; its coordinate q is a length, m"
             raise InputError(message)
-    return real_array(deg, "deg") * (np.pi / 180.0)
+    return real_array(deg, in_deg) * (np.pi / 180.0)
 
 
 def q_or_deg(mechanism: MechanismModel | None, q: Any, deg: Any, call: str) -> Any:

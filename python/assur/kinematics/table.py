@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import flag
-from assur._table import Column, coordinate_columns, design_columns
+from assur._table import Column, angle_column, coordinate_columns, design_columns, in_degrees
 from assur._validate import refuse_without_speed
+from assur.description.dotted_names import unit_of
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -22,10 +23,11 @@ if TYPE_CHECKING:
     from assur.kinematics.motion_model import MotionModel
     from assur.kinematics.quantity import Analogues
 
-# Columns of a joint's components, an angle and a slide: value, velocity, acceleration, jerk.
+# Names of a joint's components, a joint, an angle and a slide: value, velocity, acceleration, jerk.
 POINT = ("{}.{}", "{}.v{}", "{}.a{}", "{}.j{}")
+VECTOR = ("{}", "{}.v", "{}.a", "{}.j")
 ANGLE = ("{}", "{}.omega", "{}.alpha", "{}.jerk")
-SLIDE = ("{}", "{}.v", "{}.a", "{}.j")
+SLIDE = VECTOR
 
 
 class Options(NamedTuple):
@@ -38,6 +40,15 @@ class Options(NamedTuple):
     moving: bool = False
 
 
+def check_options(options: Options) -> None:
+    """Refuse what is no flag, and rates without a speed."""
+    flag(options.degrees, "degrees")
+    flag(options.moving, "moving")
+    refuse_without_speed(
+        options.speed, "speed", acceleration=options.acceleration, jerk=options.jerk
+    )
+
+
 class _Quantity(NamedTuple):
     kind: str
     name: str
@@ -47,12 +58,8 @@ class _Quantity(NamedTuple):
 
 def motion_columns(motion: MotionModel, options: Options) -> list[Column]:
     """Return the columns of a motion's table, rows over designs and positions."""
-    flag(options.degrees, "degrees")
-    flag(options.moving, "moving")
-    refuse_without_speed(
-        options.speed, "speed", acceleration=options.acceleration, jerk=options.jerk
-    )
-    columns = _rows(motion, options.degrees)
+    check_options(options)
+    columns = row_columns(motion.mechanism, motion.q, motion.status, options.degrees, motion.kept)
     taken = {column.name for column in columns}
     for quantity in _quantities(motion, taken):
         if options.moving and not _moves(quantity.analogues):
@@ -64,14 +71,46 @@ def motion_columns(motion: MotionModel, options: Options) -> list[Column]:
     return columns
 
 
-def _rows(motion: MotionModel, degrees: bool) -> list[Column]:
-    """Designs, coordinates and statuses."""
-    angles = driven_angles(motion.mechanism)
-    return [
-        *design_columns(motion.shape, len(motion.mechanism.shape), motion.kept),
-        *coordinate_columns(motion.q, angles, motion.shape, degrees),
-        Column("status", motion.status.reshape(-1), "", None),
-    ]
+def row_columns(
+    mechanism: MechanismModel,
+    q: Float,
+    status: npt.NDArray[np.uint8],
+    degrees: bool,
+    kept: npt.NDArray[np.intp] | None = None,
+) -> list[Column]:
+    """Return what says which row it is: design, its dimensions, coordinates, status."""
+    shape, designs = status.shape, len(mechanism.shape)
+    columns = design_columns(shape, designs, kept)
+    columns += dimension_columns(mechanism, shape, degrees)
+    columns += coordinate_columns(q, driven_angles(mechanism), shape, degrees)
+    return [*columns, Column("status", status.reshape(-1), "", None)]
+
+
+def dimension_columns(
+    mechanism: MechanismModel, shape: tuple[int, ...], degrees: bool
+) -> list[Column]:
+    """Return the dimensions that differ between designs (first axes of a shape) for each row."""
+    columns = []
+    for name, values in differing_dimensions(mechanism).items():
+        each = values.reshape(values.shape + (1,) * (len(shape) - values.ndim))
+        columns.append(dimension_column(name, np.broadcast_to(each, shape).reshape(-1), degrees))
+    return columns
+
+
+def dimension_column(name: str, values: Float, degrees: bool) -> Column:
+    """Return a dimension of designs, rad or deg where it is an angle."""
+    unit = unit_of(name)
+    return (
+        angle_column(name, values, degrees) if unit == "rad" else Column(name, values, unit, None)
+    )
+
+
+def differing_dimensions(mechanism: MechanismModel) -> dict[str, Float]:
+    """Return the dimensions that are not the same in all designs of a batch."""
+    if not mechanism.shape:
+        return {}
+    named = zip(mechanism.core.dimension_names, mechanism.values, strict=True)
+    return {name: value for name, value in named if (value != value.flat[:1]).any()}
 
 
 def driven_angles(mechanism: MechanismModel) -> list[bool]:
@@ -138,8 +177,18 @@ def _analogues(motion: MotionModel, quantity: _Quantity, degrees: bool) -> Itera
 
 def _velocities(motion: MotionModel, quantity: _Quantity, options: Options) -> Iterator[Column]:
     forms = {"joint": POINT, "link": ANGLE, "slide": SLIDE}[quantity.kind]
-    unit = "rad" if quantity.kind == "link" else "m"
     parts = _components(quantity.kind)
+    for order, (rate, unit) in enumerate(_rates(motion, quantity, options)):
+        flat = rate.reshape(motion.status.size, len(parts))
+        for c, part in enumerate(parts):
+            name = forms[order].format(quantity.shown, part)
+            yield Column(name, flat[:, c], unit, quantity.shown)
+
+
+def _rates(
+    motion: MotionModel, quantity: _Quantity, options: Options
+) -> Iterator[tuple[Float, str]]:
+    """Value, velocity, acceleration and jerk, as far as the motion has them, with their units."""
     of, speed, acceleration = quantity.analogues, options.speed, options.acceleration
     assert speed is not None
     rates: list[Float] = [of.value]
@@ -149,6 +198,7 @@ def _velocities(motion: MotionModel, quantity: _Quantity, options: Options) -> I
         rates.append(of.acceleration(speed, acceleration))
     if motion.order >= 3:
         rates.append(of.jerk(speed, acceleration, options.jerk))
+    unit = "rad" if quantity.kind == "link" else "m"
     for order, rate in enumerate(rates):
         if rate.shape != of.value.shape:
             message = (
@@ -156,51 +206,69 @@ def _velocities(motion: MotionModel, quantity: _Quantity, options: Options) -> I
                 f"each position {motion.shape}"
             )
             raise InputError(message)
-        per = ["", "/s", "/s2", "/s3"][order]
-        flat = rate.reshape(motion.status.size, len(parts))
-        for c, part in enumerate(parts):
-            name = forms[order].format(quantity.shown, part)
-            if options.degrees and order == 0 and unit == "rad":
-                yield Column(name, np.degrees(flat[:, c]), "deg", quantity.shown)
-            else:
-                yield Column(name, flat[:, c], unit + per, quantity.shown)
+        if options.degrees and order == 0 and unit == "rad":
+            yield np.degrees(rate), "deg"
+        else:
+            yield rate, unit + ["", "/s", "/s2", "/s3"][order]
 
 
-def dataset(motion: MotionModel) -> Any:
+def dataset(motion: MotionModel, options: Options) -> Any:
     """See `Motion.to_xarray`."""
     try:
         import xarray as xr
     except ImportError as error:  # pragma: no cover
         message = "to_xarray needs xarray: pip install assur[xarray]"
         raise ImportError(message) from error
+    check_options(options)
     designs, drivers = len(motion.mechanism.shape), motion.driver_count
     rows = ["design"] if designs == 1 else [f"design{axis}" for axis in range(designs)]
     rows += ["position"] * (len(motion.shape) - designs)
-    angles = driven_angles(motion.mechanism)
     named: dict[str, Any] = {}
-    units = ["rad" if angle else "m" for angle in angles]
     taken = {"q", "status", *rows, "component"}
     for quantity in _quantities(motion, taken):
-        unit = "rad" if quantity.kind == "link" else "m"
+        if options.moving and not _moves(quantity.analogues):
+            continue
         point = ["component"] if quantity.kind == "joint" else []
-        for order, array in enumerate(quantity.analogues.arrays):
-            by = [f"driver{k}" for k in range(order)] if drivers > 1 else []
-            clashes = quantity.kind == "joint" and quantity.shown in taken
-            shown = f"joint {quantity.shown}" if clashes else quantity.shown
-            name = f"{shown}.d{order}" if order else shown
-            per = f"/{units[0]}" * order if drivers == 1 else "/unit of the driver" * order
-            named[name] = ([*rows, *point, *by], array, {"units": unit + per})
+        clashes = quantity.kind == "joint" and quantity.shown in taken
+        shown = f"joint {quantity.shown}" if clashes else quantity.shown
+        if options.speed is None:
+            arrays, by = _derivatives(motion, quantity, options.degrees), ["driver"] * (drivers > 1)
+            forms = ("{}", "{}.d1", "{}.d2", "{}.d3")
+        else:
+            arrays, by = _rates(motion, quantity, options), []
+            forms = {"joint": VECTOR, "link": ANGLE, "slide": SLIDE}[quantity.kind]
+        for order, (array, unit) in enumerate(arrays):
+            axes = [f"{name}{k}" for name in by for k in range(order)]
+            named[forms[order].format(shown)] = ([*rows, *point, *axes], array, {"units": unit})
     q_rows = rows if motion.request.per_design else rows[designs:]
-    q_units = {"units": units[0] if drivers == 1 else ", ".join(units)}
+    angles = driven_angles(motion.mechanism)
+    angle = "deg" if options.degrees else "rad"
+    units = [angle if is_angle else "m" for is_angle in angles]
+    q = motion.q
+    if options.degrees:
+        q = np.where(angles if drivers > 1 else angles[0], in_degrees(q), q)
     coordinates: dict[str, Any] = {
-        "q": ([*q_rows, *(["driver"] if drivers > 1 else [])], motion.q, q_units),
+        "q": ([*q_rows, *(["driver"] if drivers > 1 else [])], q, {"units": ", ".join(units)}),
         "status": (rows, motion.status),
         "component": ("component", ["x", "y"]),
     }
     if motion.kept is not None and designs:
         coordinates["design"] = ("design", motion.kept)
-    names, values = motion.mechanism.core.dimension_names, motion.mechanism.values
-    for name, value in zip(names, values, strict=True):
-        if designs and (value != value.flat[:1]).any():
-            coordinates[name] = (rows[:designs], value)
+    for name, values in differing_dimensions(motion.mechanism).items():
+        column = dimension_column(name, values, options.degrees)
+        coordinates[name] = (rows[:designs], column.values, {"units": column.unit})
     return xr.Dataset(named, coordinates, {"mechanism": motion.mechanism.core.formula})
+
+
+def _derivatives(
+    motion: MotionModel, quantity: _Quantity, degrees: bool
+) -> Iterator[tuple[Float, str]]:
+    """Value and analogues, with their units."""
+    angles = driven_angles(motion.mechanism)
+    per = ("/rad" if angles[0] else "/m") if len(angles) == 1 else "/unit of the driver"
+    unit = "rad" if quantity.kind == "link" else "m"
+    for order, array in enumerate(quantity.analogues.arrays):
+        if degrees and order == 0 and unit == "rad":
+            yield np.degrees(array), "deg"
+        else:
+            yield array, unit + per * order

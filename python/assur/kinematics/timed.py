@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from assur._arrays import flag, real_array, short
-from assur._summary import summary
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
 from assur.kinematics.solve import solve
+from assur.kinematics.solve_arguments import in_radians
 from assur.kinematics.table import Options, motion_columns
 from assur.laws import Law
 
@@ -29,30 +29,98 @@ if TYPE_CHECKING:
 __all__ = ["InTime", "TimedMotion"]
 
 
-class InTime(NamedTuple):
-    """A quantity over time.
+class InTime:
+    """A quantity over time: its value, and its rates as methods, as those of `Analogues`.
 
     Attributes
     ----------
-    value, velocity, acceleration, jerk : ndarray
-        m, m/s, m/s², m/s³, or rad and so on; points with a last axis of 2.
+    value : ndarray
+        m or rad, shape (N,); points with a last axis of 2.
+
+    Notes
+    -----
+    ``np.asarray`` of it is its value.
 
     Examples
     --------
     >>> import assur
     >>> law = assur.laws.Uniform(0.0, 1.0, duration=0.5)
     >>> crank = assur.SliderCrank(0.05, 0.2).follow(law, [0.1, 0.2]).link("crank")
-    >>> crank.value, crank.velocity  # rad, rad/s
+    >>> crank.value, crank.velocity()  # rad, rad/s
     (array([0.2, 0.4]), array([2., 2.]))
     """
 
-    value: Float
-    velocity: Float
-    acceleration: Float
-    jerk: Float
+    __slots__ = ("_analogues", "_rates")
+
+    def __init__(self, analogues: Analogues, rates: tuple[Float, Float, Float]) -> None:
+        self._analogues, self._rates = analogues, rates
+
+    @property
+    def value(self) -> Float:
+        """The value: m, or rad for a link."""
+        return self._analogues.value
+
+    def velocity(self) -> Float:
+        """Return the velocity.
+
+        Returns
+        -------
+        ndarray
+            m/s or rad/s, of the shape of `value`.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Cycloidal(0.0, np.pi, duration=0.5)
+        >>> piston = assur.SliderCrank(0.05, 0.2).follow(law, [0.0, 0.25]).slide("bore")
+        >>> piston.velocity().round(6)  # m/s
+        array([ 0.      , -0.628319])
+        """
+        return self._analogues.velocity(self._rates[0])
+
+    def acceleration(self) -> Float:
+        """Return the acceleration.
+
+        Returns
+        -------
+        ndarray
+            m/s² or rad/s², of the shape of `value`.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Harmonic(0.0, np.pi, duration=0.5)
+        >>> crank = assur.SliderCrank(0.05, 0.2).follow(law, [0.0, 0.25]).link("crank")
+        >>> crank.acceleration().round(6)  # rad/s²
+        array([62.012553,  0.      ])
+        """
+        return self._analogues.acceleration(*self._rates[:2])
+
+    def jerk(self) -> Float:
+        """Return the jerk.
+
+        Returns
+        -------
+        ndarray
+            m/s³ or rad/s³, of the shape of `value`.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> law = assur.laws.Cycloidal(0.0, 1.0, duration=1.0)
+        >>> crank = assur.SliderCrank(0.05, 0.2).follow(law, [0.0, 0.5]).link("crank")
+        >>> crank.jerk().round(3)  # rad/s³
+        array([ 39.478, -39.478])
+        """
+        return self._analogues.jerk(*self._rates)
+
+    def __array__(
+        self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        return np.array(self.value, dtype=dtype, copy=copy)
 
     def __repr__(self) -> str:
-        return summary(self)
+        return f"<{self._analogues._name} over time: shape {self.value.shape}>"
 
 
 class TimedMotion(Tabular):
@@ -102,7 +170,7 @@ class TimedMotion(Tabular):
         >>> import assur, numpy as np
         >>> law = assur.laws.Harmonic(0.0, np.pi, duration=0.5)
         >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, np.linspace(0.0, 0.5, 101))
-        >>> moved.joint("A").value.shape, moved.joint("A").velocity[50].round(6)  # m/s
+        >>> moved.joint("A").value.shape, moved.joint("A").velocity()[50].round(6)  # m/s
         ((101, 2), array([-0.49348,  0.     ]))
         """
         return self._in_time(self.motion.joint(name))
@@ -125,7 +193,7 @@ class TimedMotion(Tabular):
         >>> import assur
         >>> law = assur.laws.Uniform(0.0, 1.0, duration=0.5)
         >>> moved = assur.SliderCrank(0.05, 0.2).follow(law, [0.1, 0.2])
-        >>> moved.link("crank").velocity  # rad/s
+        >>> moved.link("crank").velocity()  # rad/s
         array([2., 2.])
         """
         return self._in_time(self.motion.link(name))
@@ -224,13 +292,7 @@ class TimedMotion(Tabular):
         return timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
 
     def _in_time(self, of: Analogues) -> InTime:
-        speed, acceleration, jerk = self.speed, self.acceleration, self.jerk
-        return InTime(
-            of.value,
-            of.velocity(speed),
-            of.acceleration(speed, acceleration),
-            of.jerk(speed, acceleration, jerk),
-        )
+        return InTime(of, (self.speed, self.acceleration, self.jerk))
 
     def _columns(self, degrees: bool) -> list[Column]:
         """Return time, and values, velocities, accelerations and jerks of what moves."""
@@ -289,7 +351,11 @@ class TimedMotion(Tabular):
 
 
 def follow(
-    mechanism: MechanismModel, laws: Law | Sequence[Law | float], t: npt.ArrayLike, on_error: Any
+    mechanism: MechanismModel,
+    laws: Law | Sequence[Law | float] | None,
+    t: npt.ArrayLike | None,
+    on_error: Any,
+    deg: Law | Sequence[Law | float] | None,
 ) -> TimedMotion:
     """See `Mechanism.follow`."""
     one_of(on_error, ("raise", "nan"), "on_error")
@@ -297,6 +363,16 @@ def follow(
         message = f"follow() is for one design, this is a batch {mechanism.shape}: use design(i)"
         raise InputError(message)
     drivers = mechanism.driver_count
+    if (laws is None) == (deg is None):
+        both = "neither laws nor deg is" if laws is None else "both laws and deg are"
+        message = f"follow(): {both} given: pass laws in rad (or m), or deg in degrees"
+        raise InputError(message)
+    unit = 1.0
+    if deg is not None:
+        unit, laws = float(in_radians(mechanism, None, 1.0, "follow")), deg
+    if t is None:
+        message = "follow(): t is not given: pass the times, s"
+        raise InputError(message)
     listed: Any = [laws] if isinstance(laws, Law) else laws
     if not isinstance(listed, list | tuple) or len(listed) != drivers:
         message = f"laws is {short(laws)}: one law (assur.laws) for each driver is needed"
@@ -305,7 +381,7 @@ def follow(
     if times.ndim > 1 or not np.isfinite(times).all():
         message = f"t has shape {times.shape}: finite times (N,) are needed"
         raise InputError(message)
-    each = [_course(law, times) for law in listed]
+    each = [tuple(unit * x for x in _course(law, times)) for law in listed]
     q, speed, acceleration, jerk = (
         each[0][k] if drivers == 1 else np.stack([course[k] for course in each], axis=-1)
         for k in range(4)

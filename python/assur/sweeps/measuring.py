@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from assur._arrays import short
 from assur._validate import checked_name, real_array
-from assur.description.words import Status, has_analogues
+from assur.description.words import Status, has_analogues, is_reached
 from assur.errors import AssurError, InputError, subject_of
 from assur.kinematics import transmission
 from assur.kinematics.model import with_values
@@ -20,7 +20,15 @@ from assur.sweeps._measured import Undefined
 from assur.sweeps.engine import results
 from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
-from assur.sweeps.terms import Combination, Condition, Function, Leaf, Metric, OfMachine
+from assur.sweeps.terms import (
+    Combination,
+    Condition,
+    FullRotation,
+    Function,
+    Leaf,
+    Metric,
+    OfMachine,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,7 +81,10 @@ class Measuring:
         everything = [*self.metrics.values(), *(c.metric for c in conditions)]
         leaves = list(dict.fromkeys(leaf for metric in everything for leaf in metric.leaves()))
         self.leaves = [leaf for leaf in leaves if isinstance(leaf, Leaf)]
-        self.functions = [leaf for leaf in leaves if not isinstance(leaf, Leaf)]
+        self.proved = [leaf for leaf in leaves if isinstance(leaf, FullRotation)]
+        self.functions = [leaf for leaf in leaves if isinstance(leaf, Function | OfMachine)]
+        for proved in self.proved:
+            proved.check(mechanism)
         self.machine = machine
         for leaf in self.functions:
             if isinstance(leaf, OfMachine):
@@ -131,6 +142,7 @@ class Measuring:
         if self.functions:
             indices = np.flatnonzero(kept)
             of.update(self._called(some, indices))
+        of.update(self._proved(some, status, kept))
         values = {name: metric.value(of.__getitem__) for name, metric in self.metrics.items()}
         # A position that is singular has no analogues: its status says so.
         is_defined = has_analogues(status)
@@ -164,6 +176,17 @@ class Measuring:
                     return Undefined(name, str(why), subject)
                 return Undefined(name, f"{part!r} is not defined for this motion")
         return Undefined("a metric", "it has no value")
+
+    def _proved(
+        self, some: Mechanism, status: npt.NDArray[np.uint8], kept: npt.NDArray[np.bool_]
+    ) -> Iterator[tuple[Single, Float]]:
+        """Yield what positions do not show, also for designs that some of them stop."""
+        asked = np.flatnonzero(kept | (~is_reached(status) & (status < Status.BAD_DIMENSION)))
+        for leaf in self.proved:
+            values = np.full(some.shape[0], np.nan)
+            if len(asked):
+                values[asked] = leaf.values(with_values(some, some.values[:, asked]), self.threads)
+            yield leaf, values
 
     def _called(self, some: Mechanism, indices: npt.NDArray[np.intp]) -> dict[Single, Float]:
         """Call the functions with the motions, or machines, of some designs."""

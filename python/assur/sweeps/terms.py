@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from assur.dynamics.machine import Machine
     from assur.errors import AssurError
+    from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
 
 Float: TypeAlias = npt.NDArray[np.float64]
@@ -293,5 +294,31 @@ class OfMachine(Metric):
         return of(self)
 
 
+@dataclass(frozen=True, repr=False)
+class FullRotation(Metric):
+    """Whether the driver goes round, by the limits of a design."""
+
+    def check(self, mechanism: Mechanism) -> None:
+        """Raise InputError for several drivers."""
+        if mechanism.driver_count > 1:
+            message = f"{self!r}: it is for one driver; this mechanism has {mechanism.driver_count}"
+            raise InputError(message)
+
+    def values(self, designs: Mechanism, threads: int | None) -> Float:
+        """Its values for designs (n,)."""
+        return np.asarray(designs.limits(threads=threads).full_rotation, dtype=np.float64)
+
+    def leaves(self) -> Iterator[Single]:
+        """Itself."""
+        yield self
+
+    def value(self, of: Callable[[Single], Float]) -> Float:
+        """Its values."""
+        return of(self)
+
+    def __repr__(self) -> str:
+        return "full_rotation()"
+
+
 # What metrics are combined of.
-Single: TypeAlias = Leaf | Function | OfMachine
+Single: TypeAlias = Leaf | Function | OfMachine | FullRotation

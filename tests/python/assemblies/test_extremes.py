@@ -94,9 +94,12 @@ def test_extremes_of_analogues_against_dense_samples(order: int) -> None:
 
 
 def test_a_link_that_goes_round_has_no_extremes() -> None:
-    crank = assur.FourBar(1.0, 3.0, 2.5, 3.2).extremes("crank")
-    assert (crank.min.value, crank.max.value) == (-math.inf, math.inf)
-    assert crank.time_ratio is None
+    four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+    with pytest.raises(assur.InputError, match=r"'crank'.*turns fully.*order=1") as caught:
+        four_bar.extremes("crank")
+    assert caught.value.link == "crank"
+    rate = four_bar.extremes("crank", order=1)
+    assert (rate.min.value, rate.max.value) == (1.0, 1.0)
 
 
 def test_find_a_piston_position() -> None:

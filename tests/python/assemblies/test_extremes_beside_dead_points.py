@@ -59,7 +59,13 @@ def check(m: assur.Mechanism, names: tuple[str, ...], orders: tuple[int, ...] = 
     for name in names:
         for order in orders:
             values = np.concatenate([column(motion, name, order) for _, motion in motions])
-            found = m.extremes(name, order=order)
+            try:
+                found = m.extremes(name, order=order)
+            except assur.InputError:
+                turned = motions[0][1].link(name).value
+                assert order == 0
+                assert abs(turned[-1] - turned[0]) > math.pi
+                continue
             size = float(np.nanmedian(np.abs(values)))
             for end, beyond in (
                 (found.min, found.min.value - np.nanmin(values)),
@@ -232,9 +238,7 @@ def test_a_dead_point_just_beyond_where_a_joint_goes_to_infinity() -> None:
 
 
 @pytest.mark.parametrize(("seed", "name", "side"), [(56062, "J5.x", 1), (57742, "s1", 1)])
-def test_a_joint_goes_to_infinity_just_beyond_a_dead_point(
-    seed: int, name: str, side: int
-) -> None:
+def test_a_joint_goes_to_infinity_just_beyond_a_dead_point(seed: int, name: str, side: int) -> None:
     """As C/(π − q), 8e-8 rad before π; the coordinate does not take part in the fold."""
     m = assur.Mechanism(**arguments(mixed_models.mixed_case(seed).description))
     end = m.limits().intervals[0][side]

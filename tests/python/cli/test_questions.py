@@ -258,8 +258,8 @@ def test_extremes(tmp_path: Path) -> None:
     own = assur.examples.shaper().extremes("bed")
     lines = printed("extremes", "example:shaper", "bed")
     assert lines == [
-        f"least       {own.min.value!r} m at q = {own.min.q!r} rad",
-        f"greatest    {own.max.value!r} m at q = {own.max.q!r} rad",
+        f"min         {own.min.value!r} m at q = {own.min.q!r} rad",
+        f"max         {own.max.value!r} m at q = {own.max.q!r} rad",
         f"stroke      {own.stroke!r} m",
         f"time ratio  {own.time_ratio!r}",
     ]
@@ -301,4 +301,6 @@ def test_extremes_of_a_link_that_only_slides(tmp_path: Path) -> None:
     locomotive = printed("extremes", "example:locomotive", "coupling_rod")[3:]
     assert locomotive == ["note        coupling_rod does not turn"]
     assert not any("note" in line for line in printed("extremes", "example:engine", "rod"))
-    assert not any("note" in line for line in printed("extremes", "example:engine", "crank"))
+    refused = assur_command("extremes", "example:engine", "crank")
+    assert refused.code == 1
+    assert "turns fully with the driver" in refused.err

@@ -142,6 +142,9 @@ def written(kind: str) -> Callable[..., Any]:
     """A table of a motion, from a file too."""
 
     def table(speed: npt.ArrayLike, acceleration: npt.ArrayLike, jerk: npt.ArrayLike) -> Any:
+        if kind == "dataset":
+            data = MOTION.to_xarray(speed=speed, acceleration=acceleration, jerk=jerk)
+            return data.to_array("name").values
         if kind == "frame":
             return MOTION.to_dataframe(speed=speed, acceleration=acceleration, jerk=jerk).to_numpy()
         with tempfile.TemporaryDirectory() as folder:
@@ -165,6 +168,12 @@ def machine_in_degrees(name: str) -> Callable[[Any], Any]:
     return lambda deg: getattr(MACHINE, name)(deg=deg)
 
 
+def wheel_in_degrees(name: str) -> Callable[[Any], Any]:
+    return lambda deg: getattr(WHEEL, name)(deg=deg)
+
+
+OVER = {"rocker.length": [2.4, 2.6], "ground.D.x": [3.1, 3.3]}
+CURVES = ("speed", "time", "work", "reduced_moment", "reduced_inertia")
 QUESTIONS = ("reactions", "effort", "reduced_inertia", "reduced_moment", "potential")
 IN_DEGREES = {
     **{f"Machine.{name}.deg": Entry(machine_in_degrees(name), numbers(30.0)) for name in QUESTIONS},
@@ -181,6 +190,18 @@ IN_DEGREES = {
     "Mechanism.with_driver.deg": Entry(
         lambda deg: FOUR_BAR.with_driver("rocker", deg=deg).q0, numbers(60.0)
     ),
+    "Mechanism.map.deg": Entry(
+        lambda deg: FOUR_BAR.map("assemblies", OVER, deg=deg).values, (np.array(60.0),)
+    ),
+    "Machine.impact.deg": Entry(
+        lambda deg: MACHINE.impact(PUSH, deg=deg, speed=-20.0, restitution=0.5).speed, numbers(30.0)
+    ),
+    "Machine.run.deg0": Entry(
+        lambda deg: MACHINE.run(0.25, deg0=deg, speed0=2.0), (np.array(60.0),)
+    ),
+    "Run.at.deg": Entry(lambda deg: ALONG.at(deg=deg), numbers(60.0)),
+    "SteadyState.at.deg": Entry(lambda deg: STEADY.at(deg=deg), numbers(60.0)),
+    **{f"Flywheel.{name}.deg": Entry(wheel_in_degrees(name), numbers(60.0)) for name in CURVES},
 }
 LENGTHS = {"l1": 1.0, "l2": 9.0, "l3": 6.0, "l4": 10.0}
 SLIDER = {"phi": 0.0, "crank": 1.0, "rod": 5.0}
@@ -235,6 +256,7 @@ ENTRIES: dict[str, Entry] = {
     ),
     **each_of("Motion.to_dataframe", written("frame"), speed=2.0, acceleration=1.0, jerk=0.5),
     **each_of("Motion.to_excel", written("xlsx"), speed=2.0, acceleration=1.0, jerk=0.5),
+    **each_of("Motion.to_xarray", written("dataset"), speed=2.0, acceleration=1.0, jerk=0.5),
     **each_of("Motion.to_parquet", written("parquet"), speed=2.0, acceleration=1.0, jerk=0.5),
     "FourBar.__init__.point": Entry(
         lambda point: assur.FourBar(1.0, 3.0, 2.5, 3.2, point=point),

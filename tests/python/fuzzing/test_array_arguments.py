@@ -178,6 +178,7 @@ def not_numbers(array: Any) -> dict[str, Any]:
 
 # What may be left out.
 OPTIONAL = (
+    "Mechanism.map.deg",
     "Mechanism.with_driver.deg",
     "Mechanism.with_driver.q",
     "Mechanism.solve.deg",

@@ -163,6 +163,7 @@ def _of_motions() -> Iterable[tuple[str, Call]]:
         to_dataframe=rates,
         to_excel={"path": "m.xlsx", **rates},
         to_parquet={"path": "m.parquet", **rates},
+        to_xarray=rates,
         to_html={"path": "m.html"},
         transmission_angle={"name": "C"},
     )

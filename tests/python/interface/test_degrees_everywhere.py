@@ -72,12 +72,84 @@ def test_a_picture() -> None:
 
 
 def test_calls_with_coordinates_take_degrees() -> None:
+    in_place = {"q": "deg", "q0": "deg0", "q_end": "deg_end"}
     without = {
         name
         for name, signature in callables().items()
-        if "q" in signature.parameters
-        and "deg" not in signature.parameters
-        and name.partition(".")[0] in ("Mechanism", "Machine", "sweep")
+        for q, deg in in_place.items()
+        if q in signature.parameters and deg not in signature.parameters
     }
-    # A place of defects is checked against joints; an impact is at one position.
-    assert without == {"Machine.impact", "Mechanism.defects", "Mechanism.map"}
+    # What holds coordinates beside values, as a record or a table does.
+    records = {
+        "DeadPoint", "Mechanism.defects", "SingularLocus", "Table", "balance.fit",
+        "balance.harmonics", "balance.rotating_parts", "events.Position", "flywheel.Extreme",
+        "slider_crank.Extreme",
+    }  # fmt: skip
+    assert without == records
+
+
+def test_the_start_and_the_end_of_a_run() -> None:
+    spun = assur.Machine(FOUR_BAR, bodies={"rocker": ROD, "crank": assur.Body(inertia=9.0)})
+    one = spun.run(deg0=30.0, speed0=4.0, deg_end=200.0)
+    two = spun.run(q0=30.0 * (np.pi / 180.0), speed0=4.0, q_end=200.0 * (np.pi / 180.0))
+    np.testing.assert_array_equal(one.t, two.t)
+    np.testing.assert_array_equal(one.at(deg=[40.0, 50.0]), two.at(q=np.radians([40.0, 50.0])))
+    with pytest.raises(assur.InputError, match=r"run\(\): both q0 and deg0 are given"):
+        spun.run(1.0, 0.0, deg0=30.0)
+    with pytest.raises(assur.InputError, match=r"both q_end and deg_end are given"):
+        spun.run(q_end=1.0, deg_end=30.0, speed0=1.0)
+    steady = spun.steady_state(10.0, deg0=30.0)
+    np.testing.assert_array_equal(steady.q, spun.steady_state(10.0, q0=np.pi / 6).q)
+    np.testing.assert_array_equal(steady.at(deg=40.0), steady.at(40.0 * (np.pi / 180.0)))
+
+
+def test_laws_in_degrees() -> None:
+    t = np.linspace(0.0, 0.5, 7)
+    one = FOUR_BAR.follow(deg=assur.laws.Cycloidal(10.0, 100.0, duration=0.5), t=t).joint("C")
+    law = assur.laws.Cycloidal(np.radians(10.0), np.radians(100.0), duration=0.5)
+    two = FOUR_BAR.follow(law, t).joint("C")
+    for own, other in (
+        (one.value, two.value),
+        (one.velocity(), two.velocity()),
+        (one.acceleration(), two.acceleration()),
+        (one.jerk(), two.jerk()),
+    ):
+        np.testing.assert_allclose(own, other, rtol=1e-11, atol=1e-11 * np.abs(other).max())
+    with pytest.raises(assur.InputError, match=r"follow\(\): both laws and deg are given"):
+        FOUR_BAR.follow(law, t, deg=law)
+    with pytest.raises(assur.InputError, match=r"follow\(\): neither laws nor deg is given"):
+        FOUR_BAR.follow(t=t)
+    with pytest.raises(assur.InputError, match=r"follow\(\): t is not given"):
+        FOUR_BAR.follow(law)
+    lift = assur.SliderCrank(1.0, 3.0).with_driver("bore", q=3.0)
+    with pytest.raises(assur.InputError, match="driver 'bore' is a slide"):
+        lift.follow(deg=assur.laws.Uniform(2.5, 3.5, duration=1.0), t=t)
+
+
+def test_an_angle_to_find() -> None:
+    assert FOUR_BAR.find("rocker", deg=100.0) == FOUR_BAR.find("rocker", 100.0 * (np.pi / 180.0))
+    with pytest.raises(assur.InputError, match="deg is for the angle of a link"):
+        FOUR_BAR.find("C.x", deg=100.0)
+    with pytest.raises(assur.InputError, match="both value and deg"):
+        FOUR_BAR.find("rocker", 1.0, deg=100.0)
+    with pytest.raises(assur.InputError, match="neither value nor deg"):
+        FOUR_BAR.find("rocker")
+
+
+def test_a_flywheel() -> None:
+    phi = np.linspace(0.0, 2.0 * np.pi, 25)
+    wheel = assur.flywheel.evaluate(phi, 10.0 * np.sin(phi), np.full(25, 2.0), speed0=10.0)
+    for curve in (
+        wheel.speed, wheel.time, wheel.work, wheel.reduced_moment, wheel.reduced_inertia,
+    ):  # fmt: skip
+        np.testing.assert_array_equal(curve(deg=DEGREES), curve(DEGREES * (np.pi / 180.0)))
+
+
+def test_an_impact_and_a_map() -> None:
+    stop = assur.Torque("rocker", -1.0)
+    at = 75.0 * (np.pi / 180.0)
+    hit = MACHINE.impact(stop, deg=75.0, speed=5.0)
+    assert hit.speed == MACHINE.impact(stop, at, speed=5.0).speed
+    over = {"rocker.length": [2.4, 2.6], "ground.D.x": [3.1, 3.3]}
+    counts = FOUR_BAR.map("assemblies", over, deg=75.0).values
+    np.testing.assert_array_equal(counts, FOUR_BAR.map("assemblies", over, q=at).values)

@@ -61,7 +61,6 @@ ATTRIBUTES: dict[str, tuple[Any, str, str]] = {
     "measures": (SWEPT, "best", "nsmallest"),
     "metric": (assur.metric, "least_transmission", "metric.min_transmission_angle"),
     "metric of a place": (assur.metric, "place_of_greatest", "metric.argmax"),
-    "sampled rotation": (assur.metric, "full_rotation", "metric.reachable"),
 }
 
 

@@ -42,7 +42,8 @@ def width(motion: assur.Motion, designs: int) -> int:
     m, n = motion.mechanism, motion.driver_count
     each = sum(n**order for order in range(motion.order + 1))
     quantities = 2 * len(m.joints) + len(m.links) + len(m.slides)
-    return designs + n + 1 + int(each) * quantities
+    differing = 1 if designs else 0
+    return designs + differing + n + 1 + int(each) * quantities
 
 
 def column(frame: Any, name: str) -> Any:
@@ -63,6 +64,8 @@ def test_a_link_called_as_a_column_keeps_its_own(name: str, designs: int) -> Non
     frame, other = motion.to_dataframe(), same.to_dataframe()
     assert frame.shape == (3 * batch.size, width(motion, designs))
     # Columns are in the same order; only one name is another.
+    if designs:
+        np.testing.assert_array_equal(column(frame, f"{name}.length"), np.repeat(batch, 3))
     for own, plainly in zip(frame.columns, other.columns, strict=True):
         np.testing.assert_array_equal(column(frame, own), column(other, plainly))
     taken = {"q", "status"} | ({"design"} if designs == 1 else set())

@@ -112,6 +112,7 @@ CALLS: dict[str, Callable[..., Any]] = {
     "Measures.plot": lambda _, **f: swept().plot("span", **f),
     "Motion.to_dataframe": lambda _, **f: MOTION.to_dataframe(**f),
     "Motion.to_excel": lambda at, **f: MOTION.to_excel(at / "m.xlsx", **f),
+    "Motion.to_xarray": lambda _, **f: MOTION.to_xarray(**f),
     "Motion.to_parquet": lambda at, **f: MOTION.to_parquet(at / "m.parquet", **f),
     "Motion.diagram": lambda _, **f: MOTION.diagram("rocker", **f),
     "Motion.plot": lambda _, **f: MOTION.plot(**f),

@@ -40,6 +40,7 @@ ARGUMENTS: dict[str, list[dict[str, Any]]] = {
         for relative in (False, True)
     ],
     "reachable": [{}],
+    "full_rotation": [{}],
 }
 
 

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.out is not None:
         output.write(_columns(extremes, of_driver, unit))
     if arguments.out != "-":
-        for name, at in (("least", extremes.min), ("greatest", extremes.max)):
+        for name, at in (("min", extremes.min), ("max", extremes.max)):
             value, q = _shown(at.value, unit), _shown(at.q, of_driver)
             print(f"{name:<10}  {value!r} {unit} at q = {q!r} {of_driver}")
         print(f"stroke      {_shown(extremes.stroke, unit)!r} {unit}")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._summary import summary
-from assur._table import Column, Tabular, coordinate_columns, design_columns
+from assur._table import Column, Tabular
 from assur._validate import checked_name
 from assur.description.structure import Group
 from assur.description.words import has_analogues
@@ -16,7 +16,7 @@ from assur.dynamics.forces.force_system import force_system
 from assur.dynamics.forces.joint_places import links_at
 from assur.dynamics.forces.reaction_key import RESIDUAL, SAFETY, SOLUTIONS, Key
 from assur.errors import InputError
-from assur.kinematics.table import driven_angles
+from assur.kinematics.table import driven_angles, row_columns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -154,11 +154,7 @@ class Reactions(Tabular):
         """Return all forces: those at a joint on every link but the first, which takes the rest."""
         mechanism, shape = self.mechanism, self.status.shape
         angles = driven_angles(mechanism)
-        columns = [
-            *design_columns(shape, len(mechanism.shape)),
-            *coordinate_columns(self.q, angles, shape, degrees),
-            Column("status", self.status.reshape(-1), "", None),
-        ]
+        columns = row_columns(mechanism, self.q, self.status, degrees)
 
         def add(name: str, values: Any, unit: str, quantity: str) -> None:
             columns.append(Column(name, np.broadcast_to(values, shape).reshape(-1), unit, quantity))
@@ -183,7 +179,10 @@ class Reactions(Tabular):
     def __repr__(self) -> str:
         pins = [links for links in links_at(self.mechanism).values() if len(links) > 1]
         joints, slides = len(pins), len(self.mechanism.slides)
-        return f"<assur.Reactions of {joints} joints, {slides} slides, shape {self.status.shape}>"
+        moves = np.any(self.speed) or np.any(self.acceleration)
+        statics = "" if moves else ", at rest (statics)"
+        of = f"{joints} joints, {slides} slides, shape {self.status.shape}"
+        return f"<assur.Reactions of {of}{statics}>"
 
     @property
     def driver(self) -> Any:

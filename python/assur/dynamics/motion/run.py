@@ -13,6 +13,7 @@ from assur._summary import summary
 from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
+from assur.kinematics.solve_arguments import in_radians
 from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
@@ -318,7 +319,13 @@ class Run(Tabular):
         start = self.at_rest_from
         return "" if start is None else f", stands still from t = {start:g} s on"
 
-    def at(self, t: npt.ArrayLike | None = None, *, q: npt.ArrayLike | None = None) -> State:
+    def at(
+        self,
+        t: npt.ArrayLike | None = None,
+        *,
+        q: npt.ArrayLike | None = None,
+        deg: npt.ArrayLike | None = None,
+    ) -> State:
         """Return the motion at any time within the run.
 
         Parameters
@@ -327,6 +334,8 @@ class Run(Tabular):
             Times, s: a number or an array.
         q : array_like
             Coordinates instead of times, for a run over q (`q_end`).
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -351,6 +360,8 @@ class Run(Tabular):
         >>> run.at([0.5, 1.0]).speed.round(6)  # rad/s: 4 rad/s² for t
         array([2., 4.])
         """
+        if deg is not None:
+            q = in_radians(self.mechanism, q, deg, "at")
         coordinate, unused, name = (q, t, "q") if self.along_q else (t, q, "t")
         if coordinate is None or unused is not None:
             message = f"this run goes along {name}: call at({name}=...)"

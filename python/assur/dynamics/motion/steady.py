@@ -13,6 +13,7 @@ from assur._other_names import other_names
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.dynamics.motion.run import Run
+from assur.kinematics.solve_arguments import q_or_deg
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -112,13 +113,15 @@ class SteadyState(Tabular):
             f"{self.power:.6g} W{flywheel}>"
         )
 
-    def at(self, q: npt.ArrayLike) -> State:
+    def at(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> State:
         """Return time, speed and acceleration at coordinates, over any number of periods.
 
         Parameters
         ----------
         q : array_like
             Coordinates, rad.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
 
         Returns
         -------
@@ -138,7 +141,7 @@ class SteadyState(Tabular):
         >>> steady.at([0.0, 2 * np.pi]).speed.round(6)  # rad/s: the same a period later
         array([9.79407, 9.79407])
         """
-        x = finite_array(q, "q")
+        x = finite_array(q_or_deg(None, q, deg, "at"), "q")
         first, last = float(self.q[0]), float(self.q[-1])
         low, high = min(first, last), max(first, last)
         # The remainder is exact however large q is.

@@ -28,6 +28,7 @@ from assur.kinematics.pose import Pose, bare_core
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
+    from assur._arrays import Float
     from assur.description.encode import Description
     from assur.description.words import DriverLike
     from assur.kinematics.model import AssemblyNumbers, MechanismModel
@@ -61,7 +62,7 @@ class InverseSolution(NamedTuple):
     assembly: Assembly
 
 
-def find(mechanism: MechanismModel, name: str, value: Any) -> list[InverseSolution]:
+def find(mechanism: MechanismModel, name: str, value: Any, deg: Any) -> list[InverseSolution]:
     """See `Mechanism.find`."""
     name = checked_name(name, "find")
     drivers = mechanism.driver_count
@@ -70,6 +71,13 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[InverseSoluti
         raise InputError(message)
     if drivers > 2:
         message = f"find() is for one driver or two; this mechanism has {drivers}"
+        raise InputError(message)
+    if deg is not None:
+        value = _angle(mechanism, name, value, deg)
+    elif value is None:
+        message = (
+            f"find({name!r}): neither value nor deg is given: pass the value that it is to have"
+        )
         raise InputError(message)
     target = np.atleast_1d(real_array(value, "value"))
     if target.shape != (drivers,) or not np.isfinite(target).all():
@@ -90,6 +98,17 @@ def find(mechanism: MechanismModel, name: str, value: Any) -> list[InverseSoluti
         if answer is not None and not any(_is_same(answer, known) for known in answers):
             answers.append(answer)
     return sorted(answers, key=lambda answer: np.ravel(answer.q).tolist())
+
+
+def _angle(mechanism: MechanismModel, name: str, value: Any, deg: Any) -> Float:
+    """Return the angle that is given in degrees, rad."""
+    if value is not None:
+        message = f"find({name!r}): both value and deg are given: pass one of them"
+        raise InputError(message)
+    if name not in mechanism.links:
+        message = f"find({name!r}): deg is for the angle of a link; {name!r} is measured in m"
+        raise InputError(message)
+    return real_array(deg, "deg") * (np.pi / 180.0)
 
 
 def _is_same(answer: InverseSolution, known: InverseSolution) -> bool:

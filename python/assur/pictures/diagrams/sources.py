@@ -187,9 +187,10 @@ class OverTime:
 
     def lines(self, of: Quantity, order: int) -> list[Line]:
         """Return the curves of a quantity."""
-        derivatives = getattr(self._timed, of.kind)(of.name)
-        values = derivatives[order][None]
-        slopes = derivatives[order + 1][None] if order < self.orders else None
+        found: Any = getattr(self._timed, of.kind)(of.name)
+        derivatives = (lambda: found.value, found.velocity, found.acceleration, found.jerk)
+        values = derivatives[order]()[None]
+        slopes = derivatives[order + 1]()[None] if order < self.orders else None
         if of.kind == "link" and order == 0 and self.degrees:
             values, slopes = np.degrees(values), None if slopes is None else np.degrees(slopes)
         return components(of, order, values, slopes)

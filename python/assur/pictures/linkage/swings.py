@@ -43,21 +43,16 @@ def swings(mechanism: Mechanism, assembly: dict[str, int]) -> list[Swing]:
     for link, joints in mechanism.links.items():
         pivots = [joint for joint in joints if joint in ground]
         if link != "ground" and len(pivots) == 1 and len(joints) > 1:
-            limits = _extremes(mechanism, link, assembly)
-            if limits is not None:
+            signs = [assembly[name] for name, _ in mechanism.core.assembly]
+            try:
+                ends = mechanism.core.extremes(mechanism.values.tolist(), signs, link, 0)
+            except AssurError:
+                # Not every assembly of a higher group can be followed to its ends.
+                continue
+            if ends is not None:
+                limits = ends[0][0], ends[1][0]
                 listed.append(Swing(link, pivots[0], limits if np.isfinite(limits).all() else None))
     return listed
-
-
-def _extremes(
-    mechanism: Mechanism, link: str, assembly: dict[str, int]
-) -> tuple[float, float] | None:
-    try:
-        extremes = mechanism.extremes(link, assembly=assembly)
-    except AssurError:
-        # Not every assembly of a higher group can be followed to its ends.
-        return None
-    return extremes.min.value, extremes.max.value
 
 
 def draw_traces(subject: Subject, on: Canvas, listed: list[Swing]) -> list[Float]:

@@ -234,7 +234,7 @@ def test_over_time() -> None:
     np.testing.assert_array_equal(y, moved.jerk)
     ax = moved.diagram("A", orders=1)
     assert ax.get_xlabel() == "t, s"
-    np.testing.assert_array_equal(curve(ax, "y")[1], moved.joint("A").velocity[:, 1])
+    np.testing.assert_array_equal(curve(ax, "y")[1], moved.joint("A").velocity()[:, 1])
 
 
 def test_colours_and_axes_given() -> None:

@@ -60,9 +60,9 @@ def test_frames_of_an_input_law_are_those_of_the_motion() -> None:
     turn = turn_of_timed(timed)
     assert np.array_equal(turn.frames.joints()["B"][:, 0], timed.joint("B").value[:, 0])
     piston = turn.frames.links.index("piston")
-    assert np.abs(turn.frames.values[1][:, piston, :2] - timed.joint("B").velocity).max() < 1e-12
+    assert np.abs(turn.frames.values[1][:, piston, :2] - timed.joint("B").velocity()).max() < 1e-12
     assert (
-        np.abs(turn.frames.values[2][:, piston, :2] - timed.joint("B").acceleration).max() < 1e-10
+        np.abs(turn.frames.values[2][:, piston, :2] - timed.joint("B").acceleration()).max() < 1e-10
     )
 
 
