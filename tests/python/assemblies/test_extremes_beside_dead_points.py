@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 import assur
 from assemblies.test_numbers import six_bar, triad
+from campaigns.checks.campaign_variants import variant_of
 from models.mechanisms import mixed_models
 from models.mechanisms.mechanism_data import arguments
 
@@ -252,3 +254,14 @@ def test_a_joint_goes_to_infinity_just_beyond_a_dead_point(seed: int, name: str,
         distance = math.pi - end
         values = [m.extremes(name, order=order).max.value for order in (0, 2)]
         assert values[1] == pytest.approx(2.0 * values[0] / distance**2, rel=1e-3)
+
+
+def test_digits_lost_beside_a_dead_point_do_not_hide_a_pole() -> None:
+    """No polynomial is followed to 1e-4 there, in one of two orders of the links."""
+    description = mixed_models.mixed_case(78316).description
+    drawn = assur.Mechanism(**arguments(description))
+    other = variant_of(description, drawn, random.Random("variants 78316"))
+    for own in (description, other.description):
+        m = assur.Mechanism(**arguments(own))
+        third = m.extremes("s3", order=3)
+        assert (third.min.value, third.max.value) == (-math.inf, math.inf)
