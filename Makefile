@@ -51,8 +51,8 @@ help:
 	@echo "make docs         these pages, the API and the gallery: docs/_build/html/index.html"
 	@echo "make gallery      the gallery's pages and pictures alone: docs/gallery"
 	@echo "make wheel        a wheel for release in dist/, audited, installed and tested"
-	@echo "make bench        benchmarks, beside NumPy and numba; docs/speed.md"
-	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/campaigns"
+	@echo "make bench        benchmarks, beside NumPy and numba; docs/explanation/speed.md"
+	@echo "make campaign     random mechanisms by the hundred thousand (three hours); docs/developers/campaigns"
 	@echo "make fuzz         libFuzzer on the core, SECONDS=60 each target (fuzz/README.md)"
 	@echo "make clean        remove everything that was built, the environment too"
 
@@ -77,6 +77,7 @@ lint: $(EXTENSION) $(DEV_STAMP)
 	$(VENV)/bin/zizmor --offline --quiet .github
 	$(PY) tools/error_page --check
 	$(PY) tools/examples_page --check
+	$(PY) tools/front_picture --check
 
 types: $(EXTENSION) $(DEV_STAMP)
 	$(PY) -m mypy
@@ -84,7 +85,7 @@ types: $(EXTENSION) $(DEV_STAMP)
 # Results at one level of vector instructions; `make test` compares them at all.
 quick-tests: $(EXTENSION) $(DEV_STAMP)
 	$(PYTEST) -k "not (avx2 or avx512)" tests/python/net/test_digests.py \
-	  tests/python/description tests/python/papers tests/python/package/test_readme.py \
+	  tests/python/description tests/python/papers tests/python/package/test_pages.py \
 	  tests/python/package/test_examples_in_docstrings.py
 
 # On one core for minutes each, where they end, the release build of the extension and the builds of
@@ -120,7 +121,7 @@ pytest: rust-tools $(EXTENSION) $(DEV_STAMP)
 # Warnings are errors: of broken links and of names without a page, too.
 docs: gallery
 	@$(PY) -m pip install --quiet --group docs
-	@rm -rf docs/_build docs/api/generated
+	@rm -rf docs/_build docs/reference/api/generated
 	$(PY) -m sphinx -b html -n -W --keep-going -q -j auto docs docs/_build/html
 	@echo "docs/_build/html/index.html"
 
@@ -141,10 +142,10 @@ bench: rust-tools $(EXTENSION)
 
 CAMPAIGN := PYTHONPATH=tests/python $(PY) -m campaigns.campaign
 campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
-	$(CAMPAIGN) --count 100000 --out docs/campaigns/class_ii.md
-	$(CAMPAIGN) --higher --count 10000 --out docs/campaigns/higher.md
-	$(CAMPAIGN) --mixed --count 100000 --out docs/campaigns/mixed.md
-	$(CAMPAIGN) --machines --count 10000 --out docs/campaigns/machines.md
+	$(CAMPAIGN) --count 100000 --out docs/developers/campaigns/class_ii.md
+	$(CAMPAIGN) --higher --count 10000 --out docs/developers/campaigns/higher.md
+	$(CAMPAIGN) --mixed --count 100000 --out docs/developers/campaigns/mixed.md
+	$(CAMPAIGN) --machines --count 10000 --out docs/developers/campaigns/machines.md
 	PYTHONPATH=tests/python $(PY) -W ignore -m campaigns.campaign_assemblies
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/friction/test_friction_random.py \
@@ -165,7 +166,7 @@ fuzz: rust-tools
 
 clean:
 	cargo clean
-	rm -rf $(VENV) out dist docs/_build docs/api/generated docs/gallery .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) out dist docs/_build docs/reference/api/generated docs/gallery .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	rm -f python/assur/_core*.so
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 

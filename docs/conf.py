@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import sys
 from pathlib import Path
@@ -18,13 +19,14 @@ for _name in ("crank_rocker", "slider_crank"):
 
 # The classes that the pages of api/ list, by the names under which they are documented.
 _LINE = re.compile(r"^   ((?:\w+\.)*[A-Z]\w*)$", re.MULTILINE)
-_PAGES = [page.read_text("utf-8") for page in Path(__file__).with_name("api").glob("*.rst")]
+API = Path(__file__).parent / "reference" / "api"
+_PAGES = [page.read_text("utf-8") for page in API.glob("*.rst")]
 CLASSES = {
     name: import_by_name(name)[1]
     for name in (f"assur.{line}" for page in _PAGES for line in _LINE.findall(page))
 }
 SHORT = {name.rpartition(".")[2]: name for name in CLASSES}
-assert len(SHORT) == len(CLASSES), "docs/api lists two classes of the same name"
+assert len(SHORT) == len(CLASSES), "docs/reference/api lists two classes of the same name"
 
 project = "assur"
 copyright = "the authors of assur"  # noqa: A001 (Sphinx's name)
@@ -38,7 +40,7 @@ extensions = [
     "sphinx.ext.viewcode",
 ]
 templates_path = ["_templates"]
-exclude_patterns = ["_build", "gallery/_live"]
+exclude_patterns = ["_build", "gallery/_live", "gallery/_front.md"]
 language = "en"
 smartquotes = False  # {"open", "crossed"} are to be typed
 highlight_options = {"python": {"stripnl": True}}  # README ends its sessions with an empty line
@@ -92,9 +94,10 @@ html_extra_path = ["gallery/_live"]  # pages that play, as they are
 html_css_files = ["assur.css"]
 html_show_sourcelink = False
 html_copy_source = False
-html_sidebars = {"start/index": []}  # a page alone
+html_sidebars = {"index": []}
 html_theme_options = {
     "show_toc_level": 2,
+    "header_links_before_dropdown": 6,
     "navigation_with_keys": False,
     "footer_start": ["copyright"],
     "footer_end": [],
@@ -140,8 +143,42 @@ def _skip(
     return True if (thing.__doc__ or "").startswith("Alias for field number") else None
 
 
+def _api_index(_app: Any, page: str, source: list[str]) -> None:
+    """Put every public name in the place of a comment, with a sentence each."""
+    mark = "% every name\n"
+    if page == "reference/api/index":
+        pages = re.findall(r"^(\w+)$", source[0].partition("```{toctree}")[2], re.MULTILINE)
+        texts = [(API / f"{name}.rst").read_text("utf-8") for name in pages]
+        source[0] = source[0].replace(mark, "".join(map(_of_page, texts)))
+
+
+def _of_page(text: str) -> str:
+    """A heading and the table of a page of the API, with the methods of its classes."""
+    lines = []
+    for name in re.findall(r"^   ([a-zA-Z_][\w.]*)$", text, re.MULTILINE):
+        lines.append(f"   {name}")
+        thing = CLASSES.get(f"assur.{name}")
+        lines += [f"   {name}.{method}" for method in _methods(thing)] if thing else []
+    title = text.partition("\n")[0]
+    head = [".. currentmodule:: assur", "", ".. autosummary::", "   :nosignatures:", ""]
+    block = "\n".join([*head, *lines])
+    return f"## {title}\n\n```{{eval-rst}}\n{block}\n```\n\n"
+
+
+def _methods(cls: type) -> list[str]:
+    """Public methods of a class, that it has itself, in the order of its source."""
+    if issubclass(cls, Exception | tuple):
+        return []
+    return [
+        name
+        for name, member in vars(cls).items()
+        if not name.startswith("_") and inspect.isroutine(member) and inspect.getdoc(member)
+    ]
+
+
 def setup(app: Any) -> None:
-    """Connects what Sphinx asks while it reads docstrings."""
+    """Connects what Sphinx asks while it reads pages and docstrings."""
+    app.connect("source-read", _api_index)
     app.connect("autodoc-process-bases", _bases)
     app.connect("autodoc-process-docstring", _docstring)
     app.connect("autodoc-process-signature", _signature)

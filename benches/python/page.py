@@ -1,4 +1,4 @@
-"""Writes the tables and plots of docs/speed.md between its markers, from the figures."""
+"""Writes tables and plots of docs/explanation/speed.md between its markers, from the figures."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import table
 from memory import OLD
 from subject import OURS
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "speed.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "explanation" / "speed.md"
 MARKERS = re.compile(r"(<!-- bench: (\w+) -->\n)(.*?)(<!-- /bench -->)", re.DOTALL)
 
 # The first table: a user's words, the case, the number of its subject.
@@ -52,7 +52,7 @@ def write() -> None:
         if name == "expect":
             return f"{start}{_expect(cases)}\n{end}"
         if name not in cases:
-            print(f"docs/speed.md: no figures of {name}: left as it is")
+            print(f"docs/explanation/speed.md: no figures of {name}: left as it is")
             return match[0]
         return f"{start}{_section(name, cases[name])}\n{end}"
 
@@ -60,7 +60,7 @@ def write() -> None:
     PAGE.write_text(text, encoding="utf-8")
     shown = {match[2] for match in MARKERS.finditer(text)}
     for name in sorted(set(cases) - shown):
-        print(f"docs/speed.md has no marker of {name}")
+        print(f"docs/explanation/speed.md has no marker of {name}")
 
 
 def _machine(machine: dict[str, Any], cases: dict[str, Any]) -> str:

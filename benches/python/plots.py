@@ -15,7 +15,7 @@ from subject import OURS
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-FOLDER = Path(__file__).resolve().parents[2] / "docs" / "speed"
+FOLDER = Path(__file__).resolve().parents[2] / "docs" / "explanation" / "speed"
 COLOURS = {OURS: "#c1272d", "NumPy": "#4878a8", "numba": "#6a9a3a", "memory": "#777777"}
 OTHERS = "#b07aa1"
 # Text stays text, and the same figures make the same file.

@@ -6,7 +6,7 @@ From the root of the repository::
     python benches/python/run.py                     all cases, printed
     python benches/python/run.py --only chains       one of them
     python benches/python/run.py --quick             few designs, once: whether answers agree
-    python benches/python/run.py --write             figures, tables and plots of docs/speed.md
+    python benches/python/run.py --write             figures, tables, docs/explanation/speed.md
     python benches/python/run.py --page              the page again, from the figures there are
 """
 
@@ -31,8 +31,12 @@ def parsed() -> argparse.Namespace:
     parser.add_argument("--only", nargs="+", metavar="NAME", help=", ".join(cases(quick=True)))
     parser.add_argument("--quick", action="store_true", help="few designs, one round, one level")
     parser.add_argument("--rounds", type=int, metavar="N", help="so many, however long they take")
-    parser.add_argument("--write", action="store_true", help="write docs/speed.md and its figures")
-    parser.add_argument("--page", action="store_true", help="write docs/speed.md, measure nothing")
+    parser.add_argument(
+        "--write", action="store_true", help="write docs/explanation/speed.md and its figures"
+    )
+    parser.add_argument(
+        "--page", action="store_true", help="write docs/explanation/speed.md, measure nothing"
+    )
     asked = parser.parse_args()
     known = list(cases(quick=True))
     for name in asked.only or ():

@@ -26,8 +26,8 @@ class AssurError(Exception):
     Attributes
     ----------
     kind : str or None
-        What failed, in a word: ``"not_closed"``, ``"bad_dimension"``. docs/errors.md lists all
-        kinds that the core raises; None for arguments that Python refuses.
+        What failed, in a word: ``"not_closed"``, ``"bad_dimension"``. docs/reference/errors.md
+        lists all kinds that the core raises; None for arguments that Python refuses.
     hint : str or None
         What to do about it, the end of the message.
     joint, link, slide, driver, dimension : str or None

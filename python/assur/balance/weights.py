@@ -145,7 +145,7 @@ def slider_crank(
     A rod of mass m acts as m (1 − p) at the crankpin, which rotates, and m p at the piston, which
     reciprocates (complex where its centre is off its line: p = (s − a)/(b − a)). A weight on the
     crank can balance the rotating mass wholly. It takes the fraction c of the reciprocating mass's
-    first harmonic along the guide and adds as much across it. See `docs/reactions.md`.
+    first harmonic along the guide and adds as much across it. See `docs/explanation/reactions.md`.
 
     References
     ----------

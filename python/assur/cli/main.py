@@ -36,7 +36,7 @@ COMMANDS = {
     "examples": "the examples that the package contains",
 }
 EPILOG = """\
-FILE is a TOML file (docs/files.md), a file of PMKS, PMKS+, pylinkage, pyslvs or
+FILE is a TOML file (docs/reference/files.md), a file of PMKS, PMKS+, pylinkage, pyslvs or
 Linkage, an example (example:jansen_leg), or - for the standard input.
 
 exit status:

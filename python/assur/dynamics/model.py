@@ -197,7 +197,7 @@ class MachineModel:
         Parameters
         ----------
         path : path-like
-            The file; one that exists is replaced. docs/files.md describes the format.
+            The file; one that exists is replaced. docs/reference/files.md describes the format.
 
         Raises
         ------

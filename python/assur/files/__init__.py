@@ -1,7 +1,7 @@
 """Files of mechanisms and machines: TOML, with the words of the Python interface.
 
-`Mechanism.save` and `Machine.save` write them, `assur.load` reads them; docs/files.md describes
-the format. `read` also gives the results that a file asks for.
+`Mechanism.save` and `Machine.save` write them, `assur.load` reads them; docs/reference/files.md
+describes the format. `read` also gives the results that a file asks for.
 """
 
 from pathlib import Path

@@ -148,7 +148,7 @@ def read(path: str | PathLike[str]) -> Contents:
     Parameters
     ----------
     path : path-like
-        A TOML file (docs/files.md).
+        A TOML file (docs/reference/files.md).
 
     Returns
     -------
@@ -219,7 +219,7 @@ def load(path: str | PathLike[str]) -> Any:
     Parameters
     ----------
     path : path-like
-        A TOML file (docs/files.md), such as `Mechanism.save` and `Machine.save` write.
+        A TOML file (docs/reference/files.md), such as `Mechanism.save` and `Machine.save` write.
 
     Returns
     -------

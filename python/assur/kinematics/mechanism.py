@@ -852,7 +852,7 @@ class Mechanism(MechanismModel):
         Parameters
         ----------
         path : path-like
-            The file; one that exists is replaced. docs/files.md describes the format.
+            The file; one that exists is replaced. docs/reference/files.md describes the format.
 
         Raises
         ------

@@ -1,7 +1,7 @@
 """Documents: mechanisms and machines as JSON, in the words of files.
 
-A document is the tree of a TOML file of assur (docs/files.md) without ``format`` and without the
-results that a file may ask for; its dimensions have dotted names, ``"coupler.length"``.
+A document is the tree of a TOML file of assur (docs/reference/files.md) without ``format`` and
+without the results that a file may ask for; its dimensions have dotted names, ``"coupler.length"``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 //! Maps every error of the core to an exception: its class, its kind and its fields.
 //!
-//! The kind is the name of the error's variant; `docs/errors.md` lists them all.
+//! The kind is the name of the error's variant; `docs/reference/errors.md` lists them all.
 
 use assur::dynamics::{RunError, SteadyError, TableError, Variable};
 use assur::papers::crank_rocker::JammingError;

@@ -10,7 +10,7 @@ import pytest
 from assur import examples
 from oracles.kinematics.example_checks import mechanism_of, over_range, span
 
-POSITION = 8 * 2.220446049250313e-16  # of size times condition: what docs/conventions.md promises
+POSITION = 8 * 2.220446049250313e-16  # of size times condition: what conventions.md promises
 STEP = 1e-5  # rad or m: differences then err by about as much by truncation as by rounding
 BESIDE = 0.03  # rad: the locomotive has change points at 0 and π
 

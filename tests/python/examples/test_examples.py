@@ -18,7 +18,7 @@ from oracles.kinematics.example_checks import distance, mechanism_of, over_range
 Groups: TypeAlias = tuple[tuple[int, int, str | None], ...]  # class, order, kind of each group
 
 U = 2.220446049250313e-16
-POSITION = 8 * U  # of size times condition: what docs/conventions.md promises
+POSITION = 8 * U  # of size times condition: what docs/reference/conventions.md promises
 RRR, RRP, RPR, PRP, RPP = ((2, 2, kind) for kind in ("RRR", "RRP", "RPR", "PRP", "RPP"))
 TRIAD, TETRAD = (3, 3, None), (4, 2, None)  # Assur's groups by their closed contours
 # As the literature has them: dyads by Artobolevsky's kinds; Stephenson's chain is of class III

@@ -1,4 +1,4 @@
-"""The examples of docs/importers.md print what it shows; every list of programs names all."""
+"""The page on importers prints what it shows; every list of programs names all."""
 
 import doctest
 import re
@@ -11,7 +11,7 @@ from assur.cli.main import EPILOG
 from cli.command_line import assur_command
 
 ROOT = Path(__file__).parents[3]
-PAGE = ROOT / "docs" / "importers.md"
+PAGE = ROOT / "docs" / "how_to" / "importers.md"
 # Of each format, from the page's table of formats: its name and its program's.
 ROW = re.compile(r"^\| `(\w+)` \| ([\w+]+)[^|]*:", re.MULTILINE)
 PROGRAMS = dict(ROW.findall(PAGE.read_text(encoding="utf-8")))
@@ -37,7 +37,9 @@ def test_help_names_every_format() -> None:
     assert [name for name in importers.FORMATS if name not in words] == []
 
 
-@pytest.mark.parametrize("text", ["README.md", "docs/command_line.md", "--help", "docstring"])
+@pytest.mark.parametrize(
+    "text", ["README.md", "docs/reference/command_line.md", "--help", "docstring"]
+)
 def test_lists_of_programs_are_whole(text: str) -> None:
     """Each begins with PMKS and PMKS+."""
     others = {"--help": EPILOG, "docstring": importers.__doc__ or ""}

@@ -19,7 +19,7 @@ from oracles.kinematics import textbook
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-PAGE = Path(__file__).parents[3] / "docs" / "conventions.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "conventions.md"
 METRICS = {
     name
     for name, method in vars(assur.Motion).items()

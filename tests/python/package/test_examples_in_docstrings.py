@@ -1,10 +1,11 @@
 """Every public name has a page of its own and an example that runs (pytest --doctest-modules).
 
 Public are the names in ``assur.__all__`` and in ``__all__`` of the modules among them, and the
-classes of results that the pages of docs/api list besides. An example is asked of every such class
-and function, and of every public method that such a class has from this package. None is asked of
-properties and fields, which the example of their class shows, of constants, of what Python adds to
-tuples, enumerations and exceptions, nor of a method that overrides one with an example.
+classes of results that the pages of docs/reference/api list besides. An example is asked of
+every such class and function, and of every public method that such a class has from this package.
+None is asked of properties and fields, which the example of their class shows, of constants, of
+what Python adds to tuples, enumerations and exceptions, nor of a method that overrides one with an
+example.
 """
 
 import inspect
@@ -18,7 +19,7 @@ import pytest
 
 import assur
 
-PAGES = Path(__file__).parents[3] / "docs" / "api"
+PAGES = Path(__file__).parents[3] / "docs" / "reference" / "api"
 LISTED = re.compile(r"^   ([a-zA-Z_][\w.]*)$", re.MULTILINE)
 
 
@@ -36,7 +37,7 @@ def public_names() -> dict[str, object]:
 
 
 def listed_names() -> dict[str, object]:
-    """What docs/api lists, by its name there, without ``assur.``."""
+    """What docs/reference/api lists, by its name there, without ``assur.``."""
     names = (name for page in PAGES.glob("*.rst") for name in LISTED.findall(page.read_text()))
     return {name: found(name) for name in names}
 
@@ -76,7 +77,7 @@ def test_every_public_name_has_a_page() -> None:
     """A new name goes to the page of its subject."""
     listed = list(listed_names().values())
     missing = [name for name, thing in public_names().items() if thing not in listed]
-    assert not missing, f"list these in a page of docs/api: {missing}"
+    assert not missing, f"list these in a page of docs/reference/api: {missing}"
 
 
 def test_every_public_name_has_an_example() -> None:

@@ -63,3 +63,64 @@ def test_paths_worth_seeing_are_those_of_points_on_no_circle(gallery: Any) -> No
     assert gallery.points(assur.examples.crank_rocker()) == ["P"]
     assert gallery.points(assur.examples.klann_leg()) == ["F"]
     assert gallery.points(assur.examples.engine()) == ["B"]
+
+
+@pytest.mark.parametrize("name", ["klann_leg", "scotch_yoke", "engine"])
+def test_thumbnails_have_one_size_and_no_words(gallery: Any, name: str, tmp_path: Path) -> None:
+    example = gallery.mechanism(name)
+    path = tmp_path / "small.svg"
+    gallery.thumbnail(gallery.motion(name, example), gallery.points(example), False, path)
+    text = path.read_text(encoding="utf-8")
+    width, height = (72.0 * side for side in gallery.BOX)
+    assert f'viewBox="0 0 {width:g} {height:g}"' in text
+    assert "<text" not in text
+    assert 'id="scale' not in text
+    assert 'id="link crank"' in text
+
+
+def test_a_thumbnail_fills_its_box(gallery: Any) -> None:
+    figure = gallery.plt.figure(figsize=gallery.BOX)
+    ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    ax.set_aspect("equal", adjustable="box")
+    (line,) = ax.plot([5.0, 9.0], [1.0, 1.5])
+    gallery.fit(ax)
+    figure.canvas.draw()
+    drawn, box = line.get_window_extent(), ax.get_window_extent()
+    assert drawn.width / box.width == pytest.approx(1.0 - 2.0 * gallery.MARGIN, abs=0.01)
+    assert (drawn.y0 + drawn.y1) / 2.0 == pytest.approx((box.y0 + box.y1) / 2.0, abs=0.5)
+
+
+def test_pictures_are_those_of_the_code_above_them(
+    gallery: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "FOLDER", tmp_path)
+    (tmp_path / "shown").mkdir()
+    here = Path.cwd()
+    block = """```python
+>>> import assur
+>>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+>>> m.solve("x")
+Traceback (most recent call last):
+...
+TypeError
+>>> axes = m.plot(1.0)
+>>> print("nothing")
+nothing
+
+```
+
+```{image} ../gallery/shown/one.svg
+```
+"""
+    gallery.draw_page(block)
+    assert Path.cwd() == here
+    assert [path.name for path in (tmp_path / "shown").iterdir()] == ["one.svg"]
+    assert 'id="link coupler"' in (tmp_path / "shown" / "one.svg").read_text(encoding="utf-8")
+
+
+def test_every_picture_of_a_page_stands_below_code(gallery: Any) -> None:
+    for part in gallery.PARTS:
+        for page in (gallery.FOLDER.parent / part).glob("*.md"):
+            text = page.read_text(encoding="utf-8")
+            shown = re.findall(r"```\n\n```\{image\} \.\./gallery/shown/(\w+)\.svg", text)
+            assert len(shown) == text.count(gallery.SHOWN), page

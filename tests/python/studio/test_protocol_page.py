@@ -14,7 +14,9 @@ from assur.studio.kinds import KINDS, LIVE
 from assur.studio.session import Given, stamp_of
 from studio.asking import Reply, ask, refused
 
-PAGE = (Path(__file__).parents[3] / "docs" / "studio_protocol.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[3] / "docs" / "developers" / "studio_protocol.md").read_text(
+    encoding="utf-8"
+)
 SECTIONS = dict(re.findall(r"^### `(\w+)`\n(.*?)(?=^##|\Z)", PAGE, re.MULTILINE | re.DOTALL))
 BLOCK = re.compile(r"^```javascript\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ENVELOPE = {"id", "rev", "kind", "arrays"}

@@ -12,7 +12,7 @@ import pytest
 import assur
 from assur import metric
 
-PAGE = Path(__file__).parents[3] / "docs" / "conventions.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "conventions.md"
 FUNCTIONS = {name for name in metric.__all__ if name.islower()} - {"function"}
 OF_MOTIONS = {name for name in FUNCTIONS if getattr(metric, name).__module__ == "assur.metric"}
 

@@ -1,6 +1,6 @@
 //! One position of the core against the oracle.
 //!
-//! The law (docs/conventions.md): a position is good to 8 u κ of the size, an
+//! The law (docs/reference/conventions.md): a position is good to 8 u κ of the size, an
 //! analogue to 64 u κ² of its own size. κ is the condition the core states. Here
 //!
 //! - the size is the greatest coordinate at the position ([`Oracle::extent`]);

@@ -18,8 +18,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     describe(
         parser,
-        "Write what FILE holds as a TOML file (docs/files.md). What does not carry over from\n"
-        "another program is said on the standard error.",
+        "Write what FILE holds as a TOML file (docs/reference/files.md). What does not carry over\n"
+        "from another program is said on the standard error.",
         "assur convert example:watt_1 watt.toml",
         "assur convert example:engine --set rod.length=220mm long.toml",
     )

@@ -95,7 +95,7 @@ def failed(failures: Sequence[str]) -> str:
     )
 
 
-CLASS_II = f"""# Campaign
+CLASS_II = f"""# Campaign: class II
 
 `make campaign` draws random class II mechanisms (any driver, one to four dyads of any kind; one
 in ten with a dyad that has change points), moves each over {cases.TURNS} turns of its crank, or a

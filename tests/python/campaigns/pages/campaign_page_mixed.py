@@ -109,7 +109,7 @@ What is checked of every mechanism:
   order, have the bits that they have in the batch.
 - **No false OK.** Every position with values satisfies every pin, guide and driver to the law's
   8 u κ of the size. The equations follow from the table of dimensions in
-  [the conventions](../conventions.md) and share no code with `assur`.
+  [the conventions](../../reference/conventions.md) and share no code with `assur`.
 - **No jump.** Between neighbouring positions of the drawing (and of one in
   {of_mixed.DESIGN_MOTIONS} of the other designs) nothing moves farther than its first analogues
   carry it to {checks.JUMP:g} of the drawing (or rad). With two drivers the path is straight.
@@ -144,9 +144,9 @@ is written by it; there are others on mechanisms of [class II](class_ii.md), of
 [classes III and IV](higher.md) and of [mixed groups](mixed.md).
 
 Both sides of each comparison start from `Mechanism.solve`: places of joints, angles of links and
-their first derivatives. All else is written anew from [the conventions](../conventions.md): poses
-of links, kinetic energy, weights, springs, and the power of every other load and motor (tables by
-SciPy's splines).
+their first derivatives. All else is written anew from
+[the conventions](../../reference/conventions.md): poses of links, kinetic energy, weights,
+springs, and the power of every other load and motor (tables by SciPy's splines).
 
 - **Reductions.** At {of_machines.PLACES} random positions within {of_machines.REACH:g} rad (or m)
   of the drawing: reduced inertia is twice the kinetic energy by the square of the speed, reduced

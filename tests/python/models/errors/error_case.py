@@ -10,7 +10,7 @@ import assur
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-# In the order of docs/errors.md.
+# In the order of docs/reference/errors.md.
 FIELDS = ("joint", "link", "slide", "driver", "dimension", "group", "design", "q", "t", "value")
 
 

@@ -1,4 +1,4 @@
-// The socket: requests with numbers, answers as frames (docs/studio_protocol.md).
+// The socket: requests with numbers, answers as frames (docs/developers/studio_protocol.md).
 
 import { say } from "../../../pictures/page/words.js";
 

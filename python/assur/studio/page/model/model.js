@@ -14,7 +14,7 @@ const ROWS = 361;
 const SERVER_BUSY_WAIT = 400;
 
 /**
- * What a document says: see `check` in docs/studio_protocol.md.
+ * What a document says: see `check` in docs/developers/studio_protocol.md.
  * @typedef {{state: string, message: string, counted: Object, structure: Object | null,
  *   remedies: {text: string, document: Object}[], concerned?: Object, candidates?: string[]}} Checked
  */

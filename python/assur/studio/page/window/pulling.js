@@ -1,6 +1,6 @@
 // The joint in a hand: its links are drawn with it at once; all else follows with the server's answer.
 //
-// At the position that is shown a dragged joint moves alone (see `drag` of docs/studio_protocol.md),
+// At the position that is shown a dragged joint moves alone (see `drag` of docs/developers/studio_protocol.md),
 // so what is drawn here is what the answer will say of these links.
 
 import { pointState, toLocal } from "../../../pictures/page/quantities.js";
