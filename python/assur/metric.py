@@ -397,7 +397,7 @@ def min_transmission_angle(
     Parameters
     ----------
     at : str
-        A joint at which two links meet, or a slide.
+        A joint or a slide, as for `Motion.transmission_angle`.
     between : (str, str), optional
         Two other joints, which end the two lines.
     over : (float, float), optional

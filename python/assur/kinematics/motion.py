@@ -229,11 +229,13 @@ class Motion(MotionModel):
         Parameters
         ----------
         name : str
-            A joint where two links meet (the acute angle between them), or a slide
-            or the joint of a sliding link (the complement of the pressure angle).
+            The inner joint of a dyad (the acute angle between the lines to its outer joints, also
+            where its links carry other dyads), another joint where two links meet (the acute angle
+            between them), or a slide or the joint of a sliding link (the complement of the
+            pressure angle).
         between : (str, str), optional
-            Two joints: the angle between the lines from `name` to them. Needed if
-            more than two links meet, or a link has several other joints.
+            Two joints: the angle between the lines from `name` to them. Needed elsewhere if more
+            than two links meet, or a link has several other joints.
 
         Returns
         -------

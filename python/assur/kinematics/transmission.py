@@ -58,6 +58,9 @@ def lines(mechanism: MechanismModel, name: str, between: Any) -> tuple[list[Line
     if slide is not None:
         return _at_slide(mechanism, slide), True
     mechanism.core.index_of("joint", name)
+    outer = _of_dyad(mechanism, name)
+    if outer:
+        return [JointLine(name, end) for end in outer], False
     meeting = [link for link, on in mechanism.links.items() if name in on]
     if len(meeting) == 1:
         message = f"joint {name!r} is on link {meeting[0]!r} alone: pass between=(joint, joint)"
@@ -90,6 +93,17 @@ def _direction(motion: MotionModel, line: Line) -> Float:
 
 def _pairs(mechanism: MechanismModel, joint: str) -> int:
     return sum(joint in on for on in mechanism.links.values())
+
+
+def _of_dyad(mechanism: MechanismModel, inner: str) -> list[str]:
+    """Return the outer joints of the dyad whose inner joint this is, whatever its links carry."""
+    for group in mechanism.structure.groups:
+        if group.cls != 2 or inner not in group.joints:
+            continue
+        on = [set(mechanism.links[link]) & set(group.joints) for link in group.links]
+        if all(inner in joints and len(joints) == 2 for joints in on):
+            return [joint for joints in on for joint in joints if joint != inner]
+    return []
 
 
 def _other_joint(mechanism: MechanismModel, link: str, joint: str) -> str:

@@ -70,8 +70,9 @@ class Gas:
 class Pressure:
     """A pressure in the cylinder of a slide.
 
-    A force along the guide on the sliding link, at its sliding point; its reaction acts on the link
-    that carries the guide.
+    A force area × (pressure − ambient) along the guide on the sliding link, at its sliding point;
+    its reaction acts on the link that carries the guide. Pressures are absolute: for one that a
+    gauge shows, above the atmosphere's, pass ``ambient=0``.
 
     Parameters
     ----------
