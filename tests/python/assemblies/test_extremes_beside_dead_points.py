@@ -252,3 +252,11 @@ def test_a_joint_goes_to_infinity_just_beyond_a_dead_point(seed: int, name: str,
         distance = math.pi - end
         values = [m.extremes(name, order=order).max.value for order in (0, 2)]
         assert values[1] == pytest.approx(2.0 * values[0] / distance**2, rel=1e-3)
+
+
+def test_digits_lost_beside_a_dead_point_do_not_hide_a_pole() -> None:
+    """No polynomial is followed to 1e-4 there, in one of two orders of the links."""
+    m = assur.Mechanism(**arguments(mixed_models.mixed_case(78316).description))
+    low, high = m.limits().intervals[0]
+    third = m.extremes("s3", order=3)
+    assert (third.min, third.max) == ((-math.inf, low), (math.inf, high))

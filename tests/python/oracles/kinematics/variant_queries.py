@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import suppress
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -136,6 +137,12 @@ def same_extremes(p: Pairing, kind: str, name: str, order: int) -> Iterator[str]
         a = p.one.extremes(name, order=order)
     except assur.PositionError as error:
         yield f"extremes of {name}: {error}"
+        return
+    except assur.InputError:
+        # A link that turns fully: so it does however it is described.
+        with suppress(assur.InputError):
+            p.two.extremes(p.name(kind, name), order=order)
+            yield f"extremes of {name}: it turns fully, and has some as {p.name(kind, name)}"
         return
     if kind == "link" and order == 0 and any(len(m.limits().intervals) > 1 for m in (p.one, p.two)):
         return

@@ -87,6 +87,8 @@ pub(super) struct Fit {
     /// The size of its terms at its nodes, and rounding as a part of that.
     pub size: f64,
     pub noise: f64,
+    /// Whether the values between the nearest nodes follow it.
+    is_followed: bool,
 }
 
 impl Fit {
@@ -113,11 +115,11 @@ impl Beside {
 impl Samples {
     /// Whether a polynomial of them, weighted by a pole, has a limit with small error.
     pub(super) fn have_limit(&self, pole: usize) -> bool {
-        self.fit(pole).is_some_and(|fit| fit.error < FOLLOWED * fit.size)
+        self.fit(pole).is_some_and(|fit| fit.is_followed && fit.error < FOLLOWED * fit.size)
     }
 
-    /// The polynomial of values, weighted by a pole, with the smallest error, of those that the values
-    /// between the nearest nodes follow.
+    /// The polynomial of values, weighted by a pole, with the smallest error: of those that the values
+    /// between the nearest nodes follow, if there is one.
     pub(super) fn fit(&self, pole: usize) -> Option<Fit> {
         let poles = self.side.poles(pole);
         let weighted = |sample: &Sample| self.side.weighted(sample, poles);
@@ -139,6 +141,8 @@ impl Samples {
         let size = |nodes: &[Sample; 3]| {
             nodes.iter().fold(0.0_f64, |most, node| most.max(factor(node) * node.size))
         };
+        let is_followed =
+            |series: &Series| self.between.iter().all(|sample| apart(sample, series) < FOLLOWED);
         let fits = |series: Vec<Series>| {
             let limits: Vec<f64> = series.iter().map(|polynomial| polynomial.at(0.0)[0]).collect();
             let fit = move |(set, (series, nodes)): (usize, (Series, &[Sample; 3]))| {
@@ -146,15 +150,16 @@ impl Samples {
                 let apart =
                     limits.get(set + 1).map_or(f64::INFINITY, |next| (next - limits[set]).abs());
                 let (reach, size) = (nodes[0].distance, size(nodes));
-                Fit { series, reach, error: apart + noise * size, size, noise }
+                let is_followed = is_followed(&series);
+                Fit { series, reach, error: apart + noise * size, size, noise, is_followed }
             };
             series.into_iter().zip(&self.sets).enumerate().map(fit)
         };
         // A coordinate that does not take part in a fold is a function of the square, the distance itself.
         let even = if pole == 0 { through(true) } else { Vec::new() };
-        let is_followed =
-            |fit: &Fit| self.between.iter().all(|sample| apart(sample, &fit.series) < FOLLOWED);
-        let followed = fits(general).chain(fits(even)).filter(is_followed);
-        followed.min_by(|a, b| a.error.total_cmp(&b.error))
+        let by_error = |a: &Fit, b: &Fit| {
+            b.is_followed.cmp(&a.is_followed).then(a.error.total_cmp(&b.error))
+        };
+        fits(general).chain(fits(even)).min_by(by_error)
     }
 }

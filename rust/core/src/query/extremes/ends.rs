@@ -170,16 +170,14 @@ impl Curve<'_> {
         let samples = self.samples(window, inward(window, side, Singularity::Pole), greatest);
         // Even terms of the series in the square root of the distance have no poles.
         for pole in (1..=greatest).rev().step_by(2) {
-            let Some(fit) = samples.fit(pole) else { break };
+            let fit = samples.fit(pole)?;
             let coefficient = fit.limit();
             let bound = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
             if coefficient.abs() > bound {
                 return Some(ValueAt { value: f64::INFINITY.copysign(coefficient), q });
             }
         }
-        let value = self.limit(window, node_values, &samples);
-        // Another singularity just beyond: the nearest value is the best known.
-        let value = value.or_else(|| Some(samples.sets.first()?[0].jet[0]))?;
+        let value = self.limit(window, node_values, &samples)?;
         Some(ValueAt { value, q })
     }
 }
