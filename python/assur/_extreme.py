@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from assur._other_names import other_names
+from assur._summary import summary
 
 if TYPE_CHECKING:
     from assur._arrays import Number
@@ -27,6 +28,8 @@ class Extreme(NamedTuple):
     >>> assur.SliderCrank(1.0, 3.0).extremes("bore").max
     Extreme(value=4.0, q=0.0)
     """
+
+    __repr__ = summary
 
     value: Number
     q: Number

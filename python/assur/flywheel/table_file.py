@@ -10,6 +10,7 @@ import numpy as np
 from assur._arrays import flag
 from assur._by_value import key_of
 from assur._files import checked_path, reason, shown_path
+from assur._summary import summary
 from assur._validate import require_rows
 from assur.errors import InputError
 
@@ -39,6 +40,8 @@ class ReducedTable(NamedTuple):
     >>> round(f.delta, 6)
     0.05
     """
+
+    __repr__ = summary
 
     phi: Float
     moment: Float

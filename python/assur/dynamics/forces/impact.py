@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import as_number, finite_array, in_range, short
+from assur._summary import summary
 from assur.dynamics.forces.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads.loads import Force, Torque
 from assur.dynamics.motion.motion_input import DrivenMotion
@@ -51,6 +52,8 @@ class Impact(NamedTuple):
     >>> hit.impulse.round(6), hit.energy_lost.round(6)  # N·s, J
     (np.float64(10.0), np.float64(1.0))
     """
+
+    __repr__ = summary
 
     speed: Number
     impulse: Number

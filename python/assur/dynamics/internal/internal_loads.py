@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import in_range
 from assur._other_names import other_names
+from assur._summary import summary
 from assur._validate import MAX_POINTS, one_of, whole_number
 from assur.dynamics.forces.kinetostatics import broadcast_motion
 from assur.dynamics.internal.beam import QUANTITIES
@@ -49,6 +50,8 @@ class LoadExtremes(NamedTuple):
     >>> machine.internal_loads("rod", np.pi / 2).extremes("axial").min.round(6)  # N
     np.float64(-1250.0)
     """
+
+    __repr__ = summary
 
     min: Float
     min_x: Float

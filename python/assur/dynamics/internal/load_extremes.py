@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import as_number
 from assur._search import narrowed
+from assur._summary import summary
 from assur.dynamics.motion.motion_input import DrivenMotion
 from assur.errors import InputError
 
@@ -47,6 +48,8 @@ class Peak(NamedTuple):
     >>> print(f"tension {peak.value:.1f} N at {peak.x:.3f} m, {peak.q:.3f} rad")
     tension 1371.4 N at 0.000 m, 0.000 rad
     """
+
+    __repr__ = summary
 
     value: float
     x: float

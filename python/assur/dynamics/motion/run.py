@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
-from assur._summary import summary
+from assur._summary import listed, summary
 from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
@@ -136,10 +136,18 @@ class EventRecord(NamedTuple):
     (Position(q=1.5, stop=True, driver=0, direction='either'), 0.5, 3.0)
     """
 
+    __repr__ = summary
+
     event: Event | NearChangePoint | str
     t: float
     q: Number
     speed: Number
+
+
+class Events(list[EventRecord]):
+    """The events of a run, printed shortly where they are many."""
+
+    __repr__ = listed
 
 
 class Energy(NamedTuple):
@@ -219,6 +227,8 @@ class Statistics(NamedTuple):
     (True, 0, 0)
     """
 
+    __repr__ = summary
+
     steps: int
     rejected: int
     evaluations: int
@@ -284,7 +294,7 @@ class Run(Tabular):
         self.q, self.speed, self.acceleration = (self._shaped(column) for column in arrays[:3])
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
-        self.events = [
+        self.events: list[EventRecord] = Events(
             EventRecord(
                 events[record["event"]],
                 record["t"],
@@ -292,7 +302,7 @@ class Run(Tabular):
                 self._per_driver(record["speed"]),
             )
             for record in core.events
-        ]
+        )
         self.at_rest_from = self._at_rest_from()
         self.end, self.message = self._end_and_message(events)
         if self.end in ("dead point", "rest", "near_change_point"):

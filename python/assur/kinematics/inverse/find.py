@@ -14,6 +14,7 @@ import numpy as np
 
 from assur._arrays import as_number, counted, short
 from assur._callers import level_of_caller
+from assur._summary import summary
 from assur._validate import checked_name, real_array
 from assur.description import encode
 from assur.description.dotted_names import split_name
@@ -57,6 +58,8 @@ class InverseSolution(NamedTuple):
     >>> round(second.q, 6), dict(second.assembly)
     (1.403348, {'B': 1})
     """
+
+    __repr__ = summary
 
     q: Number
     assembly: Assembly

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import Float, as_number, finite_array, flag, real_array, real_number
+from assur._summary import summary
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
 from assur.mechanisms.grashof import CHANGE_TOLERANCE, types_of
@@ -110,6 +111,8 @@ class Table1(NamedTuple):
     >>> table.true.shape, abs(table.printed - table.true).max().round(4)  # rad
     ((13, 5), np.float64(0.0022))
     """
+
+    __repr__ = summary
 
     phi1_deg: Float
     l4: Float

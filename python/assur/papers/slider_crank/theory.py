@@ -18,6 +18,7 @@ from assur._arrays import (
     require_finite,
 )
 from assur._extreme import Extreme
+from assur._summary import summary
 from assur._trig import arctan2
 from assur._validate import one_of, whole_number
 from assur.errors import DimensionError, InputError
@@ -63,6 +64,8 @@ class Deviation(NamedTuple):
     >>> assur.slider_crank.deviation(1 / 3, 1).relative.round(6)
     np.float64(0.004725)
     """
+
+    __repr__ = summary
 
     relative: Float
     relative_at: Float
