@@ -29,7 +29,8 @@ class Extreme(NamedTuple):
     Extreme(value=4.0, q=0.0)
     """
 
-    __repr__ = summary
-
     value: Number
     q: Number
+
+    def __repr__(self) -> str:
+        return summary(self)

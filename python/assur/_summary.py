@@ -89,6 +89,9 @@ def _six(number: float) -> str:
     return f"{number:.6g}"
 
 
+SIX_DIGITS: Any = {"float_kind": _six}
+
+
 def _short(value: Any) -> str:
     if isinstance(value, float):
         plain = repr(float(value))
@@ -111,7 +114,7 @@ def _typed(value: Any) -> str:
         if value.size <= MOST:
             return f"array({value.tolist()!r})"
         numbers = np.array2string(
-            value, threshold=MOST, edgeitems=2, separator=", ", formatter={"float_kind": _six}
+            value, threshold=MOST, edgeitems=2, separator=", ", formatter=SIX_DIGITS
         )
         return f"array({' '.join(numbers.split())})"
     if type(value) in (tuple, list):

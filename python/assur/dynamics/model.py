@@ -289,7 +289,7 @@ class MachineModel:
     def __repr__(self) -> str:
         if self.mechanism is None:
             return "<assur.Machine of a table>"
-        formula = shortened(self.mechanism.structure.formula, FORMULA)
+        formula = shortened(self.mechanism.structure.formula, FORMULA - 12)
         bodies = "1 body" if len(self.bodies) == 1 else f"{len(self.bodies)} bodies"
         loads = counted(len(self.loads), "load")
         rubs = f", friction in {counted(len(self.friction), 'pair')}" if self.friction else ""

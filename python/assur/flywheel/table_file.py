@@ -41,13 +41,15 @@ class ReducedTable(NamedTuple):
     0.05
     """
 
-    __repr__ = summary
-
     phi: Float
     moment: Float
     inertia: Float
 
     # As a tuple it would compare arrays.
+
+    def __repr__(self) -> str:
+        return summary(self)
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ReducedTable):
             return False

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
 import assur
 from assur import Table, balance, events, files, flywheel, importers, laws, metric
+from assur._arrays import as_number
 from interface.public_interface import callables
 
 if TYPE_CHECKING:
@@ -188,7 +189,7 @@ MADE: dict[str, Callable[[], object]] = {
         PHI[:-1], np.stack([np.sin(PHI[:-1]), np.cos(PHI[:-1])], axis=-1), count=60
     ),
     "crank_rocker.JammingEvent": lambda: assur.crank_rocker.JammingEvent(
-        "jams", 1.0 / 3.0, 2.0 / 3.0, 4.8, "outer", 0.1, 0.2, "the rod jams " * 9
+        "jam", 1.0 / 3.0, 2.0 / 3.0, 4.8, "outer", (0.1, 1.0 / 3.0), (0.2, 0.3), "the rod jams " * 9
     ),
     "crank_rocker.JammingRun": lambda: assur.crank_rocker.run(1.0, 4.5, 1.5, 4.8, 0.2),
     "crank_rocker.Solution": lambda: assur.crank_rocker.solve(Q, 1.0, 4.5, 1.5, 4.8),
@@ -198,7 +199,7 @@ MADE: dict[str, Callable[[], object]] = {
     "files.Contents": lambda: files.Contents(
         assur.SliderCrank(0.1, 0.4), wanted={"solve": {"q": PHI, "outputs": ["B"] * 99}}
     ),
-    "flywheel.Extreme": lambda: flywheel.Extreme(np.sin(PHI), PHI),
+    "flywheel.Extreme": lambda: flywheel.Extreme(as_number(np.sin(PHI)), as_number(PHI)),
     "flywheel.Flywheel": lambda: flywheel.from_table(
         PHI, 100.0 * np.sin(PHI), fluctuation=np.linspace(0.1, 0.2, 50), mean_speed=10.0
     ),
@@ -207,7 +208,7 @@ MADE: dict[str, Callable[[], object]] = {
         assur.SliderCrank(0.1, 0.4), "pmks", ("what was left out, in a sentence",) * 300, 5.0
     ),
     "laws.Sequence": lambda: laws.Sequence(
-        [laws.Uniform(float(k), k + 1.0, 1.0, begin=float(k)) for k in range(50)]
+        tuple(laws.Uniform(float(k), k + 1.0, 1.0, begin=float(k)) for k in range(50))
     ),
     "laws.Tabulated": lambda: laws.Tabulated(PHI, PHI**2),
     "metric.Condition": lambda: sum_of_metrics() > 1.0,
@@ -243,7 +244,7 @@ def test_every_public_class_is_tried() -> None:
 def test_what_users_write_can_be_typed_back() -> None:
     from assur import Body, Force, Torque
 
-    names = {"Body": Body, "Force": Force, "Torque": Torque, "Table": Table}
+    names: dict[str, Any] = {"Body": Body, "Force": Force, "Torque": Torque, "Table": Table}
     names |= {"array": np.array, "Tabulated": laws.Tabulated, "Uniform": laws.Uniform}
     table = Table([0.0, 1.0 / 3.0, 1.0], [1.0, 2.0, 3.0], over="bore")
     for written in (
@@ -258,5 +259,5 @@ def test_what_users_write_can_be_typed_back() -> None:
 
 
 def test_numbers_of_results_have_six_digits() -> None:
-    text = repr(flywheel.Extreme(np.pi, 2.0))
+    text = repr(flywheel.Extreme(as_number(np.pi), as_number(2.0)))
     assert text == "Extreme(value=3.14159, q=2.0)"

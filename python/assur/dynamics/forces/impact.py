@@ -53,12 +53,13 @@ class Impact(NamedTuple):
     (np.float64(10.0), np.float64(1.0))
     """
 
-    __repr__ = summary
-
     speed: Number
     impulse: Number
     energy_lost: Number
     reactions: Reactions
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def impact(

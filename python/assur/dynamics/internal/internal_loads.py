@@ -51,12 +51,13 @@ class LoadExtremes(NamedTuple):
     np.float64(-1250.0)
     """
 
-    __repr__ = summary
-
     min: Float
     min_x: Float
     max: Float
     max_x: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class InternalLoads:

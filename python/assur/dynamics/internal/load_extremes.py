@@ -49,11 +49,12 @@ class Peak(NamedTuple):
     tension 1371.4 N at 0.000 m, 0.000 rad
     """
 
-    __repr__ = summary
-
     value: float
     x: float
     q: Number
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def find_peak(

@@ -136,12 +136,13 @@ class EventRecord(NamedTuple):
     (Position(q=1.5, stop=True, driver=0, direction='either'), 0.5, 3.0)
     """
 
-    __repr__ = summary
-
     event: Event | NearChangePoint | str
     t: float
     q: Number
     speed: Number
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Events(list[EventRecord]):
@@ -227,14 +228,15 @@ class Statistics(NamedTuple):
     (True, 0, 0)
     """
 
-    __repr__ = summary
-
     steps: int
     rejected: int
     evaluations: int
     restarts: int
     smallest_step: float | None
     largest_step: float | None
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class Run(Tabular):

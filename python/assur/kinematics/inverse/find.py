@@ -59,10 +59,11 @@ class InverseSolution(NamedTuple):
     (1.403348, {'B': 1})
     """
 
-    __repr__ = summary
-
     q: Number
     assembly: Assembly
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def find(mechanism: MechanismModel, name: str, value: Any, deg: Any) -> list[InverseSolution]:

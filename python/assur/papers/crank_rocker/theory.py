@@ -112,12 +112,13 @@ class Table1(NamedTuple):
     ((13, 5), np.float64(0.0022))
     """
 
-    __repr__ = summary
-
     phi1_deg: Float
     l4: Float
     printed: Float
     true: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def solve(

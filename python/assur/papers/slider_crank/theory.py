@@ -65,12 +65,13 @@ class Deviation(NamedTuple):
     np.float64(0.004725)
     """
 
-    __repr__ = summary
-
     relative: Float
     relative_at: Float
     absolute: Float
     absolute_at: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def fourier(k: npt.ArrayLike, *, harmonics: int = 6, terms: int | None = None) -> Float:
