@@ -12,6 +12,7 @@ from assur import _core
 from assur._arrays import counted, flag
 from assur._by_value import key_of
 from assur._later import explorer, save
+from assur._summary import FORMULA, shortened
 from assur._validate import one_of
 from assur.dynamics import components
 from assur.dynamics.loads.friction import checked_friction
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from typing_extensions import Self
 
+    from assur._later import Explorer
     from assur.dynamics.loads.friction import PairFriction
     from assur.dynamics.loads.loads import Body, Load
     from assur.dynamics.loads.motors import Motor
@@ -222,7 +224,7 @@ class MachineModel:
         """
         save(self, path)
 
-    def explore(self, *, height: int = 640) -> Any:
+    def explore(self, *, height: int = 640) -> Explorer:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: changes there reach ``view.machine``, assigning ``view.machine`` redraws.
@@ -287,7 +289,7 @@ class MachineModel:
     def __repr__(self) -> str:
         if self.mechanism is None:
             return "<assur.Machine of a table>"
-        formula = self.mechanism.structure.formula
+        formula = shortened(self.mechanism.structure.formula, FORMULA - 12)
         bodies = "1 body" if len(self.bodies) == 1 else f"{len(self.bodies)} bodies"
         loads = counted(len(self.loads), "load")
         rubs = f", friction in {counted(len(self.friction), 'pair')}" if self.friction else ""
@@ -298,7 +300,7 @@ class MachineModel:
         """Shape of the batch of designs; () for one design."""
         return () if self.mechanism is None else self.mechanism.shape
 
-    def design(self, index: Any) -> Self:
+    def design(self, index: int | tuple[int, ...]) -> Self:
         """Return one design of a batch as a single machine.
 
         Parameters

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
-from assur._validate import checked_signs
-from assur.errors import InputError
-from assur.kinematics.model import at_place
+from assur._arrays import as_number, short
+from assur._callers import level_of_caller
+from assur._summary import listed, shortened
+from assur._validate import checked_signs, checked_threads
+from assur.errors import AssurWarning, InputError
+from assur.kinematics.model import Place, at_place, with_values
 from assur.kinematics.request import at_position
+from assur.kinematics.solve_arguments import checked_coordinates
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from assur._arrays import Float
+    import numpy.typing as npt
+
+    from assur._arrays import Number
     from assur._core import Mechanism as Core
-    from assur.kinematics.model import AnyMechanism, AssemblyNumbers, Place
+    from assur._faces import AxesLike, Panels
+    from assur.kinematics.model import AnyMechanism, AssemblyNumbers, MechanismModel
 
 __all__ = ["Assemblies", "Assembly"]
 
@@ -98,12 +106,12 @@ class Assembly(Mapping[str, int]):
         return assembly
 
     @property
-    def q(self) -> float | Float | None:
+    def q(self) -> Number | None:
         """Where it was found, rad or m; with several drivers an array."""
         if self.place is None:
             return None
         q = self.place.q
-        return q[0] if len(q) == 1 else np.array(q)
+        return as_number(q[0] if len(q) == 1 else np.array(q))
 
     @property
     def joints(self) -> Mapping[str, tuple[float, float]] | None:
@@ -184,7 +192,7 @@ class Assembly(Mapping[str, int]):
 
     def __repr__(self) -> str:
         if self.place is None or not self.place.is_traced:
-            return f"Assembly({dict(self._signs)!r})"
+            return shortened(f"Assembly({dict(self._signs)!r})")
         q = ", ".join(f"{q:.6g}" for q in self.place.q)
         signs = f"{dict(self._signs)!r}, " if self._signs else ""
         at = dict(self.joints or {})
@@ -192,7 +200,7 @@ class Assembly(Mapping[str, int]):
         moving = [name for name in at if name not in fixed]
         shown = self._shown or moving[-1:]
         places = "".join(f", {name}=({at[name][0]:.4g}, {at[name][1]:.4g})" for name in shown)
-        return f"<assur.Assembly {signs}q={q}{places}>"
+        return shortened(f"<assur.Assembly {signs}q={q}{places}>")
 
 
 def joints_that_differ(names: Sequence[str], poses: Sequence[AssemblyNumbers]) -> tuple[str, ...]:
@@ -277,7 +285,10 @@ class Assemblies(list[Assembly]):
         self.failures = tuple(failures)
         self.is_complete = is_complete
 
-    def plot(self, *, ax: Any = None, dark: bool = False) -> Any:
+    def __repr__(self) -> str:
+        return listed(self)
+
+    def plot(self, *, ax: AxesLike | None = None, dark: bool = False) -> Panels:
         """Draw all assemblies side by side in one scale (needs matplotlib).
 
         Parameters
@@ -312,3 +323,49 @@ class Assemblies(list[Assembly]):
     def __reduce__(self) -> tuple[Any, ...]:
         arguments = (list(self), self.complex_count, self.failures, self.is_complete)
         return (Assemblies, arguments)
+
+
+def assemblies(mechanism: MechanismModel, q: npt.ArrayLike, threads: int | None = None) -> Any:
+    """See `Mechanism.assemblies`."""
+    array, positions, per_design = checked_coordinates(mechanism, q)
+    if not np.isfinite(array).all():
+        message = f"q = {short(q)}: a finite coordinate is needed"
+        raise InputError(message, value=float(array[~np.isfinite(array)][0]))
+    drivers = mechanism.driver_count
+    answers = mechanism.core.assemblies(
+        mechanism.values.ravel(), array.ravel(), per_design, checked_threads(threads)
+    )
+    shape = (*mechanism.shape, *positions)
+    rows = np.broadcast_to(array if drivers > 1 else array[..., None], (*shape, drivers)).reshape(
+        -1, drivers
+    )
+    designs = np.moveaxis(mechanism.values, 0, -1).reshape(-1, len(mechanism.values))
+    each = max(len(answers) // max(len(designs), 1), 1)
+    if not answers and shape:
+        # No positions, or no designs.
+        empty: Any = []
+        for size in reversed(shape[:-1]):
+            empty = [list(empty) for _ in range(size)]
+        return empty
+    lists: list[Any] = []
+    for index, (answer, row) in enumerate(zip(answers, rows.tolist(), strict=True)):
+        design = (
+            mechanism if not mechanism.shape else with_values(mechanism, designs[index // each])
+        )
+        lists.append(_named(design, tuple(row), answer))
+    for size in reversed(shape[1:]):
+        lists = [lists[i : i + size] for i in range(0, len(lists), size)]
+    return lists if shape else lists[0]
+
+
+def _named(mechanism: MechanismModel, q: tuple[float, ...], answer: FoundAssemblies) -> Assemblies:
+    count = answer["complex_count"]
+    shown = joints_that_differ(mechanism.joint_names, answer["assemblies"])
+    named = [
+        Assembly._found(Place(mechanism, q, numbers), count, shown)
+        for numbers in answer["assemblies"]
+    ]
+    if not answer["is_complete"]:
+        message = f"assemblies at q = {q}: the list may be incomplete: {answer['failures'][0]}"
+        warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
+    return Assemblies(named, count, answer["failures"], answer["is_complete"])

@@ -7,10 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._summary import LINES
 from assur.description.dotted_names import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    import pandas as pd
+
+    from assur._arrays import Number
 
 __all__ = ["Dimensions"]
 
@@ -18,7 +23,7 @@ __all__ = ["Dimensions"]
 SHOWN = ".15g"
 
 
-class Dimensions(Mapping[str, Any]):
+class Dimensions(Mapping[str, "Number"]):
     """Dimensions by name, m or rad: floats, or arrays of the shape of the designs.
 
     Values are the numbers that are computed with; only the printed table rounds them.
@@ -37,10 +42,10 @@ class Dimensions(Mapping[str, Any]):
 
     __slots__ = ("_values",)
 
-    def __init__(self, values: Mapping[str, Any]) -> None:
+    def __init__(self, values: Mapping[str, Number]) -> None:
         self._values = dict(values)
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Number:
         """Return a dimension."""
         return self._values[name]
 
@@ -56,12 +61,15 @@ class Dimensions(Mapping[str, Any]):
         names = max(map(len, self._values), default=0)
         numbers = {name: _shown(value) for name, value in self._values.items()}
         width = max(map(len, numbers.values()), default=0)
-        return "\n".join(
+        rows = [
             f"{name:<{names}}  {number:>{width}}  {unit_of(name)}"
             for name, number in numbers.items()
-        )
+        ]
+        if len(rows) > LINES + 1:
+            rows[LINES:] = [f"… {len(rows) - LINES} more: to_dataframe() has all"]
+        return "\n".join(rows)
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pd.DataFrame:
         """Return a pandas DataFrame with a row for each design (needs pandas).
 
         Columns are the design's index (one for each axis of S) and the dimensions;

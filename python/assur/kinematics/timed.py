@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from assur._arrays import flag, real_array, short
+from assur._summary import FORMULA, shortened
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
@@ -20,8 +21,10 @@ if TYPE_CHECKING:
     from os import PathLike
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
+    from assur._faces import AxesLike, Panels
     from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
     from assur.kinematics.quantity import Analogues
@@ -149,8 +152,8 @@ class TimedMotion(Tabular):
         self.q, self.speed, self.acceleration, self.jerk = course
 
     def __repr__(self) -> str:
-        count = self.t.size
-        return f"<assur.TimedMotion of {self.motion.mechanism.core.formula}, {count} times>"
+        formula = shortened(self.motion.mechanism.core.formula, FORMULA)
+        return f"<assur.TimedMotion of {formula}, {self.t.size} times>"
 
     def joint(self, name: str | Sequence[str]) -> InTime:
         """Return a joint over time; several are stacked along a new first axis.
@@ -249,15 +252,36 @@ class TimedMotion(Tabular):
         """
         return self._in_time(self.motion.point(link, local))
 
+    # Several orders, the usual case, have axes each; of one alone they are not in an array.
+    @overload
     def diagram(
         self,
         name: str | Sequence[str],
-        ax: Any = None,
+        ax: AxesLike | None = ...,
+        *,
+        orders: int,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Axes: ...
+    @overload
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        ax: AxesLike | None = ...,
+        *,
+        orders: Sequence[int] | None = ...,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Panels: ...
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        ax: AxesLike | None = None,
         *,
         orders: int | Sequence[int] | None = None,
         degrees: bool = False,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes | Panels:
         """Draw a quantity and its derivatives over time, as `Motion.diagram`.
 
         Parameters
@@ -289,7 +313,8 @@ class TimedMotion(Tabular):
         """
         from assur.pictures.diagrams.diagram import timed_diagram
 
-        return timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
+        axes: Axes | Panels = timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
+        return axes
 
     def _in_time(self, of: Analogues) -> InTime:
         return InTime(of, (self.speed, self.acceleration, self.jerk))

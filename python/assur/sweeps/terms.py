@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._by_value import ByValue
+from assur._summary import shortened
 from assur._validate import real_array, real_number
 from assur.errors import InputError
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Part: TypeAlias = tuple[float, float] | None
+
+# Of a metric that is a long sum.
+MOST_LETTERS = 90
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class Condition:
     limit: float
 
     def __repr__(self) -> str:
-        return f"{self.metric!r} {self.relation} {self.limit!r}"
+        return f"{shortened(repr(self.metric), MOST_LETTERS)} {self.relation} {self.limit!r}"
 
     def __bool__(self) -> bool:
         message = (
@@ -135,43 +139,43 @@ class Metric:
         """
         raise NotImplementedError
 
-    def __add__(self, other: object) -> Metric:
+    def __add__(self, other: Metric | float) -> Metric:
         return _combined("+", self, other)
 
-    def __radd__(self, other: object) -> Metric:
+    def __radd__(self, other: Metric | float) -> Metric:
         return _combined("+", other, self)
 
-    def __sub__(self, other: object) -> Metric:
+    def __sub__(self, other: Metric | float) -> Metric:
         return _combined("-", self, other)
 
-    def __rsub__(self, other: object) -> Metric:
+    def __rsub__(self, other: Metric | float) -> Metric:
         return _combined("-", other, self)
 
-    def __mul__(self, other: object) -> Metric:
+    def __mul__(self, other: Metric | float) -> Metric:
         return _combined("*", self, other)
 
-    def __rmul__(self, other: object) -> Metric:
+    def __rmul__(self, other: Metric | float) -> Metric:
         return _combined("*", other, self)
 
-    def __truediv__(self, other: object) -> Metric:
+    def __truediv__(self, other: Metric | float) -> Metric:
         return _combined("/", self, other)
 
-    def __rtruediv__(self, other: object) -> Metric:
+    def __rtruediv__(self, other: Metric | float) -> Metric:
         return _combined("/", other, self)
 
     def __neg__(self) -> Metric:
         return _combined("*", -1.0, self)
 
-    def __lt__(self, limit: object) -> Condition:
+    def __lt__(self, limit: Metric | float) -> Condition:
         return _compared(self, "<", limit)
 
-    def __le__(self, limit: object) -> Condition:
+    def __le__(self, limit: Metric | float) -> Condition:
         return _compared(self, "<=", limit)
 
-    def __gt__(self, limit: object) -> Condition:
+    def __gt__(self, limit: Metric | float) -> Condition:
         return _compared(self, ">", limit)
 
-    def __ge__(self, limit: object) -> Condition:
+    def __ge__(self, limit: Metric | float) -> Condition:
         return _compared(self, ">=", limit)
 
 
@@ -207,7 +211,7 @@ class Combination(Metric):
         return values
 
     def __repr__(self) -> str:
-        return f"({self.left!r} {self.sign} {self.right!r})"
+        return shortened(f"({self.left!r} {self.sign} {self.right!r})", MOST_LETTERS)
 
 
 def _combined(sign: str, left: object, right: object) -> Combination:
@@ -218,6 +222,10 @@ def _combined(sign: str, left: object, right: object) -> Combination:
     return Combination(sign, *sides)
 
 
+# What a function of a metric takes besides: numbers, flags, names of joints, lines.
+Option: TypeAlias = float | bool | str | tuple[str, ...] | None
+
+
 @dataclass(frozen=True, repr=False)
 class Leaf(Metric):
     """A metric of the core."""
@@ -225,7 +233,7 @@ class Leaf(Metric):
     kind: str
     of: str | None = None
     order: int = 0
-    options: tuple[Any, ...] = ()
+    options: tuple[Option, ...] = ()
     over: Part = None
 
     def leaves(self) -> Iterator[Single]:

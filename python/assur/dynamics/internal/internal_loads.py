@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import in_range
 from assur._other_names import other_names
+from assur._summary import summary
 from assur._validate import MAX_POINTS, one_of, whole_number
 from assur.dynamics.forces.kinetostatics import broadcast_motion
 from assur.dynamics.internal.beam import QUANTITIES
@@ -50,10 +51,13 @@ class LoadExtremes(NamedTuple):
     np.float64(-1250.0)
     """
 
-    min: Any
-    min_x: Any
-    max: Any
-    max_x: Any
+    min: Float
+    min_x: Float
+    max: Float
+    max_x: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class InternalLoads:

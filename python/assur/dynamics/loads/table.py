@@ -14,6 +14,7 @@ from assur import _core
 from assur._arrays import Float, flag, not_negative, real_array, real_number
 from assur._by_value import ByValue
 from assur._callers import level_of_caller
+from assur._summary import typed
 from assur._validate import checked_name, one_of, require_rows
 from assur.errors import AssurWarning, InputError
 from assur.flywheel import SPLINES, Spline
@@ -96,6 +97,8 @@ class Table(ByValue):
     1000000.0
     """
 
+    __repr__ = typed
+
     q: Float
     value: Float
     spline: Spline
@@ -135,7 +138,7 @@ class Table(ByValue):
         )
         _warn_of_overshoot(self)
 
-    def at(self, x: npt.ArrayLike) -> Any:
+    def at(self, x: npt.ArrayLike) -> Float:
         """Return the value at coordinates, of their shape; at a jump the value behind it.
 
         Parameters
@@ -161,8 +164,9 @@ class Table(ByValue):
         array([2., 6., 2.])
         """
         points = real_array(x, "x")
-        values: Any = _core.table_values(self, points.ravel()).reshape(points.shape)
-        return values[()]
+        values: Float = _core.table_values(self, points.ravel()).reshape(points.shape)
+        found: Float = values[()]
+        return found
 
     @property
     def _jumps(self) -> Float:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
-from assur._summary import summary
+from assur._summary import listed, summary
 from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
@@ -20,9 +20,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from os import PathLike
 
+    from matplotlib.axes import Axes
     from typing_extensions import Self
 
     from assur import _core
+    from assur._arrays import Number
+    from assur.events import Event
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
@@ -55,10 +58,10 @@ class State(NamedTuple):
     (np.float64(1.5), np.float64(3.0))
     """
 
-    t: Any
-    q: Any
-    speed: Any
-    acceleration: Any
+    t: Float
+    q: Float
+    speed: Float
+    acceleration: Float
 
     def __repr__(self) -> str:
         if np.ndim(self.t):
@@ -133,10 +136,19 @@ class EventRecord(NamedTuple):
     (Position(q=1.5, stop=True, driver=0, direction='either'), 0.5, 3.0)
     """
 
-    event: Any
+    event: Event | NearChangePoint | str
     t: float
-    q: Any
-    speed: Any
+    q: Number
+    speed: Number
+
+    def __repr__(self) -> str:
+        return summary(self)
+
+
+class Events(list[EventRecord]):
+    """The events of a run, printed shortly where they are many."""
+
+    __repr__ = listed
 
 
 class Energy(NamedTuple):
@@ -223,6 +235,9 @@ class Statistics(NamedTuple):
     smallest_step: float | None
     largest_step: float | None
 
+    def __repr__(self) -> str:
+        return summary(self)
+
 
 class Run(Tabular):
     """A motion of a machine.
@@ -281,7 +296,7 @@ class Run(Tabular):
         self.q, self.speed, self.acceleration = (self._shaped(column) for column in arrays[:3])
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
-        self.events = [
+        self.events: list[EventRecord] = Events(
             EventRecord(
                 events[record["event"]],
                 record["t"],
@@ -289,7 +304,7 @@ class Run(Tabular):
                 self._per_driver(record["speed"]),
             )
             for record in core.events
-        ]
+        )
         self.at_rest_from = self._at_rest_from()
         self.end, self.message = self._end_and_message(events)
         if self.end in ("dead point", "rest", "near_change_point"):
@@ -430,7 +445,7 @@ class Run(Tabular):
             columns.append(Column(name, values, "J", "energy"))
         return columns
 
-    def plot(self, what: str = "speed", *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, what: str = "speed", *, ax: Axes | None = None, dark: bool = False) -> Axes:
         """Draw a quantity over time, with the events (needs matplotlib).
 
         Parameters

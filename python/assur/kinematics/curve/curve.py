@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from assur._arrays import counted
+from assur._summary import FORMULA, shortened
 from assur._trig import sin_cos
 from assur._validate import MAX_POINTS, checked_index, whole_number
 from assur.description.words import is_reached
@@ -19,7 +20,10 @@ from assur.kinematics.solve import solve
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
+    from assur._later import Mechanism
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.curve.defects import Defects
     from assur.kinematics.curve.elements import Branch, Circuit, Fold
@@ -102,11 +106,11 @@ class ConfigurationCurve:
     circuits: tuple[Circuit, ...]
     fan: Float
     # A `Mechanism`, whose file stands above.
-    mechanism: Any
+    mechanism: Mechanism
 
     def __repr__(self) -> str:
         folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
-        of = self.mechanism.core.formula
+        of = shortened(self.mechanism.core.formula, FORMULA)
         return f"<assur.ConfigurationCurve of {of}, {circuits}, {folds}>"
 
     def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:
@@ -135,7 +139,7 @@ class ConfigurationCurve:
         """
         return defects_of(self, places)
 
-    def plot(self, name: str | None = None, *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, name: str | None = None, *, ax: Axes | None = None, dark: bool = False) -> Axes:
         """Draw a coordinate over q along every circuit (needs matplotlib).
 
         Circuits differ in colour, dead points of the driver are diamonds.

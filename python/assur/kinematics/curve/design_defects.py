@@ -11,7 +11,7 @@ import numpy as np
 from assur._arrays import short
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
-from assur.kinematics.assemblies import assemblies
+from assur.kinematics.assembly import assemblies
 from assur.kinematics.configuration import place_of, size_of
 from assur.kinematics.curve.search import curve_through, require_one_driver
 from assur.kinematics.model import with_values
@@ -56,7 +56,7 @@ class Defect(IntFlag):
 
 def design_defects(
     mechanism: MechanismModel, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]
-) -> Any:
+) -> Defect | npt.NDArray[np.uint8]:
     """See `Mechanism.defects`."""
     require_one_driver(mechanism, "defects")
     mapping: Any = joints

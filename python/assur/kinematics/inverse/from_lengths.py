@@ -13,7 +13,7 @@ from assur._arrays import short
 from assur._callers import level_of_caller
 from assur._validate import real_number
 from assur.errors import AssurWarning, InputError, PositionError
-from assur.kinematics.assemblies import assemblies
+from assur.kinematics.assembly import assemblies
 from assur.kinematics.configuration import size_of
 from assur.kinematics.drawn import in_assembly
 from assur.kinematics.named_dimensions import with_dimensions

@@ -12,16 +12,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import Float, finite_array, flag, real_number
+from assur._summary import summary
 from assur._trig import sin_cos
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["JammingEvent", "JammingRun", "run"]
 
@@ -59,6 +63,8 @@ class JammingEvent:
     >>> event.kind, event.side, round(event.phi1, 6)  # rad
     ('jam', 'outer', 6.078212)
     """
+
+    __repr__ = summary
 
     kind: Kind
     t: float
@@ -111,10 +117,10 @@ class JammingRun:
         self,
         what: Literal["positions", "ground", "angle"] = "positions",
         *,
-        ax: Any = None,
+        ax: Axes | None = None,
         degrees: bool = True,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw successive positions, or a diagram over the crank's angle (needs matplotlib).
 
         Parameters
