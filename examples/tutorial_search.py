@@ -1,5 +1,6 @@
 """Which four-bar draws the straightest line? The best ten of 200 000, and the best one drawn."""
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 import assur
@@ -21,4 +22,5 @@ best = np.argsort(found["off"])[:10]  # NaN sorts to the end
 for design in best:
     print(f"design {design}: {100.0 * found['off'][design]:.3f} % of its length off the line")
 motion = found.designs(best[0]).solve(np.linspace(0.0, 2.0 * np.pi, 361))
-motion.plot("P").figure.savefig("straightest.png")
+motion.plot("P")
+plt.savefig("straightest.png")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeAlias
+from types import EllipsisType
+from typing import TYPE_CHECKING, Any, SupportsIndex, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -16,9 +17,36 @@ from assur.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+# A result too: of one design at one position it is NumPy's number, which reads like an array.
 Float: TypeAlias = npt.NDArray[np.float64]
-# Called with floats (t, q, speed); with several drivers q and speed are tuples.
-Function: TypeAlias = Callable[[float, Any, Any], float]
+
+if TYPE_CHECKING:
+
+    class Number(float, npt.NDArray[np.float64]):  # type: ignore[misc]
+        """Of one design a number, of a batch an array of its shape.
+
+        No annotation can say which: type checkers accept both uses, and editors complete both.
+        """
+
+    class Point(tuple[float, float], npt.NDArray[np.float64]):  # type: ignore[misc]
+        """Of one design (x, y), of a batch an array with a last axis of these: see `Number`."""
+
+
+# Called with (t, q, speed): numbers, with several drivers q and speed are tuples.
+Function: TypeAlias = (
+    Callable[[float, float, float], float]
+    | Callable[[float, tuple[float, ...], tuple[float, ...]], float]
+)
+# What chooses among designs or positions: an integer, a slice, a mask or indices for each axis.
+OfAxis: TypeAlias = (
+    SupportsIndex
+    | slice
+    | EllipsisType
+    | Sequence[int]
+    | npt.NDArray[np.bool_]
+    | npt.NDArray[np.integer]
+)
+Index: TypeAlias = OfAxis | tuple[OfAxis, ...]
 
 # NumPy converts these to float64 silently, though they are not real numbers.
 NOT_NUMBERS = (
@@ -37,6 +65,11 @@ NOT_NUMBERS = (
 
 # The repr of a scalar of NumPy: np.str_('C').
 OF_NUMPY = re.compile(r"\bnp\.\w+\(([^()]*)\)")
+
+
+def as_number(value: float | npt.NDArray[Any]) -> Number:
+    """Return it typed as what users read: see `Number`."""
+    return cast("Number", value)
 
 
 def real_array(value: Any, what: str, copy: bool = True) -> Float:

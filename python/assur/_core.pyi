@@ -12,6 +12,7 @@ from assur.dynamics.loads.load_values import Function
 from assur.dynamics.loads.loads import Body, Load, Table
 from assur.dynamics.loads.motors import Motor
 from assur.dynamics.machine import Method
+from assur.errors import AssurError
 from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
@@ -217,7 +218,7 @@ class Mechanism:
         dimension: int | None,
         report: list[int] | None,
         known_signs: KnownSigns | None = None,
-    ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...
     def measure(
         self,
         dimensions: _Float,
@@ -314,7 +315,7 @@ class Flywheels:
     ) -> Self: ...
     def numbers(self) -> _FlywheelNumbers: ...
     def problem(self, index: int) -> str | None: ...
-    def failure(self, index: int, label: str, design: list[int] | None) -> Any: ...
+    def failure(self, index: int, label: str, design: list[int] | None) -> AssurError: ...
     def curve(self, quantity: str, points: _Float) -> _Float: ...
 
 @final
@@ -390,7 +391,7 @@ class Machine:
         friction: tuple[list[float], int],
         threads: int | None,
         report: list[int],
-    ) -> tuple[list[_Float], npt.NDArray[np.uint8], Any]: ...
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...
     def equilibria(
         self, dimensions: _Float, ends: list[float], is_turn: bool, intervals: int
     ) -> tuple[

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from assur._other_names import other_names
+
+if TYPE_CHECKING:
+    from assur._arrays import Number
 
 
 @other_names(at="the place is q")
@@ -25,5 +28,5 @@ class Extreme(NamedTuple):
     Extreme(value=4.0, q=0.0)
     """
 
-    value: Any
-    q: Any
+    value: Number
+    q: Number

@@ -6,20 +6,26 @@ whose method made it. Each asks for what is listed here, which mypy compares wit
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable, ItemsView, Iterable, Mapping, Sequence
 
     import numpy as np
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
-    from assur._arrays import Float
+    from assur._arrays import Float, Number
     from assur._core import Mechanism as Core
     from assur._extreme import Extreme
     from assur.description.encode import Description
     from assur.description.structure import Structure
     from assur.description.words import DriverLike, Slide
+
+    # Axes of several diagrams, in the shape in which they stand, and where they may be drawn. NumPy
+    # knows no arrays of axes: with object_, those that `flat` gives would have no methods.
+    Panels: TypeAlias = npt.NDArray[Any]
+    AxesLike: TypeAlias = Axes | Sequence[Axes] | Panels
 
 # Of joints, links and slides.
 Indices = tuple[dict[str, int], dict[str, int], dict[str, int]]
@@ -92,7 +98,7 @@ class Mechanism(Protocol):
     @property
     def driver_count(self) -> int: ...
     @property
-    def q0(self) -> float | Float: ...
+    def q0(self) -> Number: ...
     @property
     def q0_array(self) -> Float: ...
     @property

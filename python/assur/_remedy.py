@@ -3,9 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, TypedDict
+
+if TYPE_CHECKING:
+    # For types alone (`FOR_TYPES` of tools/check_floors).
+    from assur.description.words import Cylinder, DriverLike, Slide
 
 __all__ = ["Remedy"]
+
+
+class Arguments(TypedDict):
+    """What `Mechanism` takes."""
+
+    joints: dict[str, tuple[float, float]]
+    links: dict[str, tuple[str, ...]]
+    slides: dict[str, Slide | Cylinder]
+    driver: DriverLike | list[DriverLike]
+    assembly: dict[str, int]
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,8 +69,8 @@ class Remedy:
     # Slides and drivers as `Mechanism` takes them.
     _joints: tuple[tuple[str, float, float], ...]
     _links: tuple[tuple[str, tuple[str, ...]], ...]
-    _slides: tuple[tuple[str, Any], ...]
-    _drivers: tuple[Any, ...]
+    _slides: tuple[tuple[str, Slide | Cylinder], ...]
+    _drivers: tuple[DriverLike, ...]
     _assembly: tuple[tuple[str, int], ...]
 
     def __repr__(self) -> str:
@@ -66,7 +80,7 @@ class Remedy:
         return f"{self.text}: {self.detail}"
 
     @property
-    def arguments(self) -> dict[str, Any]:
+    def arguments(self) -> Arguments:
         """Arguments of `Mechanism` with the change made, from joints to assembly."""
         return {
             "joints": {name: (x, y) for name, x, y in self._joints},

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from os import PathLike
 
     import numpy.typing as npt
+    import pandas as pd
+    import xarray as xr
 
 __all__ = [
     "Column",
@@ -43,7 +45,7 @@ class Column(NamedTuple):
     quantity: str | None
 
 
-def frame(columns: Iterable[Column]) -> Any:
+def frame(columns: Iterable[Column]) -> pd.DataFrame:
     """Return a pandas DataFrame; its ``attrs["units"]`` maps columns to units."""
     try:
         import pandas as pd
@@ -172,7 +174,7 @@ class Tabular:
     def _columns(self, degrees: bool) -> Sequence[Column]:
         raise NotImplementedError
 
-    def to_dataframe(self, *, degrees: bool = False) -> Any:
+    def to_dataframe(self, *, degrees: bool = False) -> pd.DataFrame:
         """Return a pandas DataFrame (needs pandas); its ``attrs["units"]`` has the units.
 
         Parameters
@@ -243,7 +245,7 @@ class Tabular:
         """
         write_parquet(path, self._columns(flag(degrees, "degrees")))
 
-    def to_xarray(self, *, degrees: bool = False) -> Any:
+    def to_xarray(self, *, degrees: bool = False) -> xr.Dataset:
         """Return `to_dataframe` as an xarray Dataset over its rows (needs xarray), with units.
 
         Parameters

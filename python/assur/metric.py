@@ -552,7 +552,7 @@ def full_rotation() -> Metric:
 
 
 def function(
-    of_motion: Callable[[Motion], npt.ArrayLike] | Any,
+    of_motion: Callable[[Motion], npt.ArrayLike],
     *,
     outputs: Iterable[str] | None = None,
     order: int = 0,
@@ -592,7 +592,8 @@ def function(
     >>> assur.sweep(four_bar, couplers, q, metrics=asked)["a"].round(2)
     array([2.27, 2.5 ])
     """
-    if not callable(of_motion):
+    given: object = of_motion
+    if not callable(given):
         message = f"function is {short(of_motion)}: a function of a motion is needed"
         raise InputError(message)
     if isinstance(outputs, str):

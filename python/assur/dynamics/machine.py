@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from assur._other_names import other_names
 from assur.dynamics.flywheel import size as flywheel_size
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from assur._arrays import Float
     from assur.dynamics.forces.counterweight import Counterweight
     from assur.dynamics.forces.duty import Duty
     from assur.dynamics.forces.impact import Impact
@@ -154,7 +155,7 @@ class Machine(MachineModel):
         *,
         on_error: OnError = "raise",
         deg: npt.ArrayLike | None = None,
-    ) -> Any:
+    ) -> Float:
         """Return the reduced moment of all loads, without the motor.
 
         Parameters
@@ -203,7 +204,7 @@ class Machine(MachineModel):
         *,
         on_error: OnError = "raise",
         deg: npt.ArrayLike | None = None,
-    ) -> Any:
+    ) -> Float:
         """Return the potential energy of weights, springs and closed gases.
 
         Parameters
@@ -338,7 +339,7 @@ class Machine(MachineModel):
         sense: float | Sequence[float] | None = None,
         on_error: OnError = "raise",
         deg: npt.ArrayLike | None = None,
-    ) -> Any:
+    ) -> Float:
         """Return the torque or force of the drive, by virtual power alone.
 
         Parameters

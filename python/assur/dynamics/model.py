@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from typing_extensions import Self
 
+    from assur._later import Explorer
     from assur.dynamics.loads.friction import PairFriction
     from assur.dynamics.loads.loads import Body, Load
     from assur.dynamics.loads.motors import Motor
@@ -222,7 +223,7 @@ class MachineModel:
         """
         save(self, path)
 
-    def explore(self, *, height: int = 640) -> Any:
+    def explore(self, *, height: int = 640) -> Explorer:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: changes there reach ``view.machine``, assigning ``view.machine`` redraws.
@@ -298,7 +299,7 @@ class MachineModel:
         """Shape of the batch of designs; () for one design."""
         return () if self.mechanism is None else self.mechanism.shape
 
-    def design(self, index: Any) -> Self:
+    def design(self, index: int | tuple[int, ...]) -> Self:
         """Return one design of a batch as a single machine.
 
         Parameters

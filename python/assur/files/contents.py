@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 from assur._arrays import real_number, short
 from assur._validate import one_of
@@ -22,9 +22,17 @@ from assur.kinematics.solve_arguments import in_radians
 if TYPE_CHECKING:
     from os import PathLike
 
+    from assur.dynamics.forces.reactions import Reactions
+    from assur.dynamics.motion.run import Run
+    from assur.dynamics.motion.steady import SteadyState
     from assur.files.read_mechanism import InputSpeed
     from assur.files.tree import Tree
     from assur.files.wanted import Result
+    from assur.flywheel import Flywheel
+    from assur.kinematics.motion import Motion
+
+    # What the methods give that a file may ask for.
+    Wanted: TypeAlias = Motion | Reactions | Run | SteadyState | Flywheel
 
 __all__ = ["Contents", "load", "read"]
 
@@ -95,7 +103,19 @@ class Contents:
                 message = f"wanted: {name!r} needs a machine"
                 raise InputError(message)
 
-    def result(self, name: str) -> Any:
+    @overload
+    def result(self, name: Literal["solve"]) -> Motion: ...
+    @overload
+    def result(self, name: Literal["reactions"]) -> Reactions: ...
+    @overload
+    def result(self, name: Literal["run"]) -> Run: ...
+    @overload
+    def result(self, name: Literal["steady_state"]) -> SteadyState: ...
+    @overload
+    def result(self, name: Literal["flywheel"]) -> Flywheel: ...
+    @overload
+    def result(self, name: str) -> Wanted: ...
+    def result(self, name: str) -> Wanted:
         """Return a result that the file asks for.
 
         Parameters
@@ -136,10 +156,12 @@ class Contents:
         with self._nodes[name].refusing():
             return self._called(name, arguments)
 
-    def _called(self, name: str, arguments: dict[str, Any]) -> Any:
+    def _called(self, name: str, arguments: dict[str, Any]) -> Wanted:
         if "deg" in arguments and name != "solve":
             arguments["q"] = in_radians(self.mechanism, None, arguments.pop("deg"))
-        return getattr(self.mechanism if name == "solve" else self.machine, name)(**arguments)
+        method = getattr(self.mechanism if name == "solve" else self.machine, name)
+        found: Wanted = method(**arguments)
+        return found
 
 
 def read(path: str | PathLike[str]) -> Contents:
@@ -213,7 +235,7 @@ def _checked_speed(speed: Any, mechanism: Mechanism) -> InputSpeed:
     return tuple(real_number(number, "input_speed") for number in speed)
 
 
-def load(path: str | PathLike[str]) -> Any:
+def load(path: str | PathLike[str]) -> Mechanism | Machine:
     """Return the mechanism in a file, or its machine if it has one.
 
     Parameters

@@ -136,7 +136,7 @@ def _drawn(mechanism: MechanismModel, place: Place, depth: int = 1) -> dict[str,
         message += f"the assemblies of the mechanism as drawn, {short(mechanism)}"
         raise InputError(message)
     base, numbers = place.mechanism, place.numbers
-    if not np.isfinite([*at_place(base, place, mechanism.core).joints.values()]).all():
+    if not np.isfinite(np.array([*at_place(base, place, mechanism.core).joints.values()])).all():
         at = ", ".join(f"{q:.6g}" for q in place.q)
         message = (
             f"{short(mechanism)} cannot be saved: with its signs it does not exist at q = {at}, "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,12 @@ from assur.kinematics.solve_arguments import q_or_deg
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from matplotlib.axes import Axes
+
+    from assur._arrays import Number
     from assur._extreme import Extreme
+    from assur._faces import AxesLike, Panels
+    from assur._later import SteadyState
 
 Mean: TypeAlias = Literal["extremes", "period"]
 Curve: TypeAlias = Literal["speed", "time", "coordinate", "moment", "inertia", "work"]
@@ -74,15 +79,15 @@ class Flywheel(Tabular, ABC):
     def __init__(
         self,
         *,
-        inertia: Any,
-        speed0: Any,
-        motor_moment: Any,
+        inertia: Number,
+        speed0: Number,
+        motor_moment: Number,
         extremes: tuple[Extreme, Extreme],
-        period: Any,
+        period: Number,
         mean: Mean,
         turn: tuple[float, float],
         shape: tuple[int, ...] = (),
-        steady: Any = None,
+        steady: SteadyState | None = None,
     ) -> None:
         self.shape, self.mean, self.steady = shape, mean, steady
         self.turn = turn
@@ -96,7 +101,7 @@ class Flywheel(Tabular, ABC):
         self.power = motor_moment * width / period
 
     @abstractmethod
-    def _curve(self, what: Curve, x: Float) -> Any:
+    def _curve(self, what: Curve, x: Float) -> Number:
         """Return a curve at finite coordinates or times, of the batch's shape and that of x."""
 
     @abstractmethod
@@ -111,7 +116,7 @@ class Flywheel(Tabular, ABC):
             f"mean {self.mean_speed:.6g} rad/s, speed0 {self.speed0:.6g} rad/s>"
         )
 
-    def speed(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Any:
+    def speed(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Number:
         """Return the speed at coordinates of the driver, over any number of turns.
 
         Parameters
@@ -139,7 +144,7 @@ class Flywheel(Tabular, ABC):
         q = q_or_deg(None, q, deg, "speed")
         return self._curve("speed", finite_array(q, "q"))
 
-    def time(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Any:
+    def time(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Number:
         """Return the time at which coordinates are reached, s; 0 at the start of the turn.
 
         Parameters
@@ -166,7 +171,7 @@ class Flywheel(Tabular, ABC):
         q = q_or_deg(None, q, deg, "time")
         return self._curve("time", finite_array(q, "q"))
 
-    def coordinate(self, t: npt.ArrayLike) -> Any:
+    def coordinate(self, t: npt.ArrayLike) -> Number:
         """Return the coordinate at times t (s), rad; the inverse of `time`.
 
         Parameters
@@ -190,7 +195,7 @@ class Flywheel(Tabular, ABC):
         """
         return self._curve("coordinate", finite_array(t, "t"))
 
-    def speed_at(self, t: npt.ArrayLike) -> Any:
+    def speed_at(self, t: npt.ArrayLike) -> Number:
         """Return the speed at times t (s), rad/s.
 
         Parameters
@@ -219,7 +224,7 @@ class Flywheel(Tabular, ABC):
 
     def reduced_moment(
         self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None
-    ) -> Any:
+    ) -> Number:
         """Return the reduced moment of the loads at coordinates, N·m, without the motor.
 
         For a `Machine` the loads are those at the mean speed, or with its own motor at `speed(q)`.
@@ -250,7 +255,7 @@ class Flywheel(Tabular, ABC):
 
     def reduced_inertia(
         self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None
-    ) -> Any:
+    ) -> Number:
         """Return the reduced inertia at coordinates, kg·m², without the flywheel.
 
         Parameters
@@ -279,7 +284,7 @@ class Flywheel(Tabular, ABC):
         q = q_or_deg(None, q, deg, "reduced_inertia")
         return self._curve("inertia", finite_array(q, "q"))
 
-    def work(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Any:
+    def work(self, q: npt.ArrayLike | None = None, *, deg: npt.ArrayLike | None = None) -> Number:
         """Return the work of loads and motor since the start of the turn, J.
 
         Parameters
@@ -306,7 +311,7 @@ class Flywheel(Tabular, ABC):
         q = q_or_deg(None, q, deg, "work")
         return self._curve("work", finite_array(q, "q"))
 
-    def explain(self, index: Any = ()) -> str:
+    def explain(self, index: int | tuple[int, ...] = ()) -> str:
         """Return why one of a batch has no flywheel, or the flywheel it has.
 
         Parameters
@@ -406,25 +411,43 @@ class Flywheel(Tabular, ABC):
         return columns
 
     @property
-    def surplus(self) -> Callable[[Float], Any]:
+    def surplus(self) -> Callable[[Float], Float]:
         """The motor's moment less the resistance at coordinates, N·m.
 
         :meta private:
         """
         return self._surplus
 
-    def _surplus(self, q: Float) -> Any:
+    def _surplus(self, q: Float) -> Float:
         """Return the moment of motor and loads together at coordinates, N·m."""
-        return self.reduced_moment(q) + self.motor_moment
+        return np.asarray(self.reduced_moment(q) + self.motor_moment)[()]
 
+    @overload
+    def plot(
+        self,
+        what: Literal["reduced"],
+        *,
+        ax: AxesLike | None = ...,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Panels: ...
+    @overload
+    def plot(
+        self,
+        what: Literal["speed", "time", "moment", "energy", "energy-mass"] = ...,
+        *,
+        ax: AxesLike | None = ...,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Axes: ...
     def plot(
         self,
         what: Literal["speed", "time", "moment", "energy", "energy-mass", "reduced"] = "speed",
         *,
-        ax: Any = None,
+        ax: AxesLike | None = None,
         degrees: bool = False,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes | Panels:
         """Draw the motion over a turn, the moments and energies behind it (needs matplotlib).
 
         Parameters
@@ -464,7 +487,8 @@ class Flywheel(Tabular, ABC):
         kinds = ("speed", "time", "moment", "energy", "energy-mass", "reduced")
         one_of(what, kinds, "what")
         shown = flag(degrees, "degrees")
-        return flywheel_picture(self, what, self.turn, PLOT_POINTS, ax, shown, dark)
+        axes: Axes | Panels = flywheel_picture(self, what, self.turn, PLOT_POINTS, ax, shown, dark)
+        return axes
 
 
 def problem_of(flywheel: Flywheel, entry: tuple[int, ...]) -> str | None:
@@ -472,6 +496,6 @@ def problem_of(flywheel: Flywheel, entry: tuple[int, ...]) -> str | None:
     return flywheel._problem(entry)
 
 
-def curve_of(flywheel: Flywheel, what: Curve, x: Float) -> Any:
+def curve_of(flywheel: Flywheel, what: Curve, x: Float) -> Number:
     """Return a curve at finite coordinates or times, of the batch's shape and that of x."""
     return flywheel._curve(what, x)

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Literal, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import Float, real_array
+from assur._arrays import Float, as_number, real_array
 from assur._extreme import Extreme
 from assur._splines import SPLINES, Spline
 from assur._validate import checked_threads, one_of, require_rows
 from assur.errors import AssurWarning, InputError
 from assur.flywheel.result import MEANS, Curve, Flywheel, Mean
+
+if TYPE_CHECKING:
+    from assur._arrays import Number
 
 # The requirement besides the mean or initial speed; "mean speed" and "initial speed": a flywheel.
 Task: TypeAlias = Literal["fluctuation", "mean speed", "initial speed"]
@@ -53,16 +56,16 @@ class TabulatedFlywheel(Flywheel):
         flat = int(np.ravel_multi_index(entry, self.shape)) if self.shape else 0
         return self._core.problem(flat)
 
-    def _curve(self, what: Curve, x: Float) -> Any:
+    def _curve(self, what: Curve, x: Float) -> Number:
         shape = self.shape + x.shape
         flat = np.ascontiguousarray(np.broadcast_to(x, shape)).ravel()
         return _shaped(self._core.curve(what, flat), shape)
 
 
-def _shaped(flat: Float, shape: tuple[int, ...]) -> Any:
+def _shaped(flat: Float, shape: tuple[int, ...]) -> Number:
     flat = flat.reshape(shape)
     flat.flags.writeable = False
-    return flat if shape else float(flat)
+    return as_number(flat if shape else float(flat))
 
 
 @overload

@@ -14,7 +14,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from assur._arrays import short
 from assur._files import checked_path
@@ -36,6 +36,7 @@ from assur.importers.json_text import has_numbers_as_ids
 from assur.importers.source import ENDINGS, open_source
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Mapping, Sequence
 
     from assur.importers.source import SourceLike
@@ -122,7 +123,7 @@ def read(
     return readers[kind](opened, scale=unit, assembly=assembly)
 
 
-def detect(path: Any, text: str) -> str | None:
+def detect(path: str | os.PathLike[str] | None, text: str) -> str | None:
     """Return the format of a text, or None.
 
     Parameters

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from assur._arrays import as_number
 from assur._validate import checked_signs
 from assur.errors import InputError
 from assur.kinematics.model import at_place
@@ -16,8 +17,9 @@ from assur.kinematics.request import at_position
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from assur._arrays import Float
+    from assur._arrays import Number
     from assur._core import Mechanism as Core
+    from assur._faces import AxesLike, Panels
     from assur.kinematics.model import AnyMechanism, AssemblyNumbers, Place
 
 __all__ = ["Assemblies", "Assembly"]
@@ -98,12 +100,12 @@ class Assembly(Mapping[str, int]):
         return assembly
 
     @property
-    def q(self) -> float | Float | None:
+    def q(self) -> Number | None:
         """Where it was found, rad or m; with several drivers an array."""
         if self.place is None:
             return None
         q = self.place.q
-        return q[0] if len(q) == 1 else np.array(q)
+        return as_number(q[0] if len(q) == 1 else np.array(q))
 
     @property
     def joints(self) -> Mapping[str, tuple[float, float]] | None:
@@ -277,7 +279,7 @@ class Assemblies(list[Assembly]):
         self.failures = tuple(failures)
         self.is_complete = is_complete
 
-    def plot(self, *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, *, ax: AxesLike | None = None, dark: bool = False) -> Panels:
         """Draw all assemblies side by side in one scale (needs matplotlib).
 
         Parameters

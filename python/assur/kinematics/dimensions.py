@@ -12,13 +12,17 @@ from assur.description.dotted_names import unit_of
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    import pandas as pd
+
+    from assur._arrays import Number
+
 __all__ = ["Dimensions"]
 
 # A difference of two typed coordinates carries their rounding; one digit less hides it.
 SHOWN = ".15g"
 
 
-class Dimensions(Mapping[str, Any]):
+class Dimensions(Mapping[str, "Number"]):
     """Dimensions by name, m or rad: floats, or arrays of the shape of the designs.
 
     Values are the numbers that are computed with; only the printed table rounds them.
@@ -37,10 +41,10 @@ class Dimensions(Mapping[str, Any]):
 
     __slots__ = ("_values",)
 
-    def __init__(self, values: Mapping[str, Any]) -> None:
+    def __init__(self, values: Mapping[str, Number]) -> None:
         self._values = dict(values)
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Number:
         """Return a dimension."""
         return self._values[name]
 
@@ -61,7 +65,7 @@ class Dimensions(Mapping[str, Any]):
             for name, number in numbers.items()
         )
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pd.DataFrame:
         """Return a pandas DataFrame with a row for each design (needs pandas).
 
         Columns are the design's index (one for each axis of S) and the dimensions;

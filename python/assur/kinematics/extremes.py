@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from assur._arrays import short
+from assur._arrays import as_number, short
 from assur._extreme import Extreme
 from assur._other_names import other_names
 from assur._validate import checked_name, real_number, whole_number
 from assur.errors import InputError, PositionError
 from assur.kinematics.assembly import Assembly, drawn_in
 from assur.kinematics.configuration import size_of
-from assur.kinematics.limits import limits
+from assur.kinematics.limits import limits, period_of_one
 from assur.kinematics.solve_arguments import checked_assembly
 
 if TYPE_CHECKING:
@@ -162,7 +162,7 @@ def extremes(
     if ends is None:
         message = "this assembly does not exist at any coordinate: other dimensions are needed"
         raise PositionError(message)
-    least, greatest = Extreme(*ends[0]), Extreme(*ends[1])
+    least, greatest = (Extreme(as_number(value), as_number(q)) for value, q in ends)
     if math.isnan(least.q):
         message = (
             f"extremes({name!r}): the link turns fully with the driver, so its angle has no "
@@ -177,4 +177,6 @@ def extremes(
         there = (greatest.q - least.q) % math.tau
         back = math.tau - there
         ratio = max(there, back) / min(there, back) if min(there, back) > 0.0 else None
-    return Extremes(least, greatest, ratio, (mechanism, signs, name, order, own_limits.period))
+    return Extremes(
+        least, greatest, ratio, (mechanism, signs, name, order, period_of_one(own_limits))
+    )

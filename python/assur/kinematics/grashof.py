@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from assur._arrays import Float
+    from assur._arrays import Float, Number
     from assur.kinematics.model import MechanismModel
 
 __all__ = ["CHANGE_TOLERANCE", "Grashof", "grashof", "types_of"]
@@ -52,21 +52,21 @@ class Grashof(NamedTuple):
     'crank-rocker'
     """
 
-    type: Any
-    s_plus_l: Any
-    p_plus_q: Any
+    type: str | npt.NDArray[np.str_]
+    s_plus_l: Number
+    p_plus_q: Number
 
     def __repr__(self) -> str:
         if np.ndim(self.s_plus_l):
             return f"<Grashof types of {np.size(self.s_plus_l)} four-bars>"
         sums = f"s + l = {self.s_plus_l:.6g}", f"p + q = {self.p_plus_q:.6g}"
-        sign = {"triple-rocker": ">", "change-point": "="}.get(self.type, "<")
+        sign = {"triple-rocker": ">", "change-point": "="}.get(str(self.type), "<")
         return f"{self.type}: {sums[0]} {sign} {sums[1]}"
 
 
 def types_of(
     lengths: Sequence[npt.NDArray[np.float64]], shape: tuple[int, ...], tolerance: float
-) -> Any:
+) -> str | npt.NDArray[np.str_]:
     """Return the types of four-bars by crank, coupler, rocker and ground, flat."""
     names = _core.crank_rocker_grashof(list(lengths), tolerance)
     if not shape:

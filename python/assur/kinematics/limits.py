@@ -109,8 +109,8 @@ class Limits(Tabular):
     """
 
     intervals: Float
-    full_rotation: Any
-    period: Any
+    full_rotation: bool | npt.NDArray[np.bool_]
+    period: int | Float | None
     _folds: npt.NDArray[np.int32]
     # What may fold: its name, and the inner pair of a dyad.
     _names: tuple[tuple[str, str | None], ...]
@@ -155,14 +155,16 @@ class Limits(Tabular):
         return columns
 
     @property
-    def dead_points(self) -> Any:
+    def dead_points(self) -> list[DeadPoint]:
         """Where the assembly ends, by q: a list of `DeadPoint`, nested in the shape of a batch.
 
         None where it ends because a cylinder has length 0: nothing folds there.
         """
         shape = self.intervals.shape[:-2]
         if shape:
-            return [self[index].dead_points for index in range(shape[0])]
+            # Typed as those of one design, which limits[i] has.
+            nested: list[Any] = [self[index].dead_points for index in range(shape[0])]
+            return nested
         ends = zip(self.intervals.ravel().tolist(), self._folds.ravel().tolist(), strict=True)
         known = len(self._names)
         finite = sorted({(q, fold) for q, fold in ends if np.isfinite(q) and fold < known})
@@ -175,7 +177,7 @@ class Limits(Tabular):
         if entry or isinstance(self.full_rotation, bool):
             # Fewer indices than axes choose a part of the batch.
             entry = checked_index(entry, shape[: len(entry)], "limits")
-        rotation, period = self.full_rotation[entry], self.period[entry]
+        rotation, period = np.asarray(self.full_rotation)[entry], np.asarray(self.period)[entry]
         intervals, folds = self.intervals[entry], self._folds[entry]
         if intervals.ndim == 2:
             is_row = ~np.isnan(intervals[:, 0])
@@ -202,8 +204,15 @@ class Limits(Tabular):
             return f"<assur.Limits of {self.intervals.shape[:-2]} designs>"
         intervals = " ".join(f"[{low:.6g}, {high:.6g}]" for low, high in self.intervals.tolist())
         closing = {None: "does not close", 1: "closes in 1 turn"}
-        period = closing.get(self.period, f"closes in {self.period} turns")
+        turns = period_of_one(self)
+        period = closing.get(turns, f"closes in {turns} turns")
         return f"<assur.Limits {intervals or 'nowhere'}, {period}>"
+
+
+def period_of_one(of: Limits) -> int | None:
+    """Return the period of the limits of one design."""
+    assert not isinstance(of.period, np.ndarray)
+    return of.period
 
 
 def limits(

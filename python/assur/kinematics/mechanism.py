@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -27,10 +27,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
     from os import PathLike
 
-    from assur._arrays import Float
+    from matplotlib.axes import Axes
+
+    from assur._arrays import Float, Index
+    from assur._later import Explorer
     from assur.description.encode import Description
     from assur.description.words import DriverLike, Slide
+    from assur.kinematics.assembly import Assemblies
     from assur.kinematics.curve.curve import ConfigurationCurve
+    from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.extremes import Extremes
     from assur.kinematics.grashof import Grashof
     from assur.kinematics.inverse.find import InverseSolution
@@ -39,6 +44,7 @@ if TYPE_CHECKING:
     from assur.kinematics.loci.singular import SingularLocus, Workspace
     from assur.kinematics.model import Place
     from assur.kinematics.motion import Motion
+    from assur.kinematics.named_dimensions import DimensionsLike
     from assur.kinematics.timed import TimedMotion
     from assur.laws import Law
 
@@ -110,7 +116,7 @@ class Mechanism(MechanismModel):
 
     def __init__(
         self,
-        joints: Mapping[str, Sequence[float]],
+        joints: Mapping[str, Sequence[float] | Float],
         links: Mapping[str, Iterable[str]],
         driver: DriverLike | Sequence[DriverLike],
         *,
@@ -144,10 +150,10 @@ class Mechanism(MechanismModel):
     @classmethod
     def from_lengths(
         cls,
-        joints: Mapping[str, Sequence[float]],
+        joints: Mapping[str, Sequence[float] | Float],
         links: Mapping[str, Iterable[str]],
         driver: DriverLike | Sequence[DriverLike],
-        lengths: Mapping[Any, float],
+        lengths: Mapping[tuple[str, str], float] | Mapping[str, float],
         *,
         slides: Mapping[str, Slide | Cylinder] | None = None,
         assembly: Mapping[str, int] | None = None,
@@ -235,7 +241,7 @@ class Mechanism(MechanismModel):
     # -- other mechanisms ---------------------------------------------------
 
     def with_dimensions(
-        self, dimensions: Mapping[str, npt.ArrayLike] | Any = None, **by_name: npt.ArrayLike
+        self, dimensions: DimensionsLike | None = None, **by_name: npt.ArrayLike
     ) -> Mechanism:
         """Return the mechanism with other dimensions; arrays make a batch of designs.
 
@@ -319,7 +325,7 @@ class Mechanism(MechanismModel):
     def __iter__(self) -> Iterator[Mechanism]:
         return (self[i] for i in range(len(self)))
 
-    def __getitem__(self, index: Any) -> Mechanism:
+    def __getitem__(self, index: Index) -> Mechanism:
         """Return some designs of a batch, or one.
 
         They are chosen by an integer, a slice, a mask or indices for each axis of `shape`.
@@ -472,13 +478,25 @@ class Mechanism(MechanismModel):
 
         return follow(self, laws, t, on_error, deg)
 
+    @overload
+    def assemblies(self, q: float, *, threads: int | None = ...) -> Assemblies: ...
+    @overload
+    def assemblies(self, *, deg: float, threads: int | None = ...) -> Assemblies: ...
+    @overload
+    def assemblies(
+        self,
+        q: npt.ArrayLike | None = ...,
+        *,
+        threads: int | None = ...,
+        deg: npt.ArrayLike | None = ...,
+    ) -> Assemblies | list[Assemblies]: ...
     def assemblies(
         self,
         q: npt.ArrayLike | None = None,
         *,
         threads: int | None = None,
         deg: npt.ArrayLike | None = None,
-    ) -> Any:
+    ) -> Assemblies | list[Assemblies]:
         """Return every real assembly at a position, for use as ``solve(q, assembly=a)``.
 
         Dyads are solved in closed form. For a group above class II, all complex assemblies with
@@ -518,7 +536,8 @@ class Mechanism(MechanismModel):
         [Assembly({'C': 1}), Assembly({'C': -1})]
         """
         q = q_or_deg(self, q, deg, "assemblies")
-        return assembly_search.assemblies(self, q, threads)
+        found: Assemblies | list[Assemblies] = assembly_search.assemblies(self, q, threads)
+        return found
 
     @property
     def grashof(self) -> Grashof:
@@ -614,7 +633,7 @@ class Mechanism(MechanismModel):
         return extreme_search.extremes(self, name, order, assembly)
 
     def find(
-        self, name: str, value: Any = None, *, deg: float | None = None
+        self, name: str, value: npt.ArrayLike | None = None, *, deg: float | None = None
     ) -> list[InverseSolution]:
         """Return every coordinate and assembly at which a coordinate of the motion has a value.
 
@@ -673,7 +692,9 @@ class Mechanism(MechanismModel):
 
         return configuration_curve(self, positions)
 
-    def defects(self, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]) -> Any:
+    def defects(
+        self, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]
+    ) -> Defect | npt.NDArray[np.uint8]:
         """Return what keeps designs from going through given positions one after another.
 
         Parameters
@@ -879,13 +900,13 @@ class Mechanism(MechanismModel):
         self,
         q: npt.ArrayLike | None = None,
         *,
-        ax: Any = None,
+        ax: Axes | None = None,
         assembly: Assembly | None = None,
         labels: Literal["first", "all", "none"] = "first",
         groups: bool = False,
         dark: bool = False,
         deg: npt.ArrayLike | None = None,
-    ) -> Any:
+    ) -> Axes:
         """Draw the mechanism at one position or at many (needs matplotlib).
 
         The frame of the picture is that of the whole motion, whatever the position. Artists carry
@@ -1000,7 +1021,7 @@ class Mechanism(MechanismModel):
             self, path, q=q, speed=speed, paths=paths, diagrams=diagrams, title=title, dark=dark
         )
 
-    def explore(self, *, height: int = 640) -> Any:
+    def explore(self, *, height: int = 640) -> Explorer:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: dragging changes ``view.mechanism``, assigning ``view.mechanism`` redraws. Needs

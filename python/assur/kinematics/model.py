@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypedDict, TypeVar, cast
 
 import numpy as np
 
+from assur._arrays import as_number
 from assur._core import KnownSigns
 from assur.description import encode
 from assur.description.structure import Group, Structure
@@ -20,8 +21,9 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from assur._arrays import Float
+    from assur._arrays import Float, Number, Point
     from assur._core import Mechanism as Core
+    from assur._later import Mechanism
     from assur.description.encode import Description
     from assur.description.words import DriverLike, Slide
 
@@ -183,7 +185,7 @@ class MechanismModel:
         return self.values.shape[1:]
 
     @property
-    def joints(self) -> Mapping[str, Any]:
+    def joints(self) -> Mapping[str, Point]:
         """Positions of the joints at `q0`, m: (x, y), or arrays S + (2,) for a batch.
 
         NaN for designs that cannot be assembled at `q0`.
@@ -261,10 +263,10 @@ class MechanismModel:
         return drivers[0] if len(drivers) == 1 else drivers
 
     @property
-    def q0(self) -> float | Float:
+    def q0(self) -> Number:
         """Coordinate of the driver in the drawing, rad or m; an array (n,) for n drivers."""
         q0 = self.q0_array
-        return float(q0) if q0.ndim == 0 else q0
+        return as_number(float(q0) if q0.ndim == 0 else q0)
 
     @property
     def q0_array(self) -> Float:
@@ -357,6 +359,11 @@ class MechanismModel:
 
     def __bool__(self) -> bool:
         return True
+
+
+def as_made(mechanism: MechanismModel) -> Mechanism:
+    """Return it typed as what it is: users make mechanisms of the class on top alone."""
+    return cast("Mechanism", mechanism)
 
 
 def with_values(mechanism: AnyMechanism, values: Float) -> AnyMechanism:

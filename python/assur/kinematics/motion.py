@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +26,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from os import PathLike
 
-    from assur._arrays import Float
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+    from assur._arrays import Float, Index
+    from assur._faces import AxesLike, Panels
     from assur.kinematics.quantity import Analogues
 
 __all__ = ["Motion"]
@@ -97,8 +102,8 @@ class Motion(MotionModel):
     @overload
     def __getitem__(self, index: str) -> Analogues: ...
     @overload
-    def __getitem__(self, index: Any) -> Motion: ...
-    def __getitem__(self, index: Any) -> Analogues | Motion:
+    def __getitem__(self, index: Index) -> Motion: ...
+    def __getitem__(self, index: str | Index) -> Analogues | Motion:
         """Return a joint, link or slide by its name, or a part of the motion.
 
         A part is chosen by an integer, a slice, a mask or indices for each axis of `shape`.
@@ -378,7 +383,7 @@ class Motion(MotionModel):
         jerk: npt.ArrayLike = 0.0,
         degrees: bool = False,
         moving: bool = False,
-    ) -> Any:
+    ) -> pd.DataFrame:
         """Return a pandas DataFrame with one row per position (needs pandas).
 
         Parameters
@@ -491,7 +496,7 @@ class Motion(MotionModel):
         jerk: npt.ArrayLike = 0.0,
         degrees: bool = False,
         moving: bool = False,
-    ) -> Any:
+    ) -> xr.Dataset:
         """Return `to_dataframe` as an xarray Dataset with named axes and units (needs xarray).
 
         Parameters
@@ -521,19 +526,46 @@ class Motion(MotionModel):
 
         return dataset(self, Options(speed, acceleration, jerk, degrees, moving))
 
+    # Several orders, the usual case, have axes each; of one alone they are not in an array.
+    @overload
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        *,
+        ax: AxesLike | None = ...,
+        speed: npt.ArrayLike | None = ...,
+        acceleration: npt.ArrayLike = ...,
+        jerk: npt.ArrayLike = ...,
+        orders: int,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Axes: ...
+    @overload
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        *,
+        ax: AxesLike | None = ...,
+        speed: npt.ArrayLike | None = ...,
+        acceleration: npt.ArrayLike = ...,
+        jerk: npt.ArrayLike = ...,
+        orders: Sequence[int] | None = ...,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Panels: ...
     @renamed_rates
     def diagram(
         self,
         name: str | Sequence[str],
         *,
-        ax: Any = None,
+        ax: AxesLike | None = None,
         speed: npt.ArrayLike | None = None,
         acceleration: npt.ArrayLike = 0.0,
         jerk: npt.ArrayLike = 0.0,
         orders: int | Sequence[int] | None = None,
         degrees: bool = False,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes | Panels:
         """Draw a quantity and its derivatives over the driver's coordinate (needs matplotlib).
 
         One diagram per order, with the extremes of the curve (not of its samples) marked. A batch
@@ -587,21 +619,24 @@ class Motion(MotionModel):
                 real_array(acceleration, "acceleration"),
                 real_array(jerk, "jerk"),
             )
-        return motion_diagram(self, name, ax, speeds, orders, flag(degrees, "degrees"), dark)
+        axes: Axes | Panels = motion_diagram(
+            self, name, ax, speeds, orders, flag(degrees, "degrees"), dark
+        )
+        return axes
 
     @renamed_rates
     def plot(
         self,
         joint: str | Sequence[str] | None = None,
         *,
-        ax: Any = None,
+        ax: Axes | None = None,
         at: int | None = None,
         vectors: str | Sequence[str] | None = None,
         speed: npt.ArrayLike = 1.0,
         acceleration: npt.ArrayLike = 0.0,
         groups: bool = False,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw paths of joints with the mechanism at one position (needs matplotlib).
 
         Parameters
@@ -763,9 +798,9 @@ class Motion(MotionModel):
         at: int | tuple[int, ...] = (),
         speed: npt.ArrayLike = 1.0,
         acceleration: npt.ArrayLike = 0.0,
-        ax: Any = None,
+        ax: Axes | None = None,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw the plan of velocities or accelerations of one position (needs matplotlib).
 
         Every joint has its image: vectors from the pole o to them are their velocities. The image

@@ -10,6 +10,7 @@ import numpy as np
 from assur._arrays import short
 from assur._validate import checked_name
 from assur.errors import InputError
+from assur.kinematics.model import as_made
 from assur.kinematics.pose import in_signs
 from assur.kinematics.quantity import Analogues
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from assur._arrays import Float
-    from assur.kinematics.model import MechanismModel
+    from assur._later import Mechanism
     from assur.kinematics.request import SolveRequest
     from assur.kinematics.result_columns import Results
 
@@ -40,7 +41,7 @@ class MotionModel:
     def _replace_with(
         self, request: SolveRequest, results: Results, status: npt.NDArray[np.uint8]
     ) -> None:
-        self._mechanism: MechanismModel | None = None
+        self._mechanism: Mechanism | None = None
         self.q = request.q
         self.order = request.order
         self._status = status
@@ -52,14 +53,14 @@ class MotionModel:
         self.kept: npt.NDArray[np.intp] | None = None
 
     @property
-    def mechanism(self) -> Any:
+    def mechanism(self) -> Mechanism:
         """The mechanism solved, drawn in the assembly that was solved."""
         request = self.request
         if request.signs == request.mechanism.signs:
-            return request.mechanism
+            return as_made(request.mechanism)
         # Made when first needed: solving need not compile it.
         if self._mechanism is None:
-            self._mechanism = in_signs(request.mechanism, request.signs)
+            self._mechanism = as_made(in_signs(request.mechanism, request.signs))
         return self._mechanism
 
     @property

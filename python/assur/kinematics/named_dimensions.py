@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -16,8 +16,15 @@ from assur.kinematics.model import with_values
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+    import pandas as pd
+    import xarray as xr
 
     from assur.kinematics.model import AnyMechanism
+
+    # What names and values of dimensions may come in; a `Grid` is a mapping.
+    DimensionsLike: TypeAlias = (
+        Mapping[str, npt.ArrayLike] | pd.DataFrame | pd.Series[float] | xr.Dataset
+    )
 
 __all__ = ["columns_of_designs", "dimensions_by_name", "with_dimensions"]
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import numpy.typing as npt
+    import xarray as xr
 
     from assur._arrays import Float
     from assur.kinematics.model import MechanismModel
@@ -212,7 +213,7 @@ def _rates(
             yield rate, unit + ["", "/s", "/s2", "/s3"][order]
 
 
-def dataset(motion: MotionModel, options: Options) -> Any:
+def dataset(motion: MotionModel, options: Options) -> xr.Dataset:
     """See `Motion.to_xarray`."""
     try:
         import xarray as xr

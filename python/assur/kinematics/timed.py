@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     from os import PathLike
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
+    from assur._faces import AxesLike, Panels
     from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion import Motion
     from assur.kinematics.quantity import Analogues
@@ -249,15 +251,36 @@ class TimedMotion(Tabular):
         """
         return self._in_time(self.motion.point(link, local))
 
+    # Several orders, the usual case, have axes each; of one alone they are not in an array.
+    @overload
     def diagram(
         self,
         name: str | Sequence[str],
-        ax: Any = None,
+        ax: AxesLike | None = ...,
+        *,
+        orders: int,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Axes: ...
+    @overload
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        ax: AxesLike | None = ...,
+        *,
+        orders: Sequence[int] | None = ...,
+        degrees: bool = ...,
+        dark: bool = ...,
+    ) -> Panels: ...
+    def diagram(
+        self,
+        name: str | Sequence[str],
+        ax: AxesLike | None = None,
         *,
         orders: int | Sequence[int] | None = None,
         degrees: bool = False,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes | Panels:
         """Draw a quantity and its derivatives over time, as `Motion.diagram`.
 
         Parameters
@@ -289,7 +312,8 @@ class TimedMotion(Tabular):
         """
         from assur.pictures.diagrams.diagram import timed_diagram
 
-        return timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
+        axes: Axes | Panels = timed_diagram(self, name, ax, orders, flag(degrees, "degrees"), dark)
+        return axes
 
     def _in_time(self, of: Analogues) -> InTime:
         return InTime(of, (self.speed, self.acceleration, self.jerk))

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from assur._arrays import Float
     from assur.kinematics.motion import Motion
 
 __all__ = ["ClassIV"]
@@ -87,11 +88,11 @@ class ClassIV(Mechanism):
 
     def __init__(
         self,
-        joints: Mapping[str, Sequence[float]] | None = None,
+        joints: Mapping[str, Sequence[float] | Float] | None = None,
         *,
         lengths: Mapping[str, float] | None = None,
         angles: Mapping[str, float] | None = None,
-        pivots: Mapping[str, Sequence[float]] | None = None,
+        pivots: Mapping[str, Sequence[float] | Float] | None = None,
         start: Mapping[str, float] | None = None,
     ) -> None:
         paper = (lengths, angles, pivots, start)
@@ -172,7 +173,7 @@ def _complex(points: npt.NDArray[np.float64]) -> npt.NDArray[np.complex128]:
     return np.asarray(points[..., 0] + 1j * points[..., 1])
 
 
-def _drawn(joints: Mapping[str, Sequence[float]]) -> Mechanism:
+def _drawn(joints: Mapping[str, Any]) -> Mechanism:
     points = [encode.joint(name, joints[name])[1:] for name in JOINTS]
     return from_drawing(_core.class_iv_drawing(points))
 

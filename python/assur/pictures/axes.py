@@ -15,6 +15,8 @@ from assur.pictures.numerals import length_text
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur.pictures.style import Style
 
@@ -86,7 +88,7 @@ class Canvas:
         Corners of the visible area, m.
     """
 
-    ax: Any
+    ax: Axes
     style: Style
     scale: float
     size: float

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,11 @@ from assur.sweeps.measures_dataset import dataset
 from assur.sweeps.reasons import explained, reasons
 
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+    from assur._arrays import Index
     from assur.kinematics.mechanism import Mechanism
     from assur.sweeps._measured import Asked
     from assur.sweeps.designs import Designs
@@ -27,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["Measures"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
+T = TypeVar("T")
 
 
 @other_names(
@@ -206,9 +212,7 @@ class Measures(Mapping[str, Float]):
         """
         return explained(self, self._flat(index))
 
-    def designs(
-        self, indices: int | tuple[Any, ...] | Sequence[int] | npt.NDArray[Any]
-    ) -> Mechanism:
+    def designs(self, indices: Index) -> Mechanism:
         """Return some designs, in the assembly measured: one mechanism, or a batch (n,).
 
         Parameters
@@ -273,12 +277,12 @@ class Measures(Mapping[str, Float]):
         self,
         name: str,
         *,
-        ax: Any = None,
+        ax: Axes | None = None,
         dark: bool = False,
         at: Mapping[str, float] | None = None,
         best: Literal["min", "max", "both", "none"] = "both",
         degrees: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw a metric over the one or two dimensions of the sweep (needs matplotlib).
 
         Two dimensions make a map: contours with their values, and hatched, with the reason written
@@ -332,7 +336,7 @@ class Measures(Mapping[str, Float]):
         why = [(text, which[designs]) for text, which in reasons(self, values)]
         return metric_picture(name, axes, shown, why, ax, dark, best, flag(degrees, "degrees"))
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pd.DataFrame:
         """Return a pandas DataFrame with one row per design (needs pandas).
 
         Columns: the design's index (one for each axis of S), the dimensions that the sweep
@@ -374,7 +378,7 @@ class Measures(Mapping[str, Float]):
             columns[taken] = values.reshape(-1)
         return pd.DataFrame(columns)
 
-    def to_xarray(self) -> Any:
+    def to_xarray(self) -> xr.Dataset:
         """Return an xarray Dataset over the axes of S (needs xarray).
 
         Dimensions that the sweep changes are coordinates. An axis along which one of them changes
@@ -416,7 +420,11 @@ class Measures(Mapping[str, Float]):
     def __contains__(self, name: object) -> bool:
         return isinstance(name, str) and name in self._values
 
-    def get(self, name: str, default: Any = None) -> Any:
+    @overload
+    def get(self, name: str, default: None = None) -> Float | None: ...
+    @overload
+    def get(self, name: str, default: Float | T) -> Float | T: ...
+    def get(self, name: str, default: Float | T | None = None) -> Float | T | None:
         """Return the values of a metric, or the default if there is no such metric.
 
         Parameters

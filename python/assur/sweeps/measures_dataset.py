@@ -10,11 +10,13 @@ import numpy as np
 from assur.description.dotted_names import unit_of
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from assur.sweeps._measured import Measured
     from assur.sweeps.designs import Designs
 
 
-def dataset(measures: Measured) -> Any:
+def dataset(measures: Measured) -> xr.Dataset:
     """See `Measures.to_xarray`."""
     try:
         import xarray as xr

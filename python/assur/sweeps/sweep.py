@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from assur.kinematics.mechanism import Mechanism
     from assur.kinematics.motion import Motion
+    from assur.kinematics.named_dimensions import DimensionsLike
     from assur.sweeps.engine import Engine
     from assur.sweeps.measures import Measures
     from assur.sweeps.progress import Progress, Report
@@ -35,7 +36,7 @@ __all__ = ["sweep"]
 @overload
 def sweep(
     mechanism: Mechanism,
-    dimensions: Mapping[str, npt.ArrayLike] | Any,
+    dimensions: DimensionsLike,
     q: npt.ArrayLike | None = ...,
     *,
     deg: npt.ArrayLike | None = ...,
@@ -53,7 +54,7 @@ def sweep(
 @overload
 def sweep(
     mechanism: Mechanism | Machine,
-    dimensions: Mapping[str, npt.ArrayLike] | Any,
+    dimensions: DimensionsLike,
     q: npt.ArrayLike | None = ...,
     *,
     deg: npt.ArrayLike | None = ...,
@@ -66,7 +67,7 @@ def sweep(
 ) -> Measures: ...
 def sweep(
     mechanism: Mechanism | Machine,
-    dimensions: Mapping[str, npt.ArrayLike] | Any,
+    dimensions: DimensionsLike,
     q: npt.ArrayLike | None = None,
     *,
     outputs: Iterable[str] | None = None,

@@ -135,43 +135,43 @@ class Metric:
         """
         raise NotImplementedError
 
-    def __add__(self, other: object) -> Metric:
+    def __add__(self, other: Metric | float) -> Metric:
         return _combined("+", self, other)
 
-    def __radd__(self, other: object) -> Metric:
+    def __radd__(self, other: Metric | float) -> Metric:
         return _combined("+", other, self)
 
-    def __sub__(self, other: object) -> Metric:
+    def __sub__(self, other: Metric | float) -> Metric:
         return _combined("-", self, other)
 
-    def __rsub__(self, other: object) -> Metric:
+    def __rsub__(self, other: Metric | float) -> Metric:
         return _combined("-", other, self)
 
-    def __mul__(self, other: object) -> Metric:
+    def __mul__(self, other: Metric | float) -> Metric:
         return _combined("*", self, other)
 
-    def __rmul__(self, other: object) -> Metric:
+    def __rmul__(self, other: Metric | float) -> Metric:
         return _combined("*", other, self)
 
-    def __truediv__(self, other: object) -> Metric:
+    def __truediv__(self, other: Metric | float) -> Metric:
         return _combined("/", self, other)
 
-    def __rtruediv__(self, other: object) -> Metric:
+    def __rtruediv__(self, other: Metric | float) -> Metric:
         return _combined("/", other, self)
 
     def __neg__(self) -> Metric:
         return _combined("*", -1.0, self)
 
-    def __lt__(self, limit: object) -> Condition:
+    def __lt__(self, limit: Metric | float) -> Condition:
         return _compared(self, "<", limit)
 
-    def __le__(self, limit: object) -> Condition:
+    def __le__(self, limit: Metric | float) -> Condition:
         return _compared(self, "<=", limit)
 
-    def __gt__(self, limit: object) -> Condition:
+    def __gt__(self, limit: Metric | float) -> Condition:
         return _compared(self, ">", limit)
 
-    def __ge__(self, limit: object) -> Condition:
+    def __ge__(self, limit: Metric | float) -> Condition:
         return _compared(self, ">=", limit)
 
 
@@ -218,6 +218,10 @@ def _combined(sign: str, left: object, right: object) -> Combination:
     return Combination(sign, *sides)
 
 
+# What a function of a metric takes besides: numbers, flags, names of joints, lines.
+Option: TypeAlias = float | bool | str | tuple[str, ...] | None
+
+
 @dataclass(frozen=True, repr=False)
 class Leaf(Metric):
     """A metric of the core."""
@@ -225,7 +229,7 @@ class Leaf(Metric):
     kind: str
     of: str | None = None
     order: int = 0
-    options: tuple[Any, ...] = ()
+    options: tuple[Option, ...] = ()
     over: Part = None
 
     def leaves(self) -> Iterator[Single]:

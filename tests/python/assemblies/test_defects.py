@@ -31,7 +31,7 @@ def test_a_batch_of_four_bars() -> None:
     c[1, 1] = other[1, 1]
     c[3, 2] = other[3, 2]
     c[4, 0] += 0.01
-    found = four_bars.defects(q, {"C": c})
+    found = np.asarray(four_bars.defects(q, {"C": c}))
     np.testing.assert_array_equal(found, [NONE, CIRCUIT | BRANCH, NONE, BRANCH, MISSING])
     assert found.dtype == np.uint8
     for index in range(len(rocker)):
@@ -57,6 +57,8 @@ def test_a_triads_three_circuits() -> None:
     names = tuple(m.joints)
     for one in found[:2]:
         for other in found[2:]:
+            assert one.joints
+            assert other.joints
             wanted = {n: np.array([one.joints[n], other.joints[n]]) for n in names}
             defect = m.defects([q, q], wanted)
             branches = curve.defects([(q, one), (q, other)]).branches

@@ -162,6 +162,7 @@ def five_bar() -> assur.Mechanism:
 def test_five_bar_by_the_place_of_its_point() -> None:
     mechanism = five_bar()
     found = mechanism.assemblies([2.0, 1.0])
+    assert isinstance(found, assur.Assemblies)
     places = sorted(one.joints["P"] for one in found if one.joints)
     printed = [(0.597686864095, 0.140943632210), (0.679851549731, 1.15673843554)]
     np.testing.assert_allclose(places, printed, atol=PRINTED)
@@ -181,6 +182,7 @@ def test_with_driver_keeps_position_and_assembly() -> None:
         for assembly in mechanism.assemblies(mechanism.q0):
             drawn = mechanism.with_assembly(assembly)
             other = drawn.with_driver(driver)
+            assert assembly.joints
             for name in mechanism.joints:
                 np.testing.assert_allclose(other.joints[name], assembly.joints[name], atol=1e-11)
             back = other.with_driver("crank")

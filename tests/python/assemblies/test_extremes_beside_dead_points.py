@@ -39,7 +39,8 @@ def scans(m: assur.Mechanism) -> Iterator[tuple[Array, assur.Motion]]:
     limits = m.limits()
     for low, high in limits.intervals.tolist():
         if math.isinf(low):
-            q = m.q0 + np.linspace(-math.pi, math.pi, POSITIONS) * limits.period
+            turns = np.asarray(limits.period, np.float64)
+            q = m.q0 + np.linspace(-math.pi, math.pi, POSITIONS) * turns
         else:
             part = np.cos(np.linspace(math.pi - NEAR_END, NEAR_END, POSITIONS))
             q = 0.5 * (low + high) + 0.5 * (high - low) * part

@@ -7,7 +7,7 @@ import os
 import pickle
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -75,6 +75,7 @@ def test_assemblies_are_different_and_can_be_saved() -> None:
             assert again.q == assembly.q
             assert again.joints == assembly.joints
         drawn = mechanism.with_assembly(assembly)
+        assert assembly.joints
         assert drawn.q0 == assembly.q
         np.testing.assert_allclose(drawn.joints["R"], assembly.joints["R"], atol=1e-12)
         saved = pickle.loads(pickle.dumps(drawn))
@@ -95,7 +96,7 @@ def test_several_positions_and_designs() -> None:
     assert [len(row) for row in rows] == [len(mechanism.assemblies(one)) for one in q]
     lengths = mechanism.dimensions["l1.length"] * np.array([[1.0, 1.01], [1.02, 1.03]])
     batch = mechanism.with_dimensions({"l1.length": lengths})
-    nested = batch.assemblies(q)
+    nested: Any = batch.assemblies(q)
     assert len(nested) == 2
     assert len(nested[0]) == 2
     assert len(nested[0][0]) == 3
@@ -112,6 +113,7 @@ def test_several_positions_and_designs() -> None:
 def test_a_batch_in_an_assembly_of_one_design() -> None:
     mechanism = triad(np.random.default_rng(3)).mechanism
     assembly = mechanism.assemblies(mechanism.q0)[-1]
+    assert assembly.joints
     lengths = mechanism.dimensions["l1.length"] * np.array([1.0, 1.001])
     batch = mechanism.with_dimensions({"l1.length": lengths})
     motion = batch.solve(mechanism.q0, order=0, assembly=assembly)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pytest
@@ -243,14 +243,15 @@ def test_batches_equal_single_designs_to_the_bit() -> None:
     batch = assur.FourBar(*lengths)
     limits = batch.limits()
     assert limits.intervals.shape[:2] == (20, 5)
-    assert limits.full_rotation.shape == (20, 5)
+    assert np.shape(limits.full_rotation) == (20, 5)
     for index in np.ndindex(20, 5):
         alone, own = batch.design(index).limits(), limits[index]
         assert alone.intervals.tobytes() == own.intervals.tobytes()
         assert (alone.full_rotation, alone.period) == (own.full_rotation, own.period)
         assert alone.dead_points == own.dead_points
     assert len(limits.dead_points) == 20
-    assert len(limits.dead_points[0]) == 5
+    nested: list[Any] = [*limits.dead_points]
+    assert len(nested[0]) == 5
     mechanism = triad()
     names = ["l1.length", "l2.length"]
     stretch = rng.uniform(0.99, 1.01, (2, 6))

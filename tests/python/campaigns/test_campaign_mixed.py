@@ -151,7 +151,7 @@ def test_closures_hold_and_see_a_changed_dimension(name: str) -> None:
     motion = m.solve(path.q(path.grid), order=0, on_error="nan")
     reached = motion.status <= assur.Status.SINGULAR
     assert reached.any()
-    own = dict(m.dimensions)
+    own = {name: np.asarray(value) for name, value in m.dimensions.items()}
     assert Closures(d, own).misfit(motion)[0][reached].max() < checks.TERMS
     for dimension, value in own.items():
         changed = Closures(d, {**own, dimension: value + 1e-11})

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import assur
+from assur._arrays import as_number
 from campaigns import campaign_cases
 from campaigns.checks.campaign_cylinders import Cylinders
 from campaigns.checks.campaign_ends import Ends
@@ -191,7 +192,7 @@ def test_an_extreme_that_is_beaten_is_found(monkeypatch: pytest.MonkeyPatch) -> 
 
     def extremes(self: assur.Mechanism, name: str, order: int = 0, **more: Any) -> Any:
         found = own(self, name, order=order, **more)
-        least = found.min._replace(value=found.min.value + 1e-4)
+        least = found.min._replace(value=as_number(found.min.value + 1e-4))
         return replace(found, min=least)
 
     d = named_models.crank_rocker()

@@ -34,7 +34,8 @@ def drawn(tmp_path: Path) -> Path:
 
 
 def expected(path: Path) -> Columns:
-    motion = assur.load(path).solve(deg=np.arange(0.0, 361.0, 15.0), order=1, on_error="nan")
+    mechanism = assur.files.read(path).mechanism
+    motion = mechanism.solve(deg=np.arange(0.0, 361.0, 15.0), order=1, on_error="nan")
     assert np.isnan(motion.joint("C").value).any()
     frame = motion.to_dataframe()
     return {str(name): frame[name].to_numpy() for name in frame}

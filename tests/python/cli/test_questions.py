@@ -239,6 +239,8 @@ def test_conversions(tmp_path: Path) -> None:
     words = "convert", PRESS, tmp_path / "press.toml", "--set", "rod.length=45cm"
     assert assur_command(*words) == (0, "", "")
     machine = assur.load(tmp_path / "press.toml")
+    assert isinstance(machine, assur.Machine)
+    assert machine.mechanism
     assert machine.mechanism.dimensions["rod.length"] == 0.45
     assert machine.bodies == press().bodies
     assert assur.files.read(tmp_path / "press.toml").wanted == assur.files.read(PRESS).wanted

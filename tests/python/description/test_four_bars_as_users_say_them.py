@@ -48,7 +48,7 @@ def test_types_by_which_links_turn() -> None:
         m = assur.FourBar(*lengths)
         found = m.grashof
         assert (found.s_plus_l, found.p_plus_q) == pytest.approx((outer, inner))
-        turns = m.limits().full_rotation, m.with_driver("rocker").limits().full_rotation
+        turns = bool(m.limits().full_rotation), bool(m.with_driver("rocker").limits().full_rotation)
         coupler = m.with_driver(assur.Drive("coupler", relative_to="crank"))
         word = {
             (True, False): "crank-rocker",
@@ -64,7 +64,7 @@ def test_types_by_which_links_turn() -> None:
 def test_change_points_and_batches() -> None:
     assert assur.FourBar(1.0, 2.0, 1.0, 2.0).grashof.type == "change-point"
     batch = assur.FourBar([1.0, 3.0], 3.0, 2.5, 3.2).grashof
-    assert batch.type.tolist() == ["crank-rocker", "rocker-crank"]
+    assert np.asarray(batch.type).tolist() == ["crank-rocker", "rocker-crank"]
     assert batch.s_plus_l.tolist() == [4.2, 5.7]
     assert repr(batch) == "<Grashof types of 2 four-bars>"
 
@@ -74,8 +74,9 @@ def test_what_cannot_be_assembled_has_no_type() -> None:
     with pytest.raises(assur.DimensionError, match=r"longest link, 9 m, .* together, 6.7 m"):
         _ = refused.grashof
     batch = assur.FourBar([1.0, 1.0, math.nan], [3.0, 9.0, 3.0], 2.5, 3.2)
-    assert batch.grashof.type.tolist() == ["crank-rocker", "", ""]
-    assert assur.FourBar(1.0, 3.0, 2.5, [3.2, -1.0]).grashof.type.tolist() == ["crank-rocker", ""]
+    assert np.asarray(batch.grashof.type).tolist() == ["crank-rocker", "", ""]
+    two = assur.FourBar(1.0, 3.0, 2.5, [3.2, -1.0]).grashof.type
+    assert np.asarray(two).tolist() == ["crank-rocker", ""]
     with pytest.raises(assur.InputError, match=r"shape \(2,\) and ground_angle \(3,\)"):
         assur.FourBar(1.0, 3.0, 2.5, [3.2, 3.3], ground_angle=[0.1, 1.0, 2.0])
 

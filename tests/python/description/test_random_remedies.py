@@ -18,7 +18,7 @@ from oracles.kinematics.pair_jacobian import jacobian
 from support.samples import sample
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
 # Singular values of the Jacobian below this are zero, above the next they are not.
 ZERO, NOT_ZERO = 1e-11, 1e-9
@@ -30,7 +30,7 @@ WITHOUT_REMEDY = {
 }  # fmt: skip
 
 
-def plain(parts: dict[str, Any]) -> Description:
+def plain(parts: Mapping[str, Any]) -> Description:
     """The arguments of a mechanism as plain data."""
     given = parts["driver"] if isinstance(parts["driver"], list) else [parts["driver"]]
     drivers: list[DriverSpec] = []

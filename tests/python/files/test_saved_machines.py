@@ -69,7 +69,9 @@ def test_machines(name: str, tmp_path: Path) -> None:
 def test_a_run_has_the_same_bits(tmp_path: Path) -> None:
     machine = press(assur.LinearMotor(50.0, 15.0))
     machine.save(tmp_path / "m.toml")
-    one, other = (m.run(t_end=0.3, q0=0.0) for m in (machine, assur.load(tmp_path / "m.toml")))
+    loaded = assur.load(tmp_path / "m.toml")
+    assert isinstance(loaded, assur.Machine)
+    one, other = (m.run(t_end=0.3, q0=0.0) for m in (machine, loaded))
     assert one.q.tobytes() == other.q.tobytes()
     assert one.speed.tobytes() == other.speed.tobytes()
 

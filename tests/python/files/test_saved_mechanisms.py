@@ -34,7 +34,8 @@ ODD = (-0.0, 5e-324, 2.2250738585072014e-308, 1e22, 1e16, 0.1 + 0.2, 1.797693134
 def again(mechanism: assur.Mechanism, path: Path) -> assur.Mechanism:
     """The mechanism, saved and loaded; equal in description, dimensions and place."""
     mechanism.save(path)
-    loaded: assur.Mechanism = assur.load(path)
+    loaded = assur.load(path)
+    assert isinstance(loaded, assur.Mechanism)
     assert loaded == mechanism
     assert loaded.values.tobytes() == mechanism.values.tobytes()
     # Saving is a function of the mechanism alone.

@@ -177,9 +177,9 @@ def test_motors_of_files_drive(tmp_path: Path) -> None:
     for motor in MOTORS.values():
         own = assur.Machine(four_bar(), bodies={"crank": assur.Body(inertia=1.0)}, motor=motor)
         own.save(tmp_path / "m.toml")
-        runs = [
-            m.run(t_end=0.02, q0=0.5, speed0=1.0) for m in (own, assur.load(tmp_path / "m.toml"))
-        ]
+        loaded = assur.load(tmp_path / "m.toml")
+        assert isinstance(loaded, assur.Machine)
+        runs = [m.run(t_end=0.02, q0=0.5, speed0=1.0) for m in (own, loaded)]
         assert runs[0].speed.tobytes() == runs[1].speed.tobytes()
 
 

@@ -186,7 +186,7 @@ def test_curves_belong_together() -> None:
     speed = (f.coordinate(t + step) - f.coordinate(t - step)) / (2 * step)
     assert np.abs(speed / f.speed(q) - 1).max() < 1e-6
     # Energy: the work of a turn is none, and goes into speed.
-    energy = 0.5 * (f.reduced_inertia(q) + f.inertia) * f.speed(q) ** 2
+    energy = np.asarray(0.5 * (f.reduced_inertia(q) + f.inertia) * f.speed(q) ** 2)
     assert np.abs(energy - f.work(q) - energy[0] + f.work(q[0])).max() < 1e-9
     inertia, diagram = f.energy_mass()
     start = f.inertia * f.speed0**2 / 2
@@ -305,7 +305,7 @@ def test_evaluate_refuses_invalid_arguments() -> None:
     with pytest.raises(assur.InputError, match="q has nan"):
         f.speed([1.0, np.nan])
     with pytest.raises(assur.InputError, match="what is 'x'"):
-        f.plot("x")  # type: ignore[arg-type]
+        f.plot("x")  # type: ignore[call-overload]
     with pytest.raises(assur.InputError, match="explain 3"):
         f.explain(3)
 

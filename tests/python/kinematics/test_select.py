@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import pickle
 from functools import partial
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -125,8 +125,8 @@ def test_refusals() -> None:
     refused(assur.InputError, "outside", partial(many.__getitem__, [0, 3]))
     refused(assur.InputError, "axes", partial(many.__getitem__, (0, 0, 0)))
     refused(assur.InputError, "mask", partial(many.__getitem__, np.ones(4, dtype=bool)))
-    refused(assur.InputError, "slice", partial(many.__getitem__, 1.5))
-    refused(assur.InputError, "slice", partial(many.__getitem__, "coupler"))
+    refused(assur.InputError, "slice", partial(many.__getitem__, cast("Any", 1.5)))
+    refused(assur.InputError, "slice", partial(many.__getitem__, cast("Any", "coupler")))
     refused(assur.InputError, "one mechanism", partial(many[0, 0].__getitem__, 0))
     refused(assur.InputError, "slide has this name", partial(motion.__getitem__, "Z"))
     refused(assur.InputError, "outside", partial(motion.__getitem__, (0, 0, 9)))

@@ -290,7 +290,8 @@ def test_designs_at_once() -> None:
     """What is asked of many designs is what is asked of each."""
     rng = np.random.default_rng(3)
     lengths = rng.uniform(0.5, 5.0, (4, 60))
-    kinds, (turns, margins) = cr.grashof(*lengths), cr.crank_turns(*lengths)
+    kinds, (sure, margins) = cr.grashof(*lengths), cr.crank_turns(*lengths)
+    turns = np.asarray(sure)
     least, greatest = cr.transmission_extremes(*lengths)
     assert turns.any()
     assert not turns.all()

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.collections import QuadMesh
 
 import assur
 
@@ -81,7 +82,9 @@ def test_circuits_that_look_alike_are_dashed_and_named() -> None:
     drawn = lines_named(ax, "circuit")
     named = [t for t in ax.texts if (t.get_gid() or "").startswith("name circuit")]
     assert len(named) == len(drawn) > 1
-    ax.figure.draw_without_rendering()
+    figure = ax.get_figure(root=True)
+    assert figure
+    figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in ax.texts]
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
 
@@ -93,11 +96,12 @@ def test_a_workspace_is_the_ring_of_an_arm() -> None:
     radii = [np.hypot(*points_of(line).T) for line in lines_named(ax, "singular kind 1")]
     assert sorted(float(r.mean()) for r in radii) == pytest.approx([abs(near), far], abs=1e-9)
     (mesh,) = [one for one in ax.collections if one.get_gid() == "regions"]
-    edges = mesh.get_coordinates()
+    assert isinstance(mesh, QuadMesh)
+    edges = np.asarray(mesh.get_coordinates())
     middles = (edges[:-1, :-1] + edges[1:, 1:]) / 2.0
     inside = np.hypot(*np.moveaxis(middles, -1, 0))
     ring = (inside > abs(near)) & (inside < far)
-    assert np.mean(mesh.get_array().astype(bool) == ring) > 0.998
+    assert np.mean(np.asarray(mesh.get_array()).astype(bool) == ring) > 0.998
     texts = [t.get_text() for t in ax.texts]
     assert "2 ways" in texts
     assert "limit of reach" in texts

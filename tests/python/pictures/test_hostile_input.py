@@ -59,7 +59,8 @@ def test_bad_arguments_are_named(draw: Callable[[], Any], words: str) -> None:
 def test_centrodes_take_an_index_of_numpy() -> None:
     axes = centrodes(TURN, "coupler", at=cast("int", np.int8(2)))
     pole = next(line for line in axes.lines if line.get_gid() == "pole")
-    assert np.allclose(pole.get_xydata()[0], TURN[2].instant_centre("coupler", "ground"))
+    drawn = np.asarray(pole.get_xydata())[0]
+    assert np.allclose(drawn, TURN[2].instant_centre("coupler", "ground"))
 
 
 def test_a_pole_out_of_sight_is_written_and_not_drawn() -> None:
@@ -145,7 +146,7 @@ def test_names_of_any_letters_are_drawn(name: str, tmp_path: Path) -> None:
         driver=f"{name}L",
     )
     motion = strange.solve(np.linspace(0.0, 2.0 * np.pi, 13), order=2)
-    pictures = [
+    pictures: list[Any] = [
         strange.plot([0.0, 1.0, 2.0], labels="all", groups=True),
         motion.plot([name, "Z"], vectors="velocity"),
         motion.diagram(f"{name}S", orders=[0]),

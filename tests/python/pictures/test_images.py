@@ -64,8 +64,10 @@ def test_a_moved_bar_is_seen(tmp_path: Path) -> None:
     for text in ax.texts:
         text.set_visible(False)
     moved = tmp_path / "moved.png"
-    ax.figure.savefig(moved, dpi=50, facecolor=ax.figure.get_facecolor())
-    plt.close(ax.figure)
+    figure = ax.get_figure(root=True)
+    assert figure
+    figure.savefig(moved, dpi=50, facecolor=figure.get_facecolor())
+    plt.close(figure)
     assert compare_images(str(BASELINE / "shaper.png"), str(moved), TOLERANCE)
 
 

@@ -64,10 +64,12 @@ def test_regions_without_value_are_hatched_with_their_reason() -> None:
     ax = found.plot("swing", degrees=True)
     wanted = {"crank stops", "cannot be assembled", "min_transmission_angle(C) ≤ 0.5"}
     patches = [p for p in ax.patches if (p.get_gid() or "").startswith("region ")]
-    assert {p.get_gid().removeprefix("region ") for p in patches} == wanted
+    assert {str(p.get_gid()).removeprefix("region ") for p in patches} == wanted
     assert len({p.get_hatch() for p in patches}) == 3
     said = {text.get_text() for text in named(ax, "reason")}
-    said |= {text.get_text() for text in ax.get_legend().get_texts()}
+    legend = ax.get_legend()
+    assert legend
+    said |= {text.get_text() for text in legend.get_texts()}
     assert said == wanted
     # A node is hatched exactly if it has no value.
     nodes = np.stack(np.meshgrid(lengths, lengths, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -82,7 +84,9 @@ def test_texts_of_a_map_do_not_overlap(dark: bool) -> None:
     grid = assur.Grid({"coupler.length": lengths, "ground.D.x": lengths})
     found = assur.sweep(FOUR_BAR, grid, Q, metrics={"angle": metric.min_transmission_angle("C")})
     ax = found.plot("angle", degrees=True, dark=dark)
-    ax.figure.draw_without_rendering()
+    figure = ax.get_figure(root=True)
+    assert figure
+    figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in ax.texts]
     assert len(boxes) >= 6
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])

@@ -168,7 +168,9 @@ def test_relative_drives_stay() -> None:
     remedies = error_of(**arm).remedies
     assert len(remedies) == 3
     for remedy in remedies:
-        assert remedy.arguments["driver"][:2] == arm["driver"]
+        drivers = remedy.arguments["driver"]
+        assert isinstance(drivers, list)
+        assert drivers[:2] == arm["driver"]
 
 
 def test_remedies_are_kept_by_copies() -> None:

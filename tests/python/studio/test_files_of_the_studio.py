@@ -65,7 +65,7 @@ def test_the_file_given(tmp_path: Path) -> None:
     assert (opened["title"], opened["saves"]) == ("press", True)
     changed = {**opened["document"], "dimensions": {"rod.length": 0.44}}
     saved = ask("save", given, document=changed, stamp=opened["stamp"])
-    assert assur.load(path).mechanism.dimensions["rod.length"] == 0.44
+    assert assur.files.read(path).mechanism.dimensions["rod.length"] == 0.44
     # Another window opened it before that.
     error = refused("save", given, document=PRESS, stamp=opened["stamp"])
     assert (error["kind"], "press.toml" in error["message"]) == ("changed", True)

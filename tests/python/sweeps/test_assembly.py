@@ -86,6 +86,7 @@ def test_metrics_of_a_found_assembly_above_class_two() -> None:
     for assembly in own.assemblies(own.q0):
         found = assur.sweep(own, {}, [float(own.q0)], assembly=assembly, metrics=asked)
         x = [float(found[name]) for name in own.joints]
+        assert assembly.joints
         assert x == pytest.approx([at[0] for at in assembly.joints.values()], abs=1e-12)
         assert same(found.designs(0).solve(Q), own.solve(Q, assembly=assembly))
         found_at.append(x)

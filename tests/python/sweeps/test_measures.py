@@ -162,7 +162,8 @@ def test_a_dataset() -> None:
     assert np.array_equal(data["swing"].values, some["swing"], equal_nan=True)
     assert np.flatnonzero(data["kept"].values).tolist() == some.kept.tolist()
     assert np.array_equal(data["status"].values, some.status)
-    pairs = {"coupler.length": [3.0, 2.0], "rocker.length": [2.4, 2.5], "ground.D.y": 0.1}
+    pairs: dict[str, Any] = {"coupler.length": [3.0, 2.0], "rocker.length": [2.4, 2.5]}
+    pairs["ground.D.y"] = 0.1
     asked = {"swing": SWING, "kept": SWING}
     data = assur.sweep(four_bar(), pairs, Q, metrics=asked).to_xarray()
     assert data["swing"].dims == data["coupler.length"].dims == ("design",)

@@ -75,7 +75,7 @@ def test_a_name_is_refused_as_in_extremes(name: str, kind: str) -> None:
             r"outputs='rocker': a list of names.*\['rocker'\]",
         ),
         (lambda: metric.function(len, outputs=WRONG), "outputs is 5: a list of names"),
-        (lambda: metric.function(4), "a function of a motion is needed"),
+        (lambda: metric.function(WRONG), "a function of a motion is needed"),
         (lambda: metric.span("C.x", over=(6.0, 1.0)), r"write \(6.0, 7.283185307179586\)"),
         (lambda: metric.span("C.x", over=WRONG), r"\(from, to\)"),
         (lambda: metric.min_transmission_angle("C", between=WRONG), "between=5: two joints"),
@@ -86,7 +86,7 @@ def test_a_name_is_refused_as_in_extremes(name: str, kind: str) -> None:
         (lambda: metric.deviation("C", relative=WRONG), "relative is 5: True or False"),
         (lambda: metric.deviation("C", part=0.0), "more than 0 and at most 1"),
         (lambda: bool(0.5 < SWING < 2.0), "two of them for a range"),
-        (lambda: SWING > "1", "the limit of a condition"),
+        (lambda: SWING > WRONG, "the limit of a condition"),
     ],
 )
 def test_of_functions(make: Any, message: str) -> None:

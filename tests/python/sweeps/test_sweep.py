@@ -193,7 +193,7 @@ def test_refused_metrics() -> None:
     with pytest.raises(assur.InputError, match="shape"):
         metric.deviation("C", shape="square")  # type: ignore[arg-type]
     with pytest.raises(assur.InputError, match="number"):
-        metric.span("rocker") + "1"
+        metric.span("rocker") + "1"  # type: ignore[operator]
     with pytest.raises(assur.InputError, match="where"):
         assert metric.span("rocker") > 1.0
     wrong = metric.function(lambda motion: motion.joint("C").value[0, 0])

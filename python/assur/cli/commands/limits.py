@@ -11,6 +11,7 @@ from assur.cli.help import describe
 from assur.cli.output import Output, add_output
 from assur.cli.source import read, require_one
 from assur.cli.source_arguments import add_source
+from assur.kinematics.limits import period_of_one
 
 if TYPE_CHECKING:
     import argparse
@@ -64,8 +65,9 @@ def _print(mechanism: Mechanism, limits: Limits, unit: str) -> None:
     ]
     print(f"intervals      {', '.join(parts) or 'none'}")
     print(f"full rotation  {'yes' if limits.full_rotation else 'no'}")
+    period = period_of_one(limits)
     turns = {None: "does not close", 1: "closes in 1 turn"}
-    print(f"period         {turns.get(limits.period, f'closes in {limits.period} turns')}")
+    print(f"period         {turns.get(period, f'closes in {period} turns')}")
     for point in limits.dead_points:
         group = point.group or "two guides become parallel"
         print(f"dead point     {_shown(point.q, unit)!r} {unit}, {group}")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from assur.cli.help import describe
 from assur.cli.source import read
 from assur.cli.source_arguments import add_source
@@ -40,7 +42,7 @@ def run(arguments: argparse.Namespace) -> None:
     for name, value in mechanism.dimensions.items():
         unit = "m" if kind_of(name) == LENGTH else "rad"
         if mechanism.shape:
-            text = f"{float(value.min())!r} to {float(value.max())!r}"
+            text = f"{float(np.min(value))!r} to {float(np.max(value))!r}"
         else:
             text = repr(float(value))
         print(f"{name} = {text} {unit}")

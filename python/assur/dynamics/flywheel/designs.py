@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import real_array
+from assur._arrays import as_number, real_array
 from assur._extreme import Extreme
 from assur.errors import AssurError, InputError
 from assur.flywheel.result import Flywheel, curve_of, problem_of
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from assur._arrays import Float
+    from assur._arrays import Float, Number
     from assur.dynamics.model import MachineModel
     from assur.flywheel.result import Curve
 
@@ -86,8 +86,8 @@ class FlywheelOfDesigns(Flywheel):
         flywheel = self._each[int(np.ravel_multi_index(entry, self.shape))]
         return problem_of(flywheel, ())
 
-    def _curve(self, what: Curve, x: Float) -> Any:
+    def _curve(self, what: Curve, x: Float) -> Number:
         curves = np.array([curve_of(flywheel, what, x) for flywheel in self._each], np.float64)
         curves = curves.reshape(self.shape + x.shape)
         curves.flags.writeable = False
-        return curves
+        return as_number(curves)

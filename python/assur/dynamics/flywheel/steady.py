@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import as_number
 from assur._extreme import Extreme
 from assur.dynamics.reduction.reduce import reduced_inertia, reduced_moment
 from assur.flywheel.result import Flywheel
 
 if TYPE_CHECKING:
-    from assur._arrays import Float
+    from collections.abc import Callable
+
+    from assur._arrays import Float, Number
     from assur.dynamics.model import MachineModel
     from assur.dynamics.motion.steady import SteadyState
     from assur.flywheel.result import Curve
@@ -39,11 +42,11 @@ class SteadyFlywheel(Flywheel):
         start = steady.at(0.0)
         self._time0 = float(start.t)
         super().__init__(
-            inertia=steady.inertia,
-            speed0=float(start.speed),
-            motor_moment=steady.motor_moment,
+            inertia=as_number(steady.inertia),
+            speed0=as_number(float(start.speed)),
+            motor_moment=as_number(steady.motor_moment),
             extremes=(_in_turn(steady.max, turn), _in_turn(steady.min, turn)),
-            period=steady.period,
+            period=as_number(steady.period),
             mean=steady.mean,
             turn=(0.0, turn),
             steady=steady,
@@ -57,8 +60,8 @@ class SteadyFlywheel(Flywheel):
     def _problem(self, entry: tuple[int, ...]) -> None:
         """Return None: without a flywheel the machine is refused."""
 
-    def _curve(self, what: Curve, x: Float) -> Any:
-        curves = {
+    def _curve(self, what: Curve, x: Float) -> Number:
+        curves: dict[Curve, Callable[[], Float]] = {
             "speed": lambda: self._motion.at(x).speed,
             "time": lambda: self._motion.at(x).t - self._time0,
             "coordinate": lambda: self._coordinate(x),
@@ -68,7 +71,7 @@ class SteadyFlywheel(Flywheel):
         }
         values = np.array(curves[what](), np.float64)
         values.flags.writeable = False
-        return values if x.shape else float(values)
+        return as_number(values if x.shape else float(values))
 
     def _moment(self, q: Float) -> Any:
         return reduced_moment(self._machine, self._remainder(q), self._motion.at(q).speed)
@@ -116,4 +119,4 @@ class SteadyFlywheel(Flywheel):
 
 
 def _in_turn(extreme: Extreme, turn: float) -> Extreme:
-    return Extreme(extreme.value, float(np.remainder(extreme.q, turn)))
+    return Extreme(extreme.value, as_number(float(np.remainder(extreme.q, turn))))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from assur import _trig
-from assur._arrays import in_range, real_number, short
+from assur._arrays import as_number, in_range, real_number, short
 from assur._extreme import Extreme
 from assur._other_names import other_names
 from assur._validate import checked_name
@@ -17,7 +17,10 @@ from assur.errors import InputError
 from assur.kinematics.table import driven_angles
 
 if TYPE_CHECKING:
-    from assur._arrays import Float
+    from matplotlib.axes import Axes
+
+    from assur._arrays import Float, Number
+    from assur._faces import AxesLike, Panels
     from assur.dynamics.forces._reactions import Reactions
 
 __all__ = ["Bearing"]
@@ -54,21 +57,22 @@ class Bearing:
     (array([1000., 1250.]), array([6., 0.]))
     """
 
-    angle: Any
-    size: Any
-    force: Any
-    relative_speed: Any
-    q: Any
+    angle: Float
+    size: Float
+    force: Float
+    relative_speed: Float | None
+    q: Float
     designs: tuple[int, ...] = ()
     # The frame's link and angle, and what the force acts on.
-    frame: tuple[str, Any] = ("ground", 0.0)
+    frame: tuple[str, float | Float] = ("ground", 0.0)
     what: tuple[str, str] = ("", "")
     is_angle: bool = True
 
     @property
-    def mean(self) -> Any:
+    def mean(self) -> Number:
         """Mean size over the positions, each of the same weight, N, of shape S."""
-        return np.mean(self._rows("a mean"), axis=-1)[()]
+        mean: Number = np.mean(self._rows("a mean"), axis=-1)[()]
+        return mean
 
     @property
     def min(self) -> Extreme:
@@ -80,7 +84,7 @@ class Bearing:
         """The greatest size, and the position where it is; of shape S."""
         return self._extreme(-1.0)
 
-    def pressure(self, diameter: float, width: float) -> Any:
+    def pressure(self, diameter: float, width: float) -> Float:
         """Return the mean pressure on the projected area, size / (diameter × width), Pa.
 
         Parameters
@@ -109,7 +113,7 @@ class Bearing:
         with in_range("a pressure"):
             return (self.size / d) / b
 
-    def pv(self, diameter: float, width: float) -> Any:
+    def pv(self, diameter: float, width: float) -> Float:
         """Return pressure times sliding velocity, Pa·m/s: the bearing's load for heat and wear.
 
         Parameters
@@ -149,7 +153,7 @@ class Bearing:
         with in_range("pressure times velocity"):
             return pressure * np.abs(self.relative_speed) * (float(diameter) / 2.0)
 
-    def plot(self, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, ax: AxesLike | None = None, dark: bool = False) -> Axes | Panels:
         """Draw the polar load diagram: the ends of the forces laid off from one pole.
 
         Once in the ground's frame, once in the frame in which they are given; the greatest force is
@@ -207,7 +211,7 @@ class Bearing:
         index = np.argmin(np.where(np.isnan(size), np.inf, sign * size), axis=-1)[..., np.newaxis]
         value = np.take_along_axis(size, index, -1)[..., 0][()]
         at = np.take_along_axis(q, index[..., np.newaxis], -2)[..., 0, :]
-        return Extreme(value, at[..., 0][()] if is_single else at)
+        return Extreme(as_number(value), as_number(at[..., 0][()] if is_single else at))
 
 
 def bearing(

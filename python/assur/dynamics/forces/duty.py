@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from assur._arrays import real_array, require_finite
+from assur._arrays import as_number, real_array, require_finite
 from assur._extreme import Extreme
 from assur._other_names import other_names
 from assur._summary import summary
@@ -21,7 +21,7 @@ from assur.errors import AssurWarning, InputError, MotionError
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from assur._arrays import Float
+    from assur._arrays import Float, Number
     from assur.dynamics.model import MachineModel, OnError
 
 __all__ = ["Duty"]
@@ -85,20 +85,20 @@ class Duty(NamedTuple):
     (200.0, 200.0)
     """
 
-    effort: Any
+    effort: Float
     max: Extreme
     min: Extreme
-    rms: Any
-    power: Any
-    mean_power: Any
+    rms: Number
+    power: Float
+    mean_power: Number
     max_power: Extreme
     min_power: Extreme
-    energy: Any
-    work_in: Any
-    work_out: Any
-    time: Any
-    lost: Any
-    efficiency: Any
+    energy: Number
+    work_in: Number
+    work_out: Number
+    time: Number
+    lost: Number
+    efficiency: Number
 
     def __repr__(self) -> str:
         return summary(self)
@@ -149,8 +149,8 @@ def duty(
     with np.errstate(over="ignore", invalid="ignore"):
         power = effort * v
     _require_finite(numbers, effort, on_error)
-    columns = [numbers[:, k].reshape(shape[:-1])[()] for k in range(NUMBERS)]
-    greatest, least, most, fewest = (Extreme(*columns[k : k + 2]) for k in (0, 2, 4, 6))
+    columns = [as_number(numbers[:, k].reshape(shape[:-1])[()]) for k in range(NUMBERS)]
+    greatest, least, most, fewest = (Extreme(columns[k], columns[k + 1]) for k in (0, 2, 4, 6))
     rms, energy, work_in, work_out, time = columns[8:]
     lost = 0.0 * energy
     if machine.friction and machine.mechanism is not None:
@@ -167,15 +167,15 @@ def duty(
         least,
         rms,
         power,
-        mean_power,
+        as_number(mean_power),
         most,
         fewest,
         energy,
         work_in,
         work_out,
         time,
-        lost,
-        efficiency,
+        as_number(lost),
+        as_number(efficiency),
     )
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import finite_array, in_range, short
+from assur._arrays import as_number, finite_array, in_range, short
 from assur.dynamics.forces.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads.loads import Force, Torque
 from assur.dynamics.motion.motion_input import DrivenMotion
@@ -15,6 +15,7 @@ from assur.dynamics.reduction.reduce import reduced_inertia, reduced_moment
 from assur.errors import InputError
 
 if TYPE_CHECKING:
+    from assur._arrays import Number
     from assur.dynamics.forces.reactions import Reactions
     from assur.dynamics.model import MachineModel, OnError
 
@@ -51,9 +52,9 @@ class Impact(NamedTuple):
     (np.float64(10.0), np.float64(1.0))
     """
 
-    speed: Any
-    impulse: Any
-    energy_lost: Any
+    speed: Number
+    impulse: Number
+    energy_lost: Number
     reactions: Reactions
 
 
@@ -94,7 +95,8 @@ def impact(
         lost = -size * (approach + 0.5 * mobility * size)
     impulses = _impulses(machine, unit_load, q, (speed, change.reshape(full)), size, on_error)
     after = (before + change).reshape(full)
-    return Impact(after[()], size[()], lost[()], impulses)
+    speed_after, given, energy = (as_number(part[()]) for part in (after, size, lost))
+    return Impact(speed_after, given, energy, impulses)
 
 
 def _check_load(load: Any) -> None:

@@ -336,7 +336,7 @@ def effort(
     motion: DrivenMotion,
     on_error: OnError,
     sense: float | Sequence[float] | None = None,
-) -> Any:
+) -> Float:
     """Return the effort of the drivers by virtual power; see `Machine.effort`."""
     n = machine.driver_count
     if machine.friction:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._arrays import as_number
 from assur._extreme import Extreme
 from assur._search import bisected
 
@@ -68,7 +69,8 @@ class Pieces:
         best = np.argmax(sign * values, axis=-1)[..., None]
         value = np.take_along_axis(values, best, axis=-1)[..., 0]
         place = np.take_along_axis(at, best, axis=-1)[..., 0]
-        return Extreme(value=value[()], q=np.where(np.isnan(value), np.nan, place)[()])
+        at_value = np.where(np.isnan(value), np.nan, place)
+        return Extreme(value=as_number(value[()]), q=as_number(at_value[()]))
 
 
 def _coefficients(x: Float, y: Float, closed: bool) -> tuple[Float, Float, Float, Float]:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
     from assur.dynamics.forces.bearing import Bearing
@@ -58,10 +59,10 @@ class SlideReaction(NamedTuple):
     (np.float64(750.0), np.float64(-10.0), np.float64(0.386667))
     """
 
-    normal: Any
-    moment: Any
-    along: Any
-    friction: Any
+    normal: Float
+    moment: Float
+    along: Float
+    friction: Float
 
     def __repr__(self) -> str:
         return summary(self)
@@ -142,7 +143,7 @@ class Reactions(Tabular):
         self._source = source
         self.status = status
         rests = np.zeros(status.shape, np.bool_) if at_rest is None else at_rest
-        self.at_rest: Any = rests[()]
+        self.at_rest: npt.NDArray[np.bool_] = rests[()]
 
     def __getstate__(self) -> dict[str, Any]:
         # Functions of the user cannot be pickled.
@@ -185,19 +186,19 @@ class Reactions(Tabular):
         return f"<assur.Reactions of {of}{statics}>"
 
     @property
-    def driver(self) -> Any:
+    def driver(self) -> Float:
         """Torque or force of the drive."""
         count = int(np.size(self.mechanism.q0))
         each = [self.by_key[Key("driver", index)] for index in range(count)]
         return each[0][()] if count == 1 else np.stack(each, axis=-1)
 
     @property
-    def shaking_force(self) -> Any:
+    def shaking_force(self) -> Float:
         """Inertia forces of all bodies, N."""
         return self.by_key[Key("shaking force")]
 
     @property
-    def shaking_moment(self) -> Any:
+    def shaking_moment(self) -> Float:
         """Moment of the inertia forces about the drawing's origin, N·m."""
         return self.by_key[Key("shaking moment")][()]
 
@@ -224,12 +225,12 @@ class Reactions(Tabular):
         return tuple(names)
 
     @property
-    def locked(self) -> Any:
+    def locked(self) -> npt.NDArray[np.bool_]:
         """Where friction leaves no solution."""
         return np.asarray(self.by_key.get(SOLUTIONS, np.ones(self.status.shape)) == 0.0)[()]
 
     @property
-    def losses(self) -> dict[str, Any]:
+    def losses(self) -> dict[str, Float]:
         """Power that friction takes in each pair, W."""
         joints, slides = self.mechanism.joint_names, list(self.mechanism.slides)
         names = {"joint loss": joints, "slide loss": slides}
@@ -240,14 +241,15 @@ class Reactions(Tabular):
         }
 
     @property
-    def efficiency(self) -> Any:
+    def efficiency(self) -> Float:
         """Output power over input power."""
         loss = np.sum(list(self.losses.values()), axis=0) + np.zeros(self.status.shape)
         power = np.asarray(self.driver * self.speed)
         if np.size(self.mechanism.q0) > 1:
             power = power.sum(axis=-1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            return (1.0 - loss / np.maximum(power, loss - power))[()]
+            found: Float = (1.0 - loss / np.maximum(power, loss - power))[()]
+        return found
 
     @property
     def solutions(self) -> tuple[Reactions, ...]:
@@ -260,18 +262,18 @@ class Reactions(Tabular):
         return (self, *(self._again(keys, index) for index in range(1, most)))[:most]
 
     @property
-    def residual(self) -> Any:
+    def residual(self) -> Float:
         """Residual of the law of friction, relative to the greatest friction."""
         return self.by_key.get(RESIDUAL, np.zeros(self.status.shape))[()]
 
     @property
-    def safety(self) -> Any:
+    def safety(self) -> Float:
         """Factor on the coefficients of friction at which this solution ends."""
         if self._again is None:
             return np.full(self.status.shape, np.inf)[()]
         return self._again([SAFETY], 0).by_key[SAFETY][()]
 
-    def joint_moment(self, name: str, on: str) -> Any:
+    def joint_moment(self, name: str, on: str) -> Float:
         """Return the moment of friction on a link at a joint.
 
         Parameters
@@ -432,9 +434,9 @@ class Reactions(Tabular):
         self,
         links: str | Sequence[str] | None = None,
         at: int | tuple[int, ...] = (),
-        ax: Any = None,
+        ax: Axes | None = None,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw the forces of one position in their places (needs matplotlib).
 
         Parameters
@@ -478,9 +480,9 @@ class Reactions(Tabular):
         self,
         links: str | Sequence[str] | Group,
         at: int | tuple[int, ...] = (),
-        ax: Any = None,
+        ax: Axes | None = None,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw the force polygon of links that are cut free (needs matplotlib).
 
         Loads, weights and inertia forces follow each other, then the forces of the links outside:

@@ -50,10 +50,10 @@ class LoadExtremes(NamedTuple):
     np.float64(-1250.0)
     """
 
-    min: Any
-    min_x: Any
-    max: Any
-    max_x: Any
+    min: Float
+    min_x: Float
+    max: Float
+    max_x: Float
 
 
 class InternalLoads:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from assur._arrays import as_number
 from assur._search import narrowed
 from assur.dynamics.motion.motion_input import DrivenMotion
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from assur._arrays import Float
+    from assur._arrays import Float, Number
     from assur.dynamics.internal.beam import Beam
     from assur.dynamics.internal.rod import Rod
 
@@ -49,7 +50,7 @@ class Peak(NamedTuple):
 
     value: float
     x: float
-    q: Any
+    q: Number
 
 
 def find_peak(
@@ -63,7 +64,9 @@ def find_peak(
         message = f"no position has a value of {quantity}"
         raise InputError(message)
     at = int(np.argmax(measure))
-    best = Peak(float(value[at]), float(x[at]), float(q[at, 0]) if q.shape[1] == 1 else q[at])
+    best = Peak(
+        float(value[at]), float(x[at]), as_number(float(q[at, 0]) if q.shape[1] == 1 else q[at])
+    )
     steps = np.diff(q[:, 0])
     steady = all((part == part[0]).all() for part in motion[1:4])
     ordered = (steps > 0.0).all() or (steps < 0.0).all()

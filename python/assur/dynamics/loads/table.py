@@ -135,7 +135,7 @@ class Table(ByValue):
         )
         _warn_of_overshoot(self)
 
-    def at(self, x: npt.ArrayLike) -> Any:
+    def at(self, x: npt.ArrayLike) -> Float:
         """Return the value at coordinates, of their shape; at a jump the value behind it.
 
         Parameters
@@ -161,8 +161,9 @@ class Table(ByValue):
         array([2., 6., 2.])
         """
         points = real_array(x, "x")
-        values: Any = _core.table_values(self, points.ravel()).reshape(points.shape)
-        return values[()]
+        values: Float = _core.table_values(self, points.ravel()).reshape(points.shape)
+        found: Float = values[()]
+        return found
 
     @property
     def _jumps(self) -> Float:

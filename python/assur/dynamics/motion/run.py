@@ -20,9 +20,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from os import PathLike
 
+    from matplotlib.axes import Axes
     from typing_extensions import Self
 
     from assur import _core
+    from assur._arrays import Number
+    from assur.events import Event
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statistics"]
@@ -55,10 +58,10 @@ class State(NamedTuple):
     (np.float64(1.5), np.float64(3.0))
     """
 
-    t: Any
-    q: Any
-    speed: Any
-    acceleration: Any
+    t: Float
+    q: Float
+    speed: Float
+    acceleration: Float
 
     def __repr__(self) -> str:
         if np.ndim(self.t):
@@ -133,10 +136,10 @@ class EventRecord(NamedTuple):
     (Position(q=1.5, stop=True, driver=0, direction='either'), 0.5, 3.0)
     """
 
-    event: Any
+    event: Event | NearChangePoint | str
     t: float
-    q: Any
-    speed: Any
+    q: Number
+    speed: Number
 
 
 class Energy(NamedTuple):
@@ -430,7 +433,7 @@ class Run(Tabular):
             columns.append(Column(name, values, "J", "energy"))
         return columns
 
-    def plot(self, what: str = "speed", *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, what: str = "speed", *, ax: Axes | None = None, dark: bool = False) -> Axes:
         """Draw a quantity over time, with the events (needs matplotlib).
 
         Parameters

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from assur._arrays import finite_array, flag
+from assur._arrays import as_number, finite_array, flag
 from assur._extreme import Extreme
 from assur._other_names import other_names
 from assur._table import Column, Tabular
@@ -17,6 +17,7 @@ from assur.kinematics.solve_arguments import q_or_deg
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur import _core
     from assur.dynamics.motion.run import State
@@ -91,7 +92,8 @@ class SteadyState(Tabular):
         self.q, self.speed = self.run.q, self.run.speed
         self.period = float(self.run.t[-1] - self.run.t[0])
         self.max, self.min = (
-            Extreme(numbers[end]["value"], numbers[end]["at"]) for end in ("greatest", "least")
+            Extreme(as_number(numbers[end]["value"]), as_number(numbers[end]["at"]))
+            for end in ("greatest", "least")
         )
         greatest, least = self.max.value, self.min.value
         span = abs(float(self.q[-1] - self.q[0]))
@@ -159,10 +161,10 @@ class SteadyState(Tabular):
         self,
         what: Literal["speed", "time", "energy"] = "speed",
         *,
-        ax: Any = None,
+        ax: Axes | None = None,
         degrees: bool = False,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw one period (needs matplotlib).
 
         Parameters

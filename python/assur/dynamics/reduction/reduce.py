@@ -44,8 +44,8 @@ class Reduced(NamedTuple):
     (np.float64(0.2), np.float64(-0.10328))
     """
 
-    value: Any
-    d1: Any
+    value: Float
+    d1: Float
 
     def __repr__(self) -> str:
         return summary(self)
@@ -96,13 +96,13 @@ def reduced_inertia(machine: MachineModel, q: npt.ArrayLike, on_error: str = "ra
 
 def reduced_moment(
     machine: MachineModel, q: npt.ArrayLike, speed: npt.ArrayLike = 0.0, on_error: str = "raise"
-) -> Any:
+) -> Float:
     """See `Machine.reduced_moment`."""
     moment = reduce(machine, q, real_array(speed, "speed"), on_error)[2]
     return moment[..., 0][()] if machine.driver_count == 1 else moment
 
 
-def potential(machine: MachineModel, q: npt.ArrayLike, on_error: str = "raise") -> Any:
+def potential(machine: MachineModel, q: npt.ArrayLike, on_error: str = "raise") -> Float:
     """See `Machine.potential`."""
     energies = reduce(machine, q, None, on_error)[3]
     if on_error == "raise":

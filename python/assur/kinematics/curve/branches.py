@@ -11,7 +11,7 @@ import numpy as np
 from assur.kinematics.assemblies import assemblies
 from assur.kinematics.configuration import nearest, place_of, places_along, size_of
 from assur.kinematics.curve.elements import SAME, Branch, has_driven_angle
-from assur.kinematics.limits import limits
+from assur.kinematics.limits import limits, period_of_one
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class Branches:
         own_limits = self.limits(assembly)
         dead = {point.q: point.group for point in own_limits.dead_points}
         intervals = [
-            Branch(assembly, low, high, own_limits.period)
+            Branch(assembly, low, high, period_of_one(own_limits))
             for low, high in own_limits.intervals.tolist()
         ]
         # Several of them may contain an angle, each in other turns.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,7 +19,10 @@ from assur.kinematics.solve import solve
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
+    from assur._later import Mechanism
     from assur.kinematics.assembly import Assembly
     from assur.kinematics.curve.defects import Defects
     from assur.kinematics.curve.elements import Branch, Circuit, Fold
@@ -102,7 +105,7 @@ class ConfigurationCurve:
     circuits: tuple[Circuit, ...]
     fan: Float
     # A `Mechanism`, whose file stands above.
-    mechanism: Any
+    mechanism: Mechanism
 
     def __repr__(self) -> str:
         folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
@@ -135,7 +138,7 @@ class ConfigurationCurve:
         """
         return defects_of(self, places)
 
-    def plot(self, name: str | None = None, *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, name: str | None = None, *, ax: Axes | None = None, dark: bool = False) -> Axes:
         """Draw a coordinate over q along every circuit (needs matplotlib).
 
         Circuits differ in colour, dead points of the driver are diamonds.

@@ -56,7 +56,7 @@ class Defect(IntFlag):
 
 def design_defects(
     mechanism: MechanismModel, q: npt.ArrayLike, joints: Mapping[str, npt.ArrayLike]
-) -> Any:
+) -> Defect | npt.NDArray[np.uint8]:
     """See `Mechanism.defects`."""
     require_one_driver(mechanism, "defects")
     mapping: Any = joints

@@ -14,6 +14,7 @@ from assur.kinematics.curve.circuits import circuits_of
 from assur.kinematics.curve.curve import ConfigurationCurve
 from assur.kinematics.curve.fan import Fan, around_drawing, look_within_intervals
 from assur.kinematics.curve.folds import Folds
+from assur.kinematics.model import as_made
 
 if TYPE_CHECKING:
     from assur.kinematics.assembly import Assembly
@@ -76,5 +77,5 @@ def _curve_of(known: Branches, folds: list[Fold], fan: list[float]) -> Configura
             branches[number] = replace(branches[number], folds=ends)
     circuits = circuits_of(branches, folds)
     return ConfigurationCurve(
-        tuple(branches), tuple(folds), tuple(circuits), np.array(fan), known.mechanism
+        tuple(branches), tuple(folds), tuple(circuits), np.array(fan), as_made(known.mechanism)
     )

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import counted, short
+from assur._arrays import as_number, counted, short
 from assur._callers import level_of_caller
 from assur._validate import checked_name, real_array
 from assur.description import encode
@@ -28,7 +28,7 @@ from assur.kinematics.pose import Pose, bare_core
 from assur.kinematics.solve import solve
 
 if TYPE_CHECKING:
-    from assur._arrays import Float
+    from assur._arrays import Float, Number
     from assur.description.encode import Description
     from assur.description.words import DriverLike
     from assur.kinematics.model import AssemblyNumbers, MechanismModel
@@ -58,7 +58,7 @@ class InverseSolution(NamedTuple):
     (1.403348, {'B': 1})
     """
 
-    q: Any
+    q: Number
     assembly: Assembly
 
 
@@ -195,7 +195,7 @@ def _base(mechanism: MechanismModel) -> tuple[float, float]:
     """Return the ground's joint from which a cross-slide is measured."""
     joint = next(slide.origin for _, slide in mechanism.description.slides[-2:])
     values = mechanism.dimensions
-    return values[f"ground.{joint}.x"], values[f"ground.{joint}.y"]
+    return float(values[f"ground.{joint}.x"]), float(values[f"ground.{joint}.y"])
 
 
 def _with_cross_slide(drawing: Description, joint: str, axes: str) -> Description:
@@ -246,7 +246,7 @@ def _of_original(
     joints = pose.joints[: len(mechanism.joint_names)]
     pose = Pose(joints, pose.angles[:links], pose.slides[:slides])
     q = _coordinates(mechanism, pose)
-    coordinates = q[0] if len(q) == 1 else np.array(q)
+    coordinates = as_number(q[0] if len(q) == 1 else np.array(q))
     if mechanism.core.cls > 2:
         try:
             _, drawn_numbers = bare_core(mechanism.description).at_pose(*astuple(pose))

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
     from assur.kinematics.model import MechanismModel
@@ -102,7 +103,7 @@ class DesignMap:
     values: npt.NDArray[np.intp]
     boundaries: tuple[Boundary, ...]
 
-    def plot(self, *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, *, ax: Axes | None = None, dark: bool = False) -> Axes:
         """Draw regions by their number, with names, and the boundaries (needs matplotlib).
 
         Parameters
@@ -156,7 +157,7 @@ def design_map(
     def look_at(places: Float) -> list[int]:
         batch = with_dimensions(mechanism, {first: places[:, 0], second: places[:, 1]})
         if of == "full_rotation":
-            return [int(whole) for whole in limits(batch).full_rotation.tolist()]
+            return [int(whole) for whole in np.asarray(limits(batch).full_rotation).tolist()]
         return [len(found) for found in assemblies(batch, where)]
 
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)

@@ -30,13 +30,16 @@ from assur.kinematics.loci.folds import (
     poses_beside_folds,
 )
 from assur.kinematics.loci.trace import start_beside, trace
+from assur.kinematics.model import as_made
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
+    from assur._later import Mechanism
     from assur.description.words import DriverLike
     from assur.kinematics.loci.trace import Traced
     from assur.kinematics.model import MechanismModel
@@ -102,9 +105,9 @@ class SingularLocus:
     is_closed: bool
     is_complete: bool
     # A `Mechanism`, whose file stands above.
-    mechanism: Any
+    mechanism: Mechanism
 
-    def plot(self, joint: str | None = None, *, ax: Any = None, dark: bool = False) -> Any:
+    def plot(self, joint: str | None = None, *, ax: Axes | None = None, dark: bool = False) -> Axes:
         """Draw the curve of a joint, or of the drivers' coordinates (needs matplotlib).
 
         Parameters
@@ -187,11 +190,11 @@ class Workspace:
     _surface: Surface
     _base: tuple[float, float]
     # A `Mechanism`, whose file stands above.
-    mechanism: Any
+    mechanism: Mechanism
 
     def plot(
-        self, *, loci: Sequence[SingularLocus] = (), ax: Any = None, dark: bool = False
-    ) -> Any:
+        self, *, loci: Sequence[SingularLocus] = (), ax: Axes | None = None, dark: bool = False
+    ) -> Axes:
         """Draw where the joint can be, and in how many ways (needs matplotlib).
 
         Regions are filled by the number of ways; curves are the boundary, where that changes. The
@@ -227,7 +230,7 @@ class Workspace:
 
         return workspace_picture(self, _checked_loci(loci, self.joint), ax, dark)
 
-    def contains(self, points: npt.ArrayLike) -> Any:
+    def contains(self, points: npt.ArrayLike) -> bool | npt.NDArray[np.bool_]:
         """Return whether the joint reaches points, shape (…, 2), m: an array of bool (…).
 
         Parameters
@@ -330,7 +333,9 @@ def _workspace_of(surface: Surface, grid: Grid, joint: str) -> Workspace:
     inverse = Surface(inverse_mechanism, (0, 1), at, surface.size)
     over = grid_of(inverse, (axes[0] - base[0], axes[1] - base[1]), (False, False))
     boundary = _loci(inverse, mechanism, over, 1)
-    return Workspace(joint, axes[0], axes[1], over.counts, boundary, inverse, base, mechanism)
+    return Workspace(
+        joint, axes[0], axes[1], over.counts, boundary, inverse, base, as_made(mechanism)
+    )
 
 
 def _over_drivers(
@@ -483,4 +488,4 @@ def _named(mechanism: MechanismModel, traced: Traced, kind: int) -> SingularLocu
     q = _coordinates(mechanism, traced)
     joints = np.array([pose.joints for pose in _round(traced)])
     named = {name: joints[:, i] for i, name in enumerate(mechanism.joint_names)}
-    return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete, mechanism)
+    return SingularLocus(kind, q, named, traced.is_closed, traced.is_complete, as_made(mechanism))

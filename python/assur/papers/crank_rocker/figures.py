@@ -21,7 +21,10 @@ from assur.papers.crank_rocker.theory import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
+    from assur._faces import AxesLike, Panels
     from assur.kinematics.mechanism import Mechanism
 
 # Points of a curve; rockers, of figure 3.
@@ -38,9 +41,9 @@ def plot_zone(
     coupler: float = 4.0,
     margin: float | tuple[float, float] = 0.05,
     gamma_min: float = 0.0,
-    ax: Any = None,
+    ax: Axes | None = None,
     dark: bool = False,
-) -> Any:
+) -> Axes:
     """Draw the grounds for which the crank turns over the rocker's length (needs matplotlib).
 
     Parameters
@@ -91,13 +94,13 @@ def plot_zone(
         raise InputError(message, value=length)
     chart.require_shown(length)
     rockers = np.linspace(first, length, ROCKERS)
-    axes = chart.chart_axes(ax, style, height=4.2)
+    axes: Axes = chart.chart_axes(ax, style, height=4.2)
     zones = [(0.0, "zone", style.driver, TINT)]
     if gamma_min:
         zones.append((gamma_min, "zone with friction", style.velocity, 2.0 * TINT))
     notes = []
     for angle, gid, colour, tint in zones:
-        low, high = ground_range(length, rockers, margin=margin, gamma_min=angle)
+        low, high = map(np.asarray, ground_range(length, rockers, margin=margin, gamma_min=angle))
         known = np.isfinite(low)
         x, low, high = rockers[known], low[known], high[known]
         axes.fill_between(
@@ -132,9 +135,9 @@ def plot_push_and_pull(
     l4: float,
     *,
     phi1: float | Sequence[float] = (1.6, 4.2),
-    ax: Any = None,
+    ax: AxesLike | None = None,
     dark: bool = False,
-) -> Any:
+) -> Panels:
     """Draw the mechanism at crank angles with the force of the coupler on the rocker.
 
     Parameters
@@ -230,7 +233,7 @@ def _drawn(
     return Mechanism(joints, links, "crank"), places
 
 
-def plot_least_angle(*, ax: Any = None, dark: bool = False) -> Any:
+def plot_least_angle(*, ax: Axes | None = None, dark: bool = False) -> Axes:
     """Draw the least transmission angle over the reduced friction f_p (needs matplotlib).
 
     Parameters
@@ -262,7 +265,7 @@ def plot_least_angle(*, ax: Any = None, dark: bool = False) -> Any:
     from assur.pictures.style import blend, style_of
 
     style = style_of(dark)
-    axes = chart.chart_axes(ax, style)
+    axes: Axes = chart.chart_axes(ax, style)
     # Closer where the curve is steep.
     reduced = 1.0 - np.square(np.linspace(1.0, 0.0, 300)[:-1])
     least = np.array(
@@ -294,9 +297,9 @@ def plot_transmission(
     l4: float | Sequence[float],
     *,
     gamma_min: float | None = None,
-    ax: Any = None,
+    ax: AxesLike | None = None,
     dark: bool = False,
-) -> Any:
+) -> Panels:
     """Draw the angle γ₂₃ and the transmission angle γ over the crank's angle, for some grounds.
 
     Parameters
@@ -339,7 +342,7 @@ def plot_transmission(
     l1, l2, l3, _ = _checked_lengths(l1=l1, l2=l2, l3=l3, l4=grounds[-1])
     least = None if gamma_min is None else real_number(gamma_min, "gamma_min")
     jams = [] if least is None else blocked(l1, l2, l3, grounds[-1], least)
-    axes = chart.chart_axes(ax, style, 2, 1, 2.9)
+    axes: Panels = chart.chart_axes(ax, style, 2, 1, 2.9)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     x = np.degrees(phi)
     named: list[list[Named]] = [[], []]

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,9 @@ from assur._arrays import Float, finite_array, flag, real_number
 from assur._trig import sin_cos
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["JammingEvent", "JammingRun", "run"]
 
@@ -111,10 +114,10 @@ class JammingRun:
         self,
         what: Literal["positions", "ground", "angle"] = "positions",
         *,
-        ax: Any = None,
+        ax: Axes | None = None,
         degrees: bool = True,
         dark: bool = False,
-    ) -> Any:
+    ) -> Axes:
         """Draw successive positions, or a diagram over the crank's angle (needs matplotlib).
 
         Parameters

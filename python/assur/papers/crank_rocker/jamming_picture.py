@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
     from assur.kinematics.mechanism import Mechanism
@@ -49,12 +50,14 @@ class _Jamming(Protocol):
     def events(self) -> Any: ...
 
 
-def jamming_picture(run: _Jamming, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
+def jamming_picture(run: _Jamming, what: str, ax: Any, degrees: bool, dark: bool) -> Axes:
     """See `JammingRun.plot`."""
     style = style_of(dark)
     if what == "positions":
-        return _positions(run, ax, dark, style)
-    return _diagram(run, what, ax, degrees, style)
+        positions: Axes = _positions(run, ax, dark, style)
+        return positions
+    diagram: Axes = _diagram(run, what, ax, degrees, style)
+    return diagram
 
 
 def mechanism_of(run: _Jamming) -> Mechanism:

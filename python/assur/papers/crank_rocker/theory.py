@@ -9,12 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import Float, finite_array, flag, real_array, real_number
+from assur._arrays import Float, as_number, finite_array, flag, real_array, real_number
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
 from assur.kinematics.grashof import CHANGE_TOLERANCE, types_of
 
 if TYPE_CHECKING:
+    from assur._arrays import Number
     from assur.papers.crank_rocker.jamming import Side
 
 __all__ = [
@@ -175,7 +176,7 @@ def grashof(
     l4: npt.ArrayLike,
     *,
     tolerance: float = CHANGE_TOLERANCE,
-) -> Any:
+) -> str | npt.NDArray[np.str_]:
     """Return Grashof's type of four-bars with crank l1, coupler l2, rocker l3 and ground l4.
 
     Parameters
@@ -205,7 +206,7 @@ def grashof(
 
 def crank_turns(
     l1: npt.ArrayLike, l2: npt.ArrayLike, l3: npt.ArrayLike, l4: npt.ArrayLike
-) -> tuple[Any, Float]:
+) -> tuple[bool | npt.NDArray[np.bool_], Float]:
     """Return whether the crank turns fully, and the margins of the inequalities.
 
     The margins (a last axis of 3) are l2 + l3 − l1 − l4, l3 + l4 − l1 − l2 and l2 + l4 − l1 − l3:
@@ -242,7 +243,7 @@ def ground_range(
     *,
     margin: float | tuple[float, float] = 0.05,
     gamma_min: npt.ArrayLike = 0.0,
-) -> tuple[Any, Any]:
+) -> tuple[Number, Number]:
     """Return the least and the greatest ground for which the crank turns.
 
     Parameters
@@ -287,7 +288,8 @@ def ground_range(
     least, greatest = ends[..., 0], ends[..., 1]
     if shape:
         nothing = least > greatest
-        return np.where(nothing, np.nan, least), np.where(nothing, np.nan, greatest)
+        least, greatest = (np.where(nothing, np.nan, end) for end in (least, greatest))
+        return as_number(least), as_number(greatest)
     if least > greatest:
         message = (
             f"no length of the ground fits: with coupler {coupler!r}, rocker {rocker!r}, "
@@ -295,7 +297,7 @@ def ground_range(
             f"to {greatest:.6g}"
         )
         raise InputError(message)
-    return float(least), float(greatest)
+    return as_number(float(least)), as_number(float(greatest))
 
 
 def least_transmission_angle(
@@ -310,7 +312,7 @@ def least_transmission_angle(
     coupler: npt.ArrayLike | None = None,
     exact: bool = False,
     side: Side = "outer",
-) -> Any:
+) -> Number:
     """Return the least transmission angle at which friction lets the rocker move, rad.
 
     sin γ = (f_C r_C + f_D r_D) / l₃ (equation 8), with coefficients of friction and radii of the
@@ -380,7 +382,7 @@ def least_transmission_angle(
     else:
         angles = _core.crank_rocker_least_gamma(flat[:4], flat[4])
     if shape:
-        return angles.reshape(shape)
+        return as_number(angles.reshape(shape))
     if np.isnan(angles[0]):
         a, b, c, d, length = (float(column[0]) for column in flat[:5])
         reduced = (a * b + c * d) / length
@@ -389,12 +391,12 @@ def least_transmission_angle(
             raise InputError(message)
         message = f"f_p = {reduced:.6g} is not below 1: the rocker does not move at any angle"
         raise InputError(message, value=reduced)
-    return float(angles[0])
+    return as_number(float(angles[0]))
 
 
 def transmission_extremes(
     l1: npt.ArrayLike, l2: npt.ArrayLike, l3: npt.ArrayLike, l4: npt.ArrayLike
-) -> tuple[Any, Any]:
+) -> tuple[Number, Number]:
     """Return the least and the greatest transmission angle over a turn of the crank, rad.
 
     In closed form: γ₂₃ is extreme where crank and ground are collinear (φ₁ = 0 and π). NaN in
@@ -428,7 +430,9 @@ def transmission_extremes(
         message = f"the crank does not turn: margins {margins.tolist()}"
         raise InputError(message)
     least, greatest = ends[..., 0], ends[..., 1]
-    return (least, greatest) if shape else (float(least), float(greatest))
+    if shape:
+        return as_number(least), as_number(greatest)
+    return as_number(float(least)), as_number(float(greatest))
 
 
 def blocked(

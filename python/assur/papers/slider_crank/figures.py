@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, overload
 
 import numpy as np
 
@@ -16,7 +16,10 @@ from assur.papers.slider_crank.theory import contour, rod_angle, rod_point, stro
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
+    from assur._faces import AxesLike, Panels
     from assur.kinematics.quantity import Analogues
     from assur.pictures.diagrams.quantities import Line, Quantity
 
@@ -29,8 +32,8 @@ BETWEEN = 1001
 
 
 def plot_contour(
-    phi: float, crank: float, rod: float, *, ax: Any = None, dark: bool = False
-) -> Any:
+    phi: float, crank: float, rod: float, *, ax: Axes | None = None, dark: bool = False
+) -> Axes:
     """Draw the closed vector contour l₁ + l₂ = l₃ at one position (needs matplotlib).
 
     Parameters
@@ -88,7 +91,7 @@ def plot_contour(
         middle = (start + end) / 2.0
         outward = 1.0 if float(((middle - corners[:3].mean(axis=0)) * across).sum()) > 0.0 else -1.0
         on.ax.annotate(
-            name, middle, xytext=12.0 * outward * across, textcoords="offset points",
+            name, middle, xytext=tuple(12.0 * outward * across), textcoords="offset points",
             fontproperties=name_font(), color=colour, horizontalalignment="center",
             verticalalignment="center", gid=f"name {name}",
         )  # fmt: skip
@@ -111,9 +114,9 @@ def plot_positions(
     *,
     along: float | None = None,
     across: float = 0.0,
-    ax: Any = None,
+    ax: Axes | None = None,
     dark: bool = False,
-) -> Any:
+) -> Axes:
     """Draw the mechanism at one position with the paths of A, B and a point of the rod.
 
     Parameters
@@ -171,8 +174,9 @@ def plot_positions(
     from assur.pictures.text import name_font
 
     ax.annotate(
-        "S₂", point, xytext=(7.0, 9.0), textcoords="offset points", fontproperties=name_font(),
-        color=style.path, horizontalalignment="center", verticalalignment="center", gid="name S2",
+        "S₂", (point[0], point[1]), xytext=(7.0, 9.0), textcoords="offset points",
+        fontproperties=name_font(), color=style.path, horizontalalignment="center",
+        verticalalignment="center", gid="name S2",
     )  # fmt: skip
     return ax
 
@@ -237,6 +241,32 @@ class _Formulas:
 
 
 @renamed_rates
+@overload
+def plot_motion(
+    quantity: Literal["stroke", "rod"],
+    crank: float,
+    rod: float,
+    *,
+    speed: float | None = ...,
+    acceleration: float = ...,
+    orders: int,
+    ax: AxesLike | None = ...,
+    degrees: bool = ...,
+    dark: bool = ...,
+) -> Axes: ...
+@overload
+def plot_motion(
+    quantity: Literal["stroke", "rod"],
+    crank: float,
+    rod: float,
+    *,
+    speed: float | None = ...,
+    acceleration: float = ...,
+    orders: Sequence[int] | None = ...,
+    ax: AxesLike | None = ...,
+    degrees: bool = ...,
+    dark: bool = ...,
+) -> Panels: ...
 def plot_motion(
     quantity: Literal["stroke", "rod"],
     crank: float,
@@ -245,10 +275,10 @@ def plot_motion(
     speed: float | None = None,
     acceleration: float = 0.0,
     orders: int | Sequence[int] | None = None,
-    ax: Any = None,
+    ax: AxesLike | None = None,
     degrees: bool = True,
     dark: bool = False,
-) -> Any:
+) -> Axes | Panels:
     """Draw the stroke or the rod's angle with its velocity and acceleration over a turn.
 
     Parameters
@@ -297,16 +327,17 @@ def plot_motion(
     source = _Formulas(quantity, lengths, speeds, flag(degrees, "degrees"))
     # The title has its name.
     of = Quantity("slide" if quantity == "stroke" else "link", "")
-    return diagrams(source, [of], ax, orders, style_of(dark))
+    axes: Axes | Panels = diagrams(source, [of], ax, orders, style_of(dark))
+    return axes
 
 
 def plot_convergence(
     k: float | Sequence[float] = (1.5, 3.0, 5.0),
     *,
     count: int = 8,
-    ax: Any = None,
+    ax: AxesLike | None = None,
     dark: bool = False,
-) -> Any:
+) -> Panels:
     """Draw the largest error of the stroke's series over its harmonics, and over its terms.
 
     Parameters
@@ -344,7 +375,7 @@ def plot_convergence(
 
     style, last = style_of(dark), whole_number(count, "count", 1, 100)
     ratios = [real_number(value, "k") for value in checked_entries(k, "k", MOST_CURVES)]
-    axes = chart.chart_axes(ax, style, 1, 2)
+    axes: Panels = chart.chart_axes(ax, style, 1, 2)
     counts = np.arange(1, last + 1)
     phi = np.linspace(0.0, 2.0 * math.pi, POINTS)
     named: list[list[Named]] = [[], []]
@@ -382,9 +413,9 @@ def plot_deviation(
     n: int | Sequence[int] = (1, 2),
     *,
     quantity: Literal["stroke", "d1"] | Sequence[Literal["stroke", "d1"]] = ("stroke", "d1"),
-    ax: Any = None,
+    ax: AxesLike | None = None,
     dark: bool = False,
-) -> Any:
+) -> Panels:
     """Draw how far approximations of the continued fraction are off, per cent of the exact value.
 
     Parameters

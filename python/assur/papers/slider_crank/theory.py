@@ -8,7 +8,15 @@ import numpy as np
 import numpy.typing as npt
 
 from assur import _core
-from assur._arrays import Float, finite_array, in_range, real_array, real_number, require_finite
+from assur._arrays import (
+    Float,
+    as_number,
+    finite_array,
+    in_range,
+    real_array,
+    real_number,
+    require_finite,
+)
 from assur._extreme import Extreme
 from assur._trig import arctan2
 from assur._validate import one_of, whole_number
@@ -56,10 +64,10 @@ class Deviation(NamedTuple):
     np.float64(0.004725)
     """
 
-    relative: Any
-    relative_at: Any
-    absolute: Any
-    absolute_at: Any
+    relative: Float
+    relative_at: Float
+    absolute: Float
+    absolute_at: Float
 
 
 def fourier(k: npt.ArrayLike, *, harmonics: int = 6, terms: int | None = None) -> Float:
@@ -307,10 +315,10 @@ def greatest_speed(
     one_of(method, ("exact", "series", "perpendicular"), "method")
     if method == "perpendicular":
         at = arctan2(ratios, 1.0)
-        return Extreme(stroke(at, 1.0, ratios).d1, at)
+        return Extreme(as_number(stroke(at, 1.0, ratios).d1), as_number(at))
     flat = np.ascontiguousarray(ratios).reshape(-1)
     at, value = _core.slider_crank_greatest_speed(flat, method == "exact")
-    return Extreme(value.reshape(ratios.shape), at.reshape(ratios.shape))
+    return Extreme(as_number(value.reshape(ratios.shape)), as_number(at.reshape(ratios.shape)))
 
 
 def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
@@ -340,7 +348,7 @@ def greatest_acceleration(k: npt.ArrayLike) -> Extreme:
     _ratio(ratios, "k")
     flat = np.ascontiguousarray(ratios).reshape(-1)
     at, value = _core.slider_crank_greatest_acceleration(flat)
-    return Extreme(value.reshape(ratios.shape), at.reshape(ratios.shape))
+    return Extreme(as_number(value.reshape(ratios.shape)), as_number(at.reshape(ratios.shape)))
 
 
 def deviation(

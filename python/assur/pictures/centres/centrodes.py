@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -19,6 +19,8 @@ from assur.pictures.vectors.dots import dots
 from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
@@ -37,9 +39,9 @@ def centrodes(
     other: str = "ground",
     *,
     at: int | tuple[int, ...] = (),
-    ax: Any = None,
+    ax: Axes | None = None,
     dark: bool = False,
-) -> Any:
+) -> Axes:
     """Draw the centrodes of a link: its motion is the rolling of one on the other.
 
     The fixed centrode is the path of the instant centre as `other` sees it, the moving one as the

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -21,6 +21,8 @@ from assur.pictures.vectors.dots import dots
 from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
@@ -41,9 +43,9 @@ def inflection_circle(
     *,
     at: int | tuple[int, ...] = (),
     bresse: bool = False,
-    ax: Any = None,
+    ax: Axes | None = None,
     dark: bool = False,
-) -> Any:
+) -> Axes:
     """Draw the inflection circle of a link: its points there go straight for a moment.
 
     With it the pole P, the pole tangent t along which P moves, the normal n, and the inflection

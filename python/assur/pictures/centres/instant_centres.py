@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,6 +21,8 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, link_numbers, wrapped, w
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._faces import Motion
 
 
@@ -38,9 +40,9 @@ def instant_centres(
     at: int | tuple[int, ...] = (),
     links: Sequence[str] | None = None,
     lines: bool | None = None,
-    ax: Any = None,
+    ax: Axes | None = None,
     dark: bool = False,
-) -> Any:
+) -> Axes:
     """Draw the instant centres of all pairs of links on the mechanism (needs matplotlib).
 
     Links are numbered, the ground is 1; P24 is the centre of links 2 and 4, about which one turns

@@ -15,6 +15,8 @@ from assur.pictures.points import settle
 from assur.pictures.style import style_of
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import EventRecord, Mechanism, Run
     from assur.pictures.style import Style
@@ -31,10 +33,10 @@ ROOM = 0.3
 TITLES = {"q": "Coordinate", "speed": "Speed", "acceleration": "Acceleration"}
 
 
-def run_picture(run: Run, what: str, ax: Any, dark: bool, named: bool = True) -> Any:
+def run_picture(run: Run, what: str, ax: Any, dark: bool, named: bool = True) -> Axes:
     """See `Run.plot`; `named`: with the events."""
     style = style_of(dark)
-    axes = chart.chart_axes(ax, style)
+    axes: Axes = chart.chart_axes(ax, style)
     if what == "energy":
         t, curves, unit, title = *_energies(run, style), "J", "Energy"
     else:

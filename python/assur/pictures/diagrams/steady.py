@@ -16,6 +16,8 @@ from assur.pictures.style import blend, style_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Flywheel, SteadyState
     from assur.pictures.style import Style
@@ -25,7 +27,7 @@ POINTS = 1001
 TINT = 0.12
 
 
-def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark: bool) -> Any:
+def steady_picture(steady: SteadyState, what: str, ax: Any, degrees: bool, dark: bool) -> Axes:
     """See `SteadyState.plot`."""
     if what == "energy":
         return run_picture(steady.run, what, ax, dark, named=False)
@@ -70,9 +72,9 @@ def speed_diagram(
     of: Flywheel | SteadyState,
     wheel: str,
     style: Style,
-) -> Any:
+) -> Axes:
     """Draw a speed with its extremes and mean, the band of its fluctuation shaded."""
-    axes = chart.chart_axes(ax, style)
+    axes: Axes = chart.chart_axes(ax, style)
     start(axes, over, style)
     sign = float(np.copysign(1.0, speed[0]))
     least, greatest, mean = (

@@ -23,6 +23,8 @@ from assur.pictures.vectors.symbols import symbol
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import ForceSystem, PlacedForce
     from assur.pictures.axes import Canvas
@@ -38,7 +40,7 @@ LETTERS = {"reaction": ("R", ""), "load": ("F", ""), "weight": ("G", ""), "inert
 
 def forces_picture(
     system: ForceSystem, links: str | Sequence[str] | None, ax: Any, dark: bool
-) -> Any:
+) -> Axes:
     """See `Reactions.plot`."""
     subject = Subject(system.motion)
     chosen = [force for force in system.forces if links is None or not force.inner]

@@ -25,8 +25,10 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
-    from assur._faces import Bearing
+    from assur._faces import Bearing, Panels
     from assur.pictures.axes import Canvas
     from assur.pictures.style import Style
 
@@ -39,7 +41,7 @@ RING_TEXT = 11.0
 LINE, DOT = 1.8, 4.0
 
 
-def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Any:
+def polar_load(bearing: Bearing, ax: Any, dark: bool) -> Axes | Panels:
     """See `Bearing.plot`."""
     if bearing.designs:
         message = (

@@ -21,6 +21,8 @@ from assur.pictures.vectors.dots import dots
 from assur.pictures.vectors.heading import LINE_HEIGHT, place_text, write_heading
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._faces import ForceSystem, PlacedForce
 
 # The order of the sides; forces smaller than this fraction of the greatest are not drawn.
@@ -28,7 +30,7 @@ ORDER, LEAST = ("load", "weight", "inertia", "drive", "reaction"), 1e-9
 DOT = 4.0
 
 
-def force_polygon(system: ForceSystem, ax: Any, dark: bool) -> Any:
+def force_polygon(system: ForceSystem, ax: Any, dark: bool) -> Axes:
     """See `Reactions.polygon`."""
     require_forces(system)
     forces = polygon_sides(system)

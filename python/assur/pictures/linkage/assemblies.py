@@ -18,7 +18,7 @@ from assur.pictures.text import plain_size, printable
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from assur._faces import Assembly
+    from assur._faces import Assembly, Panels
     from assur.pictures.axes import Canvas
 
 # Width of a picture, inches, and the limits of its height.
@@ -30,7 +30,7 @@ MOST = 24
 LONGEST = 3
 
 
-def assemblies_picture(assemblies: Sequence[Assembly], ax: Any, dark: bool) -> Any:
+def assemblies_picture(assemblies: Sequence[Assembly], ax: Any, dark: bool) -> Panels:
     """See `Assemblies.plot`."""
     if not len(assemblies):
         message = "there is no assembly at this coordinate: nothing to draw"
@@ -50,7 +50,7 @@ def assemblies_picture(assemblies: Sequence[Assembly], ax: Any, dark: bool) -> A
         subjects.append(subject)
     corners = np.concatenate([subject.points() for subject in subjects])
     extent = np.stack([corners.min(axis=0), corners.max(axis=0)])
-    axes = _axes(len(shown), extent, ax, style)
+    axes: Panels = _axes(len(shown), extent, ax, style)
     for i, (panel, subject, assembly) in enumerate(zip(axes, subjects, shown, strict=True)):
         on = subject.canvas(panel, style, [extent])
         Drawn(on, subject.scene, subject.frames[0])

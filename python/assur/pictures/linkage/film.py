@@ -43,7 +43,7 @@ class Film:
         paths = {name: motion.joint(name).value for name in joints}
         known = [path[np.isfinite(path).all(axis=1)] for path in paths.values()]
         self._on = self._subject.canvas(None, style, known, groups=groups)
-        self.figure = self._on.ax.figure
+        self.figure: Any = self._on.ax.figure
         self.figure.set_dpi(DOTS_PER_INCH)
         for i, (name, path) in enumerate(paths.items()):
             draw_path(self._on, path, name, DASHES[i % len(DASHES)])
@@ -51,7 +51,8 @@ class Film:
             write_formula(self._subject.mechanism, self._on)
         scale_bar(self._on)
         self.figure.canvas.draw()
-        self._background = self.figure.canvas.copy_from_bbox(self.figure.bbox)
+        canvas: Any = self.figure.canvas
+        self._background = canvas.copy_from_bbox(self.figure.bbox)
         first = self._frames[self.rows[0]]
         self._drawn = Drawn(self._on, self._subject.scene, first, groups)
         names = self._subject.scene.names

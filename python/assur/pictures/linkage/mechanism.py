@@ -17,6 +17,8 @@ from assur.pictures.style import style_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from matplotlib.axes import Axes
+
     from assur._faces import Mechanism
 
 LABELS = ("first", "all", "none")
@@ -30,7 +32,7 @@ def mechanism_picture(
     labels: str,
     groups: bool,
     dark: bool,
-) -> Any:
+) -> Axes:
     """See `Mechanism.plot`."""
     if mechanism.shape:
         message = (

@@ -20,6 +20,8 @@ from assur.pictures.text import name_boxes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
@@ -41,7 +43,7 @@ def path_picture(
     speeds: tuple[Any, Any],
     groups: bool,
     dark: bool,
-) -> Any:
+) -> Axes:
     """See `Motion.plot`."""
     if motion.mechanism.shape or len(motion.shape) != 1:
         message = f"plot draws paths over q of one mechanism; this motion has shape {motion.shape}"

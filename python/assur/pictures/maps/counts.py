@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from assur._arrays import Float
     from assur._faces import DesignMap
@@ -100,7 +101,7 @@ def _starts(axis: Float, count: int) -> Float:
     return starts
 
 
-def design_map_picture(design_map: DesignMap, ax: Any, dark: bool) -> Any:
+def design_map_picture(design_map: DesignMap, ax: Any, dark: bool) -> Axes:
     """See `DesignMap.plot`."""
     style = style_of(dark)
     ax = chart_axes(ax, style)
@@ -124,4 +125,5 @@ def design_map_picture(design_map: DesignMap, ax: Any, dark: bool) -> Any:
             *boundary.points.T, color=style.ink, linewidth=LINE, gid=f"boundary {boundary.level}",
             solid_capstyle="round",
         )  # fmt: skip
-    return ax
+    drawn: Axes = ax
+    return drawn

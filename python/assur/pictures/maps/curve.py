@@ -18,6 +18,8 @@ from assur.pictures.style import style_of
 from assur.pictures.text import shortened
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import CircuitMotion, ConfigurationCurve, Mechanism
 
@@ -35,7 +37,7 @@ FAR = 4.0
 ALIKE = 0.008
 
 
-def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> Any:
+def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> Axes:
     """See `ConfigurationCurve.plot`."""
     mechanism = curve.mechanism
     name = _output(mechanism) if name is None else name
@@ -80,7 +82,8 @@ def curve_picture(curve: ConfigurationCurve, name: Any, ax: Any, dark: bool) -> 
     name = shortened(name)
     title(ax, name if of_angle else f"{name}, {unit}", style)
     _write(ax, drawn, dead, colours, turns, style)
-    return ax
+    shown: Axes = ax
+    return shown
 
 
 def _output(mechanism: Mechanism) -> str:

@@ -22,6 +22,8 @@ from assur.pictures.style import style_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Mechanism, SingularLocus, Workspace
     from assur.pictures.axes import Canvas
@@ -36,7 +38,7 @@ DASHES: dict[int, Any] = {1: "solid", 2: (0.0, (4.0, 1.6))}
 
 def workspace_picture(
     workspace: Workspace, loci: Sequence[SingularLocus], ax: Any, dark: bool
-) -> Any:
+) -> Axes:
     """See `Workspace.plot`."""
     style = style_of(dark)
     lines = [locus.joints[workspace.joint] for locus in workspace.boundary]
@@ -59,7 +61,7 @@ def workspace_picture(
     return on.ax
 
 
-def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) -> Any:
+def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) -> Axes:
     """See `SingularLocus.plot`."""
     style = style_of(dark)
     if joint is None:
@@ -75,7 +77,8 @@ def locus_picture(locus: SingularLocus, joint: str | None, ax: Any, dark: bool) 
         _lightly(subject, on, [line])
         scale_bar(on)
     _name_lines(ax, {locus.kind: [line]}, style)
-    return ax
+    drawn: Axes = ax
+    return drawn
 
 
 def _canvas(
@@ -130,7 +133,7 @@ def _name_lines(ax: Any, kinds: dict[int, list[Float]], style: Style) -> None:
         )
 
 
-def _over_drivers(locus: SingularLocus, ax: Any, style: Style) -> Any:
+def _over_drivers(locus: SingularLocus, ax: Any, style: Style) -> Axes:
     """Draw the coordinates of two drivers along a locus."""
     drivers = locus.mechanism.driver
     assert isinstance(drivers, tuple)
@@ -161,4 +164,5 @@ def _over_drivers(locus: SingularLocus, ax: Any, style: Style) -> Any:
         name_axis(axis, text, line[:, k], is_angle, style)
     title(ax, "singular positions", style)
     _name_lines(ax, {locus.kind: [line]}, style)
-    return ax
+    drawn: Axes = ax
+    return drawn

@@ -21,6 +21,8 @@ from assur.pictures.style import blend, style_of
 from assur.pictures.text import plain_size
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur.pictures.maps.values import Reasons
     from assur.pictures.style import Style
@@ -39,7 +41,7 @@ def metric_picture(
     dark: bool,
     best: str,
     degrees: bool,
-) -> Any:
+) -> Axes:
     """Draw `values` over one or two named axes; each of `reasons` has the nodes without value."""
     style = style_of(dark)
     ax = chart_axes(ax, style)
@@ -49,7 +51,8 @@ def metric_picture(
         metric_curve(ax, name, axes[0], values, reasons, best, unit, style)
     else:
         _map(ax, name, axes, values, reasons, best, unit, style)
-    return ax
+    drawn: Axes = ax
+    return drawn
 
 
 def _map(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.lines import Line2D
@@ -23,6 +23,9 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, write_heading
 from assur.pictures.vectors.symbols import formula_font, formula_size, symbol
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
@@ -37,12 +40,12 @@ def hodograph(
     motion: Motion,
     joint: str,
     *,
-    speed: Any = 1.0,
+    speed: npt.ArrayLike = 1.0,
     order: int = 1,
-    acceleration: Any = 0.0,
-    ax: Any = None,
+    acceleration: npt.ArrayLike = 0.0,
+    ax: Axes | None = None,
     dark: bool = False,
-) -> Any:
+) -> Axes:
     """Draw the hodograph of a joint: the ends of its velocities drawn from one pole.
 
     Parameters

@@ -25,6 +25,8 @@ from assur.pictures.vectors.heading import LINE_HEIGHT, checked_rates, link_numb
 from assur.pictures.vectors.symbols import symbol
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur._faces import Motion
     from assur.pictures.axes import Canvas
@@ -48,7 +50,7 @@ def _of_one(position: Motion, values: Any, name: str) -> Any:
 
 def polygon_picture(
     motion: Motion, what: str, at: Any, speed: Any, acceleration: Any, ax: Any, dark: bool
-) -> Any:
+) -> Axes:
     """See `Motion.polygon`."""
     one_of(what, ("velocity", "acceleration"), "what")
     position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion

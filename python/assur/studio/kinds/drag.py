@@ -88,7 +88,7 @@ def _changed(mechanism: Mechanism, drawn: Mechanism) -> dict[str, float]:
     size = float(np.ptp(np.array(list(drawn.joints.values())), axis=0).max())
     dimensions, changed = mechanism.dimensions, {}
     for name, value in drawn.dimensions.items():
-        difference, scale = value - dimensions[name], size
+        difference, scale = float(value) - float(dimensions[name]), size
         if is_angle(name):
             difference, scale = difference - TURN * round(difference / TURN), 1.0
         if abs(difference) > SAME * scale:

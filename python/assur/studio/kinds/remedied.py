@@ -96,7 +96,7 @@ def _edited(table: Table, remedy: Remedy) -> Table:
     return edited
 
 
-def _slides(old: Mapping[str, Any], parts: Table) -> Table:
+def _slides(old: Mapping[str, Any], parts: Mapping[str, Any]) -> Table:
     """Return the slides' entries: those of the document where they still say the same."""
     entries: Table = {}
     for name, slide in parts["slides"].items():
@@ -106,7 +106,7 @@ def _slides(old: Mapping[str, Any], parts: Table) -> Table:
     return entries
 
 
-def _says_the_same(name: str, entry: Table, slide: Slide, parts: Table) -> bool:
+def _says_the_same(name: str, entry: Table, slide: Slide, parts: Mapping[str, Any]) -> bool:
     """Whether a slide, or a cylinder with its two links, is as it was."""
     if "base" in entry:
         barrel, rod = _cylinder_links(name, entry)
@@ -173,7 +173,7 @@ def _mentions(load: Any, names: Collection[str]) -> bool:
     return isinstance(load, str) and load in names
 
 
-def _unchanged(table: Table, parts: Table) -> set[str]:
+def _unchanged(table: Table, parts: Mapping[str, Any]) -> set[str]:
     """Return the links and slides whose dimensions mean what they did."""
     links = {name for name, on in table["links"].items() if parts["links"].get(name) == tuple(on)}
     old = table.get("slides") or {}

@@ -306,7 +306,8 @@ class InUnits(Findings):
                 if "function" not in str(error):
                     self.fail("file refused", str(error))
                 return
-            again = assur.load(path)
+            again = assur.files.read(path).machine
+        assert again is not None
         self.report.counts["loaded"] += 1
         if again.mechanism != machine.mechanism:
             self.fail("file mechanism", "is not equal")

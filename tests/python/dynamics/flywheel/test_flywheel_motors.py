@@ -147,13 +147,13 @@ def test_a_motor_of_its_own(ratio: float) -> None:
 def test_its_pictures(ratio: float) -> None:
     f = press(assur.LinearMotor(90.0, 90.0, ratio=ratio)).flywheel(0.02)
     sign = math.copysign(1.0, ratio)
-    q, speed = f.plot().lines[0].get_data()
+    q, speed = map(np.asarray, f.plot().lines[0].get_data())
     assert (q[0], q[-1]) == (0.0, sign * TURN)
     np.testing.assert_array_equal(speed, f.speed(q))
-    t, speed = f.plot("time").lines[0].get_data()
+    t, speed = map(np.asarray, f.plot("time").lines[0].get_data())
     assert (t[0], t[-1]) == (0.0, pytest.approx(f.period))
     np.testing.assert_array_equal(speed, f.speed(q))
-    marks = [line.get_data() for line in f.plot().lines if line.get_gid() == "mark"]
+    marks: list[Any] = [line.get_data() for line in f.plot().lines if line.get_gid() == "mark"]
     for (x, y), extreme in zip(marks, (f.max, f.min), strict=True):
         assert (x[0], y[0]) == (extreme.q, sign * extreme.value)
     inertia, energy = f.plot("energy-mass").lines[0].get_data()

@@ -51,6 +51,7 @@ def test_polar_data(joint: str, on: str, other: str, frame: str | None) -> None:
         assert math.remainder(turned, math.tau) == pytest.approx(0.0, abs=1e-11)
         assert complex(*pin.force[k]) == pytest.approx(force, rel=1e-11)
         spin = float(one.spin[on] - one.spin[other])
+        assert pin.relative_speed is not None
         assert pin.relative_speed[k] == pytest.approx(spin, rel=1e-11)
         # p v by hand: of a bearing of 20 mm and 15 mm
         pv = abs(force) / (0.02 * 0.015) * abs(spin) * 0.01
@@ -106,6 +107,7 @@ def test_three_links_at_a_pin() -> None:
     for against in ("l2", "l4"):
         spins = [float(one.spin["l3"] - one.spin[against]) for one in known.all]
         own = found.bearing("C", on="l3", against=against)
+        assert own.relative_speed is not None
         np.testing.assert_allclose(own.relative_speed, spins, rtol=1e-11)
     with pytest.raises(assur.InputError, match="against is 'l5': at joint 'C'"):
         found.bearing("C", on="l3", against="l5")
@@ -144,6 +146,7 @@ def test_several_drivers() -> None:
     )
     q = np.asarray(m.q0) + np.array([[0.0, 0.0], [0.2, -0.4], [0.1, 0.3]])
     pin = machine.reactions(q, (3.0, -2.0)).bearing("B", on="fore")
+    assert pin.relative_speed is not None
     np.testing.assert_allclose(pin.relative_speed, -2.0)
     assert pin.max.q.tolist() == q[np.argmax(pin.size)].tolist()
 

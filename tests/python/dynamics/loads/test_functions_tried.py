@@ -69,7 +69,7 @@ def test_never_finite(value: Any) -> None:
 
 def test_motors_too() -> None:
     with pytest.raises(assur.InputError, match=r"ConstantTorque: torque is a function with"):
-        Machine(slider(), motor=ConstantTorque(lambda: 1.0))  # type: ignore[arg-type, misc]
+        Machine(slider(), motor=ConstantTorque(lambda: 1.0))  # type: ignore[arg-type]
     phi = np.linspace(0.0, math.tau, 9)
     with pytest.raises(assur.InputError, match=r"ConstantTorque: torque\(t, q, speed\) gives None"):
         Machine.from_table(phi, np.zeros(9), 1.0, motor=ConstantTorque(lambda *_: None))  # type: ignore[arg-type]

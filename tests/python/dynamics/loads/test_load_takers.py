@@ -205,6 +205,8 @@ def test_a_file_keeps_the_rule(tmp_path: Path) -> None:
     machine.save(path)
     assert "on =" not in path.read_text().split("[[loads]]")[-1]
     loaded = assur.load(path)
+    assert isinstance(loaded, Machine)
+    assert isinstance(loaded.loads[0], Force)
     assert loaded.loads[0].on is None
     assert loaded.effort(1.0, speed=-1.0) == machine.effort(1.0, speed=-1.0)
 

@@ -68,7 +68,7 @@ def test_a_run_gains_the_integral(back: bool) -> None:
     for state in inside:
         cuts = [1.0 + TURN * k for k in range(-9, 9)] + [4.0 + TURN * k for k in range(-9, 9)]
         cuts += [TURN * k for k in range(-9, 9)]
-        low, high = min(state.q, 0.0), max(state.q, 0.0)
+        low, high = sorted((float(state.q), 0.0))
         work = -integral(step, low, high, *cuts) if back else integral(step, low, high, *cuts)
         assert 0.5 * 2.0 * (state.speed**2 - 400.0) == pytest.approx(work, abs=1e-8)
     assert run.energy.error < 1e-12

@@ -11,6 +11,7 @@ import pytest
 
 import assur
 from assur import Body, Gravity, Torque
+from assur.dynamics.motion.run import NearChangePoint
 
 TURN = math.tau
 
@@ -135,7 +136,9 @@ def test_nearly_a_parallelogram_ends_at_its_near_change_point() -> None:
     )
     run = machine.run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == "near_change_point"
-    assert run.events[-1].event.miss == pytest.approx(3e-14, rel=0.2)
+    event = run.events[-1].event
+    assert isinstance(event, NearChangePoint)
+    assert event.miss == pytest.approx(3e-14, rel=0.2)
     assert run.energy.error < 1e-6
 
 

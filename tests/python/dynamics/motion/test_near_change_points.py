@@ -10,6 +10,7 @@ import pytest
 
 import assur
 from assur import Body
+from assur.dynamics.motion.run import NearChangePoint
 
 
 def in_line(miss: float) -> assur.Machine:
@@ -21,16 +22,23 @@ def in_line(miss: float) -> assur.Machine:
     )
 
 
+def near(run: assur.Run) -> NearChangePoint:
+    """The near change point that ended a run."""
+    event = run.events[-1].event
+    assert isinstance(event, NearChangePoint)
+    return event
+
+
 @pytest.mark.parametrize("miss", [1e-9, 1e-10, 1e-12, 1e-13])
 def test_a_near_miss_is_an_event_that_says_by_how_much_the_lengths_miss(miss: float) -> None:
     run = in_line(miss).run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == "near_change_point"
     last = run.events[-1]
     assert last.event == "near_change_point"
-    assert last.event.dyad == "C"
+    assert near(run).dyad == "C"
     # At half a turn the coupler and the rocker are in line but for the miss: 5 = 3 + 2.
-    assert last.event.miss == pytest.approx(miss, rel=0.02, abs=2e-15)
-    assert last.event.q == pytest.approx(math.pi, abs=1e-6)
+    assert near(run).miss == pytest.approx(miss, rel=0.02, abs=2e-15)
+    assert near(run).q == pytest.approx(math.pi, abs=1e-6)
     assert last.q == pytest.approx(math.pi, abs=1e-3)
     assert last.q < math.pi
     assert run.energy.error < 1e-7
@@ -42,7 +50,7 @@ def test_in_time_as_along_the_coordinate(seconds: float) -> None:
     run = in_line(1e-10).run(seconds, 1.0, 1.0)
     along = in_line(1e-10).run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == along.end == "near_change_point"
-    assert run.events[-1].event.miss == pytest.approx(along.events[-1].event.miss, rel=1e-3)
+    assert near(run).miss == pytest.approx(near(along).miss, rel=1e-3)
     assert run.t[-1] == pytest.approx(along.t[-1], abs=1e-3)
 
 
@@ -57,7 +65,7 @@ def test_lengths_off_in_the_other_direction_are_named() -> None:
     """The crank cannot pass, and the dead point is too near the near miss to be integrated to."""
     run = in_line(-1e-10).run(q_end=7.0, q0=1.0, speed0=1.0)
     assert run.end == "near_change_point"
-    assert run.events[-1].event.miss == pytest.approx(1e-10, rel=0.02)
+    assert near(run).miss == pytest.approx(1e-10, rel=0.02)
     assert in_line(-1e-5).run(q_end=7.0, q0=1.0, speed0=1.0).end == "dead point"
 
 
@@ -66,8 +74,8 @@ def test_a_slider_crank_that_nearly_passes_its_dead_point_says_so() -> None:
     machine = assur.Machine(assur.SliderCrank(1.0, 1.0 + 1e-10), bodies={"piston": Body(mass=1.0)})
     run = machine.run(q_end=3.0, q0=0.5, speed0=1.0)
     assert run.end == "near_change_point"
-    assert run.events[-1].event.miss == pytest.approx(1e-10, rel=0.02)
-    assert run.events[-1].event.q == pytest.approx(math.pi / 2.0, abs=1e-6)
+    assert near(run).miss == pytest.approx(1e-10, rel=0.02)
+    assert near(run).q == pytest.approx(math.pi / 2.0, abs=1e-6)
 
 
 def test_drawings_of_eleven_digits_are_named() -> None:
@@ -86,9 +94,9 @@ def test_drawings_of_eleven_digits_are_named() -> None:
     run = machine.run(3.0, float(m.q0), 5.0, rtol=1e-11)
     miss = abs(m.dimensions["rocker.length"] + m.dimensions["coupler.length"] - 5.0)
     assert run.end == "near_change_point"
-    assert run.events[-1].event.miss == pytest.approx(miss, rel=0.01)
+    assert near(run).miss == pytest.approx(miss, rel=0.01)
     again = pickle.loads(pickle.dumps(run))
-    assert again.events[-1].event.miss == run.events[-1].event.miss
+    assert near(again).miss == near(run).miss
 
 
 def test_a_periodic_motion_through_a_near_miss_is_refused_with_it() -> None:

@@ -222,7 +222,7 @@ def test_pictures() -> None:
     steady = press(assur.LinearMotor(90.0, 30.0)).steady_state()
     ax = steady.plot()
     assert ax.lines[0].get_gid() == "curve speed"
-    q, speeds = ax.lines[0].get_data()
+    q, speeds = map(np.asarray, ax.lines[0].get_data())
     assert np.ptp(q) == pytest.approx(TURN)
     np.testing.assert_allclose(speeds, steady.at(q).speed, rtol=1e-12)
     run = press(assur.LinearMotor(90.0, 30.0)).run(
@@ -230,7 +230,7 @@ def test_pictures() -> None:
     )
     for what in ("speed", "q", "acceleration", "energy"):
         ax = run.plot(what)
-        t, drawn = ax.lines[0].get_data()
+        t, drawn = map(np.asarray, ax.lines[0].get_data())
         assert (t[0], t[-1]) == (run.t[0], run.t[-1])
         own = run.energy.kinetic if what == "energy" else getattr(run.at(t), what)
         np.testing.assert_array_equal(drawn, own)

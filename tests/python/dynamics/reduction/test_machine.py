@@ -92,7 +92,7 @@ def positions(m: assur.Mechanism) -> list[tuple[float, ...]]:
 
 
 def one(m: assur.Mechanism, q: tuple[float, ...]) -> Any:
-    return q[0] if isinstance(m.q0, float) else np.array(q)
+    return q[0] if np.ndim(m.q0) == 0 else np.array(q)
 
 
 @pytest.mark.parametrize("name", CASES)

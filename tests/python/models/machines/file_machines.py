@@ -85,7 +85,7 @@ def whole_machines() -> dict[str, assur.Machine]:
     }
     m = four_bar()
     guide = assur.SlideFriction(0.1, THIRD, viscous=2.0, static_coefficient=0.1)
-    lengths = {"coupler.length": [3.1, 3.2, math.nan], "ground.D.x": 4.0}
+    lengths: dict[str, Any] = {"coupler.length": [3.1, 3.2, math.nan], "ground.D.x": 4.0}
     return {
         "nothing": assur.Machine(m),
         "everything": assur.Machine(

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.patches import Rectangle
 
 import assur
 from assur import flywheel
@@ -51,6 +52,7 @@ def test_the_speed_has_its_band_mean_and_extremes() -> None:
     np.testing.assert_allclose(x, np.degrees(np.linspace(0.0, TURN, 721)))
     np.testing.assert_array_equal(y, f.speed(np.radians(x)))
     (band,) = (patch for patch in ax.patches if patch.get_gid() == "fluctuation")
+    assert isinstance(band, Rectangle)
     low, high = band.get_y(), band.get_y() + band.get_height()
     assert (low, high) == pytest.approx((f.min.value, f.max.value))
     assert (high - low) / (3.0 * math.pi * 2.0) == pytest.approx(0.01, rel=1e-8)

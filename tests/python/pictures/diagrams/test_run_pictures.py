@@ -41,7 +41,7 @@ def test_events_are_named_where_they_are() -> None:
     run = pendulum()
     ax = run.plot("speed")
     assert ax.get_title(loc="left") == "Speed, rad/s"
-    places = [x.get_xdata()[0] for x in ax.lines if "event" in str(x.get_gid())]
+    places = [np.asarray(x.get_xdata())[0] for x in ax.lines if "event" in str(x.get_gid())]
     assert places == [event.t for event in run.events]
     names = said(ax, "event text")
     assert len(names) == 2
@@ -49,7 +49,7 @@ def test_events_are_named_where_they_are() -> None:
     assert names[1].startswith("rest")
     # Its greatest speed is √(3 g / l), at the lowest point.
     greatest = math.sqrt(3.0 * 9.81)
-    marks = [float(x.get_ydata()[0]) for x in ax.lines if x.get_gid() == "mark"]
+    marks = [float(np.asarray(x.get_ydata())[0]) for x in ax.lines if x.get_gid() == "mark"]
     assert marks == pytest.approx([greatest, -greatest], rel=1e-6)
 
 
@@ -112,7 +112,7 @@ def test_a_period() -> None:
     # The area below is a turn.
     assert np.trapezoid(speed, t) == pytest.approx(TURN, rel=1e-5)
     marks = [x.get_data() for x in steady.plot("speed").lines if x.get_gid() == "mark"]
-    assert [float(y[0]) for _, y in marks] == [steady.max.value, steady.min.value]
+    assert [float(np.asarray(y)[0]) for _, y in marks] == [steady.max.value, steady.min.value]
     ax = steady.plot("energy")
     assert said(ax, "event text") == []
     assert np.ptp(line(ax, "curve sum")[1]) < 1e-6 * line(ax, "curve kinetic")[1].max()

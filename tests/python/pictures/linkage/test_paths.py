@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.animation import FFMpegWriter
+from matplotlib.patches import Patch
 from PIL import Image
 
 import assur
@@ -69,16 +70,17 @@ def test_a_motion_of_another_assembly_is_drawn_in_it() -> None:
     ax = motion.plot("C", at=3)
     drawn = artist(ax, "now C").get_xydata()[0]
     (rocker,) = (a for a in ax.get_children() if a.get_gid() == "link rocker")
+    assert isinstance(rocker, Patch)
     ends = (rocker.get_transform() - ax.transData).transform(rocker.get_path().vertices)
     assert min(np.abs(ends - drawn).max(axis=1)) < 1e-12
 
 
 def test_several_paths_and_none() -> None:
     motion = CRANK_ROCKER.solve(TURN)
-    gids = [line.get_gid() for line in motion.plot(["P", "C"]).lines]
+    gids = [str(line.get_gid()) for line in motion.plot(["P", "C"]).lines]
     assert [gid for gid in gids if gid.startswith("path")] == ["path P", "path C"]
     plt.close("all")
-    assert not [line for line in motion.plot().lines if line.get_gid().startswith("path")]
+    assert not [line for line in motion.plot().lines if str(line.get_gid()).startswith("path")]
 
 
 def test_a_film_shows_every_position_where_it_is(tmp_path: Path) -> None:
@@ -146,13 +148,15 @@ def test_arrows_along_a_path_are_velocities_and_accelerations() -> None:
         ("acceleration", motion.joint("P").acceleration(10.0)),
     ):
         shafts = [a for a in ax.get_children() if (a.get_gid() or "").startswith(f"{kind} P")]
-        shafts = [a for a in shafts if not a.get_gid().endswith(("head", "text"))]
+        shafts = [a for a in shafts if not str(a.get_gid()).endswith(("head", "text"))]
         assert len(shafts) == 14 - (6 % 4 == 0)
         ratios = []
         for shaft in shafts:
-            start = shaft.get_path().vertices[0]
+            assert isinstance(shaft, Patch)
+            vertices = np.asarray(shaft.get_path().vertices)
+            start = vertices[0]
             row = int(np.argmin(np.abs(motion.joint("P").value - start).max(axis=1)))
-            arrow = shaft.get_path().vertices[-1] - start
+            arrow = vertices[-1] - start
             cross = arrow[0] * exact[row][1] - arrow[1] * exact[row][0]
             assert abs(cross) <= 1e-9 * np.hypot(*arrow) * np.hypot(*exact[row])
             ratios.append(np.hypot(*arrow) / np.hypot(*exact[row]))
@@ -175,7 +179,7 @@ def test_speeds_of_any_kind_of_array_are_taken_and_what_is_none_refused() -> Non
     motion = CRANK_ROCKER.solve(TURN)
     for omega in (10, np.float32(10.0), np.full(len(TURN), 10.0), [10.0] * len(TURN)):
         ax = motion.plot("P", vectors="velocity", speed=omega)
-        plt.close(ax.figure)
+        plt.close(ax.get_figure(root=True))
     bad: list[Any] = ["fast", None, [1.0, 2.0], np.ma.array(TURN, mask=True), 1j]
     for omega in bad:
         with pytest.raises(assur.InputError):

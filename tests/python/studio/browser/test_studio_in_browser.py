@@ -428,7 +428,7 @@ def test_taking_it_away(browser: Browser, file: Path, tmp_path: Path, what: str)
         got.value.save_as(path)
         text = path.read_text(encoding="utf-8")
         if what == "TOML":
-            assert assur.load(path).dimensions == one.mechanism.dimensions
+            assert assur.files.read(path).mechanism.dimensions == one.mechanism.dimensions
         elif what == "CSV":
             rows = np.genfromtxt(path, delimiter=",", names=True)
             assert len(rows) == 361
