@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from assur._other_names import other_names
+from assur._summary import summary
 
 if TYPE_CHECKING:
     from assur._arrays import Number
@@ -30,3 +31,6 @@ class Extreme(NamedTuple):
 
     value: Number
     q: Number
+
+    def __repr__(self) -> str:
+        return summary(self)

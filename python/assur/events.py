@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from assur._arrays import counted, flag, real_number, short
+from assur._summary import typed
 from assur._validate import one_of
 from assur.errors import InputError
 from assur.kinematics import transmission
@@ -172,6 +173,8 @@ class Crossing:
     >>> press.solve(run.q[-1]).slide("bore").value.round(6)  # m
     np.float64(0.45)
     """
+
+    __repr__ = typed
 
     function: Function
     _: KW_ONLY

@@ -23,6 +23,7 @@ from assur._arrays import Float, real_array, require_finite, short
 from assur._by_value import ByValue
 from assur._core import spline_pieces
 from assur._splines import SPLINES, Spline
+from assur._summary import typed
 from assur._trig import sin_cos
 from assur._validate import one_of, real_number, require_rows
 from assur.errors import InputError
@@ -413,6 +414,8 @@ class Tabulated(ByValue, Law):
     [0.5, 0.75, 0.0, -1.5]
     """
 
+    __repr__ = typed
+
     t: Float
     value: Float
     spline: Spline
@@ -498,6 +501,8 @@ class Sequence(Law):
     >>> [round(float(assur.laws.Sequence((up, down)).at(t)[0]), 6) for t in (0.25, 0.7, 1.25)]
     [0.5, 1.0, 0.5]
     """
+
+    __repr__ = typed
 
     laws: tuple[Law, ...]
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from assur import _trig
 from assur._arrays import finite_array, in_range, real_array
+from assur._summary import summary
 from assur._validate import whole_number
 from assur.errors import InputError
 
@@ -42,6 +43,8 @@ class Harmonics:
     >>> found.amplitude.round(6)
     array([5., 5., 0.])
     """
+
+    __repr__ = summary
 
     cosine: Float
     sine: Float
@@ -80,6 +83,8 @@ class RotatingParts:
     >>> found.forward.round(6), found.backward.round(6)
     (array([0., 7., 0.]), array([0., 0., 0.]))
     """
+
+    __repr__ = summary
 
     forward: Float
     forward_angle: Float

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from textwrap import fill
+
+from assur._summary import FORMULA, shortened, summary
 
 __all__ = ["Group", "Structure"]
 
@@ -33,6 +36,8 @@ class Group:
     >>> group.cls, group.order, group.kind, group.links
     (2, 2, 'RRP', ('rod', 'piston'))
     """
+
+    __repr__ = summary
 
     cls: int
     order: int
@@ -95,9 +100,8 @@ class Structure:
     adjustment: float = 0.0
 
     def __repr__(self) -> str:
-        return (
-            f"<assur.Structure {self.formula}, class {roman(self.cls)}, mobility {self.mobility}>"
-        )
+        formula = shortened(self.formula, FORMULA)
+        return f"<assur.Structure {formula}, class {roman(self.cls)}, mobility {self.mobility}>"
 
     def __str__(self) -> str:
         n, turning, sliding = self.moving_links, self.turning_pairs, self.sliding_pairs
@@ -105,7 +109,7 @@ class Structure:
         pairs = f"p = {turning} turning + {sliding} sliding pairs"
         counted = f"3n − 2p = 3·{n} − 2·{p} = {self.mobility_counted}"
         lines = [
-            f"{self.formula}, class {roman(self.cls)}",
+            fill(f"{self.formula}, class {roman(self.cls)}", 120, subsequent_indent="  "),
             f"mobility {counted}  (n = {n} moving links, {pairs})",
         ]
         if self.mobility != self.mobility_counted:

@@ -12,6 +12,7 @@ from assur import _core
 from assur._arrays import counted, flag
 from assur._by_value import key_of
 from assur._later import explorer, save
+from assur._summary import FORMULA, shortened
 from assur._validate import one_of
 from assur.dynamics import components
 from assur.dynamics.loads.friction import checked_friction
@@ -288,7 +289,7 @@ class MachineModel:
     def __repr__(self) -> str:
         if self.mechanism is None:
             return "<assur.Machine of a table>"
-        formula = self.mechanism.structure.formula
+        formula = shortened(self.mechanism.structure.formula, FORMULA - 12)
         bodies = "1 body" if len(self.bodies) == 1 else f"{len(self.bodies)} bodies"
         loads = counted(len(self.loads), "load")
         rubs = f", friction in {counted(len(self.friction), 'pair')}" if self.friction else ""

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 from assur._arrays import real_number, short
+from assur._summary import summary
 from assur._validate import one_of
 from assur.dynamics.machine import Machine
 from assur.errors import InputError
@@ -70,6 +71,8 @@ class Contents:
     >>> contents.result("solve").slide("bore").value.round(6)                # m
     array([0.25   , 0.22254])
     """
+
+    __repr__ = summary
 
     mechanism: Mechanism
     machine: Machine | None = None

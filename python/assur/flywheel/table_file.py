@@ -10,6 +10,7 @@ import numpy as np
 from assur._arrays import flag
 from assur._by_value import key_of
 from assur._files import checked_path, reason, shown_path
+from assur._summary import summary
 from assur._validate import require_rows
 from assur.errors import InputError
 
@@ -45,6 +46,10 @@ class ReducedTable(NamedTuple):
     inertia: Float
 
     # As a tuple it would compare arrays.
+
+    def __repr__(self) -> str:
+        return summary(self)
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ReducedTable):
             return False

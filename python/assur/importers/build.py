@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from assur._summary import summary
 from assur._validate import real_number
 from assur.description.words import Cylinder, Drive, Slide
 from assur.errors import InputError
@@ -54,6 +55,8 @@ class Imported:
     >>> found.omitted
     ('Joints J3 and J4 are at one place of link block: they are one joint, J3.',)
     """
+
+    __repr__ = summary
 
     mechanism: Mechanism
     format: str

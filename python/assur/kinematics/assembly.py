@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 
 from assur._arrays import as_number
+from assur._summary import listed, shortened
 from assur._validate import checked_signs
 from assur.errors import InputError
 from assur.kinematics.model import at_place
@@ -186,7 +187,7 @@ class Assembly(Mapping[str, int]):
 
     def __repr__(self) -> str:
         if self.place is None or not self.place.is_traced:
-            return f"Assembly({dict(self._signs)!r})"
+            return shortened(f"Assembly({dict(self._signs)!r})")
         q = ", ".join(f"{q:.6g}" for q in self.place.q)
         signs = f"{dict(self._signs)!r}, " if self._signs else ""
         at = dict(self.joints or {})
@@ -194,7 +195,7 @@ class Assembly(Mapping[str, int]):
         moving = [name for name in at if name not in fixed]
         shown = self._shown or moving[-1:]
         places = "".join(f", {name}=({at[name][0]:.4g}, {at[name][1]:.4g})" for name in shown)
-        return f"<assur.Assembly {signs}q={q}{places}>"
+        return shortened(f"<assur.Assembly {signs}q={q}{places}>")
 
 
 def joints_that_differ(names: Sequence[str], poses: Sequence[AssemblyNumbers]) -> tuple[str, ...]:
@@ -278,6 +279,9 @@ class Assemblies(list[Assembly]):
         self.complex_count = tuple(complex_count)
         self.failures = tuple(failures)
         self.is_complete = is_complete
+
+    def __repr__(self) -> str:
+        return listed(self)
 
     def plot(self, *, ax: AxesLike | None = None, dark: bool = False) -> Panels:
         """Draw all assemblies side by side in one scale (needs matplotlib).

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur._summary import LINES
 from assur.description.dotted_names import unit_of
 
 if TYPE_CHECKING:
@@ -60,10 +61,13 @@ class Dimensions(Mapping[str, "Number"]):
         names = max(map(len, self._values), default=0)
         numbers = {name: _shown(value) for name, value in self._values.items()}
         width = max(map(len, numbers.values()), default=0)
-        return "\n".join(
+        rows = [
             f"{name:<{names}}  {number:>{width}}  {unit_of(name)}"
             for name, number in numbers.items()
-        )
+        ]
+        if len(rows) > LINES + 1:
+            rows[LINES:] = [f"… {len(rows) - LINES} more: to_dataframe() has all"]
+        return "\n".join(rows)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a pandas DataFrame with a row for each design (needs pandas).

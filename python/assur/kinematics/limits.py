@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from assur._summary import summary
 from assur._table import Column, Tabular, design_columns, in_degrees
 from assur._validate import checked_index, checked_threads
 from assur.errors import InputError
@@ -65,6 +66,8 @@ class DeadPoint:
     -1.37156 rad, II(coupler, rocker) at C
     1.37156 rad, II(coupler, rocker) at C
     """
+
+    __repr__ = summary
 
     q: float
     group: str | None

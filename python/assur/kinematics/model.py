@@ -11,6 +11,7 @@ import numpy as np
 
 from assur._arrays import as_number
 from assur._core import KnownSigns
+from assur._summary import FORMULA, shortened
 from assur.description import encode
 from assur.description.structure import Group, Structure
 from assur.kinematics.dimensions import Dimensions
@@ -177,7 +178,7 @@ class MechanismModel:
 
     def __repr__(self) -> str:
         batch = f", {self.shape} designs" if self.shape else ""
-        return f"<assur.Mechanism {self.core.formula}{batch}>"
+        return f"<assur.Mechanism {shortened(self.core.formula, FORMULA)}{batch}>"
 
     @property
     def shape(self) -> tuple[int, ...]:

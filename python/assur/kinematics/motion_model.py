@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from assur._arrays import short
+from assur._summary import FORMULA, shortened
 from assur._validate import checked_name
 from assur.errors import InputError
 from assur.kinematics.model import as_made
@@ -117,7 +118,7 @@ class MotionModel:
         return self._status.shape
 
     def __repr__(self) -> str:
-        formula = self.request.mechanism.core.formula
+        formula = shortened(self.request.mechanism.core.formula, FORMULA)
         return f"<assur.Motion of {formula}, shape {self.shape}, order {self.order}>"
 
     def _find(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from assur._arrays import flag, real_array, short
+from assur._summary import FORMULA, shortened
 from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
@@ -151,8 +152,8 @@ class TimedMotion(Tabular):
         self.q, self.speed, self.acceleration, self.jerk = course
 
     def __repr__(self) -> str:
-        count = self.t.size
-        return f"<assur.TimedMotion of {self.motion.mechanism.core.formula}, {count} times>"
+        formula = shortened(self.motion.mechanism.core.formula, FORMULA)
+        return f"<assur.TimedMotion of {formula}, {self.t.size} times>"
 
     def joint(self, name: str | Sequence[str]) -> InTime:
         """Return a joint over time; several are stacked along a new first axis.

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import short
+from assur._summary import shortened
 from assur._validate import checked_name, real_array
 from assur.errors import InputError
 
@@ -91,4 +92,4 @@ class Grid(Mapping[str, Float]):
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{name!r}: {len(axis)}" for name, axis in self._axes.items())
-        return f"<assur.Grid {{{sizes}}}>"
+        return shortened(f"<assur.Grid {{{sizes}}}>")

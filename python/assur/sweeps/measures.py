@@ -33,6 +33,8 @@ __all__ = ["Measures"]
 
 Float: TypeAlias = npt.NDArray[np.float64]
 T = TypeVar("T")
+# Names of metrics are printed if they fit in a line.
+MOST_LETTERS = 70
 
 
 @other_names(
@@ -462,6 +464,8 @@ class Measures(Mapping[str, Float]):
 
     def __repr__(self) -> str:
         names = ", ".join(map(repr, self._values))
+        if len(names) > MOST_LETTERS:
+            names = f"{len(self._values)} metrics"
         return f"<assur.Measures of {names}, shape {self.shape}, {len(self.kept)} kept>"
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._by_value import ByValue
+from assur._summary import shortened
 from assur._validate import real_array, real_number
 from assur.errors import InputError
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 Float: TypeAlias = npt.NDArray[np.float64]
 Part: TypeAlias = tuple[float, float] | None
+
+# Of a metric that is a long sum.
+MOST_LETTERS = 90
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class Condition:
     limit: float
 
     def __repr__(self) -> str:
-        return f"{self.metric!r} {self.relation} {self.limit!r}"
+        return f"{shortened(repr(self.metric), MOST_LETTERS)} {self.relation} {self.limit!r}"
 
     def __bool__(self) -> bool:
         message = (
@@ -207,7 +211,7 @@ class Combination(Metric):
         return values
 
     def __repr__(self) -> str:
-        return f"({self.left!r} {self.sign} {self.right!r})"
+        return shortened(f"({self.left!r} {self.sign} {self.right!r})", MOST_LETTERS)
 
 
 def _combined(sign: str, left: object, right: object) -> Combination:

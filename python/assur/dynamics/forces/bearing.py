@@ -11,6 +11,7 @@ from assur import _trig
 from assur._arrays import as_number, in_range, real_number, short
 from assur._extreme import Extreme
 from assur._other_names import other_names
+from assur._summary import summary
 from assur._validate import checked_name
 from assur.dynamics.preconditions import positive_number
 from assur.errors import InputError
@@ -56,6 +57,8 @@ class Bearing:
     >>> pin.size.round(6), pin.relative_speed.round(6)  # N, rad/s
     (array([1000., 1250.]), array([6., 0.]))
     """
+
+    __repr__ = summary
 
     angle: Float
     size: Float

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import as_number, finite_array, in_range, short
+from assur._summary import summary
 from assur.dynamics.forces.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads.loads import Force, Torque
 from assur.dynamics.motion.motion_input import DrivenMotion
@@ -56,6 +57,9 @@ class Impact(NamedTuple):
     impulse: Number
     energy_lost: Number
     reactions: Reactions
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def impact(

@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import in_range
 from assur._other_names import other_names
+from assur._summary import summary
 from assur._validate import MAX_POINTS, one_of, whole_number
 from assur.dynamics.forces.kinetostatics import broadcast_motion
 from assur.dynamics.internal.beam import QUANTITIES
@@ -54,6 +55,9 @@ class LoadExtremes(NamedTuple):
     min_x: Float
     max: Float
     max_x: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 class InternalLoads:

@@ -8,6 +8,7 @@ import numpy as np
 
 from assur._arrays import as_number
 from assur._search import narrowed
+from assur._summary import summary
 from assur.dynamics.motion.motion_input import DrivenMotion
 from assur.errors import InputError
 
@@ -51,6 +52,9 @@ class Peak(NamedTuple):
     value: float
     x: float
     q: Number
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def find_peak(

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from assur._arrays import not_negative, real_array, real_number, short, two_numbers
+from assur._summary import typed
 from assur._validate import checked_name
 from assur.dynamics.loads.load_values import Value, checked_value
 from assur.dynamics.loads.one_way import Way, check_way
@@ -158,6 +159,8 @@ class Force:
     array([  0.   , -92.607])
     """
 
+    __repr__ = typed
+
     at: PointLike
     force: tuple[Value, Value]
     _: KW_ONLY
@@ -213,6 +216,8 @@ class Torque:
     >>> machine.reduced_moment(0.0, speed=10.0)
     np.float64(-5.0)
     """
+
+    __repr__ = typed
 
     link: str
     torque: Value

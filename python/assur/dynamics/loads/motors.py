@@ -9,6 +9,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
+from assur._summary import typed
 from assur.dynamics.loads.load_values import Value, checked_value
 from assur.dynamics.loads.table import Table, checked_ratio, replace_fields
 from assur.errors import InputError
@@ -36,6 +37,8 @@ class ConstantTorque:
     >>> import assur
     >>> motor = assur.ConstantTorque(184.0)
     """
+
+    __repr__ = typed
 
     torque: Value
     _: KW_ONLY

@@ -9,6 +9,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 from assur._arrays import not_negative, real_number
+from assur._summary import typed
 from assur._validate import checked_name, one_of
 from assur.dynamics.loads.load_values import Value, checked_value
 from assur.dynamics.loads.one_way import DIRECTIONS, Way, check_way
@@ -108,6 +109,8 @@ class Pressure:
     >>> machine.reduced_moment([1.0, 6.283185307179586 - 1.0]).round(6)
     array([ 62.418733, -62.418733])
     """
+
+    __repr__ = typed
 
     slide: str
     area: float

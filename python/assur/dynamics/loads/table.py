@@ -14,6 +14,7 @@ from assur import _core
 from assur._arrays import Float, flag, not_negative, real_array, real_number
 from assur._by_value import ByValue
 from assur._callers import level_of_caller
+from assur._summary import typed
 from assur._validate import checked_name, one_of, require_rows
 from assur.errors import AssurWarning, InputError
 from assur.flywheel import SPLINES, Spline
@@ -95,6 +96,8 @@ class Table(ByValue):
     >>> float(force.at([1.0, 5.4, 5.5, 5.6]).max())
     1000000.0
     """
+
+    __repr__ = typed
 
     q: Float
     value: Float

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
-from assur._summary import summary
+from assur._summary import listed, summary
 from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
 from assur.errors import InputError, MotionError
@@ -141,6 +141,15 @@ class EventRecord(NamedTuple):
     q: Number
     speed: Number
 
+    def __repr__(self) -> str:
+        return summary(self)
+
+
+class Events(list[EventRecord]):
+    """The events of a run, printed shortly where they are many."""
+
+    __repr__ = listed
+
 
 class Energy(NamedTuple):
     """Energies at the ends of the steps, J.
@@ -226,6 +235,9 @@ class Statistics(NamedTuple):
     smallest_step: float | None
     largest_step: float | None
 
+    def __repr__(self) -> str:
+        return summary(self)
+
 
 class Run(Tabular):
     """A motion of a machine.
@@ -284,7 +296,7 @@ class Run(Tabular):
         self.q, self.speed, self.acceleration = (self._shaped(column) for column in arrays[:3])
         self._energies = arrays[3:]
         self.statistics = Statistics(**core.statistics)
-        self.events = [
+        self.events: list[EventRecord] = Events(
             EventRecord(
                 events[record["event"]],
                 record["t"],
@@ -292,7 +304,7 @@ class Run(Tabular):
                 self._per_driver(record["speed"]),
             )
             for record in core.events
-        ]
+        )
         self.at_rest_from = self._at_rest_from()
         self.end, self.message = self._end_and_message(events)
         if self.end in ("dead point", "rest", "near_change_point"):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from assur._arrays import counted
+from assur._summary import FORMULA, shortened
 from assur._trig import sin_cos
 from assur._validate import MAX_POINTS, checked_index, whole_number
 from assur.description.words import is_reached
@@ -109,7 +110,7 @@ class ConfigurationCurve:
 
     def __repr__(self) -> str:
         folds, circuits = counted(len(self.folds), "fold"), counted(len(self.circuits), "circuit")
-        of = self.mechanism.core.formula
+        of = shortened(self.mechanism.core.formula, FORMULA)
         return f"<assur.ConfigurationCurve of {of}, {circuits}, {folds}>"
 
     def defects(self, places: Sequence[tuple[float, Assembly]]) -> Defects:

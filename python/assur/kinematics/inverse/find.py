@@ -14,6 +14,7 @@ import numpy as np
 
 from assur._arrays import as_number, counted, short
 from assur._callers import level_of_caller
+from assur._summary import summary
 from assur._validate import checked_name, real_array
 from assur.description import encode
 from assur.description.dotted_names import split_name
@@ -60,6 +61,9 @@ class InverseSolution(NamedTuple):
 
     q: Number
     assembly: Assembly
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def find(mechanism: MechanismModel, name: str, value: Any, deg: Any) -> list[InverseSolution]:

@@ -19,6 +19,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import Float, finite_array, flag, real_number
+from assur._summary import summary
 from assur._trig import sin_cos
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
@@ -62,6 +63,8 @@ class JammingEvent:
     >>> event.kind, event.side, round(event.phi1, 6)  # rad
     ('jam', 'outer', 6.078212)
     """
+
+    __repr__ = summary
 
     kind: Kind
     t: float

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import Float, as_number, finite_array, flag, real_array, real_number
+from assur._summary import summary
 from assur._validate import one_of
 from assur.errors import DimensionError, InputError
 from assur.kinematics.grashof import CHANGE_TOLERANCE, types_of
@@ -115,6 +116,9 @@ class Table1(NamedTuple):
     l4: Float
     printed: Float
     true: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def solve(

@@ -18,6 +18,7 @@ from assur._arrays import (
     require_finite,
 )
 from assur._extreme import Extreme
+from assur._summary import summary
 from assur._trig import arctan2
 from assur._validate import one_of, whole_number
 from assur.errors import DimensionError, InputError
@@ -68,6 +69,9 @@ class Deviation(NamedTuple):
     relative_at: Float
     absolute: Float
     absolute_at: Float
+
+    def __repr__(self) -> str:
+        return summary(self)
 
 
 def fourier(k: npt.ArrayLike, *, harmonics: int = 6, terms: int | None = None) -> Float:
