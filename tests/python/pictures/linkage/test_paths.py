@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.animation import FFMpegWriter
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from PIL import Image
 
@@ -152,7 +153,7 @@ def test_arrows_along_a_path_are_velocities_and_accelerations() -> None:
         assert len(shafts) == 14 - (6 % 4 == 0)
         ratios = []
         for shaft in shafts:
-            assert isinstance(shaft, Patch)
+            assert isinstance(shaft, Line2D | Patch)
             vertices = np.asarray(shaft.get_path().vertices)
             start = vertices[0]
             row = int(np.argmin(np.abs(motion.joint("P").value - start).max(axis=1)))
