@@ -12,15 +12,16 @@ import numpy.typing as npt
 
 from assur._arrays import flag, short
 from assur._other_names import other_names
+from assur._table import Column, Tabular, design_columns
 from assur._validate import one_of, whole_number
 from assur.description.words import Status, is_reached
 from assur.errors import InputError
+from assur.kinematics.table import dimension_column
 from assur.sweeps.measures_axes import shown_axes
 from assur.sweeps.measures_dataset import dataset
 from assur.sweeps.reasons import explained, reasons
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
 
@@ -40,7 +41,7 @@ MOST_LETTERS = 70
 @other_names(
     best="nsmallest(n, by) or nlargest(n, by)", least="see nsmallest", greatest="see nlargest"
 )
-class Measures(Mapping[str, Float]):
+class Measures(Tabular, Mapping[str, Float]):
     """The metrics of designs by name, arrays of shape S; made by `assur.sweep`.
 
     Every design is one of four: it does not move over all of q (its `status` says why not), it
@@ -338,54 +339,35 @@ class Measures(Mapping[str, Float]):
         why = [(text, which[designs]) for text, which in reasons(self, values)]
         return metric_picture(name, axes, shown, why, ax, dark, best, flag(degrees, "degrees"))
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """Return a pandas DataFrame with one row per design (needs pandas).
+    def _columns(self, degrees: bool) -> list[Column]:
+        """Return a row for each design.
 
-        Columns: the design's index (one for each axis of S), the dimensions that the sweep
-        changes, status, whether it is kept, and every metric. A metric named like one of the
-        other columns appears as ``metric status``.
-
-        Returns
-        -------
-        pandas.DataFrame
-            Units are those of the metrics.
-
-        Examples
-        --------
-        >>> import assur, numpy as np
-        >>> found = assur.sweep(
-        ...     assur.SliderCrank(0.1, 0.4),
-        ...     {"crank.length": [0.1, 0.2]},
-        ...     np.linspace(0, 2 * np.pi, 72, endpoint=False),
-        ...     metrics={"stroke": assur.metric.span("bore")},
-        ... )
-        >>> list(found.to_dataframe())
-        ['design', 'crank.length', 'status', 'kept', 'stroke']
+        The design's index (one for each axis of S), the dimensions that the sweep changes, status,
+        whether it is kept, and every metric; one named like another column as ``metric status``.
         """
-        try:
-            import pandas as pd
-        except ImportError as error:  # pragma: no cover
-            message = "to_dataframe needs pandas: pip install pandas"
-            raise ImportError(message) from error
-        columns: dict[str, Any] = {}
-        axes = len(self.shape)
-        for axis, index in enumerate(np.indices(self.shape, sparse=True)):
-            name = "design" if axes == 1 else f"design{axis}"
-            columns[name] = np.broadcast_to(index, self.shape).reshape(-1)
-        columns.update(changed_dimensions(self))
-        columns["status"] = self.status.reshape(-1)
-        columns["kept"] = np.isin(np.arange(self.status.size), self.kept)
+        columns = design_columns(self.shape, len(self.shape))
+        for name, values in changed_dimensions(self).items():
+            columns.append(dimension_column(name, values, degrees))
+        kept = np.isin(np.arange(self.status.size), self.kept)
+        columns.append(Column("status", self.status.reshape(-1), "", None))
+        columns.append(Column("kept", kept, "", None))
+        taken = {column.name for column in columns}
         for name, values in self._values.items():
-            taken = f"metric {name}" if name in columns else name
-            columns[taken] = values.reshape(-1)
-        return pd.DataFrame(columns)
+            shown = f"metric {name}" if name in taken else name
+            columns.append(Column(shown, values.reshape(-1), "", "metrics"))
+        return columns
 
-    def to_xarray(self) -> xr.Dataset:
+    def to_xarray(self, *, degrees: bool = False) -> xr.Dataset:
         """Return an xarray Dataset over the axes of S (needs xarray).
 
         Dimensions that the sweep changes are coordinates. An axis along which one of them changes
         alone, as in an `assur.Grid`, is named like it; others are ``design``, or ``design0``, ….
         Columns `status` and `kept` and every metric are variables.
+
+        Parameters
+        ----------
+        degrees : bool
+            Dimensions that are angles in degrees.
 
         Returns
         -------
@@ -403,7 +385,7 @@ class Measures(Mapping[str, Float]):
         >>> round(float(data["stroke"].sel({"crank.length": 0.2, "rod.length": 0.5})), 6)
         0.4
         """
-        return dataset(self)
+        return dataset(self, flag(degrees, "degrees"))
 
     # As a mapping it would compare arrays.
     __eq__ = object.__eq__

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur.description.dotted_names import unit_of
+from assur.kinematics.table import dimension_column
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from assur.sweeps.designs import Designs
 
 
-def dataset(measures: Measured) -> xr.Dataset:
+def dataset(measures: Measured, degrees: bool) -> xr.Dataset:
     """See `Measures.to_xarray`."""
     try:
         import xarray as xr
@@ -30,8 +30,9 @@ def dataset(measures: Measured) -> xr.Dataset:
     for name, its_axes in axes.items():
         values = designs.values(name).reshape(shape)
         at = tuple(slice(None) if axis in its_axes else 0 for axis in range(len(shape)))
-        unit = {"units": unit_of(name)}
-        coordinates[name] = ([names[axis] for axis in its_axes], values[at], unit)
+        column = dimension_column(name, values[at], degrees)
+        own = [names[axis] for axis in its_axes]
+        coordinates[name] = (own, column.values, {"units": column.unit})
     kept = np.isin(np.arange(measures.status.size), measures.kept).reshape(shape)
     variables: dict[str, Any] = {"status": (names, measures.status), "kept": (names, kept)}
     taken = {*names, *coordinates, *variables}

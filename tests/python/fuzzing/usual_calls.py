@@ -278,6 +278,7 @@ def _of_sweeps() -> Iterable[tuple[str, Call]]:
         explain={"index": 2},
         get={"name": "a"},
         plot={"name": "a"},
+        to_xarray={},
     )
     plain = ("max", "min", "mean", "argmax", "argmin", "rms", "span")
     yield from named("metric", metric, **dict.fromkeys((*plain, "time_ratio"), of))

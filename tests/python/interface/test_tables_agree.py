@@ -89,3 +89,28 @@ def test_tables_agree(asked: dict[str, Any], design: int | None, tmp_path: Path)
     sheets = pd.read_excel(tmp_path / "motion.xlsx", sheet_name=None, skiprows=[1])
     shown = dict.fromkeys(name for sheet in sheets.values() for name in sheet)
     assert list(shown) == list(table)
+
+
+def test_tables_of_measures_agree(tmp_path: Path) -> None:
+    angles = {
+        "bore.angle": np.radians([0.0, 30.0, 60.0]),
+        "crank.length": np.array([0.1, 0.2, 0.5]),
+    }
+    asked = {"stroke": assur.metric.span("bore"), "status": assur.metric.max("bore")}
+    found = assur.sweep(assur.SliderCrank(0.1, 0.4), angles, deg=range(0, 360, 10), metrics=asked)
+    table = found.to_dataframe(degrees=True)
+    names = ["design", "bore.angle", "crank.length", "status", "kept", "stroke", "metric status"]
+    assert list(table) == names
+    np.testing.assert_allclose(table["bore.angle"], [0.0, 30.0, 60.0])
+    assert table.attrs["units"] == {"bore.angle": "deg", "crank.length": "m"}
+    found.to_parquet(tmp_path / "found.parquet", degrees=True)
+    pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "found.parquet"), table)
+    found.to_excel(tmp_path / "found.xlsx", degrees=True)
+    assert list(pd.read_excel(tmp_path / "found.xlsx", skiprows=[1])) == names
+    data = found.to_xarray(degrees=True)
+    for name in set(names) - {"design"}:
+        np.testing.assert_array_equal(data[name].values, table[name])
+    assert data["bore.angle"].attrs["units"] == "deg"
+    again = found.designs(1)
+    rows = assur.SliderCrank(0.1, 0.4).with_dimensions(found.to_dataframe().iloc[1:2])
+    assert again.dimensions["crank.length"] == rows.design(0).dimensions["crank.length"]
