@@ -101,7 +101,7 @@ test("areas of surplus end where the curve crosses zero", () => {
 
 test("Wittenbauer's tangents meet at the flywheel", () => {
   // E = ½ (I + J) ω² − ½ J ω0²
-  const flywheel = { inertia: 3, speed0: 10, greatest: { value: 11 }, least: { value: 9 } };
+  const flywheel = { inertia: 3, speed0: 10, max: { value: 11 }, min: { value: 9 } };
   const { meet, lines } = tangentsOf(flywheel);
   for (const [i, speed] of [11, 9].entries()) {
     const [inertia, energy] = [2, 0.5 * (2 + 3) * speed ** 2 - 0.5 * 3 * 100];

@@ -430,7 +430,7 @@ def test_a_turn_tells_the_least_transmission_angle() -> None:
     diagonal = np.linalg.norm(d - a) - np.linalg.norm(b - a)
     cosine = (coupler**2 + rocker**2 - diagonal**2) / (2.0 * coupler * rocker)
     assert own["at"] == "C"
-    assert own["least"] == pytest.approx(np.arccos(cosine))
+    assert own["min"] == pytest.approx(np.arccos(cosine))
     assert own["q"] == pytest.approx(0.0)
     assert reply["reach"] is None
     assert "transmission" not in ask("turn", document=FOUR_BAR, orders=2).header
@@ -452,7 +452,7 @@ def test_a_turn_tells_where_several_drivers_can_go() -> None:
                 status = m.solve(place, order=0, on_error="nan").status
                 assert bool(status < Status.SINGULAR) is is_there
     # Where a dyad's links meet at a cylinder that is driven, the angle is always right.
-    least = {one["at"]: one["least"] for one in reply["transmission"]}
+    least = {one["at"]: one["min"] for one in reply["transmission"]}
     assert least["boom_eye"] == pytest.approx(np.pi / 2)
 
 
@@ -481,7 +481,7 @@ def test_find_says_what_there_is_where_there_is_none() -> None:
     reply = find_crank(3.0)
     assert reply["value"] is None
     assert reply["metric"] is None
-    assert 0.0 < reply["least"] < reply["greatest"] < 3.0
+    assert 0.0 < reply["min"] < reply["max"] < 3.0
     # A dimension with which nothing can be assembled has no metric at all.
     reply = find_crank(1.0, x={"dimension": "coupler.length", "low": 1.0, "high": 2.0})
-    assert (reply["value"], reply["least"], reply["greatest"]) == (None, None, None)
+    assert (reply["value"], reply["min"], reply["max"]) == (None, None, None)

@@ -48,8 +48,8 @@ def find(data: dict[str, Any], session: Session) -> Answer:
         "dimension": name,
         "value": None,
         "metric": None,
-        "least": float(finite.min()) if finite.size else None,
-        "greatest": float(finite.max()) if finite.size else None,
+        "min": float(finite.min()) if finite.size else None,
+        "max": float(finite.max()) if finite.size else None,
     }
     at = _crossing(along, values, target, present)
     if at is None:

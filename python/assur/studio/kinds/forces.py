@@ -160,8 +160,8 @@ def steady(data: dict[str, Any], session: Session) -> Answer:
 
 def _ends(of: Flywheel | SteadyState) -> dict[str, dict[str, float]]:
     """Return the greatest and the least speed, and where they are."""
-    ends = {"greatest": of.max, "least": of.min}
-    return {name: {"at": float(end.q), "value": float(end.value)} for name, end in ends.items()}
+    ends = {"max": of.max, "min": of.min}
+    return {name: {"value": float(end.value), "q": float(end.q)} for name, end in ends.items()}
 
 
 def _mechanism(machine: Machine) -> Mechanism:

@@ -35,5 +35,5 @@ def min_transmission_angle(mechanism: Mechanism, line: Float, place: Float) -> l
     for name, angles in transmission_angles(motion):
         if np.isfinite(angles).any():
             row = int(np.nanargmin(angles))
-            listed.append({"at": name, "least": float(angles[row]), "q": float(place[row])})
+            listed.append({"at": name, "min": float(angles[row]), "q": float(place[row])})
     return listed

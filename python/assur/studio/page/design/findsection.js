@@ -94,7 +94,7 @@ export class FindSection {
   /** What it is now, where the page knows it: shown in the empty field. */
   #now({ spec: { metric, at } }) {
     const own = metric === "min_transmission_angle" ? this.model.transmission?.find((one) => one.at === at) : null;
-    return own ? digits((own.least * 180) / Math.PI) : "–";
+    return own ? digits((own.min * 180) / Math.PI) : "–";
   }
 
   #write(value) {
@@ -115,12 +115,12 @@ export class FindSection {
     try {
       const answer = await model.ask("find", { x, metric: metric.spec, value: state.value, ...part });
       if (!answer || model.document !== document) return void (this.told.textContent = "");
-      const { value, least, greatest } = answer.header;
+      const { value, min, max } = answer.header;
       const name = dimensionText(dimension.name);
       const text = (own) => valueText(model.data, own, dimension.unit);
-      const [worst, best] = [least, greatest].map((own) => this.#write(own ?? NaN));
+      const [worst, best] = [min, max].map((own) => this.#write(own ?? NaN));
       const range = { name, low: text(low), high: text(high), least: worst, greatest: best };
-      if (value === null) return void (this.told.textContent = say(least === null ? "foundNone" : "foundNot", range));
+      if (value === null) return void (this.told.textContent = say(min === null ? "foundNone" : "foundNot", range));
       this.found = withDimension(document, dimension.name, value);
       await model.edit(this.found);
       const wanted = this.#write(state.value);

@@ -93,20 +93,20 @@ export class FlywheelDiagrams {
     const other = without?.arrays;
     const frame = (plot.frame = this.#overTurn(width, height, rangeOf(arrays.speed, other?.speed ?? [])));
     const { x, y, left, right } = frame;
-    const { greatest, least } = header;
-    const band = Math.max(y(least.value) - y(greatest.value), 1);
-    const nodes = [svg("rect", { class: "band", x: left, width: right - left, y: y(greatest.value), height: band })];
+    const { max, min } = header;
+    const band = Math.max(y(min.value) - y(max.value), 1);
+    const nodes = [svg("rect", { class: "band", x: left, width: right - left, y: y(max.value), height: band })];
     if (other) nodes.push(svg(
       "path", { class: "curve without", d: pathOf(curveOf(other.q, other.speed, x, y, arrays.q)) },
     ));
     nodes.push(svg("path", { class: "curve with", d: pathOf(curveOf(arrays.q, arrays.speed, x, y)) }));
     nodes.push(svg(
       "text",
-      { class: "plot-note driver-text start", x: left + 8, y: y(least.value) - 7 },
+      { class: "plot-note driver-text start", x: left + 8, y: y(min.value) - 7 },
       `δ = ${digits(header.delta)}`,
     ));
-    for (const [own, below] of [[greatest, false], [least, true]]) nodes.push(...marked(
-      frame, own.at, own.value, digits(own.value, 4), below,
+    for (const [own, below] of [[max, false], [min, true]]) nodes.push(...marked(
+      frame, own.q, own.value, digits(own.value, 4), below,
     ));
     return nodes;
   }
@@ -143,7 +143,7 @@ export class FlywheelDiagrams {
         "line", { class: `tangent ${line.key}`, x1: left, x2: right, y1: y(on(line, xs[0])), y2: y(on(line, xs[1])) },
       ));
       nodes.push(slopeNote(frame, line, (part) => xs[0] + part * (xs[1] - xs[0]), on));
-      const [atI, atE] = plot.at(header[line.key].at);
+      const [atI, atE] = plot.at(header[line.key].q);
       nodes.push(svg("circle", { class: `mark ${line.key}`, cx: x(atI), cy: y(atE), r: 3.6 }));
     }
     const energyThere = `${digits(tangents.meet[1] * energyUnit.factor)} ${energyUnit.name}`;
@@ -178,7 +178,7 @@ export class FlywheelDiagrams {
 
 /** Write the slope of a tangent beside it: above that of the greatest speed, below that of the least. */
 function slopeNote({ x, y }, line, at, on) {
-  const isGreatest = line.key === "greatest";
+  const isGreatest = line.key === "max";
   const place = at(isGreatest ? 0.86 : 0.24);
   const [px, py] = [x(place), y(on(line, place))];
   const text = say("slope", { which: isGreatest ? "max" : "min" });

@@ -191,8 +191,8 @@ export class FlywheelSection {
     const bare = without?.header ? `δ = ${digits(without.header.delta)}` : say("noSteady");
     const rows = [
       ["withoutIt", "", bare],
-      ["greatestSpeed", degrees(header.greatest.at, 0), rad(header.greatest.value)],
-      ["leastSpeed", degrees(header.least.at, 0), rad(header.least.value)],
+      ["greatestSpeed", degrees(header.max.q, 0), rad(header.max.value)],
+      ["leastSpeed", degrees(header.min.q, 0), rad(header.min.value)],
       ["motorMoment", "", withForceUnit(header.motor_moment, "N·m", moment)],
       [
         "workOfTurn",

@@ -29,13 +29,13 @@ export function surplusAreas(places, values) {
 /**
  * The tangents of Wittenbauer's diagram: energy over reduced inertia, both without the flywheel. They
  * have slopes ω²/2 and meet where the inertia is −J of the flywheel.
- * @param {{inertia: number, speed0: number, greatest: {value: number}, least: {value: number}}} flywheel
+ * @param {{inertia: number, speed0: number, max: {value: number}, min: {value: number}}} flywheel
  * @returns {{meet: number[], lines: {key: string, slope: number}[]}}
  */
-export function tangentsOf({ inertia, speed0, greatest, least }) {
+export function tangentsOf({ inertia, speed0, max, min }) {
   const meet = [-inertia, (-inertia * speed0 ** 2) / 2];
   return {
-    meet, lines: [{ key: "greatest", slope: greatest.value ** 2 / 2 }, { key: "least", slope: least.value ** 2 / 2 }],
+    meet, lines: [{ key: "max", slope: max.value ** 2 / 2 }, { key: "min", slope: min.value ** 2 / 2 }],
   };
 }
 

@@ -134,11 +134,11 @@ export class PositionSection {
   /** The transmission angles of the dyads. Which is the least is not known while something is dragged. */
   #angles() {
     const { transmission, isDragging } = this.model;
-    const isTelling = ({ least }) => least < ALWAYS_RIGHT;
+    const isTelling = ({ min }) => min < ALWAYS_RIGHT;
     if (transmission || !isDragging) this.#dyads = (transmission ?? []).filter(isTelling);
-    return this.#dyads.map(({ at, least }) => {
+    return this.#dyads.map(({ at, min }) => {
       const symbol = html("i", { class: "name" }, this.#dyads.length > 1 ? `γ ${at}` : "γ");
-      const note = transmission ? say("least", { n: degrees(least) }) : "";
+      const note = transmission ? say("least", { n: degrees(min) }) : "";
       return this.#row([`${say("transmissionAngle")} `, symbol], note, () => {
         const own = this.#transmission?.[at];
         return Number.isFinite(own) && !isDragging ? degrees(own) : "–";

@@ -14,8 +14,8 @@ const PLACE = "\u0001";
 
 /** Return the dyad with the least transmission angle, if that is below the usual one. */
 export function poorest(transmission) {
-  const [worst] = [...(transmission ?? [])].sort((a, b) => a.least - b.least);
-  return worst && worst.least < USUAL_TRANSMISSION ? worst : null;
+  const [worst] = [...(transmission ?? [])].sort((a, b) => a.min - b.min);
+  return worst && worst.min < USUAL_TRANSMISSION ? worst : null;
 }
 
 export class TransmissionWarning {
@@ -60,11 +60,11 @@ export class TransmissionWarning {
     canvas.resize();
   }
 
-  #gamma({ at, q, least }) {
+  #gamma({ at, q, min }) {
     const { model } = this.studio;
     // The end of a turn is its beginning.
     const place = model.turn.closes ? model.turn.bring(q) : q;
-    const [own, usual] = [least, USUAL_TRANSMISSION].map((angle) => degrees(angle));
+    const [own, usual] = [min, USUAL_TRANSMISSION].map((angle) => degrees(angle));
     const values = { at, symbol: model.data.turn.unit === "angle" ? "φ" : "s", q: PLACE, least: own, usual };
     const text = say(model.transmission.length === 1 ? "gammaFalls" : "gammaFallsAt", values);
     return this.#sentence(text, [place]);
