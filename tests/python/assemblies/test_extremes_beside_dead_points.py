@@ -267,3 +267,13 @@ def test_digits_lost_beside_a_dead_point_do_not_hide_a_pole() -> None:
         m = assur.Mechanism(**arguments(own))
         third = m.extremes("s3", order=3)
         assert (third.min.value, third.max.value) == (-math.inf, math.inf)
+
+
+@pytest.mark.parametrize("order", [1, 3])
+def test_an_interval_of_a_few_hundred_million_roundings(order: int) -> None:
+    """Three 10⁻⁷ rad wide: nodes as near as elsewhere would be two roundings from its end."""
+    m = assur.Mechanism(**arguments(mixed_models.mixed_case(90311).description))
+    low = m.limits().intervals[2, 0]
+    found = m.extremes("L5", order=order)
+    assert (found.min.value, found.max.value) == (-math.inf, math.inf)
+    assert found.min.q == low

@@ -157,9 +157,8 @@ impl Samples {
         };
         // A coordinate that does not take part in a fold is a function of the square, the distance itself.
         let even = if pole == 0 { through(true) } else { Vec::new() };
-        let by_error = |a: &Fit, b: &Fit| {
-            b.is_followed.cmp(&a.is_followed).then(a.error.total_cmp(&b.error))
-        };
+        let by_error =
+            |a: &Fit, b: &Fit| b.is_followed.cmp(&a.is_followed).then(a.error.total_cmp(&b.error));
         fits(general).chain(fits(even)).min_by(by_error)
     }
 }

@@ -12,6 +12,8 @@ const FACTORS: [f64; 13] =
     [0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0];
 /// Nearer nodes, if the nearest of these show that another singularity is as near.
 const NEARER: [f64; 3] = [0.125, 0.015_625, 0.001_953_125];
+/// Nearest distance of nodes, relative to q: below, the rounding of the place itself would show.
+const RESOLVED: f64 = 2.0e3 * f64::EPSILON;
 /// Places between the nearest nodes (in multiples of these) that show the size of rounding.
 const BETWEEN: [f64; 6] = [0.005, 0.006, 0.007, 0.009, 0.010, 0.011];
 
@@ -55,19 +57,35 @@ impl Curve<'_> {
     /// Values on one side of a place where the derivative may have a pole. The nodes are as near as they
     /// must be for the values to follow a polynomial: another singularity may lie just beyond the place.
     pub(super) fn samples(&mut self, window: &Window, side: Side, pole: usize) -> Samples {
-        let usual = self.samples_at(window, side, 1.0);
-        if usual.sets.is_empty() || usual.have_limit(pole) {
+        let place = window.at(side.place);
+        let is_resolved = |factor: &f64| {
+            let distance = window.at(side.place + side.way * factor * NODES[0]) - place;
+            distance.abs() > RESOLVED * place.abs()
+        };
+        let usual = self.samples_at(window, side, FACTORS.into_iter().filter(is_resolved));
+        // An interval of some hundred roundings.
+        if usual.sets.is_empty() {
+            return self.samples_at(window, side, FACTORS.into_iter());
+        }
+        if usual.have_limit(pole) {
             return usual;
         }
-        let nearer = NEARER.iter().map(|&scale| self.samples_at(window, side, scale));
-        let followed = nearer.into_iter().find(|samples| samples.have_limit(pole));
-        followed.unwrap_or(usual)
+        let scales = NEARER.iter().filter(|scale| is_resolved(&(*scale * FACTORS[0])));
+        let mut nearer = scales.map(|scale| {
+            self.samples_at(window, side, FACTORS.into_iter().map(|factor| scale * factor))
+        });
+        nearer.find(|samples| samples.have_limit(pole)).unwrap_or(usual)
     }
 
-    /// Values on one side of a place, at nodes that are nearer by a scale.
-    fn samples_at(&mut self, window: &Window, side: Side, scale: f64) -> Samples {
+    /// Values on one side of a place, at multiples of the nodes.
+    fn samples_at(
+        &mut self,
+        window: &Window,
+        side: Side,
+        factors: impl Iterator<Item = f64>,
+    ) -> Samples {
         let mut samples = Samples { side, between: Vec::new(), sets: Vec::new() };
-        for factor in FACTORS.map(|factor| scale * factor) {
+        for factor in factors {
             if factor * NODES[2] > side.most {
                 break;
             }

@@ -171,6 +171,19 @@ impl Curve<'_> {
         // Even terms of the series in the square root of the distance have no poles.
         for pole in (1..=greatest).rev().step_by(2) {
             let fit = samples.fit(pole)?;
+            if std::env::var("DBG").is_ok() {
+                eprintln!(
+                    "order {} side {side} pole {pole} limit {:e} err {:e} size {:e} noise {:e} sets {} first {:?} half {:e}",
+                    self.order,
+                    fit.limit(),
+                    fit.error,
+                    fit.size,
+                    fit.noise,
+                    samples.sets.len(),
+                    samples.sets.first().map(|s| s[0].distance),
+                    window.half
+                );
+            }
             let coefficient = fit.limit();
             let bound = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
             if coefficient.abs() > bound {
