@@ -562,7 +562,7 @@ class Machine(MachineModel):
         q = q_or_deg(self.mechanism, q, deg, "duty")
         motion = driven_motion(self, q, speed, acceleration, t)
         if not isinstance(q, Run | SteadyState):
-            duty.warn_of_jumps(self, motion)
+            duty.warn_of_jumps(self)
         return duty.duty(self, motion, on_error)
 
     def equilibria(self, *, between: npt.ArrayLike | None = None) -> Equilibria:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 import warnings
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from assur._arrays import as_number, real_array, require_finite
+from assur._arrays import as_number, require_finite
 from assur._extreme import Extreme
 from assur._other_names import other_names
 from assur._summary import summary
 from assur.dynamics.forces import kinetostatics
 from assur.dynamics.forces.piecewise_cubic import Pieces
-from assur.dynamics.motion.discontinuities import jumps_between
+from assur.dynamics.motion.discontinuities import BESIDE_REVERSAL, jumps_between
 from assur.dynamics.motion.motion_input import DrivenMotion, times
 from assur.errors import AssurWarning, InputError, MotionError
 
@@ -72,6 +73,8 @@ class Duty(NamedTuple):
     efficiency : float or ndarray
         1 − lost/max(energy, lost − energy): output over input, whichever way energy flows over the
         cycle; NaN if none flows.
+    mean : float or ndarray
+        Mean of the effort over q, N·m or N: energy / way.
 
     Examples
     --------
@@ -99,6 +102,7 @@ class Duty(NamedTuple):
     time: Number
     lost: Number
     efficiency: Number
+    mean: Number
 
     def __repr__(self) -> str:
         return summary(self)
@@ -124,13 +128,17 @@ def duty(
     # Without a speed only the times of a run say how long it takes.
     is_timed = senses is not None and bool(senses.sense.any())
     _check_path(x, v if senses is None else senses.creeping(v, with_begins=True))
+    jumps = _jumps(machine, x) if senses is None else None
     effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t, senses), on_error))
     rows = [part.reshape(-1, shape[-1]) for part in (x, v, effort)]
     if is_timed:
         rows.append(t.reshape(-1, shape[-1]))
     numbers = np.empty((len(rows[0]), NUMBERS))
     is_closed, lacks_end, turn = _closing(machine, rows[0])
+    way = rows[0][:, -1] - rows[0][:, 0]
     lacks_end &= (t == t[..., :1]).all(axis=-1).reshape(-1)
+    is_turn = bool(lacks_end.any())
+    way = np.where(lacks_end, turn, way)
     if lacks_end.any():
         # The first position again, whole turns later, with its speed and acceleration.
         ends = rows[0][:, :1] + turn[:, None]
@@ -148,6 +156,12 @@ def duty(
             numbers[chosen] = _numbers([row[chosen] for row in rows], closed=closed)
     with np.errstate(over="ignore", invalid="ignore"):
         power = effort * v
+    if jumps is not None and np.isfinite(effort).all():
+        path = [part.reshape(-1) for part in (x, v, a, t)]
+        if is_turn:
+            path = [np.append(part, part[0]) for part in path]
+            path[0][-1] += turn[0]
+        numbers[0] = _across(machine, jumps, path)
     _require_finite(numbers, effort, on_error)
     columns = [as_number(numbers[:, k].reshape(shape[:-1])[()]) for k in range(NUMBERS)]
     greatest, least, most, fewest = (Extreme(columns[k], columns[k + 1]) for k in (0, 2, 4, 6))
@@ -176,27 +190,66 @@ def duty(
         time,
         as_number(lost),
         as_number(efficiency),
+        as_number(np.asarray(energy / way.reshape(shape[:-1]))[()]),
     )
 
 
-def warn_of_jumps(machine: MachineModel, motion: DrivenMotion) -> None:
-    """Warn if loads jump between the positions of a motion given by numbers."""
-    if machine.driver_count > 1 or not (machine.core.follows[0] or any(machine.core.jumps)):
-        return
-    x = real_array(motion.q, "q")
-    if not (x.size and np.isfinite(x).all()):
-        return
-    place = ""
-    if not machine.shape:
-        jumps = jumps_between(machine, float(x.min()), float(x.max()))
-        if not jumps.size:
-            return
-        place = f" at q = {jumps[0]:.9g}"
-    message = (
-        f"loads may jump{place}, between positions: the duty is no more accurate than these are "
-        "close there; a run and a steady state have positions at the jumps"
-    )
-    warnings.warn(message, AssurWarning, stacklevel=3)
+def warn_of_jumps(machine: MachineModel) -> None:
+    """Warn if loads of a batch may jump between the positions of a motion given by numbers."""
+    if machine.shape and (machine.core.follows[0] or any(machine.core.jumps)):
+        message = (
+            "loads may jump between positions: the duties of a batch are no more accurate than "
+            "these are close there; that of one design, design(i).duty, goes from jump to jump"
+        )
+        warnings.warn(message, AssurWarning, stacklevel=3)
+
+
+def _jumps(machine: MachineModel, x: Float) -> Float | None:
+    """Return where the loads of one design may jump and its friction reverses along a path."""
+    if machine.shape or x.ndim != 1:
+        return None
+    # Whole turns may lack their end.
+    low, high = float(x.min()), float(x.max())
+    mean = (high - low) / (x.size - 1)
+    jumps = jumps_between(machine, low - mean, high + mean, friction=True)
+    return jumps if jumps.size else None
+
+
+def _across(machine: MachineModel, jumps: Float, motion: list[Float]) -> Float:
+    """Return the numbers of a path that is cut where the effort jumps: it is smooth between."""
+    x = motion[0]
+    order = slice(None, None, 1 if x[-1] > x[0] else -1)
+    way = float(order.step)
+    inner = jumps[(jumps > min(x[0], x[-1])) & (jumps < max(x[0], x[-1]))]
+    cuts = [x[0], *inner[order].tolist(), x[-1]]
+    places, nodes = [], []
+    for first, last in pairwise(cuts):
+        # The ends of the path may be at a jump, too.
+        low, high = (
+            cut + sign * way * BESIDE_REVERSAL * max(1.0, abs(cut))
+            for cut, sign in ((first, 1.0), (last, -1.0))
+        )
+        if way * (high - low) > 0.0:
+            within = x[(way * (x - low) > 0.0) & (way * (high - x) > 0.0)]
+            places.append(np.array([low, *within, high]))
+            nodes.append(np.array([first, *within, last]))
+    every = np.concatenate(places)
+    states = [np.interp(every, x[order], part[order]) for part in motion[1:]]
+    effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(every, *states), "nan"))
+    ends = np.cumsum([len(piece) for piece in places])[:-1]
+    pieces = zip(nodes, np.split(states[0], ends), np.split(effort, ends), strict=True)
+    return _joined(np.array([_numbers([row[None] for row in piece], False)[0] for piece in pieces]))
+
+
+def _joined(parts: Float) -> Float:
+    """Return the numbers of a path from those of its parts, in the order of `_numbers`."""
+    whole = parts.sum(axis=0)
+    for value, sign in ((0, 1.0), (2, -1.0), (4, 1.0), (6, -1.0)):
+        best = int(np.argmax(sign * parts[:, value]))
+        whole[value : value + 2] = parts[best, value : value + 2]
+    rms, time = parts[:, 8], parts[:, 12]
+    whole[8] = np.sqrt((rms * rms * time).sum() / time.sum())
+    return np.asarray(whole)
 
 
 def _check_path(x: Float, speed: Float) -> None:

@@ -46,9 +46,12 @@ def _reversals_between(machine: MachineModel, low: float, high: float) -> list[f
     return machine.core.reversals(machine.mechanism.values.ravel().tolist(), low, high)
 
 
-def jumps_between(machine: MachineModel, low: float, high: float) -> Float:
-    """Return where the loads of one design may jump between two coordinates."""
+def jumps_between(
+    machine: MachineModel, low: float, high: float, *, friction: bool = False
+) -> Float:
+    """Return where the loads of one design, or its friction too, may jump between coordinates."""
     jumps = stations_between(machine, low, high)
+    jumps += _reversals_between(machine, low, high) if friction else []
     for (rows, periodic), own_jumps in zip(machine.core.tables, machine.core.jumps, strict=True):
         if not own_jumps:
             continue
