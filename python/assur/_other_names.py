@@ -20,13 +20,20 @@ def renamed(**names: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
         def checked(*args: P.args, **kwargs: P.kwargs) -> T:
             if kwargs and not names.keys().isdisjoint(kwargs):
                 old = next(name for name in kwargs if name in names)
-                message = f"{function.__name__}() has no argument {old!r}: it is {names[old]}="
+                message = (
+                    f"{_called(function, args)}() has no argument {old!r}: it is {names[old]}="
+                )
                 raise TypeError(message)
             return function(*args, **kwargs)
 
         return checked
 
     return decorate
+
+
+def _called(function: Callable[..., Any], args: tuple[Any, ...]) -> str:
+    """Return the name of a function, of a class for what makes its objects."""
+    return type(args[0]).__name__ if function.__name__ == "__init__" else function.__name__
 
 
 def refuse_attribute(owner: Any, of: str, name: str, other: Mapping[str, str]) -> NoReturn:

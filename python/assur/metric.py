@@ -609,6 +609,11 @@ def function(
 
 if not TYPE_CHECKING:
     _OTHER_NAMES = {
+        "stroke": "it is metric.span",
+        "swing": "it is metric.span",
+        "range": "it is metric.span",
+        "transmission_angle": "it is metric.min_transmission_angle",
+        "torque": "it is metric.peak_effort or metric.rms_effort",
         "least": "it is metric.min",
         "greatest": "it is metric.max",
         "place_of_least": "it is metric.argmin",

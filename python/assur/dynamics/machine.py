@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from assur._other_names import other_names
+from assur._other_names import other_names, renamed_rates
 from assur.dynamics.flywheel import size as flywheel_size
 from assur.dynamics.forces import counterweight, duty, impact, kinetostatics
 from assur.dynamics.forces import self_locking as locking
@@ -54,6 +54,11 @@ Method: TypeAlias = Literal["DOP853", "RK45"]
     jacobian="mechanism.solve(q).joint(name).d1",
     solve="mechanism.solve(q), or run(t_end, q0, speed0)",
     kinetic_energy="run(t_end).energy",
+    driving_torque="effort(q, speed, acceleration)",
+    forces="reactions(q, speed, acceleration)",
+    efficiency="reactions(q, speed).efficiency, duty(q, speed).efficiency",
+    power="duty(q, speed).power",
+    balance="with_counterweights(weights), weights by assur.balance",
 )
 class Machine(MachineModel):
     """A mechanism with its bodies, loads and motors.
@@ -148,6 +153,7 @@ class Machine(MachineModel):
         q = q_or_deg(self.mechanism, q, deg, "reduced_inertia")
         return reduce.reduced_inertia(self, q, on_error)
 
+    @renamed_rates
     def reduced_moment(
         self,
         q: npt.ArrayLike | None = None,
@@ -247,6 +253,7 @@ class Machine(MachineModel):
         q = q_or_deg(self.mechanism, q, deg, "potential")
         return reduce.potential(self, q, on_error)
 
+    @renamed_rates
     def reactions(
         self,
         q: MotionLike | None = None,
@@ -329,6 +336,7 @@ class Machine(MachineModel):
         motion = driven_motion(self, q, speed, acceleration, t)
         return kinetostatics.reactions(self, motion, threads, on_error, sense=sense)
 
+    @renamed_rates
     def effort(
         self,
         q: MotionLike | None = None,
@@ -374,6 +382,7 @@ class Machine(MachineModel):
         motion = driven_motion(self, q, speed, acceleration, t)
         return kinetostatics.effort(self, motion, on_error, sense)
 
+    @renamed_rates
     def internal_loads(
         self,
         link: str,
@@ -482,6 +491,7 @@ class Machine(MachineModel):
         """
         return counterweight.with_counterweights(self, weights)
 
+    @renamed_rates
     def duty(
         self,
         q: MotionLike | None = None,
@@ -676,6 +686,7 @@ class Machine(MachineModel):
         """
         return locking.self_locking(self, sense, speed, acceleration, between, n)
 
+    @renamed_rates
     def impact(
         self,
         load: Force | Torque,

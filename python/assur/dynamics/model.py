@@ -12,6 +12,7 @@ from assur import _core
 from assur._arrays import counted, flag
 from assur._by_value import key_of
 from assur._later import explorer, save
+from assur._other_names import renamed
 from assur._summary import FORMULA, shortened
 from assur._validate import one_of
 from assur.dynamics import components
@@ -48,6 +49,7 @@ class MachineModel:
 
     mechanism: Mechanism | None
 
+    @renamed(masses="bodies", forces="loads", motors="motor")
     def __init__(
         self,
         mechanism: Mechanism,

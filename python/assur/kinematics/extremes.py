@@ -30,7 +30,7 @@ STANDS = 1e-13
 FINEST = 2e-11
 
 
-@other_names(least="it is min", greatest="it is max")
+@other_names(least="it is min", greatest="it is max", swing="it is stroke")
 @dataclass(frozen=True, slots=True)
 class Extremes:
     """The least and the greatest value of a coordinate, or of a derivative of it.

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from assur._later import explorer, save
 from assur._other_names import other_names, renamed_rates
-from assur._validate import checked_index, checked_signs
+from assur._validate import checked_index, checked_signs, real_array
 from assur.description import encode
 from assur.description.words import Cylinder
 from assur.kinematics import assembly as assembly_search
@@ -21,7 +21,7 @@ from assur.kinematics.drawn import in_assembly, redrive
 from assur.kinematics.grashof import grashof
 from assur.kinematics.model import MechanismModel, at_place, with_values
 from assur.kinematics.named_dimensions import with_dimensions
-from assur.kinematics.solve_arguments import in_radians, q_or_deg
+from assur.kinematics.solve_arguments import in_radians, q_or_deg, warn_if_degrees
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -60,6 +60,24 @@ __all__ = ["Mechanism"]
     simulate="assur.Machine(mechanism, bodies=…).run(t_end)",
     inverse_dynamics="assur.Machine(mechanism, bodies=…).effort(q, speed, acceleration)",
     optimize="assur.sweep() measures designs; solve(q).sensitivity(name) has exact gradients",
+    dead_points="it is limits().dead_points; dead centres of a slide are extremes(name)",
+    dead_centres="extremes(name) has .min.q and .max.q",
+    stroke="extremes(name).stroke",
+    swing="extremes(name).stroke",
+    time_ratio="extremes(name).time_ratio",
+    formula="it is structure.formula",
+    structural_formula="it is structure.formula",
+    draw="plot(q), or to_html(path)",
+    show="plot(q), or to_html(path)",
+    to_dxf="to_drawing(path)",
+    to_csv="solve(q).to_dataframe().to_csv(path)",
+    to_excel="solve(q).to_excel(path)",
+    transmission_angle="solve(q).transmission_angle(joint)",
+    effort="assur.Machine(mechanism, bodies=…, loads=…).effort(q, speed)",
+    torque="assur.Machine(mechanism, bodies=…, loads=…).effort(q, speed)",
+    forces="assur.Machine(mechanism, bodies=…, loads=…).reactions(q, speed)",
+    reactions="assur.Machine(mechanism, bodies=…, loads=…).reactions(q, speed)",
+    run="assur.Machine(mechanism, bodies=…).run(t_end)",
     joint="solve(q).joint(name)",
     link="solve(q).link(name)",
     slide="solve(q).slide(name)",
@@ -536,6 +554,7 @@ class Mechanism(MechanismModel):
         [Assembly({'C': 1}), Assembly({'C': -1})]
         """
         q = q_or_deg(self, q, deg, "assemblies")
+        warn_if_degrees(self, real_array(q, "q"))
         found: Assemblies | list[Assemblies] = assembly_search.assemblies(self, q, threads)
         return found
 

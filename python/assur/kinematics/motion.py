@@ -44,6 +44,11 @@ __all__ = ["Motion"]
     velocity="joint(name).velocity(speed), link(name).velocity(speed)",
     acceleration="joint(name).acceleration(speed, acceleration)",
     angular_velocity="link(name).velocity(speed)",
+    angle="link(name).value",
+    velocities="joint(name).velocity(speed), link(name).velocity(speed)",
+    accelerations="joint(name).acceleration(speed, acceleration)",
+    export="to_excel(path), to_parquet(path), to_dataframe().to_csv(path)",
+    extremes="mechanism.extremes(name), of all positions",
     to_csv="to_dataframe().to_csv(path)",
     save="to_excel, to_parquet; to_dataframe().to_csv(path)",
 )

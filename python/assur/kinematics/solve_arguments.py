@@ -105,7 +105,7 @@ def warn_if_degrees(mechanism: MechanismModel, q: Float) -> None:
     if bool((q == np.floor(q)).all()):
         turns = most / (2.0 * np.pi)
         message = (
-            f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: solve(deg=...), or "
+            f"q = {most:g} is {most:g} rad, {turns:.3g} turns; for degrees: deg=..., or "
             "np.radians(q)"
         )
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())

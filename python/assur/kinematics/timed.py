@@ -12,7 +12,7 @@ from assur._table import Column, Tabular
 from assur._validate import one_of
 from assur.errors import InputError
 from assur.kinematics.solve import solve
-from assur.kinematics.solve_arguments import in_radians
+from assur.kinematics.solve_arguments import in_radians, warn_if_degrees
 from assur.kinematics.table import Options, motion_columns
 from assur.laws import Law
 
@@ -402,6 +402,10 @@ def follow(
     if not isinstance(listed, list | tuple) or len(listed) != drivers:
         message = f"laws is {short(laws)}: one law (assur.laws) for each driver is needed"
         raise InputError(message)
+    if deg is None:
+        for law in listed:
+            for end in _ends(law):
+                warn_if_degrees(mechanism, np.asarray(end))
     times = np.atleast_1d(real_array(t, "t"))
     if times.ndim > 1 or not np.isfinite(times).all():
         message = f"t has shape {times.shape}: finite times (N,) are needed"
@@ -413,6 +417,13 @@ def follow(
     )
     motion = solve(mechanism, q, order=3, on_error=on_error, from_user=True)
     return TimedMotion(times, (q, speed, acceleration, jerk), motion)
+
+
+def _ends(law: Any) -> list[float]:
+    """Return where a law begins and ends, as far as it says so."""
+    parts = getattr(law, "laws", (law,))
+    ends = [getattr(part, name, 0.0) for part in parts for name in ("start", "end")]
+    return [float(end) for end in ends if isinstance(end, int | float)]
 
 
 def _course(law: Any, t: Float) -> tuple[Float, Float, Float, Float]:

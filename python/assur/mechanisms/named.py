@@ -9,6 +9,7 @@ import numpy as np
 
 from assur import _core
 from assur._arrays import finite_array, real_array, short
+from assur._other_names import renamed
 from assur._trig import sin_cos
 from assur._validate import one_of
 from assur.description.words import Slide
@@ -52,6 +53,7 @@ class FourBar(Mechanism):
 
     __slots__ = ()
 
+    @renamed(tilt="ground_angle", inclination="ground_angle", base="ground", frame="ground")
     def __init__(
         self,
         crank: npt.ArrayLike,
@@ -132,6 +134,7 @@ class SliderCrank(Mechanism):
 
     __slots__ = ()
 
+    @renamed(eccentricity="offset", connecting_rod="rod", length="rod", radius="crank")
     def __init__(
         self, crank: npt.ArrayLike, rod: npt.ArrayLike, offset: npt.ArrayLike = 0.0
     ) -> None:

@@ -72,3 +72,13 @@ def _is_angle(metric: Metric, mechanism: Mechanism) -> bool:
         return driven_angles(mechanism)[0]
     is_link = metric.of in dict(mechanism.description.links)
     return metric.kind in IN_ITS_UNIT and metric.order == 0 and is_link
+
+
+def unit_of_metric(metric: Metric, mechanism: Mechanism) -> str:
+    """Return rad of an angle, m of a length, and nothing of what has another unit, or none."""
+    if _is_angle(metric, mechanism):
+        return "rad"
+    if not isinstance(metric, Leaf) or metric.order:
+        return ""
+    is_length = metric.kind == "deviation" and not metric.options[-1]
+    return "m" if is_length or metric.kind in (*IN_ITS_UNIT, *PLACES) else ""

@@ -17,6 +17,7 @@ from assur._validate import one_of, whole_number
 from assur.description.words import Status, is_reached
 from assur.errors import InputError
 from assur.kinematics.table import dimension_column
+from assur.sweeps.degrees import unit_of_metric
 from assur.sweeps.measures_axes import shown_axes
 from assur.sweeps.measures_dataset import dataset
 from assur.sweeps.reasons import explained, reasons
@@ -354,8 +355,14 @@ class Measures(Tabular, Mapping[str, Float]):
         taken = {column.name for column in columns}
         for name, values in self._values.items():
             shown = f"metric {name}" if name in taken else name
-            columns.append(Column(shown, values.reshape(-1), "", "metrics"))
+            columns.append(self._metric_column(name, shown, values.reshape(-1), degrees))
         return columns
+
+    def _metric_column(self, name: str, shown: str, values: Float, degrees: bool) -> Column:
+        unit = unit_of_metric(self._measuring.metrics[name], self._designs.mechanism)
+        if degrees and unit == "rad":
+            values, unit = np.degrees(values), "deg"
+        return Column(shown, values, unit, "metrics")
 
     def to_xarray(self, *, degrees: bool = False) -> xr.Dataset:
         """Return an xarray Dataset over the axes of S (needs xarray).
@@ -367,7 +374,7 @@ class Measures(Tabular, Mapping[str, Float]):
         Parameters
         ----------
         degrees : bool
-            Dimensions that are angles in degrees.
+            Dimensions and metrics that are angles in degrees.
 
         Returns
         -------

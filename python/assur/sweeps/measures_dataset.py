@@ -37,7 +37,9 @@ def dataset(measures: Measured, degrees: bool) -> xr.Dataset:
     variables: dict[str, Any] = {"status": (names, measures.status), "kept": (names, kept)}
     taken = {*names, *coordinates, *variables}
     for name, values in measures.items():
-        variables[f"metric {name}" if name in taken else name] = (names, values)
+        shown = f"metric {name}" if name in taken else name
+        column = measures._metric_column(name, shown, values, degrees)
+        variables[shown] = (names, column.values, {"units": column.unit})
     return xr.Dataset(variables, coordinates)
 
 

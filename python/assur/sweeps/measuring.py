@@ -262,11 +262,18 @@ def _conditions(where: Any) -> list[Condition]:
     except TypeError as error:
         message = f"where is {short(where)}: a list of conditions is needed"
         raise InputError(message) from error
+    # What is 1 or 0 is a condition by itself.
+    conditions = [c > 0.5 if _is_flag(c) else c for c in conditions]
     for condition in conditions:
         if not isinstance(condition, Condition):
             message = f"where: {short(condition)} is not a condition, such as metric > limit"
             raise InputError(message)
     return conditions
+
+
+def _is_flag(condition: Any) -> bool:
+    is_reachable = isinstance(condition, Leaf) and condition.kind == "moves"
+    return is_reachable or isinstance(condition, FullRotation)
 
 
 def _coordinates(mechanism: Mechanism, q: npt.ArrayLike) -> Float:

@@ -60,7 +60,7 @@ def sweep(
     deg: npt.ArrayLike | None = ...,
     assembly: Mapping[str, int] | None = ...,
     metrics: Mapping[str, Metric],
-    where: Iterable[Condition] | None = ...,
+    where: Iterable[Condition | Metric] | None = ...,
     threads: int | None = ...,
     progress: Progress = ...,
     engine: Engine | None = ...,
@@ -74,7 +74,7 @@ def sweep(
     order: int | None = None,
     assembly: Mapping[str, int] | None = None,
     metrics: Mapping[str, Metric] | None = None,
-    where: Iterable[Condition] | None = None,
+    where: Iterable[Condition | Metric] | None = None,
     on_error: Literal["nan", "raise", "drop"] = "nan",
     threads: int | None = None,
     progress: Progress = False,
@@ -108,7 +108,8 @@ def sweep(
         Conditions on metrics, ``assur.metric.min_transmission_angle("C") > 0.7``, also on their
         sums and multiples. A design that misses one is dropped: after a few positions, if more of
         them cannot change that (a span only grows, a least value only falls). Put the quickest
-        first. Only with `metrics`.
+        first. `metric.full_rotation` and `metric.reachable` are conditions by themselves. Only with
+        `metrics`.
     on_error : {"nan", "raise", "drop"}
         For positions that cannot be solved: NaN, each with its status; an error for the first
         one; or the motion of only those designs that move over all of q, with their indices in

@@ -277,3 +277,14 @@ def test_an_interval_of_a_few_hundred_million_roundings(order: int) -> None:
     found = m.extremes("L5", order=order)
     assert (found.min.value, found.max.value) == (-math.inf, math.inf)
     assert found.min.q == low
+
+
+def test_a_slide_that_goes_on_for_ever_as_far_as_a_group_is_followed() -> None:
+    """To 1e5 m; extremes looked at 1.6e5, found nothing and ended at the last node."""
+    m = assur.Mechanism(**arguments(mixed_models.mixed_case(4023).description))
+    assert m.limits().intervals[0, 1] == math.inf
+    far = m.solve([1e3, 1e4]).slide("s0").value
+    assert far[1] / far[0] == pytest.approx(10.0, rel=1e-2)
+    assert m.extremes("s0").min == (-math.inf, math.inf)
+    rate = m.extremes("s0", order=1)
+    assert rate.min.value <= (far[1] - far[0]) / 9e3 + 1e-6

@@ -96,13 +96,21 @@ def test_tables_of_measures_agree(tmp_path: Path) -> None:
         "bore.angle": np.radians([0.0, 30.0, 60.0]),
         "crank.length": np.array([0.1, 0.2, 0.5]),
     }
-    asked = {"stroke": assur.metric.span("bore"), "status": assur.metric.max("bore")}
+    asked = {
+        "stroke": assur.metric.span("bore"),
+        "status": assur.metric.max("bore"),
+        "swing": assur.metric.span("rod"),
+        "part": assur.metric.span("bore") / assur.metric.max("bore"),
+    }
     found = assur.sweep(assur.SliderCrank(0.1, 0.4), angles, deg=range(0, 360, 10), metrics=asked)
     table = found.to_dataframe(degrees=True)
     names = ["design", "bore.angle", "crank.length", "status", "kept", "stroke", "metric status"]
+    names += ["swing", "part"]
     assert list(table) == names
     np.testing.assert_allclose(table["bore.angle"], [0.0, 30.0, 60.0])
-    assert table.attrs["units"] == {"bore.angle": "deg", "crank.length": "m"}
+    units = {"bore.angle": "deg", "crank.length": "m", "stroke": "m", "metric status": "m"}
+    assert table.attrs["units"] == {**units, "swing": "deg"}
+    np.testing.assert_array_equal(table["swing"], np.degrees(found["swing"]))
     found.to_parquet(tmp_path / "found.parquet", degrees=True)
     pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "found.parquet"), table)
     found.to_excel(tmp_path / "found.xlsx", degrees=True)

@@ -26,7 +26,7 @@ def test_degrees_are_a_factor() -> None:
     "q", [90, 90.0, -30, [0, 30, 60], np.arange(0, 360, 10), np.array([[720]])]
 )
 def test_whole_numbers_beyond_two_turns_are_asked_about(q: Any) -> None:
-    with pytest.warns(assur.AssurWarning, match=r"solve\(deg=\.\.\.\)"):
+    with pytest.warns(assur.AssurWarning, match=r"for degrees: deg=\.\.\."):
         assur.FourBar(1.0, 3.0, 2.5, 3.2).solve(q)
 
 

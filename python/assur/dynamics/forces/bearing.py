@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -58,7 +58,9 @@ class Bearing:
     (array([1000., 1250.]), array([6., 0.]))
     """
 
-    __repr__ = summary
+    def __repr__(self) -> str:
+        link, turned = self.frame
+        return summary(replace(self, frame=(link, np.nan if np.ndim(turned) else turned)))
 
     angle: Float
     size: Float

@@ -281,7 +281,7 @@ class Reactions(Tabular):
         name : str
             The joint.
         on : str
-            The link; one that has the joint.
+            The link; one that has the joint. Needed.
 
         Returns
         -------
@@ -314,7 +314,7 @@ class Reactions(Tabular):
             return np.where(np.isnan(self.shaking_moment), np.nan, 0.0)[()]
         return moment[()]
 
-    def joint(self, name: str, on: str) -> Float:
+    def joint(self, name: str, on: str | None = None) -> Float:
         """Return the force on a link from all other links at a joint.
 
         Parameters
@@ -348,6 +348,7 @@ class Reactions(Tabular):
         (array([-250.,   -0.]), array([-250.,   -0.]))
         """
         core = self.mechanism.core
+        on = given_link(self.mechanism, name, on)
         key = key_of_joint(self.mechanism, checked_name(name, "joint"), checked_name(on, "on"))
         links, joint = links_at(self.mechanism)[name], key.index
         if len(links) == 1:
@@ -361,7 +362,12 @@ class Reactions(Tabular):
         return -total
 
     def bearing(
-        self, name: str, on: str, *, frame: str | None = None, against: str | None = None
+        self,
+        name: str,
+        on: str | None = None,
+        *,
+        frame: str | None = None,
+        against: str | None = None,
     ) -> Bearing:
         """Return the force on a link at a joint as polar data, in the frame of a link there.
 
@@ -370,7 +376,7 @@ class Reactions(Tabular):
         name : str
             The joint.
         on : str
-            The link on which the force acts; one of those at the joint.
+            The link on which the force acts; one of those at the joint. Needed.
         frame : str, optional
             The link in whose frame directions are given (x from its first joint toward its
             second): one of those at the joint, or the ground; `on` by default.
@@ -399,6 +405,7 @@ class Reactions(Tabular):
         >>> print(f"{pin.pv(diameter=0.02, width=0.015).max() / 1e6:.3f} MPa·m/s")
         0.082 MPa·m/s
         """
+        on = given_link(self.mechanism, name, on)
         return bearings.bearing(self, name, on, frame, against)
 
     def slide(self, name: str) -> SlideReaction:
@@ -524,6 +531,19 @@ class Reactions(Tabular):
 
         names = links.links if isinstance(links, Group) else links
         return force_polygon(force_system(self, names, at), ax, dark)
+
+
+def given_link(mechanism: Mechanism, name: str, on: str | None) -> str:
+    """Return the link on which a force at a joint is asked for; it must be given."""
+    if on is not None:
+        return on
+    mechanism.core.index_of("joint", checked_name(name, "joint"))
+    links = links_at(mechanism)[name]
+    message = (
+        f'joint "{name}" is one of {", ".join(links)}: say on which of them the force acts, '
+        f'on="{links[-1]}"'
+    )
+    raise InputError(message, joint=name)
 
 
 def key_of_joint(mechanism: Mechanism, name: str, on: str | None) -> Key:

@@ -144,8 +144,8 @@ class Force:
         It acts only while a coordinate grows, or falls: a cutting force, the friction of a tool.
         While the coordinate rests, also where it turns back, it does not act.
     over : str, optional
-        The slide or link whose value or angle is the coordinate of `while_`; that of the (first)
-        driver by default.
+        The slide or link whose value or angle is the coordinate of `while_`: that of its `Table`,
+        if it has one, or else the (first) driver by default.
 
     Examples
     --------

@@ -91,7 +91,7 @@ class InductionMotor:
     breakdown : float
         Greatest torque, N·m.
     slip : float
-        Slip at that torque.
+        Slip at that torque, as a fraction of the synchronous speed: above 0, at most 1.
     synchronous : float
         Speed of the rotating field, rad/s.
     ratio, rotor_inertia : float
@@ -117,6 +117,12 @@ class InductionMotor:
     def __post_init__(self) -> None:
         _check_shaft(self)
         _check_positive(self, "breakdown", "slip", "synchronous")
+        if self.slip > 1.0:
+            message = (
+                f"InductionMotor: slip is {self.slip:g}: a fraction of the synchronous speed is "
+                f"needed, at most 1 (15 % is 0.15)"
+            )
+            raise InputError(message, value=self.slip)
 
 
 Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Literal, TypeAlias
 
 from assur._validate import checked_name, one_of
-from assur.dynamics.loads.table import replace_fields
+from assur.dynamics.loads.table import Table, replace_fields
 from assur.errors import InputError
 
 __all__ = ["DIRECTIONS", "Way", "check_way"]
@@ -27,5 +27,15 @@ def check_way(load: Any) -> None:
             raise InputError(message)
         return
     one_of(load.while_, DIRECTIONS, f"{kind} while_")
+    if load.over is None:
+        replace_fields(load, over=_of_tables(load))
     if load.over is not None:
         replace_fields(load, over=checked_name(load.over, f"{kind} over"))
+
+
+def _of_tables(load: Any) -> str | None:
+    """Return the coordinate of a load's tables, if they have one: what they say is said once."""
+    values = getattr(load, "force", None) or (getattr(load, "torque", None),)
+    listed = values if isinstance(values, tuple | list) else ()
+    named = {value.over for value in listed if isinstance(value, Table)} - {None}
+    return named.pop() if len(named) == 1 else None

@@ -12,9 +12,9 @@ use crate::math::root::bisection::bisect;
 /// Halvings toward a pole, and the ratio of the value there to those at the nodes.
 const HALVINGS: u32 = 40;
 const POLE: f64 = 1.0e6;
-/// Distance (in halves of the window) over which a slide is followed to see where a value goes, and the factor
-/// by which a value without a limit grows.
-const FAR: [f64; 2] = [1.0e2, 1.0e4];
+/// Distances (in halves of the window) over which a slide is followed to see where a value goes, the farthest
+/// first (groups above class II are lost in the end), and the factor by which a value without a limit grows.
+const FAR: [[f64; 2]; 3] = [[1.0e2, 1.0e4], [1.0e1, 1.0e3], [1.0, 1.0e2]];
 const GROWS: f64 = 10.0;
 /// Distances (in halves of the window) from an end without a fold at which a value is compared with one
 /// farther away: as near as a value exists.
@@ -148,11 +148,12 @@ impl Curve<'_> {
     /// The limit of the value as a slide goes on without end.
     fn at_infinity(&mut self, window: &Window, side: usize) -> Option<ValueAt> {
         let way = if side == 0 { -1.0 } else { 1.0 };
-        let [near, far] = FAR.map(|part| self.value(window.middle + way * part * window.half));
-        let (near, far) = (near?, far?);
+        let mut at = |part: f64| self.value(window.middle + way * part * window.half);
+        let [parts, [near, far]] =
+            FAR.iter().find_map(|&parts| Some([parts, [at(parts[0])?, at(parts[1])?]]))?;
         let grows = far.abs() > GROWS * near.abs();
         // What is left of the way to the limit falls with the distance.
-        let limit = far + (far - near) * FAR[0] / (FAR[1] - FAR[0]);
+        let limit = far + (far - near) * parts[0] / (parts[1] - parts[0]);
         let value = if grows { f64::INFINITY.copysign(far) } else { limit };
         Some(ValueAt { value, q: way * f64::INFINITY })
     }

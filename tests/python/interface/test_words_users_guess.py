@@ -1,0 +1,89 @@
+"""What new users typed first: each says what there is, or does what they meant."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import assur
+from assur import metric
+
+PRESS = assur.SliderCrank(0.1, 0.4)
+MACHINE: Any = assur.Machine(PRESS, bodies={"piston": assur.Body(mass=2.0)})
+FOUR_BAR: Any = assur.FourBar(1.0, 3.0, 2.5, 3.2)
+MADE: Any = {
+    "tilt": (assur.FourBar, (1.0, 3.0, 2.5, 3.2), "FourBar", "ground_angle"),
+    "eccentricity": (assur.SliderCrank, (0.1, 0.4), "SliderCrank", "offset"),
+    "masses": (assur.Machine, (PRESS,), "Machine", "bodies"),
+    "omega": (MACHINE.effort, (1.0,), "effort", "speed"),
+    "alpha": (MACHINE.reactions, (1.0,), "reactions", "acceleration"),
+}
+
+
+@pytest.mark.parametrize("old", MADE)
+def test_a_keyword_of_another_name(old: str) -> None:
+    call, given, name, new = MADE[old]
+    with pytest.raises(TypeError, match=rf"^{name}\(\) has no argument '{old}': it is {new}=$"):
+        call(*given, **{old: 1.0})
+
+
+@pytest.mark.parametrize("pin", [lambda found: found.joint("A"), lambda found: found.bearing("A")])
+def test_a_force_without_its_link(pin: Any) -> None:
+    with pytest.raises(assur.InputError, match=r'joint "A" is one of crank, rod: .*on="rod"'):
+        pin(MACHINE.reactions([0.5, 1.0]))
+
+
+def test_slip_is_a_fraction() -> None:
+    with pytest.raises(assur.InputError, match=r"slip is 15: a fraction .* 0\.15"):
+        assur.InductionMotor(60.0, 15.0, 157.0)
+    assert assur.InductionMotor(60.0, 1.0, 157.0).slip == 1.0
+
+
+def test_what_is_1_or_0_is_a_condition() -> None:
+    q, grounds = np.radians(np.arange(15, 360, 30)), {"ground.D.x": [2.9, 3.003, 9.0]}
+    four_bar, asked = assur.FourBar(1.0, 2.0, 2.0, 3.0), {"swing": metric.span("rocker")}
+    for condition, kept in ((metric.full_rotation(), [0]), (metric.reachable(), [0, 1])):
+        found = assur.sweep(four_bar, grounds, q, metrics=asked, where=[condition])
+        assert found.kept.tolist() == kept
+    with pytest.raises(assur.InputError, match="is not a condition"):
+        assur.sweep(four_bar, grounds, q, metrics=asked, where=[metric.span("rocker")])
+
+
+def test_a_table_says_of_which_coordinate_a_load_goes_one_way() -> None:
+    """Without `over=` the direction was that of the crank, which always goes forward."""
+    table = assur.Table([0.3, 0.5], [-900.0, -900.0], spline="linear", over="bore", periodic=False)
+    one, two = (
+        assur.Force("B", (table, 0.0), while_="forward", **over) for over in ({}, {"over": "bore"})
+    )
+    assert one == two
+    assert assur.Force("B", (1.0, 0.0), while_="forward").over is None
+    assert assur.Torque("crank", table, while_="backward").over == "bore"
+    assert assur.Torque("crank", table, while_="backward", over="rod").over == "rod"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: FOUR_BAR.assemblies(60),
+        lambda: FOUR_BAR.follow(assur.laws.Polynomial345(0, 60, 0.5), [0.1]),
+        lambda: FOUR_BAR.follow(
+            assur.laws.Sequence(
+                (
+                    assur.laws.Uniform(0.0, 45.0, 1.0),
+                    assur.laws.Harmonic(45.0, 90.0, 1.0, begin=1.0),
+                )
+            ),
+            [0.1],
+        ),
+    ],
+)
+def test_degrees_are_asked_about(call: Any) -> None:
+    with pytest.warns(assur.AssurWarning, match=r"turns; for degrees: deg="):
+        call()
+
+
+def test_a_bearing_is_printed_in_a_few_lines() -> None:
+    found = MACHINE.reactions(np.linspace(0.0, 6.0, 500), 3.0).bearing("A", on="crank")
+    assert len(repr(found)) < 400
