@@ -107,7 +107,7 @@ def documented() -> Iterator[tuple[str, str]]:
 def unknown_names(source: str) -> set[str]:
     """Names that code uses and neither Python nor the code itself defines."""
     known = set(dir(builtins))
-    used = set()
+    used: set[str] = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Name):
             (used if isinstance(node.ctx, ast.Load) else known).add(node.id)

@@ -44,8 +44,8 @@ def test_the_code_shown_makes_the_example(gallery: Any, name: str) -> None:
         assert made == own
     else:  # NumPy's sines, where the package has its own
         assert made.links == own.links
-        sizes = [list(mechanism.dimensions.values()) for mechanism in (made, own)]
-        assert np.allclose(*sizes, rtol=1e-13)
+        shown, kept = (list(mechanism.dimensions.values()) for mechanism in (made, own))
+        assert np.allclose(shown, kept, rtol=1e-13)
 
 
 @pytest.mark.parametrize("name", list(assur.examples.ALL))
