@@ -230,7 +230,7 @@ class MachineModel:
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: changes there reach ``view.machine``, assigning ``view.machine`` redraws.
-        Needs anywidget: ``pip install assur[notebook]``.
+        Needs anywidget: extra ``notebook``.
 
         Parameters
         ----------

@@ -3,7 +3,7 @@
 ``ALL`` has the functions by name, ``RANGES`` the coordinates over which each is used. Their
 docstrings say what to look at, and where the mechanism comes from.
 
->>> import assur
+>>> import assur, numpy as np
 >>> m = assur.examples.crank_rocker()
 >>> first, last = assur.examples.RANGES["crank_rocker"]
 >>> m.solve(np.linspace(first, last, 9)).joint("P").value.shape

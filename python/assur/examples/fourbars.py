@@ -38,7 +38,7 @@ def crank_rocker() -> Mechanism:
 
     Examples
     --------
-    >>> import assur
+    >>> import assur, numpy as np
     >>> swing = assur.examples.crank_rocker().extremes("rocker").stroke
     >>> round(float(np.degrees(swing)), 3)                  # by the law of cosines
     73.782
@@ -71,7 +71,7 @@ def locomotive() -> Mechanism:
 
     Examples
     --------
-    >>> import assur
+    >>> import assur, numpy as np
     >>> m = assur.examples.locomotive()
     >>> m.structure.mobility_counted, m.structure.mobility, m.structure.redundant
     (0, 1, ('wheel3',))

@@ -25,7 +25,7 @@ def jansen_leg() -> Mechanism:
 
     Examples
     --------
-    >>> import assur
+    >>> import assur, numpy as np
     >>> foot = assur.examples.jansen_leg().solve(np.linspace(0, 2 * np.pi, 361)).joint("F").value
     >>> np.ptp(foot, axis=0).round(3)                                   # stride and lift, m
     array([0.679, 0.225])

@@ -67,7 +67,7 @@ def watt_2() -> Mechanism:
 
     Examples
     --------
-    >>> import assur
+    >>> import assur, numpy as np
     >>> m = assur.examples.watt_2()
     >>> [round(float(np.degrees(m.extremes(link).stroke)), 1) for link in ("lever", "rocker")]
     [73.8, 81.9]

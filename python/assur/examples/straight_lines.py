@@ -26,7 +26,7 @@ def chebyshev_lambda() -> Mechanism:
 
     Examples
     --------
-    >>> import assur
+    >>> import assur, numpy as np
     >>> pen = assur.examples.chebyshev_lambda().solve(deg=np.linspace(90, 270, 181)).joint("P")
     >>> np.ptp(pen.value / 0.05, axis=0).round(5)                       # units
     array([4.     , 0.00975])

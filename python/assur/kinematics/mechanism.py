@@ -1044,7 +1044,7 @@ class Mechanism(MechanismModel):
         """Show the studio's view in a notebook: play, drag and change it there.
 
         Both ways: dragging changes ``view.mechanism``, assigning ``view.mechanism`` redraws. Needs
-        anywidget: ``pip install assur[notebook]``.
+        anywidget: extra ``notebook``.
 
         Parameters
         ----------

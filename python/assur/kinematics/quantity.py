@@ -99,7 +99,7 @@ class Analogues:
         --------
         >>> import assur
         >>> pin = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve(1.0).joint("C")
-        >>> pin.acceleration(np.array([1.0, 2.0, 3.0])).shape
+        >>> pin.velocity([1.0, 2.0, 3.0]).shape
         (3, 2)
         """
         (w,) = self._speeds(speed=speed)

@@ -3,7 +3,7 @@
 A server on this machine computes, its page draws. They speak by a WebSocket
 (docs/developers/studio_protocol.md). The server keeps no mechanism: every request brings its
 document, so undo is the page's own and a lost connection loses nothing. Needs Starlette and
-uvicorn: ``pip install assur[studio]``.
+uvicorn: extra ``studio``.
 """
 
 __all__: list[str] = []

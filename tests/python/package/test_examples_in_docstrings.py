@@ -1,5 +1,7 @@
 """Every public name has a page of its own and an example that runs (pytest --doctest-modules).
 
+It needs nothing but what it imports itself: pasted alone it runs.
+
 Public are the names in ``assur.__all__`` and in ``__all__`` of the modules among them, and the
 classes of results that the pages of docs/reference/api list besides. An example is asked of
 every such class and function, and of every public method that such a class has from this package.
@@ -8,7 +10,11 @@ what Python adds to tuples, enumerations and exceptions, nor of a method that ov
 example.
 """
 
+import ast
+import builtins
+import doctest
 import inspect
+import pkgutil
 import re
 from collections.abc import Iterator
 from importlib import import_module
@@ -87,6 +93,43 @@ def test_every_public_name_has_an_example() -> None:
     missing = sorted(name for name, has_one in asked.items() if not has_one)
     assert len(asked) > 200
     assert not missing, f"{len(missing)} docstrings without >>>: {', '.join(missing)}"
+
+
+def documented() -> Iterator[tuple[str, str]]:
+    """Every docstring with an example, by its name, and the code of that example."""
+    files = (file.name for file in pkgutil.walk_packages(assur.__path__, "assur."))
+    for name in ["assur", *(file for file in files if "__main__" not in file)]:
+        for test in doctest.DocTestFinder().find(import_module(name), name, globs={}):
+            if test.examples:
+                yield test.name, "\n".join(example.source for example in test.examples)
+
+
+def unknown_names(source: str) -> set[str]:
+    """Names that code uses and neither Python nor the code itself defines."""
+    known = set(dir(builtins))
+    used: set[str] = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Name):
+            (used if isinstance(node.ctx, ast.Load) else known).add(node.id)
+        elif isinstance(node, ast.alias):
+            known.add((node.asname or node.name).partition(".")[0])
+        elif isinstance(node, ast.arg):
+            known.add(node.arg)
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef | ast.ExceptHandler) and node.name:
+            known.add(node.name)
+    return used - known
+
+
+def test_every_example_imports_what_it_uses() -> None:
+    """Doctest gives an example the names of its file, and conftest.py NumPy: a user has neither."""
+    sources = dict(documented())
+    missing = {name: unknown for name, text in sources.items() if (unknown := unknown_names(text))}
+    assert len(sources) > 300
+    assert not missing
+
+
+def test_a_missing_import_is_seen() -> None:
+    assert unknown_names("import assur\n[x for x in np.ones(2)]\ny = assur") == {"np"}
 
 
 @pytest.mark.parametrize("part", ["class", "own", "inherited", "overriding"])
