@@ -131,8 +131,8 @@ test("drivers know whether they turn", () => {
 
 test("the poorest transmission is said below 40° only", () => {
   const degree = Math.PI / 180;
-  assert.equal(poorest([{ at: "C", least: 41 * degree, q: 0 }]), null);
-  assert.equal(poorest([{ at: "C", least: 39 * degree, q: 0 }, { at: "E", least: 12 * degree, q: 1 }]).at, "E");
+  assert.equal(poorest([{ at: "C", min: 41 * degree, q: 0 }]), null);
+  assert.equal(poorest([{ at: "C", min: 39 * degree, q: 0 }, { at: "E", min: 12 * degree, q: 1 }]).at, "E");
   assert.equal(poorest(null), null);
 });
 

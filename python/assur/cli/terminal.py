@@ -29,7 +29,7 @@ PLAIN = {
     "…": "...",
 }
 # Advice for Python users, in words of the command line.
-IN_DEGREES = ("solve(deg=...), or np.radians(q)", "write --q 0:360:1deg")
+IN_DEGREES = ("deg=..., or np.radians(q)", "write --q 0:360:1deg")
 
 
 def reworded(message: object) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from assur._arrays import real_number
 from assur._other_names import other_names, renamed_rates
 from assur.dynamics.flywheel import size as flywheel_size
 from assur.dynamics.forces import counterweight, duty, impact, kinetostatics
@@ -929,6 +930,7 @@ class Machine(MachineModel):
         if deg0 is not None:
             q0 = in_radians(self.mechanism, q0, deg0, "run", "q0")
         if deg_end is not None:
+            deg_end = real_number(deg_end, "deg_end")
             q_end = float(in_radians(self.mechanism, q_end, deg_end, "run", "q_end"))
         return integrate.run(
             self,
@@ -1028,6 +1030,7 @@ class Machine(MachineModel):
         8.9681 rad/s, δ = 0.1755, 179.363 W
         """
         if deg0 is not None:
+            deg0 = real_number(deg0, "deg0")
             q0 = float(in_radians(self.mechanism, q0, deg0, "steady_state", "q0"))
         return integrate.steady_state(
             self,

@@ -17,9 +17,9 @@ from assur._validate import one_of, whole_number
 from assur.description.words import Status, is_reached
 from assur.errors import InputError
 from assur.kinematics.table import dimension_column
-from assur.sweeps.degrees import unit_of_metric
 from assur.sweeps.measures_axes import shown_axes
 from assur.sweeps.measures_dataset import dataset
+from assur.sweeps.metric_units import unit_of_metric
 from assur.sweeps.reasons import explained, reasons
 
 if TYPE_CHECKING:

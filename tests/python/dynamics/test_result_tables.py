@@ -68,9 +68,13 @@ def test_a_steady_state_and_a_flywheel() -> None:
     batch = assur.flywheel.from_table(
         phi, moments, np.full(25, 2.0), fluctuation=1 / 8, mean_speed=15.0
     )
-    several = batch.to_dataframe()
-    assert several["design"].unique().tolist() == [0, 1]
-    assert several["work"].max() > batch.work(1.0).min()
+    several = batch.to_dataframe(degrees=True)
+    assert several["design"].tolist() == [0, 1]
+    for name in ("inertia", "speed0", "delta", "mean_speed", "motor_moment", "power", "period"):
+        np.testing.assert_array_equal(several[name], np.broadcast_to(getattr(batch, name), 2))
+    np.testing.assert_array_equal(several["max"], batch.max.value)
+    np.testing.assert_allclose(np.radians(several["max.q"]), batch.max.q, rtol=1e-13)
+    assert several.attrs["units"]["min.q"] == "deg"
 
 
 def test_reactions() -> None:

@@ -190,6 +190,9 @@ IN_DEGREES = {
     "Mechanism.with_driver.deg": Entry(
         lambda deg: FOUR_BAR.with_driver("rocker", deg=deg).q0, numbers(60.0)
     ),
+    "Mechanism.find.value": Entry(
+        lambda at: [solution.q for solution in FIVE_BAR.find("C", at)], (np.array([1.0, 2.0]),)
+    ),
     "Mechanism.map.deg": Entry(
         lambda deg: FOUR_BAR.map("assemblies", OVER, deg=deg).values, (np.array(60.0),)
     ),
