@@ -314,7 +314,7 @@ class Assemblies(list[Assembly]):
         >>> import assur
         >>> axes = assur.FourBar(1.0, 3.0, 2.5, 3.0).assemblies(1.0).plot()
         >>> [one.get_title() for one in axes]
-        ['1   C +', '2   C −']
+        ['[0]   C +', '[1]   C −']
         """
         from assur.pictures.linkage.assemblies import assemblies_picture
 

@@ -64,6 +64,8 @@ class Extremes:
     _of: tuple[MechanismModel, list[int], str, int, int | None] = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
+        if self.min.value == self.max.value:
+            return f"<assur.Extremes {self.min.value:.6g} everywhere>"
         ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.min, self.max))
         ratio = "" if self.time_ratio is None else f", time ratio {self.time_ratio:.6g}"
         return f"<assur.Extremes {' … '.join(ends)}{ratio}>"

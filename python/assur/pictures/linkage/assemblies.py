@@ -68,14 +68,14 @@ def assemblies_picture(assemblies: Sequence[Assembly], ax: Any, dark: bool) -> P
 
 
 def _title(index: int, assembly: Assembly, on: Canvas) -> str:
-    """Return a number and the dyads' signs; assemblies of higher groups have numbers alone."""
+    """Return its index in the list and the signs of dyads; higher groups have none."""
     signs = [(printable(name), "+" if sign > 0 else "−") for name, sign in assembly.items()]
     whole = "  ".join(f"{name} {sign}" for name, sign in signs)
     room = float(on.points(on.high - on.low)[0])
     if plain_size(whole, TEXT)[0] > 0.8 * room:
         # In the order of the dyads.
         whole = " ".join(sign for _, sign in signs)
-    return f"{index + 1}   {whole}".rstrip()
+    return f"[{index}]   {whole}".rstrip()
 
 
 def _axes(count: int, extent: Any, ax: Any, style: Any) -> Any:
