@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -18,6 +19,10 @@ __all__ = [
     "PositionError",
     "StructureError",
 ]
+
+
+# A name that a user took from an array is shown by its letters.
+OF_NUMPY = re.compile(r"np\.str_\(('[^']*'|\"[^\"]*\")\)")
 
 
 class AssurError(Exception):
@@ -80,14 +85,14 @@ class AssurError(Exception):
         t: float | None = None,
         value: float | None = None,
     ) -> None:
-        super().__init__(message)
+        super().__init__(OF_NUMPY.sub(r"\1", message) if "np.str_(" in message else message)
         self.kind = kind
         self.hint = hint
-        self.joint = joint
-        self.link = link
-        self.slide = slide
-        self.driver = driver
-        self.dimension = dimension
+        self.joint = None if joint is None else str(joint)
+        self.link = None if link is None else str(link)
+        self.slide = None if slide is None else str(slide)
+        self.driver = None if driver is None else str(driver)
+        self.dimension = None if dimension is None else str(dimension)
         self._names = names
         self.group = group
         self.design = design
