@@ -288,3 +288,14 @@ def test_a_slide_that_goes_on_for_ever_as_far_as_a_group_is_followed() -> None:
     assert m.extremes("s0").min == (-math.inf, math.inf)
     rate = m.extremes("s0", order=1)
     assert rate.min.value <= (far[1] - far[0]) / 9e3 + 1e-6
+
+
+def test_rounding_beside_a_dead_point_is_no_pole() -> None:
+    """Where a group of class IV is singular, a smooth slide has lost all digits at order 2."""
+    description = mixed_models.mixed_case(70081).description
+    drawn = assur.Mechanism(**arguments(description))
+    other = variant_of(description, drawn, random.Random("variants 70081"))
+    again = assur.Mechanism(**arguments(other.description))
+    one, two = drawn.extremes("s5", order=2), again.extremes(other.names["slide"]["s5"], order=2)
+    assert two.min.value == pytest.approx(one.min.value, rel=1e-9)
+    assert one.min.value == pytest.approx(-0.98816, abs=1e-5)

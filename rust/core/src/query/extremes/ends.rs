@@ -25,6 +25,8 @@ const FOLLOWS: f64 = 0.5;
 /// The coefficient of a pole at a dead point, relative to the greatest of any coordinate: below, it is zero
 /// except for the rounding of the dead point's own place, where directions are off by the root of u.
 const LEAST_POLE: f64 = 1.0e-7;
+/// Values that are off by more than this part of their terms say nothing of a pole.
+const NO_DIGITS: f64 = 0.05;
 /// The coefficient must exceed its error by this factor: errors are estimates.
 const CLEAR: f64 = 4.0;
 
@@ -172,6 +174,12 @@ impl Curve<'_> {
         // Even terms of the series in the square root of the distance have no poles.
         for pole in (1..=greatest).rev().step_by(2) {
             let fit = samples.fit(pole)?;
+            if fit.noise > NO_DIGITS {
+                break;
+            }
+            if fit.noise > NO_DIGITS {
+                break;
+            }
             if std::env::var("DBG").is_ok() {
                 eprintln!(
                     "order {} side {side} pole {pole} limit {:e} err {:e} size {:e} noise {:e} sets {} first {:?} half {:e}",
