@@ -177,22 +177,6 @@ impl Curve<'_> {
             if fit.noise > NO_DIGITS {
                 break;
             }
-            if fit.noise > NO_DIGITS {
-                break;
-            }
-            if std::env::var("DBG").is_ok() {
-                eprintln!(
-                    "order {} side {side} pole {pole} limit {:e} err {:e} size {:e} noise {:e} sets {} first {:?} half {:e}",
-                    self.order,
-                    fit.limit(),
-                    fit.error,
-                    fit.size,
-                    fit.noise,
-                    samples.sets.len(),
-                    samples.sets.first().map(|s| s[0].distance),
-                    window.half
-                );
-            }
             let coefficient = fit.limit();
             let bound = (LEAST_POLE * fit.size).max(CLEAR * fit.error);
             if coefficient.abs() > bound {
