@@ -254,7 +254,7 @@ def _metric(name: str, metric: Any) -> Metric:
 
 
 def _conditions(where: Any) -> list[Condition]:
-    if isinstance(where, Condition):
+    if isinstance(where, Condition | Metric):
         message = f"where={where!r}: a list of conditions is needed, where=[{where!r}]"
         raise InputError(message)
     try:
@@ -267,6 +267,8 @@ def _conditions(where: Any) -> list[Condition]:
     for condition in conditions:
         if not isinstance(condition, Condition):
             message = f"where: {short(condition)} is not a condition, such as metric > limit"
+            if isinstance(condition, bool):
+                message += "; metrics are compared by <, <=, > and >=, not by =="
             raise InputError(message)
     return conditions
 

@@ -132,6 +132,8 @@ def test_an_angle_to_find() -> None:
         FOUR_BAR.find("C.x", deg=100.0)
     with pytest.raises(assur.InputError, match="both value and deg"):
         FOUR_BAR.find("rocker", 1.0, deg=100.0)
+    with pytest.raises(assur.InputError, match="deg"):
+        FOUR_BAR.find("rocker", deg=np.nan)
     with pytest.raises(assur.InputError, match="neither value nor deg"):
         FOUR_BAR.find("rocker")
 

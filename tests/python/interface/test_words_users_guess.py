@@ -29,7 +29,14 @@ def test_a_keyword_of_another_name(old: str) -> None:
         call(*given, **{old: 1.0})
 
 
-@pytest.mark.parametrize("pin", [lambda found: found.joint("A"), lambda found: found.bearing("A")])
+@pytest.mark.parametrize(
+    "pin",
+    [
+        lambda found: found.joint("A"),
+        lambda found: found.bearing("A"),
+        lambda found: found.joint_moment("A"),
+    ],
+)
 def test_a_force_without_its_link(pin: Any) -> None:
     with pytest.raises(assur.InputError, match=r'joint "A" is one of crank, rod: .*on="rod"'):
         pin(MACHINE.reactions([0.5, 1.0]))
@@ -47,8 +54,15 @@ def test_what_is_1_or_0_is_a_condition() -> None:
     for condition, kept in ((metric.full_rotation(), [0]), (metric.reachable(), [0, 1])):
         found = assur.sweep(four_bar, grounds, q, metrics=asked, where=[condition])
         assert found.kept.tolist() == kept
-    with pytest.raises(assur.InputError, match="is not a condition"):
-        assur.sweep(four_bar, grounds, q, metrics=asked, where=[metric.span("rocker")])
+    flag: Any = metric.full_rotation()
+    wrong: Any
+    for wrong, message in (
+        ([metric.span("rocker")], "is not a condition"),
+        ([flag == 1], "False is not a condition.*not by =="),
+        (flag, r"a list of conditions is needed, where=\[full_rotation\(\)\]"),
+    ):
+        with pytest.raises(assur.InputError, match=message):
+            assur.sweep(four_bar, grounds, q, metrics=asked, where=wrong)
 
 
 def test_a_table_says_of_which_coordinate_a_load_goes_one_way() -> None:
@@ -59,6 +73,12 @@ def test_a_table_says_of_which_coordinate_a_load_goes_one_way() -> None:
     )
     assert one == two
     assert assur.Force("B", (1.0, 0.0), while_="forward").over is None
+    array: Any = np.array([1.0, 0.0])
+    assert assur.Force("B", array, while_="forward").over is None
+    turning = assur.Table([0.0, 1.0], [1.0, 2.0], over="rod", periodic=False)
+    with pytest.raises(assur.InputError, match="tables are over 'bore' and 'rod': say which"):
+        assur.Force("B", (table, turning), while_="forward")
+    assert assur.Force("B", (table, turning), while_="forward", over="rod").over == "rod"
     assert assur.Torque("crank", table, while_="backward").over == "bore"
     assert assur.Torque("crank", table, while_="backward", over="rod").over == "rod"
 

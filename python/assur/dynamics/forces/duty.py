@@ -128,7 +128,7 @@ def duty(
     # Without a speed only the times of a run say how long it takes.
     is_timed = senses is not None and bool(senses.sense.any())
     _check_path(x, v if senses is None else senses.creeping(v, with_begins=True))
-    jumps = _jumps(machine, x) if senses is None else None
+    jumps = _jumps(machine, x) if senses is None else np.empty(0)
     effort = np.asarray(kinetostatics.effort(machine, DrivenMotion(x, v, a, t, senses), on_error))
     rows = [part.reshape(-1, shape[-1]) for part in (x, v, effort)]
     if is_timed:
@@ -137,7 +137,7 @@ def duty(
     is_closed, lacks_end, turn = _closing(machine, rows[0])
     way = rows[0][:, -1] - rows[0][:, 0]
     lacks_end &= (t == t[..., :1]).all(axis=-1).reshape(-1)
-    is_turn = bool(lacks_end.any())
+    is_turn = lacks_end.copy()
     way = np.where(lacks_end, turn, way)
     if lacks_end.any():
         # The first position again, whole turns later, with its speed and acceleration.
@@ -156,12 +156,14 @@ def duty(
             numbers[chosen] = _numbers([row[chosen] for row in rows], closed=closed)
     with np.errstate(over="ignore", invalid="ignore"):
         power = effort * v
-    if jumps is not None and np.isfinite(effort).all():
-        path = [part.reshape(-1) for part in (x, v, a, t)]
-        if is_turn:
+    paths = [part.reshape(-1, shape[-1]) for part in (x, v, a, t)]
+    for row in np.flatnonzero(np.isfinite(rows[2]).all(axis=1)) if jumps.size else ():
+        path = [part[row] for part in paths]
+        if is_turn[row]:
             path = [np.append(part, part[0]) for part in path]
-            path[0][-1] += turn[0]
-        numbers[0] = _across(machine, jumps, path)
+            path[0][-1] += turn[row]
+        if ((jumps >= path[0].min()) & (jumps <= path[0].max())).any():
+            numbers[row] = _across(machine, jumps, path)
     _require_finite(numbers, effort, on_error)
     columns = [as_number(numbers[:, k].reshape(shape[:-1])[()]) for k in range(NUMBERS)]
     greatest, least, most, fewest = (Extreme(columns[k], columns[k + 1]) for k in (0, 2, 4, 6))
@@ -204,15 +206,14 @@ def warn_of_jumps(machine: MachineModel) -> None:
         warnings.warn(message, AssurWarning, stacklevel=3)
 
 
-def _jumps(machine: MachineModel, x: Float) -> Float | None:
-    """Return where the loads of one design may jump and its friction reverses along a path."""
-    if machine.shape or x.ndim != 1:
-        return None
+def _jumps(machine: MachineModel, x: Float) -> Float:
+    """Return where the loads of one design may jump and its friction reverses along paths."""
+    if machine.shape or not x.size:
+        return np.empty(0)
     # Whole turns may lack their end.
     low, high = float(x.min()), float(x.max())
-    mean = (high - low) / (x.size - 1)
-    jumps = jumps_between(machine, low - mean, high + mean, friction=True)
-    return jumps if jumps.size else None
+    step = (high - low) / (x.shape[-1] - 1)
+    return jumps_between(machine, low - step, high + step, friction=True)
 
 
 def _across(machine: MachineModel, jumps: Float, motion: list[Float]) -> Float:

@@ -273,7 +273,7 @@ class Reactions(Tabular):
             return np.full(self.status.shape, np.inf)[()]
         return self._again([SAFETY], 0).by_key[SAFETY][()]
 
-    def joint_moment(self, name: str, on: str) -> Float:
+    def joint_moment(self, name: str, on: str | None = None) -> Float:
         """Return the moment of friction on a link at a joint.
 
         Parameters
@@ -308,6 +308,7 @@ class Reactions(Tabular):
         >>> found.joint_moment("B", on="rod").round(3)  # N·m
         np.float64(2.0)
         """
+        on = given_link(self.mechanism, name, on)
         key = key_of_joint(self.mechanism, checked_name(name, "joint"), checked_name(on, "on"))
         moment = self.by_key.get(Key("joint moment", key.index, key.on))
         if moment is None:
@@ -540,7 +541,7 @@ def given_link(mechanism: Mechanism, name: str, on: str | None) -> str:
     mechanism.core.index_of("joint", checked_name(name, "joint"))
     links = links_at(mechanism)[name]
     message = (
-        f'joint "{name}" is one of {", ".join(links)}: say on which of them the force acts, '
+        f'joint "{name}" is one of {", ".join(links)}: say on which of them it acts, '
         f'on="{links[-1]}"'
     )
     raise InputError(message, joint=name)

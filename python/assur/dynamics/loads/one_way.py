@@ -34,8 +34,14 @@ def check_way(load: Any) -> None:
 
 
 def _of_tables(load: Any) -> str | None:
-    """Return the coordinate of a load's tables, if they have one: what they say is said once."""
-    values = getattr(load, "force", None) or (getattr(load, "torque", None),)
-    listed = values if isinstance(values, tuple | list) else ()
-    named = {value.over for value in listed if isinstance(value, Table)} - {None}
-    return named.pop() if len(named) == 1 else None
+    """Return the coordinate of a load's tables, if they have one: it need not be said twice."""
+    values = [getattr(load, name, None) for name in ("force", "torque")]
+    listed = [
+        part for value in values for part in (value if isinstance(value, tuple | list) else [value])
+    ]
+    named = sorted({value.over for value in listed if isinstance(value, Table) and value.over})
+    if len(named) > 1:
+        kind, tables = type(load).__name__, " and ".join(map(repr, named))
+        message = f"{kind}: its tables are over {tables}: say which of them while_ is of, over="
+        raise InputError(message)
+    return named[0] if named else None

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from assur._arrays import as_number, counted, short
+from assur._arrays import as_number, counted, real_number, short
 from assur._callers import level_of_caller
 from assur._summary import summary
 from assur._validate import checked_name, real_array
@@ -111,7 +111,7 @@ def _angle(mechanism: MechanismModel, name: str, value: Any, deg: Any) -> Float:
     if name not in mechanism.links:
         message = f"find({name!r}): deg is for the angle of a link; {name!r} is measured in m"
         raise InputError(message)
-    return real_array(deg, "deg") * (np.pi / 180.0)
+    return np.asarray(real_number(deg, "deg") * (np.pi / 180.0))
 
 
 def _is_same(answer: InverseSolution, known: InverseSolution) -> bool:

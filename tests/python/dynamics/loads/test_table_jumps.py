@@ -191,6 +191,18 @@ def test_positions_beside_a_jump_do_no_harm(beside: float) -> None:
     assert duty.energy == pytest.approx(1000.0, rel=1e-7)
 
 
+def test_several_paths_of_one_design_are_cut_each() -> None:
+    """The second has no jump, and is as it would be alone."""
+    machine = loaded(Torque("crank", STEP))
+    paths = np.stack([np.linspace(0.0, 2.0, 41), np.linspace(1.2, 1.9, 41)])
+    whole = machine.duty(paths, 3.0)
+    for row, path in enumerate(paths):
+        alone = machine.duty(path, 3.0)
+        for name in ("energy", "rms", "mean", "work_in", "work_out", "time"):
+            assert np.asarray(getattr(whole, name))[row] == getattr(alone, name), name
+        assert np.asarray(whole.max.value)[row] == alone.max.value
+
+
 def test_a_duty_across_the_reversal_of_friction() -> None:
     """A guide's friction jumps at the dead centres.
 
