@@ -35,10 +35,8 @@ def check_way(load: Any) -> None:
 
 def _of_tables(load: Any) -> str | None:
     """Return the coordinate of a load's tables, if they have one: it need not be said twice."""
-    values = [getattr(load, name, None) for name in ("force", "torque")]
-    listed = [
-        part for value in values for part in (value if isinstance(value, tuple | list) else [value])
-    ]
+    force, torque = (getattr(load, name, None) for name in ("force", "torque"))
+    listed = [*force, torque] if isinstance(force, tuple | list) else [torque]
     named = sorted({value.over for value in listed if isinstance(value, Table) and value.over})
     if len(named) > 1:
         kind, tables = type(load).__name__, " and ".join(map(repr, named))
