@@ -116,7 +116,11 @@ def _run(words: list[str]) -> int:
         if any(word == "--" or (word[:2] == "--" and word.endswith("=--")) for word in words):
             # argparse drops it, also where it is a value.
             parser.error("-- is not understood; a file's name can be written ./-name")
-        arguments = parser.parse_args(_joined(words))
+        arguments, others = parser.parse_known_args(_joined(words))
+        if others:
+            is_file = hasattr(arguments, "out") and not others[0].startswith("-")
+            hint = f": to write a file, --out {others[0]}" if is_file else ""
+            arguments.parser.error(f"unrecognized arguments: {' '.join(others)}{hint}")
         return int(arguments.run(arguments) or OK)
     except SystemExit as end:  # argparse's, after help and errors
         return int(end.code or OK)

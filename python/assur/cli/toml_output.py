@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 def add_toml(parser: argparse.ArgumentParser) -> None:
-    """Add ``--force``."""
+    """Add ``--out`` and ``--force``."""
+    parser.add_argument(
+        "--out", metavar="TOML", default="-", help="the file; the standard output by default"
+    )
     parser.add_argument("--force", action="store_true", help="replace a file that exists")
 
 

@@ -251,8 +251,9 @@ def dataset(motion: MotionModel, options: Options) -> xr.Dataset:
     coordinates: dict[str, Any] = {
         "q": ([*q_rows, *(["driver"] if drivers > 1 else [])], q, {"units": ", ".join(units)}),
         "status": (rows, motion.status),
-        "component": ("component", ["x", "y"]),
     }
+    if any("component" in axes for axes, _, _ in named.values()):
+        coordinates["component"] = ("component", ["x", "y"])
     if motion.kept is not None and designs:
         coordinates["design"] = ("design", motion.kept)
     for name, values in differing_dimensions(motion.mechanism).items():

@@ -212,7 +212,7 @@ def test_every_example_is_written_and_loads(name: str, tmp_path: Path) -> None:
     own = made if isinstance(made, assur.Mechanism) else made.mechanism
     assert contents.mechanism == own
     assert (contents.machine is None) == isinstance(made, assur.Mechanism)
-    text = assur_command("convert", path, "-")
+    text = assur_command("convert", path)
     assert text.out == path.read_text("utf-8") == assur_command("examples", name).out
     first, last = (np.atleast_1d(end).tolist() for end in assur.examples.RANGES[name])
     wanted = contents.wanted["solve"]
@@ -232,11 +232,11 @@ def test_conversions(tmp_path: Path) -> None:
     sketch = "ground crank R 0 0 0 ffft|crank rod R 0 100|rod block R 300 0|ground block P 300 0 0"
     source, target = tmp_path / "engine.pmks", tmp_path / "engine.toml"
     source.write_text(sketch)
-    done = assur_command("convert", source, target, "--scale", "1mm")
+    done = assur_command("convert", source, "--out", target, "--scale", "1mm")
     read = assur.importers.read(sketch, scale=0.001)
     assert done == (0, "", "".join(f"assur: note: {sentence}\n" for sentence in read.omitted))
     assert assur.load(target) == read.mechanism
-    words = "convert", PRESS, tmp_path / "press.toml", "--set", "rod.length=45cm"
+    words = "convert", PRESS, "--out", tmp_path / "press.toml", "--set", "rod.length=45cm"
     assert assur_command(*words) == (0, "", "")
     machine = assur.load(tmp_path / "press.toml")
     assert isinstance(machine, assur.Machine)
@@ -250,10 +250,10 @@ def test_conversions(tmp_path: Path) -> None:
     )
     source.with_suffix(".pyslvs").write_text(expression)
     drawn = source.with_suffix(".pyslvs")
-    assert assur_command("convert", drawn, target, "--force", "--drivers", "0-1").code == 0
+    assert assur_command("convert", drawn, "--out", target, "--force", "--drivers", "0-1").code == 0
     own = assur.importers.read(expression, drivers=[(0, 1)]).mechanism
     assert assur.load(target) == own
-    assert "format is 'x': one of 'pmks'" in refused("convert", source, "-", "--format", "x")
+    assert "format is 'x': one of 'pmks'" in refused("convert", source, "--format", "x")
 
 
 def test_extremes(tmp_path: Path) -> None:
@@ -272,7 +272,8 @@ def test_extremes(tmp_path: Path) -> None:
     assert printed("extremes", "example:engine", "bore", "--order", 1, "--out", path)
     speed = assur.examples.engine().extremes("bore", order=1)
     assert columns(path.read_text())["value"].tolist() == [speed.min.value, speed.max.value]
-    assert 'there is no link "bor"' in refused("extremes", "example:engine", "bor")
+    misspelt = refused("extremes", "example:engine", "bor")
+    assert 'there is no coordinate "bor"; did you mean "bore"' in misspelt
 
 
 def test_extremes_of_a_link_that_only_slides(tmp_path: Path) -> None:

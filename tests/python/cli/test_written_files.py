@@ -121,7 +121,10 @@ def test_a_device_is_written_to(tmp_path: Path) -> None:
 
 def test_descriptions_are_replaced_only_by_force(tmp_path: Path) -> None:
     path = tmp_path / "engine.toml"
-    for words in (("convert", "example:engine", path), ("examples", "engine", "--out", path)):
+    for words in (
+        ("convert", "example:engine", "--out", path),
+        ("examples", "engine", "--out", path),
+    ):
         path.unlink(missing_ok=True)
         assert assur_command(*words) == (0, "", "")
         path.write_text("my own comment")
@@ -131,6 +134,14 @@ def test_descriptions_are_replaced_only_by_force(tmp_path: Path) -> None:
         assert assur.load(path) == assur.examples.engine()
         for target, said in (("a.txt", "ends with .toml"), ("missing/a.toml", "No such file")):
             assert said in refused(*words[:-1], tmp_path / target)
-    assert "is the file that is read" in refused("convert", path, path, "--force")
+    assert "is the file that is read" in refused("convert", path, "--out", path, "--force")
     assert assur.load(path) == assur.examples.engine()
     assert sorted(each.name for each in tmp_path.iterdir()) == ["engine.toml"]
+
+
+def test_files_to_write_are_named_by_out() -> None:
+    for command in ("plot", "convert", "solve"):
+        said = refused(command, "example:engine", "x.toml", code=2)
+        assert "to write a file, --out x.toml" in said
+        assert f"assur {command} --help" in said
+    assert "--out" not in refused("studio", "example:engine", "x", code=2)

@@ -167,6 +167,11 @@ def test_xarray_has_named_dimensions() -> None:
     assert isinstance(m.solve(1.0).to_xarray(), xr.Dataset)
 
 
+def test_xarray_of_numbers_alone_has_no_components() -> None:
+    slide = assur.examples.engine().solve([0.0, 1.0], outputs=["bore"]).to_xarray()
+    assert dict(slide.sizes) == {"position": 2}
+
+
 def test_xarray_of_two_drivers() -> None:
     joints = {"A": (0, 0), "B": (0, 1), "P": (0.7, 1.2), "D": (1.4, 0.6), "E": (1, 0)}
     links = {"ground": "AE", "left": "AB", "rod": "BP", "arm": "DP", "right": "ED"}

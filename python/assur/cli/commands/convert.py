@@ -20,16 +20,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser,
         "Write what FILE holds as a TOML file (docs/reference/files.md). What does not carry over\n"
         "from another program is said on the standard error.",
-        "assur convert example:watt_1 watt.toml",
-        "assur convert example:engine --set rod.length=220mm long.toml",
+        "assur convert example:watt_1 --out watt.toml",
+        "assur convert example:engine --set rod.length=220mm --out long.toml",
     )
     add_source(parser)
-    parser.add_argument("target", metavar="TOML", help="the file, or - for the standard output")
     add_toml(parser)
 
 
 def run(arguments: argparse.Namespace) -> None:
     """Run the command."""
-    refuse_same(arguments.target, arguments.file)
-    check_toml(arguments.target, arguments.force)
-    write_toml(read(arguments), arguments.target)
+    refuse_same(arguments.out, arguments.file)
+    check_toml(arguments.out, arguments.force)
+    write_toml(read(arguments), arguments.out)

@@ -22,9 +22,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "assur examples jansen_leg --out jansen_leg.toml",
     )
     parser.add_argument("name", metavar="NAME", nargs="?", help="an example; all are listed")
-    parser.add_argument(
-        "--out", metavar="TOML", default="-", help="the file; the standard output by default"
-    )
     add_toml(parser)
 
 

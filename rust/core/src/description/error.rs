@@ -440,6 +440,9 @@ pub enum SolveError {
         if *is_joint { " is a joint" } else { "" }
     )]
     NoAxis { name: String, joint: String, is_joint: bool },
+    /// No slide, link or component of a joint has this name.
+    #[error("there is no coordinate {name:?}")]
+    NoCoordinate { name: String, hint: Option<String> },
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),
@@ -454,7 +457,7 @@ pub enum SolveError {
 impl Hint for SolveError {
     fn hint(&self) -> Option<String> {
         match self {
-            Self::Unknown { hint, .. } => hint.clone(),
+            Self::Unknown { hint, .. } | Self::NoCoordinate { hint, .. } => hint.clone(),
             Self::TooManyAssemblies { .. } => {
                 Some("for another assembly draw the mechanism that way".into())
             }

@@ -1,6 +1,7 @@
 //! The coordinates that can have extremes, and the extremes.
 
 use crate::description::error::SolveError;
+use crate::description::names::suggest;
 use crate::plan::mechanism::Mechanism;
 
 /// A coordinate of the motion.
@@ -19,7 +20,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`SolveError::NoAxis`] and [`SolveError::Unknown`], with similar names.
+    /// [`SolveError::NoAxis`], and [`SolveError::Unknown`] and [`SolveError::NoCoordinate`] with similar names.
     pub fn coordinate(&self, name: &str) -> Result<Tracked, SolveError> {
         let no_axis = |joint: &str| {
             let is_joint = joint == name;
@@ -33,11 +34,27 @@ impl Mechanism {
             };
             return Ok(Tracked::Joint(self.joint(joint)?, component));
         }
-        if self.linkage().joints.iter().any(|joint| joint.name == name) {
+        let (joints, links) = (&self.linkage().joints, &self.linkage().links);
+        let slides = &self.linkage().slides;
+        if joints.iter().any(|joint| joint.name == name) {
             return Err(no_axis(name));
         }
-        let slide = self.linkage().slides.iter().position(|slide| slide.name == name);
-        slide.map_or_else(|| self.link(name).map(Tracked::Link), |slide| Ok(Tracked::Slide(slide)))
+        if let Some(slide) = slides.iter().position(|slide| slide.name == name) {
+            return Ok(Tracked::Slide(slide));
+        }
+        if let Some(link) = links.iter().position(|link| link.name == name) {
+            return Ok(Tracked::Link(link));
+        }
+        let of_joints =
+            joints.iter().flat_map(|joint| ["x", "y"].map(|axis| format!("{}.{axis}", joint.name)));
+        let names: Vec<String> = slides
+            .iter()
+            .map(|slide| slide.name.clone())
+            .chain(links.iter().map(|link| link.name.clone()))
+            .chain(of_joints)
+            .collect();
+        let hint = suggest(name, names.iter().map(String::as_str));
+        Err(SolveError::NoCoordinate { name: name.into(), hint })
     }
 }
 
