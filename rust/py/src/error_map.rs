@@ -46,6 +46,7 @@ fn named(kind: Named, name: &str) -> Fields<'_> {
         Named::Link => Fields { link: Some(name), ..Fields::default() },
         Named::Slide => Fields { slide: Some(name), ..Fields::default() },
         Named::Dimension => Fields { dimension: Some(name), ..Fields::default() },
+        Named::Coordinate => Fields { names: vec![name], ..Fields::default() },
     }
 }
 

@@ -20,6 +20,8 @@ pub enum Named {
     Slide,
     /// A dimension such as `coupler.length`.
     Dimension,
+    /// A coordinate such as `B.x`, `rocker` or `bore`.
+    Coordinate,
     /// A dyad, named by its inner joint or slide.
     Dyad,
 }
@@ -169,6 +171,7 @@ impl std::fmt::Display for Named {
             Self::Link => "link",
             Self::Slide => "slide",
             Self::Dimension => "dimension",
+            Self::Coordinate => "coordinate",
             Self::Dyad => "dyad",
         })
     }
@@ -440,9 +443,6 @@ pub enum SolveError {
         if *is_joint { " is a joint" } else { "" }
     )]
     NoAxis { name: String, joint: String, is_joint: bool },
-    /// No slide, link or component of a joint has this name.
-    #[error("there is no coordinate {name:?}")]
-    NoCoordinate { name: String, hint: Option<String> },
     /// Array shapes do not match.
     #[error("{0}")]
     Shape(String),
@@ -457,7 +457,7 @@ pub enum SolveError {
 impl Hint for SolveError {
     fn hint(&self) -> Option<String> {
         match self {
-            Self::Unknown { hint, .. } | Self::NoCoordinate { hint, .. } => hint.clone(),
+            Self::Unknown { hint, .. } => hint.clone(),
             Self::TooManyAssemblies { .. } => {
                 Some("for another assembly draw the mechanism that way".into())
             }

@@ -1,6 +1,6 @@
 //! The coordinates that can have extremes, and the extremes.
 
-use crate::description::error::SolveError;
+use crate::description::error::{Named, SolveError};
 use crate::description::names::suggest;
 use crate::plan::mechanism::Mechanism;
 
@@ -20,7 +20,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`SolveError::NoAxis`], and [`SolveError::Unknown`] and [`SolveError::NoCoordinate`] with similar names.
+    /// [`SolveError::NoAxis`] and [`SolveError::Unknown`], with similar names.
     pub fn coordinate(&self, name: &str) -> Result<Tracked, SolveError> {
         let no_axis = |joint: &str| {
             let is_joint = joint == name;
@@ -54,7 +54,7 @@ impl Mechanism {
             .chain(of_joints)
             .collect();
         let hint = suggest(name, names.iter().map(String::as_str));
-        Err(SolveError::NoCoordinate { name: name.into(), hint })
+        Err(SolveError::Unknown { kind: Named::Coordinate, name: name.into(), hint })
     }
 }
 
