@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from assur._arrays import flag, short
+from assur._other_names import other_names
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -168,6 +169,7 @@ def _cell(value: Any) -> Any:
     return value if isinstance(value, int | float | str | bool | None) else short(value)
 
 
+@other_names(to_csv="to_dataframe().to_csv(path)")
 class Tabular:
     """What can be shown as a table: `_columns` returns its columns."""
 

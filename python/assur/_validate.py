@@ -156,7 +156,7 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
         raise InputError(message)
     for i, size in zip(entries, shape, strict=True):
         if not -size <= i < size:
-            message = f"{what} {index!r} is outside the shape {shape}"
+            message = f"{what} {index!r}: an index is needed, and it is outside the shape {shape}"
             raise InputError(message)
     return tuple(i % size for i, size in zip(entries, shape, strict=True))
 

@@ -22,6 +22,7 @@ import numpy as np
 from assur._arrays import Float, real_array, require_finite, short
 from assur._by_value import ByValue
 from assur._core import spline_pieces
+from assur._other_names import refuse_attribute
 from assur._splines import SPLINES, Spline
 from assur._summary import typed
 from assur._trig import sin_cos
@@ -549,3 +550,13 @@ class Sequence(Law):
             for earlier, later in zip(derivatives, law.at(times), strict=True):
                 earlier[here] = later[here]
         return derivatives[0], derivatives[1], derivatives[2], derivatives[3]
+
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name):
+        other = {"Dwell": "laws.Sequence rests between its laws", "Rest": "laws.Sequence rests"}
+        refuse_attribute(None, "'assur.laws'", name, other)
+
+    def __dir__():
+        return sorted(__all__)

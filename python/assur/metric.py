@@ -88,6 +88,9 @@ def _checked_part(over: Any) -> Part:
 def span(of: str, *, order: int = 0, over: Part = None) -> Metric:
     """The greatest value of a coordinate less the least.
 
+    That of a link that turns fully is about a turn, not a swing: ``where=[metric.span("rocker") <
+    np.pi]`` keeps the rockers.
+
     Parameters
     ----------
     of : str
@@ -609,6 +612,7 @@ def function(
 
 if not TYPE_CHECKING:
     _OTHER_NAMES = {
+        "value": "sweep(m, dimensions, q, outputs=[name]) has the values themselves",
         "stroke": "it is metric.span",
         "swing": "it is metric.span",
         "range": "it is metric.span",
@@ -624,3 +628,6 @@ if not TYPE_CHECKING:
 
     def __getattr__(name):
         refuse_attribute(None, "'assur.metric'", name, _OTHER_NAMES)
+
+    def __dir__():
+        return sorted(__all__)

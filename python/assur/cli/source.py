@@ -70,6 +70,10 @@ def _bytes(word: str) -> bytes:
             return file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as error:
         message = f"{word}: cannot be read: {getattr(error, 'strerror', None) or error}"
+        from assur.examples import ALL
+
+        if word in ALL:
+            message = f"{message}; the example is {EXAMPLE}{word}"
         raise InputError(message) from error
 
 

@@ -46,6 +46,7 @@ Method: TypeAlias = Literal["DOP853", "RK45"]
 
 
 @other_names(
+    plot="mechanism.plot(q), reactions(q, speed).plot(), run(t_end).plot()",
     mass_matrix="reduced_inertia(q), with .value and .d1",
     inverse_dynamics="effort(q, speed, acceleration), or reactions for all forces",
     forward_dynamics="run(t_end, q0, speed0)",
@@ -541,7 +542,9 @@ class Machine(MachineModel):
         The effort between positions is the cubic through the four nearest; so are its square over
         the speed, for the rms, and 1/speed, for the time. Means are over time. With steps h an
         extreme is off by up to ``h⁴ |f⁗|/42`` (in the first and last step of an open range
-        ``h⁴ |f⁗|/24``), and by up to ``h |f′|`` where loads are not smooth. If the positions cover
+        ``h⁴ |f⁗|/24``), and by up to ``h |f′|`` where loads of a batch are not smooth. Where
+        loads jump and friction reverses, the path of one design is cut: its numbers go from jump to
+        jump, whatever the positions. If the positions cover
         whole turns and the effort ends as it began, the cubics go on across the ends; with even
         steps the energy is then that of the trapezoidal rule, which for smooth periodic functions
         converges faster than any power of h (L. N. Trefethen and J. A. C. Weideman, SIAM Review 56

@@ -65,10 +65,18 @@ class Extremes:
 
     def __repr__(self) -> str:
         if self.min.value == self.max.value:
-            return f"<assur.Extremes {self.min.value:.6g} everywhere>"
+            return f"<assur.Extremes {self.min.value:.6g} everywhere{self._slides()}>"
         ends = (f"{end.value:.6g} at q = {end.q:.6g}" for end in (self.min, self.max))
         ratio = "" if self.time_ratio is None else f", time ratio {self.time_ratio:.6g}"
         return f"<assur.Extremes {' … '.join(ends)}{ratio}>"
+
+    def _slides(self) -> str:
+        """Name the slides of a link that does not turn."""
+        mechanism, _, name, order, _ = self._of
+        if order or name not in mechanism.links:
+            return ""
+        names = [key for key, slide in mechanism.slides.items() if slide.link == name]
+        return f"; it slides along {' and '.join(map(repr, names))}" if names else ""
 
     @property
     def stroke(self) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._later import explorer, save
-from assur._other_names import other_names, renamed_rates
+from assur._other_names import other_names, renamed, renamed_rates
 from assur._validate import checked_index, checked_signs, real_array
 from assur.description import encode
 from assur.description.words import Cylinder
@@ -82,6 +82,19 @@ __all__ = ["Mechanism"]
     link="solve(q).link(name)",
     slide="solve(q).slide(name)",
     animate="solve(q).animate(path), or to_html(path)",
+    velocity="solve(q).joint(name).velocity(speed)",
+    acceleration="solve(q).joint(name).acceleration(speed)",
+    path="solve(q).joint(name).value, drawn by solve(q).plot(name)",
+    coupler_curve="solve(q).joint(name).value, drawn by solve(q).plot(name)",
+    polygon="solve(q).polygon(what, at=…)",
+    velocity_polygon='solve(q).polygon("velocity", at=…)',
+    is_grashof="grashof",
+    toggle_positions="limits().dead_points are the driver's, extremes(name) a link's",
+    inflection_circle="assur.pictures.inflection_circle(motion, link)",
+    instant_centre="solve(q).instant_centre(link)",
+    instant_center="solve(q).instant_centre(link)",
+    inversions="with_driver(link); for another ground describe the links anew",
+    cognates="there is no call yet",
 )
 class Mechanism(MechanismModel):
     """A planar linkage with its drivers, or a batch of designs of one.
@@ -975,6 +988,7 @@ class Mechanism(MechanismModel):
 
         return mechanism_picture(self, q, ax, assembly, labels, groups, dark)
 
+    @renamed(paths="joint")
     @renamed_rates
     def to_html(
         self,
@@ -982,7 +996,7 @@ class Mechanism(MechanismModel):
         *,
         q: npt.ArrayLike | None = None,
         speed: float | None = None,
-        paths: Sequence[str] | None = None,
+        joint: str | Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
         dark: bool | None = None,
@@ -1004,7 +1018,7 @@ class Mechanism(MechanismModel):
             their order, as by `Motion.to_html`.
         speed : float, optional
             Speed of the driver, rad/s or m/s: for arrows, diagrams and the clock.
-        paths : sequence of str, optional
+        joint : str or sequence of str, optional
             Joints whose paths and vectors are shown at first.
         diagrams : sequence of str, optional
             Up to three, by the names of `Motion.to_dataframe`: ``"rocker"``, ``"rocker.omega"``,
@@ -1037,7 +1051,7 @@ class Mechanism(MechanismModel):
         from assur.pictures.page.html import write_page
 
         write_page(
-            self, path, q=q, speed=speed, paths=paths, diagrams=diagrams, title=title, dark=dark
+            self, path, q=q, speed=speed, joint=joint, diagrams=diagrams, title=title, dark=dark
         )
 
     def explore(self, *, height: int = 640) -> Explorer:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from assur import _core
 from assur._arrays import flag, short
-from assur._other_names import other_names, renamed_rates
+from assur._other_names import other_names, renamed, renamed_rates
 from assur._validate import (
     checked_index,
     checked_name,
@@ -51,6 +51,12 @@ __all__ = ["Motion"]
     extremes="mechanism.extremes(name), of all positions",
     to_csv="to_dataframe().to_csv(path)",
     save="to_excel, to_parquet; to_dataframe().to_csv(path)",
+    instant_center="instant_centre(link)",
+    curvature_radius="1 / curvature(joint)",
+    radius_of_curvature="1 / curvature(joint)",
+    velocity_polygon='polygon("velocity", at=…)',
+    acceleration_polygon='polygon("acceleration", at=…)',
+    inflection_circle="assur.pictures.inflection_circle(motion, link)",
 )
 class Motion(MotionModel):
     """Positions and analogues of a mechanism; made by `Mechanism.solve`.
@@ -217,6 +223,11 @@ class Motion(MotionModel):
         ndarray
             S + (N,); without unit for a link, 1/m for a slide.
 
+        Raises
+        ------
+        InputError
+            A link that only slides: its slide has the force.
+
         Examples
         --------
         With the crank at a right angle to the bore 1 N·m presses with 10 N:
@@ -229,6 +240,12 @@ class Motion(MotionModel):
         require_one_driver(self.driver_count, "mechanical_advantage")
         is_slide = checked_name(name, "mechanical_advantage") in self.request.mechanism.slides
         output = self.slide(name) if is_slide else self.link(name)
+        if not is_slide and not any(map(np.any, output.arrays[1:])):
+            every = self.request.mechanism.slides.items()
+            slides = [key for key, slide in every if slide.link == name]
+            if slides:
+                message = f"link {name!r} does not turn: it gives its force along {slides[0]!r}"
+                raise InputError(message, link=name)
         with np.errstate(divide="ignore"):
             ratio: Float = 1.0 / output.d1
         return ratio
@@ -730,6 +747,7 @@ class Motion(MotionModel):
 
         animate(self, path, joint, frames, seconds, groups, dark)
 
+    @renamed(paths="joint")
     @renamed_rates
     def to_html(
         self,
@@ -737,7 +755,7 @@ class Motion(MotionModel):
         *,
         speed: float | None = None,
         duration: float | None = None,
-        paths: Sequence[str] | None = None,
+        joint: str | Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
         dark: bool | None = None,
@@ -755,7 +773,7 @@ class Motion(MotionModel):
             Speed along the coordinate, rad/s or m/s.
         duration : float, optional
             Duration of all positions, s: they are then played along time; 4 s for several drivers.
-        paths, diagrams, title, dark
+        joint, diagrams, title, dark
             As for `Mechanism.to_html`.
 
         Raises
@@ -772,7 +790,7 @@ class Motion(MotionModel):
         >>> motion = assur.examples.excavator().solve(low + parts * (high - low))
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     page = pathlib.Path(folder, "dig.html")
-        ...     motion.to_html(page, duration=8.0, paths=["tip"])
+        ...     motion.to_html(page, duration=8.0, joint="tip")
         ...     page.read_text(encoding="utf-8")[:15]
         '<!doctype html>'
         """
@@ -783,7 +801,7 @@ class Motion(MotionModel):
             path,
             speed=speed,
             duration=duration,
-            paths=paths,
+            joint=joint,
             diagrams=diagrams,
             title=title,
             dark=dark,

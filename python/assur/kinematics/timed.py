@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from assur._arrays import flag, real_array, short
+from assur._other_names import renamed
 from assur._summary import FORMULA, shortened
 from assur._table import Column, Tabular
 from assur._validate import one_of
@@ -257,8 +258,8 @@ class TimedMotion(Tabular):
     def diagram(
         self,
         name: str | Sequence[str],
-        ax: AxesLike | None = ...,
         *,
+        ax: AxesLike | None = ...,
         orders: int,
         degrees: bool = ...,
         dark: bool = ...,
@@ -267,8 +268,8 @@ class TimedMotion(Tabular):
     def diagram(
         self,
         name: str | Sequence[str],
-        ax: AxesLike | None = ...,
         *,
+        ax: AxesLike | None = ...,
         orders: Sequence[int] | None = ...,
         degrees: bool = ...,
         dark: bool = ...,
@@ -276,8 +277,8 @@ class TimedMotion(Tabular):
     def diagram(
         self,
         name: str | Sequence[str],
-        ax: AxesLike | None = None,
         *,
+        ax: AxesLike | None = None,
         orders: int | Sequence[int] | None = None,
         degrees: bool = False,
         dark: bool = False,
@@ -325,10 +326,12 @@ class TimedMotion(Tabular):
         first, *rest = motion_columns(self.motion, options)
         return [Column("t", self.t, "s", None), first, *rest]
 
+    @renamed(paths="joint")
     def to_html(
         self,
         path: str | PathLike[str],
-        paths: Sequence[str] | None = None,
+        *,
+        joint: str | Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
         dark: bool | None = None,
@@ -339,7 +342,7 @@ class TimedMotion(Tabular):
         ----------
         path : path-like
             The file; one that exists is replaced.
-        paths, diagrams, title, dark
+        joint, diagrams, title, dark
             As for `Mechanism.to_html`.
 
         Raises
@@ -362,7 +365,7 @@ class TimedMotion(Tabular):
         from assur.pictures.page.turn_in_time import turn_of_timed
 
         turn = turn_of_timed(self)
-        write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
+        write_page(turn, path, joint=joint, diagrams=diagrams, title=title, dark=dark)
 
     def _repr_html_(self) -> str | None:
         """Return what a notebook shows; None for what cannot be played."""

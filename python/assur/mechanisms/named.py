@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from assur import _core
 from assur._arrays import finite_array, real_array, short
+from assur._callers import level_of_caller
 from assur._other_names import renamed
 from assur._trig import sin_cos
 from assur._validate import one_of
+from assur.description.encode import LIKE_DEGREES
 from assur.description.words import Slide
-from assur.errors import DimensionError, InputError
+from assur.errors import AssurWarning, DimensionError, InputError
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.model import at_place, copy_from
 
@@ -53,7 +56,13 @@ class FourBar(Mechanism):
 
     __slots__ = ()
 
-    @renamed(tilt="ground_angle", inclination="ground_angle", base="ground", frame="ground")
+    @renamed(
+        tilt="ground_angle",
+        inclination="ground_angle",
+        base="ground",
+        frame="ground",
+        coupler_point="point",
+    )
     def __init__(
         self,
         crank: npt.ArrayLike,
@@ -79,6 +88,10 @@ class FourBar(Mechanism):
         }
         angle = finite_array(ground_angle, "ground_angle")
         if angle.any():
+            greatest = float(np.abs(angle).max())
+            if greatest > LIKE_DEGREES:
+                message = f"ground_angle is {greatest:g} rad: is it in degrees? np.radians()"
+                warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
             sine, cosine = sin_cos(angle)
             try:
                 np.broadcast_shapes(length.shape, angle.shape)

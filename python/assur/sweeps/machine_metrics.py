@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -13,8 +14,9 @@ from assur._validate import checked_name, one_of, real_number
 from assur.dynamics.forces.kinetostatics import reaction_squares, reactions
 from assur.dynamics.forces.reaction_key import Key
 from assur.dynamics.forces.reactions import key_of_joint
+from assur.dynamics.loads.load_coordinate import jump_over
 from assur.dynamics.motion.motion_input import motion_of
-from assur.errors import AssurError, InputError
+from assur.errors import AssurError, AssurWarning, InputError
 from assur.kinematics.model import with_values
 from assur.sweeps.terms import OfMachine
 
@@ -34,6 +36,7 @@ __all__ = [
     "peak_reaction",
     "rms_effort",
     "rms_reaction",
+    "warn_of_jumps",
 ]
 
 Measure = Literal["peak", "rms"]
@@ -84,6 +87,17 @@ class Driven(ByValue, OfMachine):
             at = np.ravel(q)[int(np.argmax(solved.locked))]
             return f"friction locks the machine at q = {at:.9g}"
         return "redundant links leave it undetermined"
+
+
+def warn_of_jumps(metrics: Sequence[Any], machine: Machine) -> None:
+    """Warn if loads may jump: forces and efforts are those of the positions; `sweep` calls it."""
+    driven = next((metric for metric in metrics if isinstance(metric, Driven)), None)
+    if driven is not None and (any(machine.core.jumps) or jump_over(machine.loads)):
+        message = (
+            f"{driven!r} is over the positions alone, and loads may jump between them: take "
+            "positions close to the jumps, or see machine.duty of one design"
+        )
+        warnings.warn(message, AssurWarning, stacklevel=3)
 
 
 def together(
@@ -238,7 +252,7 @@ def peak_reaction(
     speed: npt.ArrayLike = 0.0,
     acceleration: npt.ArrayLike = 0.0,
 ) -> Metric:
-    """The greatest force in a joint, N.
+    """The greatest force in a joint over the positions, N.
 
     Parameters
     ----------
@@ -310,9 +324,10 @@ def rms_reaction(
 
 
 def peak_effort(*, speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
-    """The greatest size of the torque or force of the drive, N·m or N.
+    """The greatest size of the torque or force of the drive, N·m or N, over the positions.
 
-    With several drivers it is the greatest of all, regardless of their units.
+    With several drivers it is the greatest of all, regardless of their units. Where a load jumps,
+    a greater one may be between two positions: `Machine.duty` of one design finds it.
 
     Parameters
     ----------
@@ -338,7 +353,7 @@ def peak_effort(*, speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0
 
 
 def rms_effort(*, speed: npt.ArrayLike = 0.0, acceleration: npt.ArrayLike = 0.0) -> Metric:
-    """The root of the mean square of the torque or force of the drive, N·m or N.
+    """The root of the mean square of the torque or force of the drive over the positions, N·m or N.
 
     See `peak_effort`.
 

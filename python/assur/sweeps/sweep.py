@@ -13,6 +13,7 @@ from assur.kinematics.solve_arguments import q_or_deg
 from assur.sweeps.degrees import warn_of_degrees
 from assur.sweeps.designs import Designs
 from assur.sweeps.engine import checked_engine
+from assur.sweeps.machine_metrics import warn_of_jumps
 from assur.sweeps.measuring import Measuring
 from assur.sweeps.motions import Course, Solving, in_blocks, moving
 from assur.sweeps.progress import reporter, silent
@@ -196,6 +197,8 @@ def sweep(
         raise InputError(message)
     measuring = Measuring(designs.mechanism, machine, q, metrics, where, threads)
     warn_of_degrees(designs.mechanism, measuring.q, measuring)
+    if machine is not None:
+        warn_of_jumps(measuring.functions, machine)
     with reporter(progress, designs.count) as report:
         return measuring.run(designs, report, engine)
 

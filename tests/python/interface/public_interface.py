@@ -7,7 +7,9 @@ table anew.
 from __future__ import annotations
 
 import enum
+import importlib
 import inspect
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,20 +20,38 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 TABLE = Path(__file__).with_name("interface.txt")
+# The manual's index names what the package exports, and the classes of results.
+INDEX = Path(__file__).parents[3] / "docs" / "reference" / "api"
 
 
 def callables() -> dict[str, inspect.Signature]:
     """Every public function, class and method by the name that a user types."""
     found: dict[str, inspect.Signature] = {}
     for name in sorted(assur.__all__):
-        found.update(_of(name, getattr(assur, name), set()))
+        found.update(_of(name, getattr(assur, name)))
+    for name in _results():
+        if name not in found:
+            module, _, own = f"assur.{name}".rpartition(".")
+            of_result = dict(_of(name, getattr(importlib.import_module(module), own)))
+            # Users do not make results.
+            del of_result[name]
+            found.update(of_result)
     return dict(sorted(found.items()))
 
 
-def _of(name: str, what: Any, seen: set[Any]) -> Iterator[tuple[str, inspect.Signature]]:
+def _results() -> list[str]:
+    """Names with a module, which the index has and ``assur.__all__`` has not."""
+    pages = [page.read_text(encoding="utf-8") for page in sorted(INDEX.glob("*.rst"))]
+    named = [name for page in pages for name in re.findall(r"^   ([\w.]+)$", page, re.MULTILINE)]
+    # A widget has the methods of its library.
+    known = {*assur.__all__, "studio"}
+    return [name for name in named if name.partition(".")[0] not in known]
+
+
+def _of(name: str, what: Any) -> Iterator[tuple[str, inspect.Signature]]:
     if inspect.ismodule(what):
         for part in getattr(what, "__all__", ()):
-            yield from _of(f"{name}.{part}", getattr(what, part), seen)
+            yield from _of(f"{name}.{part}", getattr(what, part))
     elif inspect.isclass(what) and not issubclass(what, enum.Enum):
         if not issubclass(what, Exception):
             yield from _signature(name, what)

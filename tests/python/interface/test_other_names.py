@@ -87,6 +87,7 @@ CALLS = {
     for place in (
         assur,
         assur.crank_rocker,
+        assur.pictures,
         assur.Mechanism,
         assur.Motion,
         assur.Machine,

@@ -75,6 +75,10 @@ READ_IN_PLACE = {
     "SteadyState.at": 1,
     "SteadyState.plot": 1,
     "balance.fit": 2,
+    "dynamics.forces.reactions.Reactions.bearing": 1,
+    "dynamics.forces.reactions.Reactions.joint": 1,
+    "dynamics.forces.reactions.Reactions.joint_moment": 1,
+    "dynamics.forces.reactions.Reactions.plot": 1,
     "crank_rocker.JammingRun.plot": 1,
     "flywheel.Flywheel.explain": 1,
     "flywheel.Flywheel.plot": 1,
@@ -97,7 +101,7 @@ OLD = {"omega", "alpha", "beta", "best", "greatest", "least"}
 # One default everywhere; figures of the papers show degrees, as these do.
 DEFAULTS: dict[str, Any] = {
     "ax": None, "dark": False, "degrees": False, "moving": False, "threads": None, "title": None,
-    "paths": None, "diagrams": None, "between": None, "groups": False, "over": None, "jerk": 0.0,
+    "joint": None, "diagrams": None, "between": None, "groups": False, "over": None, "jerk": 0.0,
     "acceleration": 0.0, "order": 0, "on_error": "raise", "ratio": 1.0, "rotor_inertia": 0.0,
     "outputs": None, "slides": None, "labels": "first",
 }  # fmt: skip
@@ -108,6 +112,7 @@ OTHER_DEFAULTS: dict[tuple[str, str], Any] = {
     ("Mechanism.to_html", "dark"): None,  # as the reader's browser has it
     ("Motion.to_html", "dark"): None,
     ("Run.to_html", "dark"): None,
+    ("kinematics.timed.TimedMotion.to_html", "dark"): None,
     ("pictures.hodograph", "order"): 1,  # of velocities
     ("sweep", "on_error"): "nan",  # of many designs some fail
     ("sweep", "order"): None,  # 2, or what metrics need

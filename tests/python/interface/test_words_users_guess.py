@@ -15,6 +15,7 @@ MACHINE: Any = assur.Machine(PRESS, bodies={"piston": assur.Body(mass=2.0)})
 FOUR_BAR: Any = assur.FourBar(1.0, 3.0, 2.5, 3.2)
 MADE: Any = {
     "tilt": (assur.FourBar, (1.0, 3.0, 2.5, 3.2), "FourBar", "ground_angle"),
+    "coupler_point": (assur.FourBar, (1.0, 3.0, 2.5, 3.2), "FourBar", "point"),
     "eccentricity": (assur.SliderCrank, (0.1, 0.4), "SliderCrank", "offset"),
     "masses": (assur.Machine, (PRESS,), "Machine", "bodies"),
     "omega": (MACHINE.effort, (1.0,), "effort", "speed"),
@@ -107,3 +108,40 @@ def test_degrees_are_asked_about(call: Any) -> None:
 def test_a_bearing_is_printed_in_a_few_lines() -> None:
     found = MACHINE.reactions(np.linspace(0.0, 6.0, 500), 3.0).bearing("A", on="crank")
     assert len(repr(found)) < 400
+
+
+def test_ground_angles_in_degrees_are_asked_about() -> None:
+    with pytest.warns(assur.errors.AssurWarning, match="ground_angle is 20 rad: is it in degrees"):
+        assur.FourBar(1.0, 3.0, 2.5, 3.2, ground_angle=20)
+
+
+def test_a_link_that_only_slides_is_named_by_its_slide() -> None:
+    assert repr(PRESS.extremes("piston")) == "<assur.Extremes 0 everywhere; it slides along 'bore'>"
+    with pytest.raises(assur.InputError, match="does not turn: it gives its force along 'bore'"):
+        PRESS.solve([0.5, 1.0]).mechanical_advantage("piston")
+
+
+def test_names_of_dimensions_are_those_of_the_link() -> None:
+    with pytest.raises(assur.InputError, match=r'no dimension "ground.length"; .*"ground\.D\.x"'):
+        FOUR_BAR.with_dimensions({"ground.length": 3.0})
+
+
+def test_sampled_forces_of_loads_that_jump_are_announced() -> None:
+    """A press of 200 kN over 6 mm: between 70 positions a fifth of the peak is missed."""
+    cut = assur.Table(
+        [0.24, 0.394, 0.394, 0.4],
+        [0.0, 0.0, -2e5, -2e5],
+        spline="linear",
+        over="bore",
+        periodic=False,
+    )
+    crank = assur.SliderCrank(0.08, 0.32)
+    jumps = assur.Force("B", (cut, 0.0), while_="forward", on="piston")
+    steady = assur.Force("B", (-2e5, 0.0), on="piston")
+    q, asked = np.linspace(0.0, 2 * np.pi, 70, endpoint=False), {"T": metric.peak_effort(speed=1.0)}
+    rods = {"rod.length": [0.32, 0.32]}
+    with pytest.warns(assur.errors.AssurWarning, match=r"peak_effort\(\) is over the positions"):
+        few = assur.sweep(assur.Machine(crank, loads=[jumps]), rods, q, metrics=asked)["T"][0]
+    assert few < 0.8 * assur.Machine(crank, loads=[jumps]).duty(q, speed=1.0).max.value
+    # Without jumps nothing is said: warnings are errors here.
+    assur.sweep(assur.Machine(crank, loads=[steady]), rods, q, metrics=asked)

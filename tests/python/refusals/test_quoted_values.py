@@ -105,7 +105,7 @@ NAMES: dict[str, Callable[[], Any]] = {
     "diagram": lambda: four_bar().solve(Q).diagram(X),
     "loads along nothing": lambda: machine().internal_loads(ROD, Q, along=(B, B)),
     "centrodes": lambda: assur.pictures.centrodes(four_bar().solve(Q), CRANK, CRANK),
-    "paths of a page": lambda: four_bar().to_html("m.html", paths=[X]),
+    "joints of a page": lambda: four_bar().to_html("m.html", joint=[X]),
     "diagrams of a page": lambda: four_bar().to_html("m.html", diagrams=[X]),
     "method": lambda: machine().run(1.0, method=X),
 }

@@ -90,7 +90,7 @@ def _write_page(arguments: argparse.Namespace, mechanism: Mechanism, asked: Any,
     if arguments.groups:
         message = "--groups: a page has a switch for them"
         raise InputError(message)
-    shown = {"paths": arguments.joint, "dark": True if arguments.dark else None}
+    shown = {"joint": arguments.joint, "dark": True if arguments.dark else None}
     if arguments.q is None and not isinstance(mechanism.driver, tuple):
         mechanism.to_html(out, **shown)
         return

@@ -158,7 +158,7 @@ class Bearing:
         with in_range("pressure times velocity"):
             return pressure * np.abs(self.relative_speed) * (float(diameter) / 2.0)
 
-    def plot(self, ax: AxesLike | None = None, dark: bool = False) -> Axes | Panels:
+    def plot(self, *, ax: AxesLike | None = None, dark: bool = False) -> Axes | Panels:
         """Draw the polar load diagram: the ends of the forces laid off from one pole.
 
         Once in the ground's frame, once in the frame in which they are given; the greatest force is

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from assur._other_names import other_names
 from assur._summary import summary
 from assur._table import Column, Tabular
 from assur._validate import checked_name
@@ -68,6 +69,12 @@ class SlideReaction(NamedTuple):
         return summary(self)
 
 
+@other_names(
+    pin="joint(name, on=…), bearing(name, on=…)",
+    cylinder="driver, the forces of the drivers",
+    torque="driver",
+    effort="driver",
+)
 class Reactions(Tabular):
     """Forces in the pairs of a machine, by `Machine.reactions`.
 
@@ -441,6 +448,7 @@ class Reactions(Tabular):
     def plot(
         self,
         links: str | Sequence[str] | None = None,
+        *,
         at: int | tuple[int, ...] = (),
         ax: Axes | None = None,
         dark: bool = False,
@@ -487,6 +495,7 @@ class Reactions(Tabular):
     def polygon(
         self,
         links: str | Sequence[str] | Group,
+        *,
         at: int | tuple[int, ...] = (),
         ax: Axes | None = None,
         dark: bool = False,

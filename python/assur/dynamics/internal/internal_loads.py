@@ -136,7 +136,7 @@ class InternalLoads:
         extremes = (part.reshape(self._shape)[()] for part in self._beam.extremes(quantity))
         return LoadExtremes(*extremes)
 
-    def peak(self, quantity: str, of: str = "size") -> Peak:
+    def peak(self, quantity: str, *, of: str = "size") -> Peak:
         """Return the extreme of a quantity over the link and all positions.
 
         Parameters

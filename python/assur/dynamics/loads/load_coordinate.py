@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from assur.kinematics.mechanism import Mechanism
 
-__all__ = ["check_over"]
+__all__ = ["check_over", "jump_over"]
 
 # Shortest period of a table over another coordinate, rad or sizes: all of its rows are found.
 SHORTEST_PERIOD = 1e-3
@@ -38,6 +38,15 @@ def check_over(mechanism: Mechanism, loads: Sequence[Any]) -> None:
                 raise InputError(_message(mechanism, load, name), link=name)
         for table in tables:
             _require_long_period(mechanism, load, table)
+
+
+def jump_over(loads: Sequence[Any]) -> bool:
+    """Whether loads may jump where another coordinate turns back or passes a row of a table."""
+    return any(
+        getattr(load, "while_", None) is not None
+        or any(bool((np.diff(table.q) == 0.0).any()) for table in _tables(load))
+        for load in loads
+    )
 
 
 def _tables(load: Any) -> Iterator[Table]:

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, counted, real_array
+from assur._other_names import renamed
 from assur._summary import listed, summary
 from assur._table import Column, Tabular, coordinate_columns
 from assur._validate import one_of
@@ -477,11 +478,12 @@ class Run(Tabular):
         one_of(what, ("speed", "q", "acceleration", "energy"), "what")
         return run_picture(self, what, ax, dark)
 
+    @renamed(paths="joint")
     def to_html(
         self,
         path: str | PathLike[str],
         *,
-        paths: Sequence[str] | None = None,
+        joint: str | Sequence[str] | None = None,
         diagrams: Sequence[str] | None = None,
         title: str | None = None,
         dark: bool | None = None,
@@ -492,7 +494,7 @@ class Run(Tabular):
         ----------
         path : path-like
             The file; one that exists is replaced.
-        paths, diagrams, title, dark
+        joint, diagrams, title, dark
             As for `Mechanism.to_html`.
 
         Raises
@@ -508,7 +510,7 @@ class Run(Tabular):
         >>> bodies = {"crank": assur.Body(inertia=0.3), "rocker": assur.Body(inertia=2.0)}
         >>> run = assur.Machine(wheel, bodies=bodies).run(t_end=5.0, q0=0.5, speed0=2.0)
         >>> page = pathlib.Path(tempfile.mkdtemp()) / "run.html"
-        >>> run.to_html(page, paths=["C"])
+        >>> run.to_html(page, joint="C")
         >>> page.read_text(encoding="utf-8")[:15]
         '<!doctype html>'
         """
@@ -516,7 +518,7 @@ class Run(Tabular):
         from assur.pictures.page.turn_in_time import turn_of_run
 
         turn = turn_of_run(self)
-        write_page(turn, path, paths=paths, diagrams=diagrams, title=title, dark=dark)
+        write_page(turn, path, joint=joint, diagrams=diagrams, title=title, dark=dark)
 
     def _repr_html_(self) -> str | None:
         """Return what a notebook shows; None for a machine of tables."""

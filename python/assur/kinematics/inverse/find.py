@@ -88,8 +88,10 @@ def find(mechanism: MechanismModel, name: str, value: Any, deg: Any) -> list[Inv
         message = f"value is {short(value)}: with {counted(drivers, 'driver')} {need} is needed"
         raise InputError(message)
     if drivers == 1 and name in mechanism.links and abs(float(target[0])) > 4.0 * np.pi:
-        turns = abs(float(target[0])) / (2.0 * np.pi)
-        message = f"{name} = {target[0]:g} is in rad, {turns:.3g} turns; for degrees: np.radians()"
+        given, turns = f"{target[0]:g}", abs(float(target[0])) / (2.0 * np.pi)
+        message = (
+            f"{name} = {given} is in rad, {turns:.3g} turns; for degrees: deg=… or np.radians()"
+        )
         warnings.warn(message, AssurWarning, stacklevel=level_of_caller())
     inverse, coordinates = _driven_by(mechanism, name, target)
     size = size_of(mechanism)

@@ -403,8 +403,10 @@ def transmission_extremes(
 ) -> tuple[Number, Number]:
     """Return the least and the greatest transmission angle over a turn of the crank, rad.
 
-    In closed form: γ₂₃ is extreme where crank and ground are collinear (φ₁ = 0 and π). NaN in
-    arrays where the crank does not turn fully.
+    It is the acute one, γ = min(γ₂₃, π − γ₂₃). In closed form: the angle γ₂₃ between coupler and
+    rocker is extreme where crank and ground are collinear (φ₁ = 0 and π), and γ is least at one of
+    these; if γ₂₃ passes π/2 between them, the greatest γ is π/2. NaN in arrays where the crank does
+    not turn fully.
 
     Parameters
     ----------

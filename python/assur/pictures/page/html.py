@@ -45,7 +45,7 @@ def write_page(
     q: Any = None,
     speed: Any = None,
     duration: Any = None,
-    paths: Any = None,
+    joint: Any = None,
     diagrams: Any = None,
     title: Any = None,
     dark: Any = None,
@@ -57,7 +57,7 @@ def write_page(
         raise InputError(message)
     if dark is not None:
         dark = flag(dark, "dark")
-    played, data = _contents(of, q, speed, duration, paths, diagrams)
+    played, data = _contents(of, q, speed, duration, joint, diagrams)
     data["title"] = out.stem if title is None else title
     text = page(played, data, dark)
     with writing(out):
@@ -161,7 +161,7 @@ def _contents(
     q: Any = None,
     speed: Any = None,
     duration: Any = None,
-    paths: Any = None,
+    joint: Any = None,
     diagrams: Any = None,
 ) -> tuple[Played, dict[str, Any]]:
     if speed is not None:
@@ -176,7 +176,7 @@ def _contents(
             raise InputError(message, value=duration)
     turn = _turn(of, q, duration)
     played = played_of(turn)
-    return played, payload(played, "", speed, paths, diagrams)
+    return played, payload(played, "", speed, joint, diagrams)
 
 
 def _turn(of: Any, q: Any, duration: float | None) -> Turn:

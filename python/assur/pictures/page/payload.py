@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from assur.errors import InputError
-from assur.pictures.page.selection import checked_diagrams, checked_paths
+from assur.pictures.page.selection import checked_diagrams, checked_joints
 from assur.pictures.scene.build import scene_of
 from assur.pictures.scene.extent import corners, usual_link
 from assur.pictures.scene.frames import Frames
@@ -80,7 +80,7 @@ def payload(
     played: Played,
     title: str,
     speed: float | None = None,
-    paths: Any = None,
+    joint: Any = None,
     diagrams: Any = None,
     encode: Callable[[Float], Any] | None = None,
 ) -> dict[str, Any]:
@@ -107,7 +107,7 @@ def payload(
         "bounds": _short([*low, *high]),
         "usual": _short([usual_link(turn.frames)])[0],
         "speed": speed if speed is not None else _usual_speed(turn),
-        "paths": checked_paths(mechanism, paths),
+        "paths": checked_joints(mechanism, joint),
         "diagrams": checked_diagrams(mechanism, diagrams),
         "turn": {
             "grid": turn.grid,

@@ -42,12 +42,12 @@ def checked_diagrams(mechanism: Mechanism, asked: Any) -> list[str]:
     return names
 
 
-def checked_paths(mechanism: Mechanism, asked: Any) -> list[str]:
+def checked_joints(mechanism: Mechanism, asked: Any) -> list[str]:
     """Return the joints whose paths are shown at first."""
     if asked is None:
         return _traced(mechanism)
-    names = _listed(asked, "paths")
-    _require(names, list(mechanism.joints), "paths", "joint")
+    names = _listed(asked, "joint")
+    _require(names, list(mechanism.joints), "joint", "joint")
     return names
 
 

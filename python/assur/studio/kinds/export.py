@@ -109,7 +109,7 @@ def _html(mechanism: Mechanism, fields: Fields) -> bytes:
         raise InputError(message)
     return _written(
         ".html",
-        lambda path: mechanism.to_html(path, q=q, speed=speed, paths=paths, title=_title(fields)),
+        lambda path: mechanism.to_html(path, q=q, speed=speed, joint=paths, title=_title(fields)),
     )
 
 

@@ -145,10 +145,13 @@ impl Dimensions {
     ///
     /// [`SolveError::Unknown`], with similar names.
     pub fn position(&self, name: &str) -> Result<usize, SolveError> {
-        self.entries.iter().position(|(n, _)| n == name).ok_or_else(|| SolveError::Unknown {
-            kind: Named::Dimension,
-            name: name.into(),
-            hint: suggest(name, self.entries.iter().map(|(n, _)| n.as_str())),
+        self.entries.iter().position(|(n, _)| n == name).ok_or_else(|| {
+            let names = || self.entries.iter().map(|(n, _)| n.as_str());
+            // Of a link that exists, its own dimensions.
+            let link = name.split_once('.').map_or("", |(link, _)| link);
+            let of_link = |known: &&str| known.split_once('.').is_some_and(|(own, _)| own == link);
+            let hint = suggest(name, names().filter(of_link)).or_else(|| suggest(name, names()));
+            SolveError::Unknown { kind: Named::Dimension, name: name.into(), hint }
         })
     }
 

@@ -72,7 +72,7 @@ def test_peaks_of_a_turn(quantity: str, loads: Any) -> None:
     least, greatest = fine.min.min(), fine.max.max()
     measures: dict[str, Any] = {"min": lambda v: -v, "max": lambda v: v, "size": abs}
     for of, measure in measures.items():
-        peak = few.peak(quantity, of)
+        peak = few.peak(quantity, of=of)
         known = max((least, greatest), key=measure)
         assert measure(peak.value) >= measure(known) - 1e-12 * scale
         assert peak.value == pytest.approx(known, abs=1e-6 * scale)
@@ -425,7 +425,7 @@ def test_other_refusals() -> None:
         with pytest.raises(assur.InputError, match="quantity"):
             ask("torsion")
     with pytest.raises(assur.InputError, match="of is 'mean'"):
-        found.peak("moment", "mean")
+        found.peak("moment", of="mean")
     with pytest.raises(assur.MotionError):
         ENGINE.internal_loads("rod", 1.0, 1e200)
     with pytest.raises(assur.InputError, match="no position"):

@@ -225,7 +225,7 @@ def test_names_and_titles_do_no_harm(tmp_path: Path) -> None:
 def test_arguments_reach_the_page(tmp_path: Path) -> None:
     path = tmp_path / "press.html"
     example("crank_rocker").to_html(
-        path, q=0.5, speed=12.5, paths=["C"], diagrams=["C.x", "rocker.omega"], dark=True
+        path, q=0.5, speed=12.5, joint=["C"], diagrams=["C.x", "rocker.omega"], dark=True
     )
     text = path.read_text(encoding="utf-8")
     data = json.loads(text.split('application/json">')[1].split("</script>")[0])
@@ -243,7 +243,7 @@ def test_arguments_reach_the_page(tmp_path: Path) -> None:
         ({"path": "no/such/folder/x.html"}, "no/such/folder/x.html: cannot be written: No such"),
         ({"path": 3}, "path is 3"),
         ({"speed": float("nan")}, "speed is nan"),
-        ({"paths": ["Q"]}, "no joint 'Q'"),
+        ({"joint": ["Q"]}, "no joint 'Q'"),
         ({"diagrams": ["rocker.omga"]}, "did you mean 'rocker.omega'"),
         ({"diagrams": ["C.x"] * 2 + ["C.y", "P.x", "P.y"]}, "up to 3"),
         ({"diagrams": 4}, "diagrams is 4"),
