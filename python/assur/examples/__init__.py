@@ -18,6 +18,7 @@ import math
 from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias
 
+from assur._other_names import refuse_attribute
 from assur.examples.fourbars import crank_rocker, locomotive
 from assur.examples.higher_classes import loom, pentagon, stephenson_reversed, triad
 from assur.examples.legs import jansen_leg, klann_leg
@@ -109,3 +110,15 @@ RANGES: Mapping[str, tuple[Coordinate, Coordinate]] = MappingProxyType(
     }
 )
 """From and to which q each is used, rad or m (of several drivers a tuple): mostly one turn."""
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name):
+        from difflib import get_close_matches
+
+        similar = get_close_matches(name, ALL, n=3)
+        hint = f"did you mean {' or '.join(similar)}?" if similar else "ALL lists them"
+        refuse_attribute(None, "'assur.examples'", name, {name: hint})
+
+    def __dir__():
+        return sorted(__all__)

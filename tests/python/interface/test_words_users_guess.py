@@ -145,3 +145,17 @@ def test_sampled_forces_of_loads_that_jump_are_announced() -> None:
     assert few < 0.8 * assur.Machine(crank, loads=[jumps]).duty(q, speed=1.0).max.value
     # Without jumps nothing is said: warnings are errors here.
     assur.sweep(assur.Machine(crank, loads=[steady]), rods, q, metrics=asked)
+
+
+def test_an_index_of_a_position_is_asked_for_and_checked() -> None:
+    pytest.importorskip("matplotlib")
+    with pytest.raises(assur.InputError, match="at= is needed, the index of one of 2 positions"):
+        PRESS.solve([0.5, 1.0]).polygon("velocity")
+    # It was ignored where there is one position alone.
+    with pytest.raises(assur.InputError, match=r"at 30: one index into the shape \(\)"):
+        PRESS.solve(deg=30).polygon("velocity", at=30)
+
+
+def test_examples_have_similar_names() -> None:
+    with pytest.raises(AttributeError, match="did you mean watt_"):
+        _ = assur.examples.watt  # type: ignore[attr-defined]

@@ -94,7 +94,8 @@ def inflection_circle(
     motion, second = checked_motion(motion), flag(bresse, "bresse")
     require_one_driver(motion.driver_count, "inflection_circle")
     motion.mechanism.core.index_of("link", checked_name(link, "link"))
-    position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    index = checked_index(at, motion.shape, "at")
+    position = motion[index] if index else motion
     pole, change, ratio = _pole_motion(position, link)
     diameter = float(np.hypot(*change))
     joints = np.array(list(position.mechanism.joints.values()))

@@ -86,7 +86,8 @@ def instant_centres(
     """
     motion = checked_motion(motion)
     require_one_driver(motion.driver_count, "instant_centres")
-    position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    index = checked_index(at, motion.shape, "at")
+    position = motion[index] if index else motion
     chosen = _checked_links(position, links)
     subject = Subject(position)
     if not all(np.isfinite(position.link(link).d1) for link in chosen):

@@ -53,7 +53,8 @@ def polygon_picture(
 ) -> Axes:
     """See `Motion.polygon`."""
     one_of(what, ("velocity", "acceleration"), "what")
-    position = motion[checked_index(at, motion.shape, "at")] if motion.shape else motion
+    index = checked_index(at, motion.shape, "at")
+    position = motion[index] if index else motion
     speed = checked_rates(speed, "speed", position.mechanism)
     acceleration = checked_rates(acceleration, "acceleration", position.mechanism)
     plan = plan_of(position, what, speed, acceleration)
