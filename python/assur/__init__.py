@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING
 from assur import _later
 from assur._core import version
 from assur._remedy import Remedy
+from assur._units import rpm
 from assur.description.structure import Group, Structure
 from assur.description.words import Cylinder, Drive, Slide, Status
 from assur.errors import (
@@ -147,6 +148,7 @@ __all__ = [
     "load",
     "metric",
     "pictures",
+    "rpm",
     "slider_crank",
     "sweep",
 ]

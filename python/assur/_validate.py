@@ -153,8 +153,8 @@ def checked_index(index: Any, shape: tuple[int, ...], what: str) -> tuple[int, .
         entries = ()
     if len(entries) != len(shape) or len(entries) != len(listed):
         message = f"{what} {short(index)}: one index into the shape {shape} is needed"
-        if not listed and len(shape) == 1:
-            message = f"{what}= is needed, the index of one of {shape[0]} positions: 0 is the first"
+        if not listed and shape[1:] == ():
+            message = f"{message}: {what}=0 is the first"
         raise InputError(message)
     for i, size in zip(entries, shape, strict=True):
         if not -size <= i < size:

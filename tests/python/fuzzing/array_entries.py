@@ -210,6 +210,7 @@ LENGTHS = {"l1": 1.0, "l2": 9.0, "l3": 6.0, "l4": 10.0}
 SLIDER = {"phi": 0.0, "crank": 1.0, "rod": 5.0}
 COLUMNS = {"phi": PHI, "moment": MOMENT, "inertia": INERTIA}
 ENTRIES: dict[str, Entry] = {
+    "assur.rpm.turns": Entry(assur.rpm, numbers(1500.0)),
     "Mechanism.solve.q": Entry(FOUR_BAR.solve, numbers(0.0)),
     "Mechanism.solve.q of two": Entry(
         lambda q: FIVE_BAR.solve(q, on_error="nan"), (np.ones((3, 2)), np.ones(2), np.ones((0, 2)))

@@ -323,7 +323,10 @@ def _of_parts() -> Iterable[tuple[str, Call]]:
         Torque=shaft,
         TorsionDamper=shaft,
         TorsionSpring=shaft,
+        rpm={"turns": 1500.0},
     )
+    plate = {"power": 7500.0, "rpm": 1450.0, "poles": 4, "breakdown": 2.5}
+    yield from named("InductionMotor", assur.InductionMotor, from_plate=plate)
     yield from named("Table", assur.Table(**rows), at={"x": 0.5})
     rise = {"start": 0.0, "end": 1.0, "duration": 1.0}
     rises = ("Cycloidal", "Harmonic", "ModifiedSine", "Polynomial345", "Polynomial4567")

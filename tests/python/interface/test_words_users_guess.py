@@ -149,7 +149,9 @@ def test_sampled_forces_of_loads_that_jump_are_announced() -> None:
 
 def test_an_index_of_a_position_is_asked_for_and_checked() -> None:
     pytest.importorskip("matplotlib")
-    with pytest.raises(assur.InputError, match="at= is needed, the index of one of 2 positions"):
+    with pytest.raises(
+        assur.InputError, match=r"at \(\): one index into the shape \(2,\) is needed: at=0"
+    ):
         PRESS.solve([0.5, 1.0]).polygon("velocity")
     # It was ignored where there is one position alone.
     with pytest.raises(assur.InputError, match=r"at 30: one index into the shape \(\)"):

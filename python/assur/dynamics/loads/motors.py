@@ -5,14 +5,20 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 
 from __future__ import annotations
 
+import math
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
 
 from assur._arrays import not_negative, real_number, short
 from assur._summary import typed
+from assur._units import rpm as speed_of
+from assur._validate import whole_number
 from assur.dynamics.loads.load_values import Value, checked_value
 from assur.dynamics.loads.table import Table, checked_ratio, replace_fields
 from assur.errors import InputError
+
+# No motor has more.
+MOST_POLES = 1000
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
@@ -123,6 +129,84 @@ class InductionMotor:
                 f"needed, at most 1 (15 % is 0.15)"
             )
             raise InputError(message, value=self.slip)
+
+    @classmethod
+    def from_plate(
+        cls,
+        *,
+        power: float,
+        rpm: float,
+        poles: int,
+        breakdown: float,
+        frequency: float = 50.0,
+        ratio: float = 1.0,
+        rotor_inertia: float = 0.0,
+    ) -> InductionMotor:
+        """Return the motor of a rating plate and a catalogue.
+
+        With the rated slip s and λ = breakdown torque / rated torque Kloss's formula gives the slip
+        at the greatest torque, s (λ + √(λ² − 1)).
+
+        Parameters
+        ----------
+        power : float
+            Rated power at the shaft, W.
+        rpm : float
+            Rated speed, revolutions a minute.
+        poles : int
+            Number of poles, an even number: 4 at 50 Hz have a field of 1500 rpm.
+        breakdown : float
+            Greatest torque over the rated one, more than 1.
+        frequency : float
+            Of the mains, Hz.
+        ratio, rotor_inertia : float
+            See `ConstantTorque`.
+
+        Returns
+        -------
+        InductionMotor
+            The motor; at its rated speed it gives its rated torque.
+
+        Raises
+        ------
+        InputError
+            A rated speed that is not below that of the field, an odd number of poles, a ratio of
+            torques that is not above 1, a number that is not positive.
+
+        Examples
+        --------
+        >>> import assur
+        >>> motor = assur.InductionMotor.from_plate(power=7500.0, rpm=1450, poles=4, breakdown=2.5)
+        >>> round(motor.breakdown, 1), round(motor.slip, 4), round(motor.synchronous, 2)
+        (123.5, 0.1597, 157.08)
+        """
+        what = "InductionMotor.from_plate"
+        rated: dict[str, float] = {}
+        for name, value in (("power", power), ("rpm", rpm), ("frequency", frequency)):
+            rated[name] = real_number(value, f"{what}: {name}")
+            if not rated[name] > 0.0:
+                message = f"{what}: {name} is {rated[name]:g}: a positive number is needed"
+                raise InputError(message, value=rated[name])
+        pairs = whole_number(poles, f"{what}: poles", 2, MOST_POLES) / 2
+        if not pairs.is_integer():
+            message = f"{what}: poles is {poles}: an even number is needed"
+            raise InputError(message, value=float(poles))
+        field = 60.0 * rated["frequency"] / pairs
+        if not rated["rpm"] < field:
+            message = (
+                f"{what}: rpm is {rated['rpm']:g}: the rated speed is below that of the field, "
+                f"{field:g} rpm with {poles} poles at {rated['frequency']:g} Hz"
+            )
+            raise InputError(message, value=rated["rpm"])
+        times = real_number(breakdown, f"{what}: breakdown")
+        if not times > 1.0:
+            message = (
+                f"{what}: breakdown is {times:g} times the rated torque: more than 1 is needed"
+            )
+            raise InputError(message, value=times)
+        slip = (1.0 - rated["rpm"] / field) * (times + math.sqrt(times * times - 1.0))
+        torque = rated["power"] / speed_of(rated["rpm"])
+        return cls(times * torque, slip, speed_of(field), ratio=ratio, rotor_inertia=rotor_inertia)
 
 
 Motor: TypeAlias = ConstantTorque | LinearMotor | InductionMotor | Table
