@@ -366,6 +366,8 @@ class Machine:
     @property
     def load_actions(self) -> list[tuple[int, str, str | None, bool]]: ...
     @property
+    def functions(self) -> list[Function]: ...
+    @property
     def load_functions(self) -> list[Function]: ...
     def reduce(
         self,
@@ -389,6 +391,20 @@ class Machine:
         rows: int,
         squares: bool,
         friction: tuple[list[float], int],
+        threads: int | None,
+        report: list[int],
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...
+    def equations(
+        self,
+        dimensions: _Float,
+        q: _Float,
+        per_design: bool,
+        rates: tuple[_Float, _Float, _Float],
+        has_motors: bool,
+        function_values: _Float,
+        terms: list[tuple[str, int]],
+        rows: int,
+        sense: list[float],
         threads: int | None,
         report: list[int],
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...

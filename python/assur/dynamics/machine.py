@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from assur._arrays import real_number
 from assur._other_names import other_names, renamed_rates
+from assur._validate import one_of
+from assur.dynamics.equations import dynamics as equations
+from assur.dynamics.equations.terms import State, require_equations
 from assur.dynamics.flywheel import size as flywheel_size
 from assur.dynamics.forces import counterweight, duty, impact, kinetostatics
 from assur.dynamics.forces import self_locking as locking
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
+    from assur.dynamics.equations.dynamics import Dynamics
     from assur.dynamics.forces.counterweight import Counterweight
     from assur.dynamics.forces.duty import Duty
     from assur.dynamics.forces.impact import Impact
@@ -47,13 +51,12 @@ Method: TypeAlias = Literal["DOP853", "RK45"]
 
 @other_names(
     plot="mechanism.plot(q), reactions(q, speed).plot(), run(t_end).plot()",
-    mass_matrix="reduced_inertia(q), with .value and .d1",
+    mass_matrix="dynamics(q, speed).mass_matrix",
     inverse_dynamics="effort(q, speed, acceleration), or reactions for all forces",
-    forward_dynamics="run(t_end, q0, speed0)",
-    acceleration="run(t_end, q0, speed0).at(t).acceleration",
+    forward_dynamics="acceleration(q, speed, effort), run(t_end, q0, speed0)",
     simulate="run(t_end, q0, speed0)",
     torque="effort(q, speed, acceleration)",
-    jacobian="mechanism.solve(q).joint(name).d1",
+    jacobian="dynamics(q).jacobian(joint)",
     solve="mechanism.solve(q), or run(t_end, q0, speed0)",
     kinetic_energy="run(t_end).energy",
     driving_torque="effort(q, speed, acceleration)",
@@ -383,6 +386,132 @@ class Machine(MachineModel):
         q = q_or_deg(self.mechanism, q, deg, "effort")
         motion = driven_motion(self, q, speed, acceleration, t)
         return kinetostatics.effort(self, motion, on_error, sense)
+
+    @renamed_rates
+    def dynamics(
+        self,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
+        *,
+        t: npt.ArrayLike = 0.0,
+        sense: float | Sequence[float] | None = None,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Dynamics:
+        """Return mass matrix, its derivatives, bias, gravity and Jacobians in one call.
+
+        They are the terms of ``effort = mass_matrix @ acceleration + bias``. No path is followed
+        from the drawing for angles that no load reads.
+
+        Parameters
+        ----------
+        q : array_like
+            Coordinates of the drivers, rad or m: a number, (N,) or S + (N,); with n drivers a last
+            axis of n.
+        speed : array_like
+            Their speeds, rad/s or m/s; broadcasts against q.
+        t, sense
+            See `reactions`.
+        on_error : {"raise", "nan"}
+            Whether a position without a value raises, or has NaN and a status.
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
+        threads : int, optional
+            Most threads; all cores by default.
+
+        Returns
+        -------
+        Dynamics
+            Arrays whose last axes are those of the drivers, also of one.
+
+        Raises
+        ------
+        InputError
+            A machine of a table, friction, shapes that do not fit, a load without a value.
+        PositionError
+            A position that cannot be reached.
+
+        Notes
+        -----
+        Σ m ∂S·∂S + I ∂Θ ∂Θ, and by virtual work the loads, weights and inertia forces without
+        accelerations of the drivers (Uicker, Pennock and Shigley 2017, chapters 12 and 15).
+
+        Examples
+        --------
+        Two drivers of a five-bar in a control loop, with computed torque:
+
+        >>> import assur, numpy as np
+        >>> five_bar = assur.examples.five_bar()
+        >>> bodies = {name: assur.Body(mass=1.0, inertia=0.02) for name in ("left", "right")}
+        >>> machine = assur.Machine(five_bar, bodies=bodies, loads=[assur.Gravity()])
+        >>> now = machine.dynamics(five_bar.q0, speed=[1.0, -0.5])
+        >>> now.mass_matrix.shape, now.jacobian("P").shape
+        ((2, 2), (2, 2))
+        >>> wanted = [2.0, 0.0]
+        >>> effort = now.mass_matrix @ wanted + now.bias
+        >>> machine.acceleration(five_bar.q0, [1.0, -0.5], effort).round(9)
+        array([2., 0.])
+        """
+        require_equations(self, "dynamics")
+        q = q_or_deg(self.mechanism, q, deg, "dynamics")
+        one_of(on_error, ("raise", "nan"), "on_error")
+        return equations.Dynamics(self, State(q, speed, t=t, sense=sense), on_error, threads)
+
+    @renamed_rates
+    def acceleration(
+        self,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
+        effort: npt.ArrayLike | None = None,
+        *,
+        t: npt.ArrayLike = 0.0,
+        sense: float | Sequence[float] | None = None,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Float:
+        """Return the accelerations of the drivers under efforts: forward dynamics.
+
+        Parameters
+        ----------
+        q, speed, t, sense, on_error, deg, threads
+            See `dynamics`.
+        effort : array_like, optional
+            What the drivers give, N·m (driven slide: N); broadcasts against q. By default what the
+            machine's motors give at this speed, or nothing.
+
+        Returns
+        -------
+        ndarray
+            rad/s² (driven slide: m/s²), S + (N,); with n drivers (..., n).
+
+        Raises
+        ------
+        InputError
+            See `dynamics`; a mass matrix that is singular, as without bodies.
+        PositionError
+            A position that cannot be reached.
+
+        Notes
+        -----
+        `M q̈ = τ − b` with the terms of `dynamics`. The rotors of the machine's motors count as
+        inertia, also where efforts are given.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
+        ... )
+        >>> machine.acceleration([0.5, 1.5], speed=10.0, effort=4.0).round(3)
+        array([-108.711,   40.103])
+        """
+        require_equations(self, "acceleration")
+        q = q_or_deg(self.mechanism, q, deg, "acceleration")
+        one_of(on_error, ("raise", "nan"), "on_error")
+        state = State(q, speed, effort=effort, t=t, sense=sense)
+        return equations.acceleration(self, state, on_error, threads)
 
     @renamed_rates
     def internal_loads(

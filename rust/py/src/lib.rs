@@ -4,6 +4,7 @@
 mod assemblies;
 mod convert;
 mod detach;
+mod equations;
 mod equilibria;
 mod error;
 mod error_map;
@@ -17,6 +18,7 @@ mod named;
 mod papers;
 mod parallel_map;
 mod reactions;
+mod reduce;
 mod remedies;
 mod reserve;
 mod run;

@@ -4,13 +4,11 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    DrivenPositions, EndCondition, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
-    Point, ReducedTable, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    EndCondition, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean, Point,
+    RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
-use assur::{FirstFailure, SolveError, Status};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::{PyTraverseError, PyVisit};
 
@@ -22,25 +20,14 @@ use crate::convert::motor::motors;
 use crate::convert::value::{FEW_ROWS, Values};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
+use crate::equations::{self, TermKey};
 use crate::mechanism::Mechanism;
-use crate::parallel_map::parallel_map;
 use crate::reactions::{self, Inputs, Key};
 use crate::run::{PythonCallbacks, Run};
-use crate::{equilibria, error, error_map, reserve};
+use crate::{equilibria, error, error_map, reduce, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// Mass matrices, their derivatives, moments, potential energies, statuses; the exception of the
-/// first position that failed.
-type Arrays<'py> = (
-    Array<'py>,
-    Array<'py>,
-    Array<'py>,
-    Array<'py>,
-    Bound<'py, PyArray1<u8>>,
-    Option<Py<PyBaseException>>,
-);
-
 /// Numbers of a steady state: the multiplier, the moment that keeps the speed, N·m, the work of the
 /// motors, J, the flywheel, kg·m², and the extreme speeds.
 #[derive(IntoPyObject)]
@@ -65,9 +52,6 @@ impl From<Extreme> for ExtremeFields {
         Self { at, value }
     }
 }
-
-/// Positions up to which a call need not check for signals.
-const FEW_POSITIONS: usize = 20_000;
 
 /// Source of a machine's inertia and loads.
 enum Inner {
@@ -248,6 +232,12 @@ impl Machine {
         functions.iter().map(|function| function.clone_ref(py)).collect()
     }
 
+    /// Python functions of loads, then those of motors.
+    #[getter]
+    fn functions(&self, py: Python<'_>) -> Vec<Py<PyAny>> {
+        self.functions.iter().map(|function| function.clone_ref(py)).collect()
+    }
+
     /// Reduces the inertia and loads of designs to the drivers, each at the same number of
     /// positions. `dimensions`: the first of every design, then the second; the others design by
     /// design. `function_values`: of the loads' Python functions at every position; `report`:
@@ -264,62 +254,17 @@ impl Machine {
         sense: Vec<f64>,
         threads: Option<usize>,
         report: Vec<usize>,
-    ) -> PyResult<Arrays<'py>> {
+    ) -> PyResult<reduce::Arrays<'py>> {
         let (mechanism, machine) = match &self.inner {
             Inner::Mechanism(mechanism, machine) => (mechanism, machine),
             Inner::Tables(tabulated) => {
                 let q = q.as_slice()?;
-                return catch_panic(|| Ok(arrays(py, &[tabulated.reduce(q)], None)));
+                return catch_panic(|| Ok(reduce::arrays(py, &[tabulated.reduce(q)], None)));
             }
         };
         let mechanism = &mechanism.get().inner;
-        let drivers = mechanism.q0().len();
         let inputs = [&dimensions, &q, &speed, &function_values];
-        let numbers: usize = inputs.iter().map(|array| array.as_array().len()).sum();
-        let _room =
-            reserve::room_for(py, numbers + drivers * drivers * drivers * q.as_array().len())?;
-        let [dimensions, q, speed, callback_values] =
-            inputs.map(|array| array.as_slice().map(<[f64]>::to_vec));
-        let (dimensions, q, speed, callback_values) = (dimensions?, q?, speed?, callback_values?);
-        let size = mechanism.dimensions().len();
-        let designs = dimensions.len() / size;
-        let divides = |all: &[f64]| designs > 0 && all.len().is_multiple_of(designs);
-        let fits = dimensions.len().is_multiple_of(size)
-            && q.len() == speed.len()
-            && [&q, &callback_values].iter().all(|all| divides(all))
-            && (q.len() / designs.max(1)).is_multiple_of(drivers);
-        if !fits {
-            return Err(error_map::solve(SolveError::Shape("the arrays do not fit".into())));
-        }
-        let part_of = |all: &[f64], design: usize| {
-            let share = all.len() / designs;
-            all[design * share..(design + 1) * share].to_vec()
-        };
-        let all = detach::run(py, q.len() <= FEW_POSITIONS, |cancel| {
-            let reduce_design = |design: usize| {
-                let [q, speed, callback_values] =
-                    [&q, &speed, &callback_values].map(|all| part_of(all, design));
-                let values: Vec<f64> =
-                    (0..size).map(|index| dimensions[index * designs + design]).collect();
-                let positions = DrivenPositions {
-                    q: &q,
-                    speed: &speed,
-                    sense: &sense,
-                    external: &callback_values,
-                };
-                machine.reduce(mechanism, &values, positions, cancel)
-            };
-            parallel_map(designs, 1, threads, cancel, &reduce_design)
-        })?;
-        let positions = q.len() / drivers;
-        let count = all.iter().map(|rows| rows.status.iter().filter(|&&s| failed(s)).count()).sum();
-        let first = all.iter().enumerate().find_map(|(design, rows)| {
-            let (row, failure) = rows.failure.clone()?;
-            Some(FirstFailure { row: design * (positions / designs) + row, failure, count })
-        });
-        let failure =
-            first.map(|first| error_map::first_failure(&first, &report, positions).into_value(py));
-        Ok(arrays(py, &all, failure))
+        reduce::reduce(py, (mechanism, machine), inputs, &sense, threads, &report)
     }
 
     /// The requested `reactions` of designs at positions; the other arguments are those of `reduce`.
@@ -358,6 +303,45 @@ impl Machine {
             friction,
         };
         reactions::reactions(py, mechanism, machine, &inputs, &reactions, threads, &report)
+    }
+
+    /// The requested `terms` of the equations of motion of designs at positions, in the layout of
+    /// `reactions`. `rates`: speeds, accelerations and efforts of the drivers. `function_values`: of all
+    /// `functions`.
+    #[allow(clippy::too_many_arguments, reason = "flat arrays")]
+    fn equations<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: Flat<'py>,
+        q: Flat<'py>,
+        per_design: bool,
+        rates: (Flat<'py>, Flat<'py>, Flat<'py>),
+        has_motors: bool,
+        function_values: Flat<'py>,
+        terms: Vec<TermKey>,
+        rows: usize,
+        sense: Vec<f64>,
+        threads: Option<NonZeroUsize>,
+        report: Vec<usize>,
+    ) -> PyResult<reactions::Found<'py>> {
+        let Inner::Mechanism(mechanism, machine) = &self.inner else {
+            return Err(error::input("a machine of a table has no mechanism", None));
+        };
+        let mechanism = &mechanism.get().inner;
+        let (speed, acceleration, effort) = rates;
+        let inputs = equations::Inputs {
+            dimensions,
+            q,
+            per_design,
+            speed,
+            acceleration,
+            effort,
+            has_motors,
+            function_values,
+            sense,
+            rows,
+        };
+        equations::equations(py, mechanism, machine, &inputs, &terms, threads, &report)
     }
 
     /// Positions of rest of one design.
@@ -532,28 +516,4 @@ impl Machine {
 fn deadline(seconds: Option<f64>) -> Option<Instant> {
     let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
     Instant::now().checked_add(duration)
-}
-
-/// Whether a status is above `NearSingular`, which still has analogues.
-fn failed(status: Status) -> bool {
-    status as u8 > Status::NearSingular as u8
-}
-
-fn arrays<'py>(
-    py: Python<'py>,
-    all: &[ReducedTable],
-    failure: Option<Py<PyBaseException>>,
-) -> Arrays<'py> {
-    let array = |column: fn(&ReducedTable) -> &[f64]| {
-        PyArray1::from_vec(py, all.iter().flat_map(|rows| column(rows).iter().copied()).collect())
-    };
-    let statuses = all.iter().flat_map(|rows| rows.status.iter().map(|&status| status as u8));
-    (
-        array(|r| &r.inertia),
-        array(|r| &r.d_inertia),
-        array(|r| &r.moment),
-        array(|r| &r.potential),
-        PyArray1::from_vec(py, statuses.collect()),
-        failure,
-    )
 }

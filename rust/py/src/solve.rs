@@ -72,7 +72,7 @@ impl<'py> Question<'_, 'py> {
         let [joints, links, origins, slides] = self.outputs;
         // Both are the package's own arrays, which never change.
         let (dimensions, q) = (self.dimensions.as_slice()?, self.q.as_slice()?);
-        let outputs = Outputs { joints, links, origins, slides };
+        let outputs = Outputs { joints, links, origins, slides, ..Outputs::default() };
         let coordinates =
             if per_design { Coordinates::PerDesign(q) } else { Coordinates::Shared(q) };
         let request = Request { dimensions, coordinates, signs, order, outputs: &outputs, by };

@@ -174,7 +174,15 @@ def wheel_in_degrees(name: str) -> Callable[[Any], Any]:
 
 OVER = {"rocker.length": [2.4, 2.6], "ground.D.x": [3.1, 3.3]}
 CURVES = ("speed", "time", "work", "reduced_moment", "reduced_inertia")
-QUESTIONS = ("reactions", "effort", "reduced_inertia", "reduced_moment", "potential")
+QUESTIONS = (
+    "reactions",
+    "effort",
+    "acceleration",
+    "dynamics",
+    "reduced_inertia",
+    "reduced_moment",
+    "potential",
+)
 IN_DEGREES = {
     **{f"Machine.{name}.deg": Entry(machine_in_degrees(name), numbers(30.0)) for name in QUESTIONS},
     "Machine.duty.deg": Entry(
@@ -292,6 +300,8 @@ ENTRIES: dict[str, Entry] = {
     "Machine.internal_loads.density": Entry(
         lambda x: inside_rod(x).axial, (np.array([0.0, 1.0, 1.0, 3.0]),)
     ),
+    **each_of("Machine.dynamics", MACHINE.dynamics, q=0.0, speed=1.0, t=0.5),
+    **each_of("Machine.acceleration", MACHINE.acceleration, q=0.0, speed=1.0, effort=2.0, t=0.5),
     **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     **each_of("assur.balance.fit", fitted, q=0.5, speed=1.0, acceleration=2.0),
     **each_of("assur.balance.harmonics", partial(balance.harmonics, count=3), q=EVEN, values=EVEN),

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import assur
+from assur.dynamics.equations.dynamics import Dynamics
 from fuzzing.array_entries import ENTRIES, PICTURES, array_parameters, public
 from support.samples import sample
 
@@ -99,6 +100,7 @@ INSIDE: dict[type, Any] = {
     ),
     assur.Mechanism: lambda one: dict(one.dimensions),
     assur.Analogues: lambda one: one.arrays,
+    Dynamics: lambda one: (one.mass_matrix, one.d_mass_matrix, one.bias, one.gravity),
     assur.Machine: lambda one: one._rebuild_with[1],
     assur.SteadyState: lambda one: (one.run, one.mean_speed, one.delta),
     assur.Run: lambda one: (one.t, one.q, one.speed, one.acceleration),
@@ -178,6 +180,7 @@ def not_numbers(array: Any) -> dict[str, Any]:
 
 # What may be left out.
 OPTIONAL = (
+    "Machine.acceleration.effort",
     "Mechanism.map.deg",
     "Mechanism.with_driver.deg",
     "Mechanism.with_driver.q",

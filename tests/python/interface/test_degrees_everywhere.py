@@ -24,6 +24,8 @@ SWING = {"swing": assur.metric.span("rocker")}
 CALLS: dict[str, Callable[..., Any]] = {
     "Mechanism.solve": lambda **at: FOUR_BAR.solve(**at).joint("C").value,
     "Machine.reactions": lambda **at: MACHINE.reactions(**at, speed=2.0).driver,
+    "Machine.dynamics": lambda **at: MACHINE.dynamics(**at, speed=2.0).bias,
+    "Machine.acceleration": lambda **at: MACHINE.acceleration(**at, speed=2.0, effort=1.0),
     "Machine.effort": lambda **at: MACHINE.effort(**at, speed=2.0),
     "Machine.duty": lambda **at: MACHINE.duty(**at, speed=2.0).effort,
     "Machine.internal_loads": lambda **at: (

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import assur
+from assur.dynamics.equations.dynamics import Dynamics
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,6 +89,7 @@ CALLS = {
         assur,
         assur.crank_rocker,
         assur.pictures,
+        Dynamics,
         assur.Mechanism,
         assur.Motion,
         assur.Machine,

@@ -122,6 +122,8 @@ impl Question {
             links: some(linkage.links.len(), self.kept[1]),
             origins: some(linkage.links.len(), self.kept[1] ^ self.kept[2]),
             slides: some(linkage.slides.len(), self.kept[2]),
+            rates: some(linkage.links.len(), self.kept[0] ^ self.kept[2]),
+            directions: some(linkage.links.len(), self.kept[0] ^ self.kept[1]),
         }
     }
 }

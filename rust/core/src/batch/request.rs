@@ -57,6 +57,11 @@ pub struct Outputs {
     pub origins: Vec<usize>,
     /// Slides: their values.
     pub slides: Vec<usize>,
+    /// Links: the derivatives of their angles alone. Angles of several drivers are followed from the
+    /// drawing; their derivatives need no path.
+    pub rates: Vec<usize>,
+    /// Links: the unit vectors along their x axes, without derivatives.
+    pub directions: Vec<usize>,
 }
 
 impl Outputs {
@@ -69,6 +74,7 @@ impl Outputs {
             links: (0..linkage.links.len()).collect(),
             origins: Vec::new(),
             slides: (0..linkage.slides.len()).collect(),
+            ..Self::default()
         }
     }
 }
@@ -84,6 +90,8 @@ pub enum Quantity {
     Slide(usize),
     /// Angle of a link, rad.
     Angle(usize),
+    /// Unit vector along a link's x axis.
+    Direction(usize),
 }
 
 /// One array: the derivatives of one order of a quantity. Its entries run over designs, positions,
@@ -104,14 +112,18 @@ pub(crate) fn columns(outputs: &Outputs, drivers: usize, order: usize) -> Vec<Co
     let origins = outputs.origins.iter().map(|&i| (Quantity::Origin(i), 2));
     let slides = outputs.slides.iter().map(|&i| (Quantity::Slide(i), 1));
     let angles = outputs.links.iter().map(|&i| (Quantity::Angle(i), 1));
-    let all = joints.chain(origins).chain(slides).chain(angles);
-    all.flat_map(|(quantity, components)| {
-        (0..=order).map(move |order| {
-            let entries = (0..order).fold(1, |n, _| n * drivers);
-            Column { quantity, order, width: components * entries }
+    let rates = outputs.rates.iter().map(|&i| ((Quantity::Angle(i), 1), 1..=order));
+    let directions = outputs.directions.iter().map(|&i| ((Quantity::Direction(i), 2), 0..=0));
+    let all = joints.chain(origins).chain(slides).chain(angles).map(|all| (all, 0..=order));
+    all.chain(rates)
+        .chain(directions)
+        .flat_map(|((quantity, components), orders)| {
+            orders.map(move |order| {
+                let entries = (0..order).fold(1, |n, _| n * drivers);
+                Column { quantity, order, width: components * entries }
+            })
         })
-    })
-    .collect()
+        .collect()
 }
 
 /// Arrays to fill, in the order of [`crate::Request::columns`]; see [`crate::fill`].
@@ -150,6 +162,10 @@ pub struct Motion {
     pub origins: Vec<Series>,
     /// Values of slides, m.
     pub slides: Vec<Series>,
+    /// Derivatives of links' angles, from the first order on.
+    pub rates: Vec<Series>,
+    /// Unit vectors along links' x axes.
+    pub directions: Vec<Series>,
     /// One [`crate::state::status::Status`] code per position.
     pub status: Vec<u8>,
 }
@@ -230,7 +246,9 @@ impl Shape {
         let all_below = |indices: &[usize], limit: usize| indices.iter().all(|&i| i < limit);
         let outputs = request.outputs;
         if !(all_below(&outputs.joints, linkage.joints.len())
-            && all_below(&outputs.links, linkage.links.len())
+            && [&outputs.links, &outputs.origins, &outputs.rates, &outputs.directions]
+                .iter()
+                .all(|links| all_below(links, linkage.links.len()))
             && all_below(&outputs.slides, linkage.slides.len()))
         {
             return Err(SolveError::Shape("an output has an index that does not exist".into()));

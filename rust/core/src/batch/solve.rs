@@ -76,9 +76,13 @@ pub(crate) fn solve(
             Quantity::Joint(index) => (&mut motion.joints, index),
             Quantity::Origin(index) => (&mut motion.origins, index),
             Quantity::Slide(index) => (&mut motion.slides, index),
-            Quantity::Angle(index) => (&mut motion.links, index),
+            Quantity::Angle(index) if request.outputs.links.contains(&index) => {
+                (&mut motion.links, index)
+            }
+            Quantity::Angle(index) => (&mut motion.rates, index),
+            Quantity::Direction(index) => (&mut motion.directions, index),
         };
-        if column.order == 0 {
+        if column.order == 0 || list.last().is_none_or(|series| series.index != index) {
             list.push(Series { index, derivatives: Vec::new() });
         }
         if let Some(series) = list.last_mut() {

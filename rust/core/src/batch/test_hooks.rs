@@ -46,5 +46,7 @@ pub fn compile_tape(mechanism: &Mechanism, outputs: &Outputs) -> usize {
     for &link in &outputs.links {
         classes[plan.rotation[link].class] = true;
     }
-    Tape::new(plan, Needs { points: &points, classes: &classes, samples: false }).ops.len()
+    Tape::new(plan, Needs { points: &points, classes: &classes, orientations: &[], samples: false })
+        .ops
+        .len()
 }

@@ -71,7 +71,16 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
         for point in writer.written_points() {
             points[point] = true;
         }
-        let needs = Needs { points: &points, classes: &writer.needed_classes, samples: false };
+        let mut orientations = vec![false; plan.orientations.len()];
+        for orientation in writer.driven_orientations() {
+            orientations[orientation] = true;
+        }
+        let needs = Needs {
+            points: &points,
+            classes: &writer.needed_classes,
+            orientations: &orientations,
+            samples: false,
+        };
         Self {
             writer: Arc::clone(writer),
             single: State::new(plan, derivatives),

@@ -72,6 +72,15 @@ struct AngleEntry {
     whole_turns: f64,
 }
 
+/// The direction of a link; the source of its row is the link.
+#[derive(Debug)]
+struct DirectionEntry {
+    row: RowEntry,
+    class: usize,
+    /// The orientation, if drivers turn it relative to its class.
+    driven: Option<usize>,
+}
+
 /// Writes positions into their rows.
 #[derive(Debug)]
 pub(crate) struct Writer {
@@ -88,6 +97,7 @@ pub(crate) struct Writer {
     angles: Vec<AngleEntry>,
     /// Derivatives of links' angles.
     rates: Vec<RowEntry>,
+    directions: Vec<DirectionEntry>,
     /// Classes whose angle is requested.
     pub classes: Vec<usize>,
     /// For each class, whether its rotation or a derivative of its angle is requested.
@@ -115,7 +125,7 @@ impl Writer {
         let mut classes: Vec<usize> = columns
             .iter()
             .filter_map(|column| match column.quantity {
-                Quantity::Angle(link) => Some(plan.rotation[link].class),
+                Quantity::Angle(link) if column.order == 0 => Some(plan.rotation[link].class),
                 _ => None,
             })
             .collect();
@@ -123,11 +133,13 @@ impl Writer {
         classes.dedup();
         classes.retain(|&class| class != 0);
         let mut needed_classes = vec![false; plan.classes];
-        for &class in &classes {
-            needed_classes[class] = true;
+        for column in &columns {
+            if let Quantity::Angle(link) | Quantity::Direction(link) = column.quantity {
+                needed_classes[plan.rotation[link].class] = plan.rotation[link].class != 0;
+            }
         }
         let [mut points, mut slides, mut rates] = [const { Vec::new() }; 3];
-        let mut angles = Vec::new();
+        let (mut angles, mut directions) = (Vec::new(), Vec::new());
         for (index, column) in columns.iter().enumerate() {
             let tensor = derivatives.tensor(column.order);
             for (component, &k) in tensor.iter().enumerate() {
@@ -158,6 +170,14 @@ impl Writer {
                             derivatives.driver_of[k].map_or(0, |driver| rotation.turns[driver]);
                         rates.push(row(entry(rotation.class), turns.into()));
                     }
+                    Quantity::Direction(link) => {
+                        let orientation = plan.link_orientation[link];
+                        directions.push(DirectionEntry {
+                            row: row(link, 0.0),
+                            class: plan.orientations[orientation].class,
+                            driven: plan.orientations[orientation].driven.then_some(orientation),
+                        });
+                    }
                 }
             }
         }
@@ -171,6 +191,7 @@ impl Writer {
             slides,
             angles,
             rates,
+            directions,
             classes,
             needed_classes,
             shifted: true,
@@ -200,6 +221,11 @@ impl Writer {
     /// The points that are written.
     pub(crate) fn written_points(&self) -> impl Iterator<Item = usize> {
         self.points.iter().map(|entry| entry.source / self.jet)
+    }
+
+    /// The orientations whose phases are written.
+    pub(crate) fn driven_orientations(&self) -> impl Iterator<Item = usize> {
+        self.directions.iter().filter_map(|entry| entry.driven)
     }
 
     /// Writes `count` positions, lane after lane of a state, into the rows from `row` on.
@@ -294,6 +320,23 @@ impl Writer {
             let whole = if is_simple { write_scaled(out, past, slides, None, scale) } else { 0 };
             for (g, out) in entry.groups::<R>(out).skip(whole) {
                 entry.store(out, past, or_nan::<R, R, G>(failed, g, slides[g] * scale));
+            }
+        }
+        for DirectionEntry { row: entry, class, driven } in &self.directions {
+            let turn = Vector::splat(constants.turn[entry.source]);
+            let out = rows.of(entry, range);
+            for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
+                let mut unit = state.pose.class[*class][g] * turn;
+                if let Some(orientation) = driven {
+                    unit = unit * state.pose.phase[*orientation][g];
+                }
+                store_lanes(out, entry.width, entry.index, or_nan::<R, R, G>(failed, g, unit.x));
+                store_lanes(
+                    out,
+                    entry.width,
+                    entry.index + entry.y,
+                    or_nan::<R, R, G>(failed, g, unit.y),
+                );
             }
         }
         for entry in &self.rates {

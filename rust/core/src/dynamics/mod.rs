@@ -22,6 +22,7 @@
 
 pub(crate) mod angle_between;
 pub(crate) mod body;
+pub(crate) mod equations;
 pub(crate) mod equilibria;
 pub(crate) mod flywheel;
 pub(crate) mod followers;
@@ -45,6 +46,7 @@ pub(crate) mod value;
 
 pub use angle_between::{Angle, Line};
 pub use body::Body;
+pub use equations::request::{EquationRequest, Term};
 pub use equilibria::{Equilibria, Equilibrium, EquilibriumRange};
 pub use flywheel::cycle::{Cycle, Extreme};
 pub use flywheel::flywheel::{Flywheel, Mean};

@@ -70,6 +70,18 @@ impl Motor {
         [self.ratio * torque, self.ratio * self.ratio * slope]
     }
 
+    /// Moment on the driver at its speed; NaN where a table over the motor's speed ends.
+    pub(crate) fn torque_at(&self, speed: f64, numbers: Numbers<'_>) -> f64 {
+        let cell = match self.table() {
+            Some(table) => match table.cell(self.ratio * speed) {
+                Some(cell) => cell,
+                None => return f64::NAN,
+            },
+            None => Cell::default(),
+        };
+        self.moment(speed, cell, numbers)[0]
+    }
+
     /// The rotor's inertia referred to the driver.
     #[must_use]
     pub fn inertia(&self) -> f64 {

@@ -12,6 +12,8 @@ pub(crate) struct Needs<'a> {
     pub points: &'a [bool],
     /// Rotations.
     pub classes: &'a [bool],
+    /// Orientations.
+    pub orientations: &'a [bool],
     /// Whether dyads are sampled: the points that they connect are kept, and unused dyads are not
     /// solved.
     pub samples: bool,
@@ -28,6 +30,23 @@ struct Uses {
     conditions: Vec<bool>,
     classes: Vec<bool>,
     slides: Vec<bool>,
+}
+
+impl Uses {
+    /// What the request itself uses; `all`: every orientation, leg and slide.
+    fn by_request(plan: &Plan, needs: Needs<'_>, all: bool, has_redundant: bool) -> Self {
+        Self {
+            points: needs.points.to_vec(),
+            points_unchecked: needs.points.to_vec(),
+            orientations: (0..plan.orientations.len())
+                .map(|o| all || needs.orientations.get(o).is_some_and(|&needed| needed))
+                .collect(),
+            legs: vec![all; plan.legs()],
+            conditions: vec![has_redundant; plan.points],
+            classes: needs.classes.to_vec(),
+            slides: vec![all || !needs.samples; plan.slide_links.len()],
+        }
+    }
 }
 
 impl Plan {
@@ -52,13 +71,16 @@ impl Tape {
     /// The whole plan.
     pub(crate) fn whole(plan: &Plan) -> Self {
         let (points, classes) = (vec![true; plan.points], vec![true; plan.classes]);
-        Self::new(plan, Needs { points: &points, classes: &classes, samples: true })
+        Self::new(
+            plan,
+            Needs { points: &points, classes: &classes, orientations: &[], samples: true },
+        )
     }
 
     /// The dyads and groups alone, with the rotations of these classes.
     pub(crate) fn for_dyads(plan: &Plan, classes: &[bool]) -> Self {
         let points = vec![false; plan.points];
-        Self::new(plan, Needs { points: &points, classes, samples: true })
+        Self::new(plan, Needs { points: &points, classes, orientations: &[], samples: true })
     }
 
     /// The part of a plan that a request needs. All dyads are part of it: they decide the status.
@@ -68,15 +90,7 @@ impl Tape {
         let all = !plan.has_closed_forms() || all_points;
         // Discriminants of dyads without a kernel read orientations.
         let general = plan.dyads().any(|dyad| !dyad.has_kernel(plan));
-        let mut uses = Uses {
-            points: needs.points.to_vec(),
-            points_unchecked: needs.points.to_vec(),
-            orientations: vec![all || general; plan.orientations.len()],
-            legs: vec![all || general; plan.legs()],
-            conditions: vec![has_redundant; plan.points],
-            classes: needs.classes.to_vec(),
-            slides: vec![all || general || !needs.samples; plan.slide_links.len()],
-        };
+        let mut uses = Uses::by_request(plan, needs, all || general, has_redundant);
         let mut ops = Vec::with_capacity(plan.steps.len());
         for dyad in plan.dyads() {
             uses.points[dyad.start] = true;
@@ -451,7 +465,10 @@ mod tests {
             (0..count).map(|index| list.contains(&index)).collect()
         };
         let (points, classes) = (needed(plan.points, points), needed(plan.classes, classes));
-        Tape::new(plan, Needs { points: &points, classes: &classes, samples: false })
+        Tape::new(
+            plan,
+            Needs { points: &points, classes: &classes, orientations: &[], samples: false },
+        )
     }
 
     #[test]

@@ -115,6 +115,7 @@ fn needed(metrics: &[&dyn Metric]) -> (Outputs, usize) {
             Quantity::Origin(index) => (&mut outputs.origins, index),
             Quantity::Slide(index) => (&mut outputs.slides, index),
             Quantity::Angle(index) => (&mut outputs.links, index),
+            Quantity::Direction(index) => (&mut outputs.directions, index),
         };
         if !list.contains(&index) {
             list.push(index);

@@ -18,7 +18,7 @@ impl Need {
     /// Numbers per position, of a value or with one driver.
     pub(super) fn width(self) -> usize {
         match self.quantity {
-            Quantity::Joint(_) | Quantity::Origin(_) => 2,
+            Quantity::Joint(_) | Quantity::Origin(_) | Quantity::Direction(_) => 2,
             Quantity::Slide(_) | Quantity::Angle(_) => 1,
         }
     }

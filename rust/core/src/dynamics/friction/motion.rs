@@ -210,6 +210,10 @@ impl<'m> FrictionMotion<'m> {
                 // Without torsion springs only the direction is read.
                 Quantity::Angle(link) if needs_angles => values[0] = pose.total_angle(link),
                 Quantity::Angle(link) => values[0] = pose.frame(link, 0).angle(),
+                Quantity::Direction(link) => {
+                    let unit = pose.frame(link, k);
+                    values.copy_from_slice(&[unit.x, unit.y]);
+                }
             }
         }
     }

@@ -2,58 +2,36 @@
 //! squares alone.
 
 use std::mem::MaybeUninit;
-use std::sync::Arc;
 
+use super::positions::{DesignPositions, MachineBatch};
 use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
 use crate::batch::dispatch::Task;
-use crate::batch::request::{Column, Request, Shape};
-use crate::batch::schedule::Control;
-use crate::batch::writer::{RowSlices, Writer, begins_line, store_pairs, write};
+use crate::batch::writer::{RowSlices, begins_line, store_pairs, write};
 use crate::dynamics::friction::pairs::{FrictionPair, PairKind};
 use crate::dynamics::friction::rows::FrictionRequest;
 use crate::dynamics::friction::workspace::FrictionWorkspace;
-use crate::dynamics::machine::Machine;
-use crate::dynamics::reactions::applied::Values;
-use crate::dynamics::reactions::columns::{Rows, Solved, Sources};
-use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::columns::Rows;
 use crate::dynamics::reactions::pair_forces::JointForce;
 use crate::dynamics::reactions::scene::Scene;
-use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
-use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
 /// The data that all chunks of a batch share.
 pub(super) struct ReactionBatch<'b> {
-    pub mechanism: &'b Mechanism,
-    pub machine: &'b Machine,
-    pub plan: &'b ForcePlan,
-    pub sources: Sources,
+    pub positions: MachineBatch<'b>,
     pub joints: Vec<JointForce>,
     /// Whether forces in pairs are requested, and not only what acts on links from outside.
     pub balances: bool,
     pub friction: Vec<FrictionPair>,
     pub request: &'b ReactionRequest<'b>,
-    pub solve_request: &'b Request<'b>,
-    pub derivatives: &'b DerivativeTables,
-    pub writer: &'b Arc<Writer>,
-    pub columns: &'b [Column],
-    pub callbacks: usize,
-    pub shape: &'b Shape,
-    pub control: &'b Control<'b>,
 }
 
 /// The reactions of one design at some positions.
 pub(super) struct Evaluate<'e, 'r, R: Real> {
     pub batch: &'e ReactionBatch<'e>,
-    pub guides: Vec<Vector>,
-    /// The size of the design, m.
-    pub size: f64,
-    pub solved: Solved<'e>,
-    pub values: Values<'e>,
-    pub status: &'e [u8],
+    pub design: DesignPositions<'e>,
     pub scene: &'e mut Scene<R>,
     pub friction: &'e mut FrictionWorkspace<R>,
     pub results: &'e mut RowSlices<'r>,
@@ -65,14 +43,15 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let ReactionBatch { plan, machine, sources, request, friction, control, .. } = self.batch;
-        let count = self.solved.positions;
+        let ReactionBatch { positions, request, friction, .. } = self.batch;
+        let MachineBatch { plan, machine, sources, control, .. } = positions;
+        let count = self.design.solved.positions;
         self.squares.clear();
         self.squares.resize(request.reactions.len(), Squares::NONE);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            self.scene.read(plan, sources, &self.guides, &self.solved, rows);
-            self.scene.apply(plan, machine, self.values, rows);
+            self.scene.read(plan, sources, &self.design.guides, &self.design.solved, rows);
+            self.scene.apply(plan, machine, self.design.values, rows);
             if !friction.is_empty() {
                 self.apply_friction(rows);
                 // A position that friction locks takes milliseconds, a block of them seconds.
@@ -105,7 +84,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             self.write_squares();
             return;
         }
-        for (row, &status) in self.status.iter().enumerate() {
+        for (row, &status) in self.design.status.iter().enumerate() {
             self.results.status[self.first + row] = MaybeUninit::new(status);
             if status > Status::NearSingular as u8 {
                 self.write_nan(self.first + row);
@@ -118,11 +97,12 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Adds friction to the loads.
     #[inline(always)]
     fn apply_friction(&mut self, rows: Rows) {
-        let ReactionBatch { plan, sources, request, friction, control, .. } = self.batch;
-        let size = self.size;
+        let ReactionBatch { positions, request, friction, .. } = self.batch;
+        let MachineBatch { plan, sources, control, .. } = positions;
+        let size = self.design.size;
         let ways = self.scene.ways(request.sense);
         let pairs = (*plan, &friction[..]);
-        self.friction.read(self.scene, pairs, sources, (&self.solved, rows), &ways, size);
+        self.friction.read(self.scene, pairs, sources, (&self.design.solved, rows), &ways, size);
         let friction_request = FrictionRequest {
             solution: request.solution,
             safety: request.reactions.contains(&Reaction::Safety),
@@ -150,7 +130,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Force of a guide on the sliding link.
     #[inline(always)]
     fn normal(&self, slide: usize) -> R {
-        self.scene.normal(self.batch.plan, slide)
+        self.scene.normal(self.batch.positions.plan, slide)
     }
 
     /// The value of a reaction in all lanes.
@@ -177,10 +157,10 @@ impl<R: Real> Evaluate<'_, '_, R> {
             Reaction::ShakingForce => scene.shaking_force,
             Reaction::ShakingMoment => scalar(scene.shaking_moment),
             Reaction::LoadForce(action) | Reaction::LoadCouple(action) => {
-                scene.load_on(&self.batch.plan.load_actions[action])
+                scene.load_on(&self.batch.positions.plan.load_actions[action])
             }
             Reaction::LoadPlace(action) => {
-                let plan = self.batch.plan;
+                let plan = self.batch.positions.plan;
                 let point = plan.load_actions[action].at;
                 // Not `map_or`: the closure would not be compiled for the level.
                 match point {
@@ -242,7 +222,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     #[inline(always)]
     fn write_squares(&mut self) {
         let mut worst = Status::Ok as u8;
-        for &status in self.status {
+        for &status in self.design.status {
             worst = worst.max(status);
         }
         self.results.status[self.first] = MaybeUninit::new(worst);
@@ -253,7 +233,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
             is_known &= is_place || !self.squares[index].is_infinite();
         }
         for (index, column) in self.results.columns.iter_mut().enumerate() {
-            let both = self.squares[index].greatest_and_mean(self.solved.positions);
+            let both = self.squares[index].greatest_and_mean(self.design.solved.positions);
             let both = if is_known { both } else { [f64::NAN; 2] };
             for axis in 0..2 {
                 column[2 * self.first + axis] = MaybeUninit::new(both[axis]);
@@ -264,7 +244,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     /// Sets reactions to NaN that a self-stress changes: they are undetermined.
     #[inline(always)]
     fn drop_stressed(&mut self, first: usize, lanes: usize) {
-        let size = self.size;
+        let size = self.design.size;
         for (index, &reaction) in self.batch.request.reactions.iter().enumerate() {
             let unit = match reaction {
                 _ if reaction.is_given() => continue,
@@ -284,7 +264,11 @@ impl<R: Real> Evaluate<'_, '_, R> {
                     self.drop_lanes(index, [first, lanes], stressed);
                     continue;
                 }
-                Reaction::Driver(driver) if self.batch.plan.driven_links[driver].is_some() => size,
+                Reaction::Driver(driver)
+                    if self.batch.positions.plan.driven_links[driver].is_some() =>
+                {
+                    size
+                }
                 _ => 1.0,
             };
             // A force is known as a whole, or not at all: its axes are the drawing's.

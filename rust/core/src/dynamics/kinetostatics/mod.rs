@@ -3,5 +3,6 @@
 mod batch;
 mod evaluate;
 mod followed;
+pub(crate) mod positions;
 pub(crate) mod request;
 mod squares;

@@ -15,6 +15,9 @@ pub(crate) struct Sources {
     /// The columns of every point, from order 0 on.
     pub(crate) points: Vec<Option<usize>>,
     pub(crate) angles: Vec<Option<usize>>,
+    /// The columns of the derivatives of every angle, from order 1 on.
+    pub(crate) rates: Vec<Option<usize>>,
+    pub(crate) directions: Vec<Option<usize>>,
     pub(crate) slides: Vec<Option<usize>>,
 }
 
@@ -31,12 +34,16 @@ pub(crate) struct Solved<'a> {
 
 impl Sources {
     pub(crate) fn new(plan: &ForcePlan, columns: &[Column]) -> Self {
-        let find = |quantity: Quantity| {
-            columns.iter().position(|c| c.quantity == quantity && c.order == 0)
+        let at_order = |quantity: Quantity, order: usize| {
+            columns.iter().position(|c| c.quantity == quantity && c.order == order)
         };
+        let find = |quantity: Quantity| at_order(quantity, 0);
+        let links = 0..plan.reference.len();
         Self {
             points: plan.points.iter().map(|quantity| quantity.and_then(find)).collect(),
-            angles: (0..plan.reference.len()).map(|l| find(Quantity::Angle(l))).collect(),
+            angles: links.clone().map(|l| find(Quantity::Angle(l))).collect(),
+            rates: links.clone().map(|l| at_order(Quantity::Angle(l), 1)).collect(),
+            directions: links.map(|l| find(Quantity::Direction(l))).collect(),
             slides: (0..plan.slide_links.len()).map(|s| find(Quantity::Slide(s))).collect(),
         }
     }
@@ -72,7 +79,7 @@ impl Rows {
 impl Rows {
     /// A speed or acceleration of one of `n` drivers: for each position, or the same for all.
     #[inline(always)]
-    fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {
+    pub(crate) fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {
         if values.len() == n { R::splat(values[driver]) } else { self.read(values, n, driver) }
     }
 
@@ -110,7 +117,12 @@ impl Rows {
     /// The entry `offset` of `width` pairs of each position: all its first numbers come before the
     /// second ones.
     #[inline(always)]
-    fn read_pairs<R: Real>(self, values: &[f64], width: usize, offset: usize) -> Vector<R> {
+    pub(crate) fn read_pairs<R: Real>(
+        self,
+        values: &[f64],
+        width: usize,
+        offset: usize,
+    ) -> Vector<R> {
         let first = self.first * 2;
         match (values.get(first..first + R::LANES * 2), width) {
             (Some(all), 1) => {
@@ -148,9 +160,15 @@ impl<R: Real> Scene<R> {
             let &Some(column) = source else { continue };
             *point = moving(plan.order, drive, rows, &solved.columns[column..]);
         }
-        for (angle, source) in self.angles.iter_mut().zip(&sources.angles) {
-            let &Some(column) = source else { continue };
-            *angle = moving(plan.order, drive, rows, &solved.columns[column..]);
+        let of_angles = sources.angles.iter().zip(&sources.rates);
+        for (angle, (&value, &rates)) in self.angles.iter_mut().zip(of_angles) {
+            if let Some(column) = value {
+                *angle = moving(plan.order, drive, rows, &solved.columns[column..]);
+            } else if let Some(column) = rates {
+                let rates = &solved.columns[column..];
+                let [velocity, acceleration] = changing(plan.order, drive, rows, rates);
+                *angle = Moving { velocity, acceleration, ..*angle };
+            }
         }
         for (slide, source) in self.slides.iter_mut().zip(&sources.slides) {
             let &Some(column) = source else { continue };
@@ -164,6 +182,10 @@ impl<R: Real> Scene<R> {
                     span.scale(R::ONE / span.norm())
                 }
                 Direction::Angle => Vector::at_angle(self.angles[link].at),
+                Direction::Solved => match sources.directions[link] {
+                    Some(column) => rows.read_pairs(solved.columns[column], 1, 0),
+                    None => Vector::ONE,
+                },
             };
         }
         for (slide, &guide) in guides.iter().enumerate() {
@@ -185,14 +207,27 @@ fn moving<R: Real, T: Term<R>>(
     rows: Rows,
     columns: &[&[f64]],
 ) -> Moving<T> {
-    let n = drive.len();
     let at = T::read(rows, columns[0], 1, 0);
+    let [velocity, acceleration] =
+        changing(highest, drive, rows, columns.get(1..).unwrap_or_default());
+    Moving { at, velocity, acceleration }
+}
+
+/// Velocity and acceleration; `columns`: those of the first and the second order.
+#[inline(always)]
+fn changing<R: Real, T: Term<R>>(
+    highest: usize,
+    drive: &[[R; 2]],
+    rows: Rows,
+    columns: &[&[f64]],
+) -> [T; 2] {
+    let n = drive.len();
     let (mut velocity, mut acceleration) = (T::NONE, T::NONE);
     if highest == 0 {
-        return Moving { at, velocity, acceleration };
+        return [velocity, acceleration];
     }
     for (a, &[speed, speed_rate]) in drive.iter().enumerate() {
-        let d1 = T::read(rows, columns[1], n, a);
+        let d1 = T::read(rows, columns[0], n, a);
         velocity = velocity + d1.times(speed);
         if highest > 1 {
             acceleration = acceleration + d1.times(speed_rate);
@@ -201,12 +236,12 @@ fn moving<R: Real, T: Term<R>>(
     if highest > 1 {
         for (a, &[first, _]) in drive.iter().enumerate() {
             for (b, &[second, _]) in drive.iter().enumerate() {
-                let d2 = T::read(rows, columns[2], n * n, a * n + b);
+                let d2 = T::read(rows, columns[1], n * n, a * n + b);
                 acceleration = acceleration + d2.times(first * second);
             }
         }
     }
-    Moving { at, velocity, acceleration }
+    [velocity, acceleration]
 }
 
 /// A number or a vector that moves.

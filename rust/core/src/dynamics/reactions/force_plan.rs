@@ -48,6 +48,8 @@ pub(crate) enum Direction {
     Joints([usize; 2]),
     /// Its angle.
     Angle,
+    /// It is solved for itself.
+    Solved,
 }
 
 /// The compiled reactions of a machine.
@@ -72,6 +74,9 @@ pub(crate) struct ForcePlan {
     /// States of stress without loads, of redundant links and slides.
     pub self_stresses: Vec<SelfStress>,
     pub moments: Vec<MomentStep>,
+    /// Whether angles are solved only where a load reads them, and else their derivatives alone: angles of
+    /// several drivers are followed from the drawing.
+    spares_angles: bool,
     /// Whether accelerations, and velocities, are needed.
     pub has_inertia: bool,
     pub has_speeds: bool,
@@ -90,6 +95,37 @@ pub(crate) struct ForcePlan {
 impl ForcePlan {
     /// Compiles a machine.
     pub(crate) fn new(mechanism: &Mechanism, machine: &Machine) -> Self {
+        let mut compiled = Self::without_needs(mechanism, machine);
+        compiled.find_needs(mechanism, machine);
+        compiled
+    }
+
+    /// Compiles a machine for its equations of motion: the derivatives of all links by the drivers, to an
+    /// order, and of the angles no more than loads read.
+    pub(crate) fn for_equations(mechanism: &Mechanism, machine: &Machine, order: usize) -> Self {
+        let mut compiled = Self::without_needs(mechanism, machine);
+        compiled.spares_angles = true;
+        compiled.order = order;
+        for direction in &mut compiled.direction {
+            if *direction == Direction::Angle {
+                *direction = Direction::Solved;
+            }
+        }
+        compiled.find_needs(mechanism, machine);
+        for link in 0..compiled.reference.len() {
+            compiled.need_rate(link);
+        }
+        let outputs = &mut compiled.outputs;
+        outputs.rates.retain(|link| !outputs.links.contains(link));
+        let follows_slides = |measure: &Measure| matches!(measure, Measure::Slide(_));
+        let mut measures = machine.over.iter().map(|over| &over.measure).chain(&machine.ways);
+        if !measures.any(follows_slides) {
+            outputs.slides.clear();
+        }
+        compiled
+    }
+
+    fn without_needs(mechanism: &Mechanism, machine: &Machine) -> Self {
         let (plan, linkage) = (mechanism.plan(), mechanism.linkage());
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
         let has_speeds = machine.loads.iter().any(Load::reads_velocities)
@@ -119,7 +155,7 @@ impl ForcePlan {
         let guide_edges = (0..linkage.slides.len())
             .map(|slide| edges.iter().position(|edge: &ForceEdge| edge.slide == Some(slide)))
             .collect();
-        let mut compiled = Self {
+        Self {
             guide_edges,
             drivers: plan.drivers.len(),
             outputs: Outputs::default(),
@@ -134,6 +170,7 @@ impl ForcePlan {
             ground: plan.ground,
             direction,
             needs_direction: vec![false; linkage.links.len()],
+            spares_angles: false,
             slide_links: plan.slide_links.clone(),
             steps: transposed_steps(plan),
             self_stresses: self_stresses(mechanism),
@@ -147,9 +184,7 @@ impl ForcePlan {
             slide_drivers: (0..linkage.slides.len())
                 .map(|s| linkage.drivers.iter().position(|&d| d == Driver::Slide(s)))
                 .collect(),
-        };
-        compiled.find_needs(mechanism, machine);
-        compiled
+        }
     }
 
     /// Finds the quantities that reactions and loads read.
@@ -176,13 +211,13 @@ impl ForcePlan {
         }
         for friction in &machine.friction {
             if let &Friction::Joint { joint, .. } = friction {
-                linkage.links_at(joint).for_each(|link| self.need_angle(link));
+                linkage.links_at(joint).for_each(|link| self.need_rate(link));
             }
         }
         for body in &machine.bodies {
             self.need_mechanical_point(body.at);
             if body.inertia != 0.0 {
-                self.need_angle(body.link);
+                self.need_rate(body.link);
             }
         }
         let acts_at: Vec<Point> = self.load_actions.iter().filter_map(|action| action.at).collect();
@@ -192,9 +227,13 @@ impl ForcePlan {
         for load in &machine.loads {
             match load {
                 Load::Force { axes: Some(link), .. } => self.need_direction(*link),
-                Load::TorsionSpring { link, on, .. } | Load::TorsionDamper { link, on, .. } => {
+                Load::TorsionSpring { link, on, .. } => {
                     self.need_angle(*link);
                     self.need_angle(*on);
+                }
+                Load::TorsionDamper { link, on, .. } => {
+                    self.need_rate(*link);
+                    self.need_rate(*on);
                 }
                 Load::Pressure { slide, .. } => self.need_direction(self.slide_links[*slide][1]),
                 // They read only the points where they act.
@@ -223,11 +262,16 @@ impl ForcePlan {
                 if at != [0.0; 2] {
                     self.need_direction(link);
                     if self.order > 0 {
-                        self.need_angle(link);
+                        self.need_rate(link);
                     }
                 }
             }
         }
+    }
+
+    /// Needs a joint, whatever the machine reads.
+    pub(crate) fn need_joint(&mut self, joint: usize) {
+        self.need_point(point_of_joint(joint));
     }
 
     fn need_point(&mut self, point: usize) {
@@ -255,6 +299,17 @@ impl ForcePlan {
                 }
             }
             Direction::Angle => self.need_angle(link),
+            Direction::Solved if self.outputs.directions.contains(&link) => {}
+            Direction::Solved => self.outputs.directions.push(link),
+        }
+    }
+
+    /// Needs the derivatives of a link's angle.
+    fn need_rate(&mut self, link: usize) {
+        if !self.spares_angles {
+            self.need_angle(link);
+        } else if link != self.ground && !self.outputs.rates.contains(&link) {
+            self.outputs.rates.push(link);
         }
     }
 

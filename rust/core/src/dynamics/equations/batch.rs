@@ -1,0 +1,192 @@
+//! The equations of motion of many designs at many positions.
+
+use super::evaluate::{Equation, EquationBatch, Evaluate};
+use super::request::{EquationRequest, Term};
+use crate::batch::chunks::{Chunk, Chunks};
+use crate::batch::dispatch::{self, Entry, ForLevel};
+use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
+use crate::batch::schedule::Control;
+use crate::batch::writer::{RowSlices, Writer};
+use crate::description::error::SolveError;
+use crate::dynamics::kinetostatics::positions::{Driven, MachineBatch, Positions, of_rows};
+use crate::dynamics::machine::Machine;
+use crate::dynamics::reactions::columns::Sources;
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::scene::Scene;
+use crate::dynamics::value::Numbers;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
+use crate::plan::mechanism::Mechanism;
+
+impl Machine {
+    /// The terms of the equations of motion of designs at positions: one array for each, and the statuses.
+    /// Friction is not among the loads.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`crate::fill`]; arrays or inputs of other sizes.
+    pub fn equations(
+        &self,
+        mechanism: &Mechanism,
+        request: &EquationRequest<'_>,
+        arrays: Arrays<'_>,
+        control: &Control<'_>,
+    ) -> Result<(), SolveError> {
+        let has_inertia = self.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
+        let mut plan = ForcePlan::for_equations(mechanism, self, if has_inertia { 2 } else { 1 });
+        let n = plan.drivers;
+        for term in request.terms {
+            if let &Term::Jacobian(joint) = term {
+                plan.need_joint(joint);
+            }
+        }
+        let solve_request = Request {
+            dimensions: request.dimensions,
+            coordinates: request.coordinates,
+            signs: request.signs,
+            order: plan.order,
+            outputs: &plan.outputs,
+            by: None,
+        };
+        let shape = Shape::of(mechanism, &solve_request)?;
+        let rows = product(shape.designs, shape.positions)?;
+        let column =
+            |term: &Term| Column { quantity: Quantity::Joint(0), order: 0, width: term.width(n) };
+        let results: Vec<Column> = request.terms.iter().map(column).collect();
+        check_arrays(&results, &arrays, rows)?;
+        let derivatives = DerivativeTables::new(n, plan.order);
+        let writer = Writer::of(mechanism, &derivatives, &solve_request);
+        let rest = vec![0.0; n];
+        let mut rotors = vec![0.0; n];
+        for motor in &self.motors {
+            rotors[motor.driver] += motor.inertia();
+        }
+        let batch = EquationBatch {
+            positions: MachineBatch {
+                mechanism,
+                machine: self,
+                sources: Sources::new(&plan, &writer.columns),
+                plan: &plan,
+                request: &solve_request,
+                derivatives: &derivatives,
+                writer: &writer,
+                columns: &writer.columns,
+                driven: Driven {
+                    speed: request.speed,
+                    // The bias is what the drivers give without accelerations.
+                    acceleration: &rest,
+                    external: request.external,
+                    sense: request.sense,
+                },
+                callbacks: request.external.len().checked_div(rows).unwrap_or(0),
+                shape: &shape,
+                control,
+            },
+            request,
+            rotors,
+        };
+        batch.positions.check()?;
+        let fits = [request.effort, request.acceleration]
+            .iter()
+            .all(|values| batch.positions.covers(values, rows * n));
+        if !fits {
+            return Err(SolveError::Shape("efforts or accelerations do not fit".into()));
+        }
+        let chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
+        dispatch::at_level(control.simd, Terms { batch: &batch, chunks })
+    }
+}
+
+struct Terms<'b, 'r> {
+    batch: &'b EquationBatch<'b>,
+    chunks: Chunks<'r>,
+}
+
+/// The working data of one thread.
+struct ThreadState<'b, R: Real, const G: usize> {
+    positions: Positions<'b, R, G>,
+    scene: Scene<R>,
+    equation: Equation<R>,
+    efforts: Vec<f64>,
+}
+
+impl<'b> ForLevel for Terms<'b, '_> {
+    type Output = Result<(), SolveError>;
+
+    fn run<L: Entry, const G: usize>(self) -> Self::Output {
+        let batch = self.batch;
+        let new_state = || ThreadState::<'b, L::Register, G> {
+            positions: batch.positions.thread(),
+            scene: Scene::new(batch.positions.plan),
+            equation: Equation::default(),
+            efforts: Vec::new(),
+        };
+        let work =
+            |state: &mut ThreadState<'b, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
+                batch.chunk::<L, G>(state, chunk, rows);
+            };
+        batch.positions.control.run(self.chunks, new_state, work, |state| state.positions.finish())
+    }
+}
+
+impl<'b> EquationBatch<'b> {
+    fn chunk<L: Entry, const G: usize>(
+        &self,
+        state: &mut ThreadState<'b, L::Register, G>,
+        chunk: &Chunk,
+        mut results: RowSlices<'_>,
+    ) {
+        let ThreadState { positions, scene, equation, efforts } = state;
+        let (request, n) = (self.request, self.positions.plan.drivers);
+        self.positions.solve::<L, G>(positions, chunk, false, |design| {
+            let count = design.status.len();
+            let mut effort = of_rows(request.effort, n, design.first, count);
+            if request.has_motors {
+                self.add_motors(&design.values, design.solved.speed, effort, count, efforts);
+                effort = efforts;
+            }
+            let mut task = Evaluate {
+                batch: self,
+                effort,
+                acceleration: of_rows(request.acceleration, n, design.first, count),
+                first: design.index * count,
+                design,
+                scene,
+                equation,
+                results: &mut results,
+            };
+            L::call(&mut task);
+        });
+    }
+
+    /// The efforts with those of the motors, position by position.
+    fn add_motors(
+        &self,
+        values: &crate::dynamics::reactions::applied::Values<'_>,
+        speed: &[f64],
+        effort: &[f64],
+        count: usize,
+        efforts: &mut Vec<f64>,
+    ) {
+        let n = self.positions.plan.drivers;
+        efforts.clear();
+        let row_of = |all: &[f64], row: usize, driver: usize| {
+            if all.len() == n { all[driver] } else { all[row * n + driver] }
+        };
+        let (mut tables, mut external) = (Vec::new(), Vec::new());
+        for row in 0..count {
+            tables.clear();
+            tables.extend(values.tables.iter().map(|table| [table[row], 0.0]));
+            external.clear();
+            let first = row * values.callbacks;
+            let numbers = &values.external[first..first + values.callbacks];
+            external.extend(numbers.iter().map(|&number| [number, 0.0]));
+            let numbers = Numbers { tables: &tables, external: &external, ..Numbers::default() };
+            efforts.extend((0..n).map(|driver| row_of(effort, row, driver)));
+            for motor in &self.positions.machine.motors {
+                let driver_speed = row_of(speed, row, motor.driver);
+                efforts[row * n + motor.driver] += motor.torque_at(driver_speed, numbers);
+            }
+        }
+    }
+}

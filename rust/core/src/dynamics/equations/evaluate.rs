@@ -1,0 +1,196 @@
+//! The equations of motion of one design at some positions, a register of these at a time.
+
+use std::mem::MaybeUninit;
+
+use super::bodies::Partials;
+use super::request::{EquationRequest, Term};
+use super::solve::solve_positive;
+use crate::batch::dispatch::Task;
+use crate::batch::writer::RowSlices;
+use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
+use crate::dynamics::reactions::columns::Rows;
+use crate::dynamics::reactions::scene::Scene;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::state::status::Status;
+use crate::structure::closure::point_of_joint;
+
+/// The data that all chunks of a batch share.
+pub(super) struct EquationBatch<'b> {
+    pub positions: MachineBatch<'b>,
+    pub request: &'b EquationRequest<'b>,
+    /// Inertia of the rotors, driver by driver.
+    pub rotors: Vec<f64>,
+}
+
+/// The numbers of the positions in a register.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Equation<R> {
+    /// Lower half of the mass matrix, row by row.
+    mass: Vec<R>,
+    rates: Vec<R>,
+    bias: Vec<R>,
+    gravity: Vec<R>,
+    /// Matrix and right side while accelerations are solved for.
+    factor: Vec<R>,
+    right: Vec<R>,
+}
+
+/// The equations of one design at some positions.
+pub(super) struct Evaluate<'e, 'r, R: Real> {
+    pub batch: &'e EquationBatch<'e>,
+    pub design: DesignPositions<'e>,
+    pub scene: &'e mut Scene<R>,
+    pub equation: &'e mut Equation<R>,
+    /// Efforts and accelerations of the request at these positions, drivers fastest, or one for all.
+    pub effort: &'e [f64],
+    pub acceleration: &'e [f64],
+    pub results: &'e mut RowSlices<'r>,
+    /// Row of the first position in the results.
+    pub first: usize,
+}
+
+impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
+    #[inline(always)]
+    fn run(&mut self) {
+        let MachineBatch { plan, machine, sources, .. } = &self.batch.positions;
+        let count = self.design.solved.positions;
+        for first in (0..count).step_by(R::LANES) {
+            let rows = Rows { first, last: count - 1 };
+            self.scene.read(plan, sources, &self.design.guides, &self.design.solved, rows);
+            self.scene.apply(plan, machine, self.design.values, rows);
+            let solved = &{ self.design.solved };
+            let partials = Partials { plan, sources, solved, rows };
+            self.equation.read(self.batch, self.scene, partials);
+            self.write(partials, first, R::LANES.min(count - first));
+        }
+        for (row, &status) in self.design.status.iter().enumerate() {
+            self.results.status[self.first + row] = MaybeUninit::new(status);
+            if status > Status::NearSingular as u8 {
+                self.write_nan(self.first + row);
+            }
+        }
+    }
+}
+
+impl<R: Real> Equation<R> {
+    /// Computes what the requested terms need.
+    #[inline(always)]
+    fn read(&mut self, batch: &EquationBatch<'_>, scene: &Scene<R>, partials: Partials<'_>) {
+        let MachineBatch { plan, machine, .. } = &batch.positions;
+        let (n, terms) = (plan.drivers, batch.request.terms);
+        let needs = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
+        if needs(&[Term::MassMatrix, Term::Effort, Term::Acceleration]) {
+            self.mass.clear();
+            self.mass.resize(n * n, R::ZERO);
+            for (driver, &rotor) in batch.rotors.iter().enumerate() {
+                self.mass[driver * n + driver] = R::splat(rotor);
+            }
+            for body in &machine.bodies {
+                partials.add_mass(scene, body, &mut self.mass);
+            }
+        }
+        if needs(&[Term::MassRates]) {
+            self.rates.clear();
+            self.rates.resize(n * n * n, R::ZERO);
+            for body in &machine.bodies {
+                partials.add_mass_rates(scene, body, &mut self.rates);
+            }
+        }
+        if needs(&[Term::Bias, Term::Effort, Term::Acceleration]) {
+            self.bias.clear();
+            for a in 0..n {
+                let mut power = R::ZERO;
+                for link in 0..plan.reference.len() {
+                    if link != plan.ground {
+                        let rate: Vector<R> = partials.point(plan.reference[link], a);
+                        power += scene.link_force[link].dot(rate)
+                            + scene.link_moment[link] * partials.angle(link, a);
+                    }
+                }
+                self.bias.push(-power);
+            }
+        }
+        if needs(&[Term::Gravity]) {
+            self.gravity.clear();
+            let gravity = Vector::splat(Vector::new(machine.gravity[0], machine.gravity[1]));
+            for a in 0..n {
+                let mut power = R::ZERO;
+                for body in &machine.bodies {
+                    let rate = partials.place(scene, body.at, a);
+                    power += R::splat(body.mass) * gravity.dot(rate);
+                }
+                self.gravity.push(-power);
+            }
+        }
+    }
+
+    /// Solves for the accelerations under efforts.
+    #[inline(always)]
+    fn accelerate(&mut self, effort: &[f64], rows: Rows) {
+        let n = self.bias.len();
+        self.right.clear();
+        for driver in 0..n {
+            self.right.push(rows.read_drive::<R>(effort, n, driver) - self.bias[driver]);
+        }
+        self.factor.clear();
+        self.factor.extend_from_slice(&self.mass);
+        solve_positive(&mut self.factor, &mut self.right);
+    }
+
+    /// The effort of a driver that accelerations need.
+    #[inline(always)]
+    fn effort(&self, a: usize, acceleration: &[f64], rows: Rows) -> R {
+        let n = self.bias.len();
+        let mut sum = self.bias[a];
+        for b in 0..n {
+            let entry = self.mass[a.max(b) * n + a.min(b)];
+            sum += entry * rows.read_drive::<R>(acceleration, n, b);
+        }
+        sum
+    }
+}
+
+impl<R: Real> Evaluate<'_, '_, R> {
+    #[inline(always)]
+    fn write(&mut self, partials: Partials<'_>, first: usize, lanes: usize) {
+        let (n, rows) = (partials.plan.drivers, partials.rows);
+        for (column, &term) in self.batch.request.terms.iter().enumerate() {
+            let row = self.first + first;
+            let width = term.width(n);
+            if term == Term::Acceleration {
+                self.equation.accelerate(self.effort, rows);
+            }
+            for entry in 0..width {
+                let equation = &*self.equation;
+                let value: R = match term {
+                    Term::MassMatrix => {
+                        let (a, b) = (entry / n, entry % n);
+                        equation.mass[a.max(b) * n + a.min(b)]
+                    }
+                    Term::MassRates => equation.rates[entry],
+                    Term::Bias => equation.bias[entry],
+                    Term::Gravity => equation.gravity[entry],
+                    Term::Effort => equation.effort(entry, self.acceleration, rows),
+                    Term::Acceleration => equation.right[entry],
+                    Term::Jacobian(joint) => {
+                        let rate: Vector<R> = partials.point(point_of_joint(joint), entry % n);
+                        if entry < n { rate.x } else { rate.y }
+                    }
+                };
+                let out = &mut self.results.columns[column][row * width..(row + lanes) * width];
+                for lane in 0..lanes {
+                    out[lane * width + entry] = MaybeUninit::new(value.lane(lane));
+                }
+            }
+        }
+    }
+
+    fn write_nan(&mut self, row: usize) {
+        let n = self.batch.positions.plan.drivers;
+        for (term, column) in self.batch.request.terms.iter().zip(&mut self.results.columns) {
+            let width = term.width(n);
+            column[row * width..(row + 1) * width].fill(MaybeUninit::new(f64::NAN));
+        }
+    }
+}

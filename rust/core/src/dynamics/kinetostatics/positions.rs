@@ -1,0 +1,193 @@
+//! The positions of many designs of a machine, solved chunk by chunk: kinematics, speeds, and what loads
+//! read there.
+
+use std::sync::Arc;
+
+use super::followed::{Drivers, Followed};
+use crate::batch::chunks::{Chunk, Designs};
+use crate::batch::dispatch::Entry;
+use crate::batch::request::{Column, Coordinates, Request, Shape, product};
+use crate::batch::schedule::Control;
+use crate::batch::scratch::Scratch;
+use crate::batch::worker::{Job, Worker};
+use crate::batch::writer::Writer;
+use crate::description::error::SolveError;
+use crate::dynamics::machine::Machine;
+use crate::dynamics::reactions::applied::Values;
+use crate::dynamics::reactions::columns::{Solved, Sources, guide_directions};
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
+use crate::math::vector::Vector;
+use crate::plan::mechanism::Mechanism;
+
+/// The motion of the drivers, and what acts, at all positions of all designs.
+#[derive(Clone, Copy)]
+pub(crate) struct Driven<'a> {
+    /// Speeds and accelerations of the drivers: designs × positions × drivers, or one for all.
+    pub speed: &'a [f64],
+    pub acceleration: &'a [f64],
+    /// Values of the callbacks: designs × positions × callbacks.
+    pub external: &'a [f64],
+    /// Sense in which each driver is about to move where all rest. May be empty.
+    pub sense: &'a [f64],
+}
+
+/// What all chunks share.
+pub(crate) struct MachineBatch<'b> {
+    pub mechanism: &'b Mechanism,
+    pub machine: &'b Machine,
+    pub plan: &'b ForcePlan,
+    pub sources: Sources,
+    pub request: &'b Request<'b>,
+    pub derivatives: &'b DerivativeTables,
+    pub writer: &'b Arc<Writer>,
+    pub columns: &'b [Column],
+    pub driven: Driven<'b>,
+    pub callbacks: usize,
+    pub shape: &'b Shape,
+    pub control: &'b Control<'b>,
+}
+
+/// The working data of one thread.
+pub(crate) struct Positions<'b, R: Real, const G: usize> {
+    worker: Worker<'b, R, G>,
+    designs: Designs,
+    scratch: Scratch,
+    tables: Vec<Vec<f64>>,
+    followed: Followed,
+}
+
+/// The solved positions of one design of a chunk.
+pub(crate) struct DesignPositions<'d> {
+    /// Index of the design in its chunk.
+    pub index: usize,
+    /// Row of the first position in the whole batch.
+    pub first: usize,
+    /// The size of the design, m.
+    pub size: f64,
+    pub guides: Vec<Vector>,
+    pub solved: Solved<'d>,
+    pub values: Values<'d>,
+    pub status: &'d [u8],
+}
+
+impl<'b> MachineBatch<'b> {
+    /// The number of rows, after checks of the sizes of all inputs.
+    ///
+    /// # Errors
+    ///
+    /// Inputs of other sizes; no memory for the work of the threads.
+    pub(crate) fn check(&self) -> Result<usize, SolveError> {
+        let rows = product(self.shape.designs, self.shape.positions)?;
+        let drivers = self.shape.drivers;
+        let fits = [self.driven.speed, self.driven.acceleration]
+            .iter()
+            .all(|values| self.covers(values, rows * drivers))
+            && (rows == 0 || self.driven.external.len().is_multiple_of(rows));
+        if !fits {
+            return Err(SolveError::Shape("speeds, accelerations or values do not fit".into()));
+        }
+        Scratch::check(self.columns, self.shape.positions, self.control)?;
+        Ok(rows)
+    }
+
+    /// Whether numbers of the drivers are those of all rows, or one for all.
+    pub(crate) fn covers(&self, values: &[f64], all: usize) -> bool {
+        [all, self.shape.drivers].contains(&values.len())
+    }
+
+    /// The working data of a thread.
+    pub(crate) fn thread<R: Real, const G: usize>(&self) -> Positions<'b, R, G> {
+        let Self { mechanism, request, derivatives, writer, control, .. } = *self;
+        Positions {
+            worker: Worker::new(mechanism, request, derivatives, writer, control),
+            designs: Designs::default(),
+            scratch: Scratch::new(self.columns, self.shape.positions),
+            tables: vec![Vec::new(); self.machine.tables.len()],
+            followed: Followed::default(),
+        }
+    }
+
+    /// Solves the positions of the designs of a chunk, one design after another. `whole`: all positions of
+    /// each, not those of the chunk.
+    pub(crate) fn solve<L: Entry, const G: usize>(
+        &self,
+        state: &mut Positions<'b, L::Register, G>,
+        chunk: &Chunk,
+        whole: bool,
+        mut each: impl FnMut(DesignPositions<'_>),
+    ) {
+        let Shape { designs: all, positions, drivers } = *self.shape;
+        let Positions { worker, designs, scratch, tables, followed } = state;
+        designs.read(self.mechanism, self.request.dimensions, all, chunk.designs.clone());
+        let range = if whole { 0..positions } else { chunk.positions.clone() };
+        let count = range.len();
+        for (index, design) in chunk.designs.clone().enumerate() {
+            if self.control.is_cancelled() {
+                return;
+            }
+            let q = self.request.coordinates.of(design, positions * drivers);
+            let q = &q[range.start * drivers..range.end * drivers];
+            let row = designs.row(index);
+            let first = design * positions + range.start;
+            let mut rows = scratch.rows();
+            let shared = match self.request.coordinates {
+                Coordinates::Shared(_) => Some(range.start),
+                Coordinates::PerDesign(_) => None,
+            };
+            let mut job = Job { index: first, shared, ..rows.job(q, design) };
+            if worker.bind(row, &mut job) {
+                L::run(worker, &mut job);
+            }
+            let size = worker.size();
+            let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
+            let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
+            let values: Vec<&[f64]> =
+                (0..self.columns.len()).map(|column| rows.column(column)).collect();
+            for (table, values) in self.machine.tables.iter().zip(tables.iter_mut()) {
+                values.clear();
+                values.extend(q.iter().step_by(drivers).map(|&q| table.at(q)));
+            }
+            let external = first * self.callbacks..(first + count) * self.callbacks;
+            let solved = Solved {
+                columns: &values,
+                speed: of_rows(self.driven.speed, drivers, first, count),
+                acceleration: of_rows(self.driven.acceleration, drivers, first, count),
+                positions: count,
+            };
+            if self.machine.follows() {
+                let drivers = Drivers { q, units: &units, sense: self.driven.sense };
+                followed.read(self.machine, &self.sources, &solved, drivers, size);
+            }
+            each(DesignPositions {
+                index,
+                first,
+                size,
+                guides: guide_directions(self.mechanism, row.dimensions),
+                solved,
+                values: Values {
+                    tables,
+                    over: &followed.over,
+                    ways: &followed.ways,
+                    external: &self.driven.external[external],
+                    callbacks: self.callbacks,
+                },
+                status: &rows.status()[..count],
+            });
+        }
+        L::Register::fence();
+    }
+}
+
+impl<R: Real, const G: usize> Positions<'_, R, G> {
+    /// Keeps the work space for later calls.
+    pub(crate) fn finish(self) {
+        self.worker.finish();
+    }
+}
+
+/// The numbers of the drivers at some rows, or those for all.
+pub(crate) fn of_rows(all: &[f64], drivers: usize, first: usize, count: usize) -> &[f64] {
+    if all.len() == drivers { all } else { &all[first * drivers..(first + count) * drivers] }
+}

@@ -1,0 +1,137 @@
+//! The equations of motion of a machine for Python.
+
+use std::num::NonZeroUsize;
+use std::sync::Mutex;
+
+use assur::dynamics::{EquationRequest, Machine, Term};
+use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
+use numpy::{PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::convert::word::{Word, Words};
+use crate::memory::{Memory, as_uninitialized};
+use crate::reactions::Found;
+use crate::{detach, error_map};
+
+type Flat<'py> = PyReadonlyArray1<'py, f64>;
+
+/// Positions up to which a call need not check for signals.
+const FEW_POSITIONS: usize = 20_000;
+
+/// A term without its index.
+#[derive(Clone, Copy)]
+enum Kind {
+    MassMatrix,
+    MassRates,
+    Bias,
+    Gravity,
+    Effort,
+    Acceleration,
+    Jacobian,
+}
+
+impl Words for Kind {
+    const WHAT: &'static str = "term";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("mass matrix", Self::MassMatrix),
+        ("mass rates", Self::MassRates),
+        ("bias", Self::Bias),
+        ("gravity", Self::Gravity),
+        ("effort", Self::Effort),
+        ("acceleration", Self::Acceleration),
+        ("jacobian", Self::Jacobian),
+    ];
+}
+
+/// A term as Python names it: its kind, and the index of the joint of a Jacobian.
+#[derive(FromPyObject)]
+pub(crate) struct TermKey(Word<Kind>, usize);
+
+impl TermKey {
+    fn term(&self) -> Term {
+        match self.0.0 {
+            Kind::MassMatrix => Term::MassMatrix,
+            Kind::MassRates => Term::MassRates,
+            Kind::Bias => Term::Bias,
+            Kind::Gravity => Term::Gravity,
+            Kind::Effort => Term::Effort,
+            Kind::Acceleration => Term::Acceleration,
+            Kind::Jacobian => Term::Jacobian(self.1),
+        }
+    }
+}
+
+/// The arrays of a request: dimensions, coordinates, speeds, accelerations, efforts, values of functions.
+pub(crate) struct Inputs<'py> {
+    pub dimensions: Flat<'py>,
+    pub q: Flat<'py>,
+    pub per_design: bool,
+    pub speed: Flat<'py>,
+    pub acceleration: Flat<'py>,
+    pub effort: Flat<'py>,
+    pub has_motors: bool,
+    pub function_values: Flat<'py>,
+    pub sense: Vec<f64>,
+    /// Designs × positions.
+    pub rows: usize,
+}
+
+/// See `assur.Machine.dynamics` and `acceleration`.
+pub(crate) fn equations<'py>(
+    py: Python<'py>,
+    mechanism: &Mechanism,
+    machine: &Machine,
+    inputs: &Inputs<'py>,
+    keys: &[TermKey],
+    threads: Option<NonZeroUsize>,
+    report: &[usize],
+) -> PyResult<Found<'py>> {
+    // All are the package's own arrays, which no other code changes meanwhile.
+    let q = inputs.q.as_slice()?;
+    let terms: Vec<Term> = keys.iter().map(TermKey::term).collect();
+    let request = EquationRequest {
+        dimensions: inputs.dimensions.as_slice()?,
+        coordinates: if inputs.per_design {
+            Coordinates::PerDesign(q)
+        } else {
+            Coordinates::Shared(q)
+        },
+        signs: mechanism.signs(),
+        speed: inputs.speed.as_slice()?,
+        acceleration: inputs.acceleration.as_slice()?,
+        effort: inputs.effort.as_slice()?,
+        has_motors: inputs.has_motors,
+        external: inputs.function_values.as_slice()?,
+        sense: &inputs.sense,
+        terms: &terms,
+    };
+    let (rows, drivers) = (inputs.rows, mechanism.q0().len());
+    let mut memory = Memory::for_a_call();
+    let status = memory.array::<u8>(py, rows, 1)?;
+    let values = terms
+        .iter()
+        .map(|term| memory.array::<f64>(py, rows, term.width(drivers)))
+        .collect::<PyResult<Vec<_>>>()?;
+    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
+    let mut borrowed_status = status.readwrite();
+    let arrays = Arrays {
+        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
+        status: as_uninitialized(&mut borrowed_status)?,
+    };
+    let arrays = Mutex::new(Some(arrays));
+    let log = FailureLog::default();
+    let solved = detach::run(py, rows < FEW_POSITIONS, |cancel| {
+        let control =
+            Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
+        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
+        arrays.map_or(Err(SolveError::Interrupted), |arrays| {
+            machine.equations(mechanism, &request, arrays, &control)
+        })
+    });
+    drop(arrays);
+    solved?.map_err(error_map::solve)?;
+    drop((borrowed, borrowed_status));
+    let failure =
+        log.first().map(|first| error_map::first_failure(&first, report, rows).into_value(py));
+    Ok((values, status, failure))
+}
