@@ -408,6 +408,16 @@ class Machine:
         threads: int | None,
         report: list[int],
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...
+    def step(
+        self,
+        dimensions: _Float,
+        state: tuple[_Float, _Float, _Float],
+        has_motors: bool,
+        rows: int,
+        steps: tuple[float, int],
+        holds: bool,
+        threads: int | None,
+    ) -> tuple[_Float, _Float, npt.NDArray[np.uint8]]: ...
     def equilibria(
         self, dimensions: _Float, ends: list[float], is_turn: bool, intervals: int
     ) -> tuple[

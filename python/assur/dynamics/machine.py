@@ -9,6 +9,8 @@ from assur._arrays import real_number
 from assur._other_names import other_names, renamed_rates
 from assur._validate import one_of
 from assur.dynamics.equations import dynamics as equations
+from assur.dynamics.equations import step as steps
+from assur.dynamics.equations.step import Environments
 from assur.dynamics.equations.terms import State, require_equations
 from assur.dynamics.flywheel import size as flywheel_size
 from assur.dynamics.forces import counterweight, duty, impact, kinetostatics
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.dynamics.equations.dynamics import Dynamics
+    from assur.dynamics.equations.step import Stepped
     from assur.dynamics.forces.counterweight import Counterweight
     from assur.dynamics.forces.duty import Duty
     from assur.dynamics.forces.impact import Impact
@@ -512,6 +515,77 @@ class Machine(MachineModel):
         one_of(on_error, ("raise", "nan"), "on_error")
         state = State(q, speed, effort=effort, t=t, sense=sense)
         return equations.acceleration(self, state, on_error, threads)
+
+    def step(
+        self,
+        q: npt.ArrayLike,
+        speed: npt.ArrayLike,
+        effort: npt.ArrayLike | None,
+        dt: float,
+        n: int = 1,
+        *,
+        method: Literal["rk4"] = "rk4",
+        on_error: Literal["nan", "hold", "raise"] = "nan",
+        threads: int | None = None,
+    ) -> Stepped:
+        """Step environments in time: a state of the machine each, in lanes and threads.
+
+        Parameters
+        ----------
+        q, speed : array_like
+            Coordinates and speeds of the drivers, rad or m: a number, (E,) or S + (E,); with n
+            drivers a last axis of n.
+        effort : array_like or None
+            What the drivers give during all these steps, N·m or N; broadcasts against q. None:
+            what the machine's motors give, or nothing.
+        dt : float
+            Time of a step, s; negative steps go back.
+        n : int
+            Number of steps.
+        method : {"rk4"}
+            The classical Runge-Kutta method of order 4, with even steps.
+        on_error : {"nan", "hold", "raise"}
+            What an environment has that cannot make a step: NaN; its state before that step; or an
+            error. The others go on.
+        threads : int, optional
+            Most threads; all cores by default.
+
+        Returns
+        -------
+        Stepped
+            ``q, speed, status`` in the shape of q. An environment has the bits that it has alone.
+
+        Raises
+        ------
+        InputError
+            A machine of a table, friction, loads or motors that are Python functions, shapes that
+            do not fit, dt of 0.
+
+        Notes
+        -----
+        Loads with `while_` do not act while their coordinate is at rest. Steps do not end where
+        loads jump: `run` does.
+
+        Examples
+        --------
+        >>> import assur, numpy as np
+        >>> pendulum = assur.Mechanism(
+        ...     joints={"O": (0, 0), "A": (0.5, 0)},
+        ...     links={"ground": "O", "arm": "OA"},
+        ...     driver="arm",
+        ... )
+        >>> mass = {"arm": assur.Body(mass=2.0, at=(0.5, 0.0))}
+        >>> machine = assur.Machine(pendulum, bodies=mass, loads=[assur.Gravity()])
+        >>> q, speed = np.linspace(-1.5, -0.5, 4), np.zeros(4)
+        >>> for _ in range(3):
+        ...     q, speed, status = machine.step(q, speed, effort=0.0, dt=0.01, n=10)
+        >>> q.round(4), status.tolist()
+        (array([-1.5463, -1.6367, -1.5854, -1.3201]), [0, 0, 0, 0])
+        """
+        require_equations(self, "step")
+        one_of(method, ("rk4",), "method")
+        one_of(on_error, ("nan", "hold", "raise"), "on_error")
+        return steps.step(self, Environments(q, speed, effort), dt, n, on_error, threads)
 
     @renamed_rates
     def internal_loads(

@@ -3,9 +3,9 @@
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
 
-use assur::dynamics::{EquationRequest, Machine, Term};
+use assur::dynamics::{EquationRequest, Machine, StepRequest, Term};
 use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
-use numpy::{PyArrayMethods, PyReadonlyArray1};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::word::{Word, Words};
@@ -134,4 +134,69 @@ pub(crate) fn equations<'py>(
     let failure =
         log.first().map(|first| error_map::first_failure(&first, report, rows).into_value(py));
     Ok((values, status, failure))
+}
+
+/// Coordinates and speeds after steps, and the statuses.
+pub(crate) type Stepped<'py> =
+    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u8>>);
+
+/// Environments up to which a step need not check for signals.
+const FEW_STEPS: u64 = 100_000;
+
+/// The environments that make steps: dimensions, coordinates, speeds and efforts.
+pub(crate) struct Environments<'py> {
+    pub dimensions: Flat<'py>,
+    pub q: Flat<'py>,
+    pub speed: Flat<'py>,
+    pub effort: Flat<'py>,
+    pub has_motors: bool,
+    pub holds: bool,
+    /// Designs × environments.
+    pub rows: usize,
+}
+
+/// See `assur.Machine.step`.
+pub(crate) fn step<'py>(
+    py: Python<'py>,
+    mechanism: &Mechanism,
+    machine: &Machine,
+    environments: &Environments<'py>,
+    (dt, steps): (f64, u64),
+    threads: Option<NonZeroUsize>,
+) -> PyResult<Stepped<'py>> {
+    let request = StepRequest {
+        dimensions: environments.dimensions.as_slice()?,
+        signs: mechanism.signs(),
+        q: environments.q.as_slice()?,
+        speed: environments.speed.as_slice()?,
+        effort: environments.effort.as_slice()?,
+        has_motors: environments.has_motors,
+        dt,
+        steps,
+        holds: environments.holds,
+    };
+    let (rows, drivers) = (environments.rows, mechanism.q0().len());
+    let mut memory = Memory::for_a_call();
+    let status = memory.array::<u8>(py, rows, 1)?;
+    let values = [memory.array::<f64>(py, rows, drivers)?, memory.array(py, rows, drivers)?];
+    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
+    let mut borrowed_status = status.readwrite();
+    let arrays = Arrays {
+        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
+        status: as_uninitialized(&mut borrowed_status)?,
+    };
+    let arrays = Mutex::new(Some(arrays));
+    let is_short = steps.saturating_mul(rows as u64) < FEW_STEPS;
+    let stepped = detach::run(py, is_short, |cancel| {
+        let control = Control { threads, cancel: Some(cancel), ..Control::default() };
+        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
+        arrays.map_or(Err(SolveError::Interrupted), |arrays| {
+            machine.step(mechanism, &request, arrays, &control)
+        })
+    });
+    drop(arrays);
+    stepped?.map_err(error_map::solve)?;
+    drop((borrowed, borrowed_status));
+    let [q, speed] = values;
+    Ok((q, speed, status))
 }

@@ -344,6 +344,29 @@ impl Machine {
         equations::equations(py, mechanism, machine, &inputs, &terms, threads, &report)
     }
 
+    /// Steps environments in time; see `assur.Machine.step`. `state`: coordinates, speeds and efforts.
+    #[allow(clippy::too_many_arguments, reason = "flat arrays")]
+    fn step<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: Flat<'py>,
+        state: (Flat<'py>, Flat<'py>, Flat<'py>),
+        has_motors: bool,
+        rows: usize,
+        steps: (f64, u64),
+        holds: bool,
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<equations::Stepped<'py>> {
+        let Inner::Mechanism(mechanism, machine) = &self.inner else {
+            return Err(error::input("a machine of a table has no mechanism", None));
+        };
+        let mechanism = &mechanism.get().inner;
+        let (q, speed, effort) = state;
+        let environments =
+            equations::Environments { dimensions, q, speed, effort, has_motors, holds, rows };
+        equations::step(py, mechanism, machine, &environments, steps, threads)
+    }
+
     /// Positions of rest of one design.
     fn equilibria<'py>(
         &self,

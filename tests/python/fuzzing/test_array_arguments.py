@@ -181,6 +181,7 @@ def not_numbers(array: Any) -> dict[str, Any]:
 # What may be left out.
 OPTIONAL = (
     "Machine.acceleration.effort",
+    "Machine.step.effort",
     "Mechanism.map.deg",
     "Mechanism.with_driver.deg",
     "Mechanism.with_driver.q",

@@ -200,6 +200,7 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         effort=AT,
         dynamics=AT,
         acceleration=AT,
+        step={**AT, "effort": 1.0, "dt": 1e-3},
         equilibria={"between": (0.0, 3.0)},
         flywheel={"fluctuation": 0.1},
         impact={"load": assur.Force("B", (-1.0, 0.0)), "q": 0.5, "speed": -5.0, "restitution": 0.3},

@@ -81,9 +81,9 @@ def test_calls_with_coordinates_take_degrees() -> None:
         for q, deg in in_place.items()
         if q in signature.parameters and deg not in signature.parameters
     }
-    # What holds coordinates beside values, as a record or a table does.
+    # What holds coordinates beside values, as a record or a table does, or goes on from them.
     records = {
-        "DeadPoint", "Mechanism.defects", "SingularLocus", "Table", "balance.fit",
+        "DeadPoint", "Machine.step", "Mechanism.defects", "SingularLocus", "Table", "balance.fit",
         "balance.harmonics", "balance.rotating_parts", "events.Position", "flywheel.Extreme",
         "slider_crank.Extreme",
     }  # fmt: skip

@@ -59,6 +59,7 @@ READ_IN_PLACE = {
     "Machine.reduced_moment": 2,
     "Machine.run": 3,
     "Machine.steady_state": 1,
+    "Machine.step": 1,
     "Measures.get": 1,
     "Mechanism.assemblies": 1,
     "Mechanism.find": 1,
@@ -110,6 +111,7 @@ DEFAULTS: dict[str, Any] = {
 # Where a default says something else, and why.
 OTHER_DEFAULTS: dict[tuple[str, str], Any] = {
     ("Gravity", "acceleration"): (0.0, -9.81),  # another thing
+    ("Machine.step", "on_error"): "nan",  # of many environments some fail
     ("Mechanism.solve", "order"): 2,  # what most users ask for
     ("Mechanism.to_html", "dark"): None,  # as the reader's browser has it
     ("Motion.to_html", "dark"): None,

@@ -47,6 +47,7 @@ pub(crate) mod value;
 pub use angle_between::{Angle, Line};
 pub use body::Body;
 pub use equations::request::{EquationRequest, Term};
+pub use equations::step::StepRequest;
 pub use equilibria::{Equilibria, Equilibrium, EquilibriumRange};
 pub use flywheel::cycle::{Cycle, Extreme};
 pub use flywheel::flywheel::{Flywheel, Mean};

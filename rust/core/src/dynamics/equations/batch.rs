@@ -1,6 +1,7 @@
 //! The equations of motion of many designs at many positions.
 
-use super::evaluate::{Equation, EquationBatch, Evaluate};
+use super::equation_batch::{EquationBatch, rotors};
+use super::evaluate::{Equation, Evaluate};
 use super::request::{EquationRequest, Term};
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::dispatch::{self, Entry, ForLevel};
@@ -13,10 +14,12 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::columns::Sources;
 use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::dynamics::reactions::scene::Scene;
-use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
+
+/// Positions of a chunk that share a branch: what they need stays in the caches.
+const CHUNK: usize = 512;
 
 impl Machine {
     /// The terms of the equations of motion of designs at positions: one array for each, and the statuses.
@@ -57,10 +60,6 @@ impl Machine {
         let derivatives = DerivativeTables::new(n, plan.order);
         let writer = Writer::of(mechanism, &derivatives, &solve_request);
         let rest = vec![0.0; n];
-        let mut rotors = vec![0.0; n];
-        for motor in &self.motors {
-            rotors[motor.driver] += motor.inertia();
-        }
         let batch = EquationBatch {
             positions: MachineBatch {
                 mechanism,
@@ -83,7 +82,7 @@ impl Machine {
                 control,
             },
             request,
-            rotors,
+            rotors: rotors(self, n),
         };
         batch.positions.check()?;
         let fits = [request.effort, request.acceleration]
@@ -92,7 +91,11 @@ impl Machine {
         if !fits {
             return Err(SolveError::Shape("efforts or accelerations do not fit".into()));
         }
-        let chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
+        let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
+        if plan.outputs.links.is_empty() && mechanism.plan().has_closed_forms() {
+            // One branch serves all positions of a chunk.
+            chunks.size = chunks.size.max(CHUNK);
+        }
         dispatch::at_level(control.simd, Terms { batch: &batch, chunks })
     }
 }
@@ -140,7 +143,7 @@ impl<'b> EquationBatch<'b> {
         let (request, n) = (self.request, self.positions.plan.drivers);
         self.positions.solve::<L, G>(positions, chunk, false, |design| {
             let count = design.status.len();
-            let mut effort = of_rows(request.effort, n, design.first, count);
+            let mut effort = of_rows(request.effort, n, &design.rows);
             if request.has_motors {
                 self.add_motors(&design.values, design.solved.speed, effort, count, efforts);
                 effort = efforts;
@@ -148,7 +151,7 @@ impl<'b> EquationBatch<'b> {
             let mut task = Evaluate {
                 batch: self,
                 effort,
-                acceleration: of_rows(request.acceleration, n, design.first, count),
+                acceleration: of_rows(request.acceleration, n, &design.rows),
                 first: design.index * count,
                 design,
                 scene,
@@ -157,36 +160,5 @@ impl<'b> EquationBatch<'b> {
             };
             L::call(&mut task);
         });
-    }
-
-    /// The efforts with those of the motors, position by position.
-    fn add_motors(
-        &self,
-        values: &crate::dynamics::reactions::applied::Values<'_>,
-        speed: &[f64],
-        effort: &[f64],
-        count: usize,
-        efforts: &mut Vec<f64>,
-    ) {
-        let n = self.positions.plan.drivers;
-        efforts.clear();
-        let row_of = |all: &[f64], row: usize, driver: usize| {
-            if all.len() == n { all[driver] } else { all[row * n + driver] }
-        };
-        let (mut tables, mut external) = (Vec::new(), Vec::new());
-        for row in 0..count {
-            tables.clear();
-            tables.extend(values.tables.iter().map(|table| [table[row], 0.0]));
-            external.clear();
-            let first = row * values.callbacks;
-            let numbers = &values.external[first..first + values.callbacks];
-            external.extend(numbers.iter().map(|&number| [number, 0.0]));
-            let numbers = Numbers { tables: &tables, external: &external, ..Numbers::default() };
-            efforts.extend((0..n).map(|driver| row_of(effort, row, driver)));
-            for motor in &self.positions.machine.motors {
-                let driver_speed = row_of(speed, row, motor.driver);
-                efforts[row * n + motor.driver] += motor.torque_at(driver_speed, numbers);
-            }
-        }
     }
 }

@@ -3,7 +3,8 @@
 use std::mem::MaybeUninit;
 
 use super::bodies::Partials;
-use super::request::{EquationRequest, Term};
+use super::equation_batch::EquationBatch;
+use super::request::Term;
 use super::solve::solve_positive;
 use crate::batch::dispatch::Task;
 use crate::batch::writer::RowSlices;
@@ -14,14 +15,6 @@ use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::state::status::Status;
 use crate::structure::closure::point_of_joint;
-
-/// The data that all chunks of a batch share.
-pub(super) struct EquationBatch<'b> {
-    pub positions: MachineBatch<'b>,
-    pub request: &'b EquationRequest<'b>,
-    /// Inertia of the rotors, driver by driver.
-    pub rotors: Vec<f64>,
-}
 
 /// The numbers of the positions in a register.
 #[derive(Debug, Clone, Default)]
@@ -76,7 +69,12 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
 impl<R: Real> Equation<R> {
     /// Computes what the requested terms need.
     #[inline(always)]
-    fn read(&mut self, batch: &EquationBatch<'_>, scene: &Scene<R>, partials: Partials<'_>) {
+    pub(super) fn read(
+        &mut self,
+        batch: &EquationBatch<'_>,
+        scene: &Scene<R>,
+        partials: Partials<'_>,
+    ) {
         let MachineBatch { plan, machine, .. } = &batch.positions;
         let (n, terms) = (plan.drivers, batch.request.terms);
         let needs = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
@@ -127,7 +125,7 @@ impl<R: Real> Equation<R> {
 
     /// Solves for the accelerations under efforts.
     #[inline(always)]
-    fn accelerate(&mut self, effort: &[f64], rows: Rows) {
+    pub(super) fn accelerate(&mut self, effort: &[f64], rows: Rows) {
         let n = self.bias.len();
         self.right.clear();
         for driver in 0..n {
@@ -136,6 +134,12 @@ impl<R: Real> Equation<R> {
         self.factor.clear();
         self.factor.extend_from_slice(&self.mass);
         solve_positive(&mut self.factor, &mut self.right);
+    }
+
+    /// The acceleration of a driver, after [`Self::accelerate`].
+    #[inline(always)]
+    pub(super) fn solution(&self, driver: usize) -> R {
+        self.right[driver]
     }
 
     /// The effort of a driver that accelerations need.

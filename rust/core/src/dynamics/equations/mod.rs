@@ -8,6 +8,9 @@
 
 mod batch;
 mod bodies;
+mod equation_batch;
 mod evaluate;
 pub(crate) mod request;
 mod solve;
+mod stage;
+pub(crate) mod step;

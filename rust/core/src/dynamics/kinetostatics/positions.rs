@@ -1,6 +1,7 @@
 //! The positions of many designs of a machine, solved chunk by chunk: kinematics, speeds, and what loads
 //! read there.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::followed::{Drivers, Followed};
@@ -58,12 +59,28 @@ pub(crate) struct Positions<'b, R: Real, const G: usize> {
     followed: Followed,
 }
 
+/// Positions of one design to solve.
+pub(crate) struct Asked<'a> {
+    /// Coordinates and speeds of the drivers, drivers fastest; one speed may serve all.
+    pub q: &'a [f64],
+    pub speed: &'a [f64],
+    /// Offset into the shared coordinates, if shared.
+    pub shared: Option<usize>,
+    /// Index of the design in its chunk, and in the batch.
+    pub index: usize,
+    pub design: usize,
+    /// Rows of the whole batch.
+    pub rows: Range<usize>,
+    /// Whether the design must be bound; else it is the one of the last call.
+    pub binds: bool,
+}
+
 /// The solved positions of one design of a chunk.
 pub(crate) struct DesignPositions<'d> {
     /// Index of the design in its chunk.
     pub index: usize,
-    /// Row of the first position in the whole batch.
-    pub first: usize,
+    /// Rows of the whole batch.
+    pub rows: Range<usize>,
     /// The size of the design, m.
     pub size: f64,
     pub guides: Vec<Vector>,
@@ -118,65 +135,98 @@ impl<'b> MachineBatch<'b> {
         whole: bool,
         mut each: impl FnMut(DesignPositions<'_>),
     ) {
-        let Shape { designs: all, positions, drivers } = *self.shape;
-        let Positions { worker, designs, scratch, tables, followed } = state;
-        designs.read(self.mechanism, self.request.dimensions, all, chunk.designs.clone());
+        let Shape { positions, drivers, .. } = *self.shape;
         let range = if whole { 0..positions } else { chunk.positions.clone() };
-        let count = range.len();
+        self.read_designs(state, chunk);
         for (index, design) in chunk.designs.clone().enumerate() {
             if self.control.is_cancelled() {
                 return;
             }
             let q = self.request.coordinates.of(design, positions * drivers);
-            let q = &q[range.start * drivers..range.end * drivers];
-            let row = designs.row(index);
-            let first = design * positions + range.start;
-            let mut rows = scratch.rows();
             let shared = match self.request.coordinates {
                 Coordinates::Shared(_) => Some(range.start),
                 Coordinates::PerDesign(_) => None,
             };
-            let mut job = Job { index: first, shared, ..rows.job(q, design) };
-            if worker.bind(row, &mut job) {
-                L::run(worker, &mut job);
-            }
-            let size = worker.size();
-            let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
-            let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
-            let values: Vec<&[f64]> =
-                (0..self.columns.len()).map(|column| rows.column(column)).collect();
-            for (table, values) in self.machine.tables.iter().zip(tables.iter_mut()) {
-                values.clear();
-                values.extend(q.iter().step_by(drivers).map(|&q| table.at(q)));
-            }
-            let external = first * self.callbacks..(first + count) * self.callbacks;
-            let solved = Solved {
-                columns: &values,
-                speed: of_rows(self.driven.speed, drivers, first, count),
-                acceleration: of_rows(self.driven.acceleration, drivers, first, count),
-                positions: count,
-            };
-            if self.machine.follows() {
-                let drivers = Drivers { q, units: &units, sense: self.driven.sense };
-                followed.read(self.machine, &self.sources, &solved, drivers, size);
-            }
-            each(DesignPositions {
+            let first = design * positions + range.start;
+            let rows = first..first + range.len();
+            let asked = Asked {
+                q: &q[range.start * drivers..range.end * drivers],
+                speed: of_rows(self.driven.speed, drivers, &rows),
+                shared,
                 index,
-                first,
-                size,
-                guides: guide_directions(self.mechanism, row.dimensions),
-                solved,
-                values: Values {
-                    tables,
-                    over: &followed.over,
-                    ways: &followed.ways,
-                    external: &self.driven.external[external],
-                    callbacks: self.callbacks,
-                },
-                status: &rows.status()[..count],
-            });
+                design,
+                rows,
+                binds: true,
+            };
+            self.solve_design::<L, G>(state, &asked, &mut each);
         }
         L::Register::fence();
+    }
+
+    /// Reads the dimensions of the designs of a chunk.
+    pub(crate) fn read_designs<R: Real, const G: usize>(
+        &self,
+        state: &mut Positions<'b, R, G>,
+        chunk: &Chunk,
+    ) {
+        let dimensions = self.request.dimensions;
+        state.designs.read(self.mechanism, dimensions, self.shape.designs, chunk.designs.clone());
+    }
+
+    /// Solves some positions of one design of the chunk whose designs were read; false if it has invalid
+    /// dimensions.
+    pub(crate) fn solve_design<L: Entry, const G: usize>(
+        &self,
+        state: &mut Positions<'b, L::Register, G>,
+        asked: &Asked<'_>,
+        each: &mut impl FnMut(DesignPositions<'_>),
+    ) -> bool {
+        let drivers = self.shape.drivers;
+        let Positions { worker, designs, scratch, tables, followed } = state;
+        let &Asked { q, speed, shared, index, design, ref rows, binds } = asked;
+        let row = designs.row(index);
+        let mut scratch_rows = scratch.rows();
+        let mut job = Job { index: rows.start, shared, ..scratch_rows.job(q, design) };
+        let is_valid = !binds || worker.bind(row, &mut job);
+        if is_valid {
+            L::run(worker, &mut job);
+        }
+        let size = worker.size();
+        let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
+        let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
+        let values: Vec<&[f64]> =
+            (0..self.columns.len()).map(|column| scratch_rows.column(column)).collect();
+        for (table, values) in self.machine.tables.iter().zip(tables.iter_mut()) {
+            values.clear();
+            values.extend(q.iter().step_by(drivers).map(|&q| table.at(q)));
+        }
+        let external = rows.start * self.callbacks..rows.end * self.callbacks;
+        let solved = Solved {
+            columns: &values,
+            speed,
+            acceleration: of_rows(self.driven.acceleration, drivers, rows),
+            positions: rows.len(),
+        };
+        if self.machine.follows() {
+            let drivers = Drivers { q, units: &units, sense: self.driven.sense };
+            followed.read(self.machine, &self.sources, &solved, drivers, size);
+        }
+        each(DesignPositions {
+            index,
+            rows: rows.clone(),
+            size,
+            guides: guide_directions(self.mechanism, row.dimensions),
+            solved,
+            values: Values {
+                tables,
+                over: &followed.over,
+                ways: &followed.ways,
+                external: &self.driven.external[external],
+                callbacks: self.callbacks,
+            },
+            status: &scratch_rows.status()[..rows.len()],
+        });
+        is_valid
     }
 }
 
@@ -188,6 +238,6 @@ impl<R: Real, const G: usize> Positions<'_, R, G> {
 }
 
 /// The numbers of the drivers at some rows, or those for all.
-pub(crate) fn of_rows(all: &[f64], drivers: usize, first: usize, count: usize) -> &[f64] {
-    if all.len() == drivers { all } else { &all[first * drivers..(first + count) * drivers] }
+pub(crate) fn of_rows<'a>(all: &'a [f64], drivers: usize, rows: &Range<usize>) -> &'a [f64] {
+    if all.len() == drivers { all } else { &all[rows.start * drivers..rows.end * drivers] }
 }

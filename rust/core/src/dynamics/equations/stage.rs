@@ -1,0 +1,143 @@
+//! One stage of the Runge-Kutta method for the environments of a chunk, a register of these at a time.
+
+use super::bodies::Partials;
+use super::equation_batch::EquationBatch;
+use super::evaluate::Equation;
+use crate::batch::dispatch::Task;
+use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
+use crate::dynamics::reactions::columns::Rows;
+use crate::dynamics::reactions::scene::Scene;
+use crate::math::lanes::Real;
+use crate::state::status::Status;
+
+/// The states of environments in a step, drivers fastest.
+#[derive(Debug, Default)]
+pub(super) struct StageArrays {
+    /// At the start of the step.
+    pub q: Vec<f64>,
+    pub speed: Vec<f64>,
+    /// At the present stage.
+    stage_q: Vec<f64>,
+    stage_speed: Vec<f64>,
+    /// At the next stage.
+    next_q: Vec<f64>,
+    next_speed: Vec<f64>,
+    /// Weighted sums of speeds and accelerations of the stages so far.
+    sum_q: Vec<f64>,
+    sum_speed: Vec<f64>,
+}
+
+impl StageArrays {
+    /// Begins with these states.
+    pub(super) fn start(&mut self, q: &[f64], speed: &[f64]) {
+        for (array, values) in [
+            (&mut self.q, q),
+            (&mut self.speed, speed),
+            (&mut self.stage_q, q),
+            (&mut self.stage_speed, speed),
+            (&mut self.next_q, q),
+            (&mut self.next_speed, speed),
+            (&mut self.sum_q, q),
+            (&mut self.sum_speed, speed),
+        ] {
+            array.clear();
+            array.extend_from_slice(values);
+        }
+    }
+
+    /// The state at the present stage, while the next is computed.
+    pub(super) fn take_stage(&mut self) -> [Vec<f64>; 2] {
+        [std::mem::take(&mut self.stage_q), std::mem::take(&mut self.stage_speed)]
+    }
+
+    /// Goes on to the next stage; takes the memory of the present one back.
+    pub(super) fn go_on(&mut self, [q, speed]: [Vec<f64>; 2]) {
+        self.stage_q = std::mem::replace(&mut self.next_q, q);
+        self.stage_speed = std::mem::replace(&mut self.next_speed, speed);
+    }
+
+    /// Begins the next step where the last stage ended; environments that have failed stay where they
+    /// were.
+    pub(super) fn finish_step(&mut self, status: &[u8], n: usize) {
+        for (row, &status) in status.iter().enumerate() {
+            let range = row * n..(row + 1) * n;
+            if status > Status::NearSingular as u8 {
+                self.stage_q[range.clone()].copy_from_slice(&self.q[range.clone()]);
+                self.stage_speed[range].fill(0.0);
+            } else {
+                self.q[range.clone()].copy_from_slice(&self.stage_q[range.clone()]);
+                self.speed[range.clone()].copy_from_slice(&self.stage_speed[range]);
+            }
+        }
+    }
+}
+
+/// The stage of the environments of a chunk.
+pub(super) struct Stage<'e, R: Real> {
+    pub batch: &'e EquationBatch<'e>,
+    pub design: DesignPositions<'e>,
+    pub scene: &'e mut Scene<R>,
+    pub equation: &'e mut Equation<R>,
+    pub effort: &'e [f64],
+    /// Speeds at this stage.
+    pub speed: &'e [f64],
+    pub arrays: &'e mut StageArrays,
+    pub dt: f64,
+    /// 0 to 3.
+    pub number: usize,
+}
+
+impl<R: Real> Task<R> for Stage<'_, R> {
+    #[inline(always)]
+    fn run(&mut self) {
+        let MachineBatch { plan, machine, sources, .. } = &self.batch.positions;
+        let solved = &{ self.design.solved };
+        let count = solved.positions;
+        for first in (0..count).step_by(R::LANES) {
+            let rows = Rows { first, last: count - 1 };
+            self.scene.read(plan, sources, &self.design.guides, solved, rows);
+            self.scene.apply(plan, machine, self.design.values, rows);
+            let partials = Partials { plan, sources, solved, rows };
+            self.equation.read(self.batch, self.scene, partials);
+            self.equation.accelerate(self.effort, rows);
+            self.advance(rows, R::LANES.min(count - first));
+        }
+    }
+}
+
+impl<R: Real> Stage<'_, R> {
+    /// Adds the slopes of this stage, and finds the state at the next one.
+    #[inline(always)]
+    fn advance(&mut self, rows: Rows, lanes: usize) {
+        let n = self.batch.positions.plan.drivers;
+        let whole = R::splat(self.dt);
+        // Way to the next stage, and the weight of this one.
+        let (way, weight) = match self.number {
+            0 => (whole * R::splat(0.5), R::ONE),
+            1 => (whole * R::splat(0.5), R::splat(2.0)),
+            2 => (whole, R::splat(2.0)),
+            _ => (whole / R::splat(6.0), R::ONE),
+        };
+        for driver in 0..n {
+            let read = |values: &[f64]| rows.read::<R>(values, n, driver);
+            let (speed, acceleration) = (read(self.speed), self.equation.solution(driver));
+            let (mut slope_q, mut slope_speed) = (speed, acceleration);
+            if self.number > 0 {
+                let sums = (read(&self.arrays.sum_q), read(&self.arrays.sum_speed));
+                slope_q = sums.0 + weight * slope_q;
+                slope_speed = sums.1 + weight * slope_speed;
+            }
+            let last = self.number == 3;
+            let toward = if last { (slope_q, slope_speed) } else { (speed, acceleration) };
+            let next_q = read(&self.arrays.q) + way * toward.0;
+            let next_speed = read(&self.arrays.speed) + way * toward.1;
+            for lane in 0..lanes {
+                let at = (rows.first + lane) * n + driver;
+                self.arrays.sum_q[at] = slope_q.lane(lane);
+                self.arrays.sum_speed[at] = slope_speed.lane(lane);
+                self.arrays.next_q[at] = next_q.lane(lane);
+                self.arrays.next_speed[at] = next_speed.lane(lane);
+            }
+        }
+    }
+}
