@@ -7,7 +7,7 @@ use super::dispatch::{Entry, ForLevel, at_level};
 use super::request::{Coordinates, Request};
 use super::schedule::Control;
 use super::worker::{Job, Worker};
-use super::writer::{RowSlices, Writer};
+use super::writer::{Layout, RowSlices, Writer};
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::math::simd::Simd;
@@ -52,6 +52,7 @@ impl ForLevel for Parts<'_, '_> {
         let mut values: Vec<Vec<MaybeUninit<f64>>> =
             writer.columns.iter().map(|c| vec![MaybeUninit::new(0.0); q.len() * c.width]).collect();
         let mut rows = RowSlices {
+            layout: Layout::Rows,
             columns: values.iter_mut().map(Vec::as_mut_slice).collect(),
             status: &mut vec![MaybeUninit::new(0); q.len()],
             past_caches: false,

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::request::{Arrays, Column};
-use super::writer::RowSlices;
+use super::writer::{Layout, RowSlices};
 use crate::plan::mechanism::Mechanism;
 
 /// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
@@ -114,6 +114,7 @@ impl<'a> Chunks<'a> {
     fn take_rows(&mut self, rows: usize) -> RowSlices<'a> {
         let columns = self.rest.columns.iter_mut().zip(self.columns);
         RowSlices {
+            layout: Layout::Rows,
             columns: columns.map(|(all, column)| split_front(all, rows * column.width)).collect(),
             status: split_front(&mut self.rest.status, rows),
             past_caches: self.past_caches,

@@ -6,15 +6,17 @@ use super::request::Column;
 use super::schedule::{Control, available_threads};
 use super::solve::as_unwritten;
 use super::worker::Job;
-use super::writer::RowSlices;
+use super::writer::{Layout, RowSlices};
 use crate::description::error::SolveError;
+use crate::math::lanes::LANES;
 use crate::math::room::has_room;
 
 /// Columns for the positions of one design.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Scratch {
     values: Vec<Vec<f64>>,
     status: Vec<u8>,
+    layout: Layout,
 }
 
 /// The rows of a scratch, to be written and read in turn.
@@ -33,10 +35,13 @@ impl Scratch {
         if has_room(numbers) { Ok(()) } else { Err(SolveError::OutOfMemory { numbers }) }
     }
 
-    pub(crate) fn new(columns: &[Column], positions: usize) -> Self {
-        let values =
-            columns.iter().map(|column| vec![f64::NAN; positions * column.width]).collect();
-        Self { values, status: vec![0; positions] }
+    pub(crate) fn new(columns: &[Column], positions: usize, layout: Layout) -> Self {
+        let rows = match layout {
+            Layout::Rows => positions,
+            Layout::Blocks => positions.next_multiple_of(LANES),
+        };
+        let values = columns.iter().map(|column| vec![f64::NAN; rows * column.width]).collect();
+        Self { values, status: vec![0; positions], layout }
     }
 
     pub(crate) fn rows(&mut self) -> ScratchRows<'_> {
@@ -44,6 +49,7 @@ impl Scratch {
         // SAFETY: a worker stores only initialised numbers.
         unsafe {
             ScratchRows(RowSlices {
+                layout: self.layout,
                 columns: self.values.iter_mut().map(|values| as_unwritten(values)).collect(),
                 status: as_unwritten(&mut self.status),
                 past_caches: false,
@@ -61,6 +67,23 @@ impl<'a> ScratchRows<'a> {
     /// The job of solving a design at some of these coordinates, from a row on.
     pub(crate) fn part<'j>(&'j mut self, q: &'j [f64], first: usize, design: usize) -> Job<'j, 'a> {
         Job { first, shared: Some(first), ..self.job(q, design) }
+    }
+
+    /// Repeats the last of `count` rows in the rest of its block, which registers read with it.
+    pub(crate) fn repeat_last(&mut self, count: usize) {
+        if count.is_multiple_of(LANES) {
+            return;
+        }
+        for column in &mut self.0.columns {
+            // A block is as long as an eighth of the array has numbers for each row.
+            let block = count / LANES;
+            let width = column.len() / self.0.status.len().next_multiple_of(LANES);
+            let numbers = &mut column[block * LANES * width..(block + 1) * LANES * width];
+            for register in numbers.chunks_exact_mut(LANES) {
+                let last = register[count % LANES - 1];
+                register[count % LANES..].fill(last);
+            }
+        }
     }
 
     pub(crate) fn column(&self, index: usize) -> &[f64] {

@@ -8,7 +8,7 @@ use super::request::{Column, Outputs, Quantity, Request};
 use crate::branch::design::Units;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::Real;
+use crate::math::lanes::{LANES, Real};
 use crate::math::stride::Stride;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
@@ -20,6 +20,22 @@ use crate::structure::closure::point_of_joint;
 /// Bytes of a cache line.
 const LINE: usize = 64;
 
+/// How the numbers of several per row lie in an array.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Layout {
+    /// Row after row, as results are read.
+    Rows,
+    /// Eight rows after eight, of these number after number: each register lies by itself, and an array
+    /// has room for whole eights.
+    Blocks,
+}
+
+/// Where a number of each row lies in an array of [`Layout::Blocks`].
+#[inline(always)]
+pub(crate) fn place_in_blocks(row: usize, width: usize, entry: usize) -> usize {
+    (row / LANES * width + entry) * LANES + row % LANES
+}
+
 /// The rows of some positions in every array, not yet written.
 #[derive(Debug)]
 pub(crate) struct RowSlices<'a> {
@@ -27,6 +43,7 @@ pub(crate) struct RowSlices<'a> {
     pub status: &'a mut [MaybeUninit<u8>],
     /// Whether the whole result exceeds the caches, so that rows may bypass them.
     pub past_caches: bool,
+    pub layout: Layout,
 }
 
 /// Rows to write.
@@ -244,6 +261,13 @@ impl Writer {
         for entry in &self.angles {
             let offset = R::splat(entry.offset(constants));
             let (lifted, turns, entry) = (&lifted[entry.class], &entry.turns, &entry.row);
+            if rows.layout == Layout::Blocks {
+                for g in 0..range.count.div_ceil(R::LANES) {
+                    let angle = of_link::<R, R, G>(lifted[g], turns, &state.pose.q, g) + offset;
+                    rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, angle));
+                }
+                continue;
+            }
             let past = rows.past_caches(entry, range);
             for (g, out) in entry.groups::<R>(rows.of(entry, range)) {
                 let angle = of_link::<R, R, G>(lifted[g], turns, &state.pose.q, g);
@@ -264,9 +288,19 @@ impl Writer {
         failed: Option<&[R::Mask; G]>,
     ) {
         for entry in &self.angles {
-            let offset = W::splat(entry.offset(constants));
+            let entry_offset = entry.offset(constants);
+            let offset = W::splat(entry_offset);
             let (units, reference) = (&state.pose.class[entry.class], references[entry.class]);
             let (turns, entry) = (&entry.turns, &entry.row);
+            if rows.layout == Layout::Blocks {
+                let offset = R::splat(entry_offset);
+                for g in 0..range.count.div_ceil(R::LANES) {
+                    let angle = reference.lift(units[g].unit_angle(), state.pose.q[0][g]);
+                    let angle = of_link::<R, R, G>(angle, turns, &state.pose.q, g) + offset;
+                    rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, angle));
+                }
+                continue;
+            }
             let past = rows.past_caches(entry, range);
             for (stride, out) in entry.groups::<W>(rows.of(entry, range)) {
                 let g = stride * W::REGISTERS;
@@ -289,6 +323,10 @@ impl Writer {
         state: &State<R, G>,
         failed: Option<&[R::Mask; G]>,
     ) {
+        if rows.layout == Layout::Blocks {
+            self.write_jets_in_blocks(rows, range, (constants, unit), state, failed);
+            return;
+        }
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
@@ -326,17 +364,10 @@ impl Writer {
             let turn = Vector::splat(constants.turn[entry.source]);
             let out = rows.of(entry, range);
             for (g, out) in out.chunks_mut(entry.width * R::LANES).enumerate() {
-                let mut unit = state.pose.class[*class][g] * turn;
-                if let Some(orientation) = driven {
-                    unit = unit * state.pose.phase[*orientation][g];
-                }
+                let unit = direction(state, *class, *driven, turn, g);
                 store_lanes(out, entry.width, entry.index, or_nan::<R, R, G>(failed, g, unit.x));
-                store_lanes(
-                    out,
-                    entry.width,
-                    entry.index + entry.y,
-                    or_nan::<R, R, G>(failed, g, unit.y),
-                );
+                let y = or_nan::<R, R, G>(failed, g, unit.y);
+                store_lanes(out, entry.width, entry.index + entry.y, y);
             }
         }
         for entry in &self.rates {
@@ -349,15 +380,74 @@ impl Writer {
             let term = Some(driven);
             let whole = if is_simple { write_scaled(out, past, rates, term, scale) } else { 0 };
             for (g, out) in entry.groups::<R>(out).skip(whole) {
-                let rate = rates[g] + driven;
-                let mut scaled = rate * scale;
-                if overflows {
-                    // Only a link that does not turn keeps a finite derivative.
-                    scaled = R::select(rate.abs().le(R::ZERO), rate, scaled);
-                }
+                let scaled = entry.scaled_rate(rates[g] + driven, unit);
                 entry.store(out, past, or_nan::<R, R, G>(failed, g, scaled));
             }
         }
+    }
+}
+
+impl Writer {
+    /// The same with [`Layout::Blocks`].
+    #[inline(always)]
+    fn write_jets_in_blocks<R: Real, const G: usize>(
+        &self,
+        rows: &mut RowSlices<'_>,
+        range: RowRange,
+        (constants, unit): (&DesignConstants, &Units),
+        state: &State<R, G>,
+        failed: Option<&[R::Mask; G]>,
+    ) {
+        let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
+        let groups = range.count.div_ceil(R::LANES);
+        for entry in &self.points {
+            let scale = R::splat(unit.length[entry.k]);
+            let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
+            for g in 0..groups {
+                let p = scaled(state.pose.points[entry.source][g], scale, shift);
+                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, p.x));
+                rows.put(entry, range, g, entry.index + entry.y, or_nan::<R, R, G>(failed, g, p.y));
+            }
+        }
+        for entry in &self.slides {
+            let scale = R::splat(unit.length[entry.k]);
+            for g in 0..groups {
+                let value = state.pose.slides[entry.source][g] * scale;
+                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, value));
+            }
+        }
+        for DirectionEntry { row: entry, class, driven } in &self.directions {
+            let turn = Vector::splat(constants.turn[entry.source]);
+            for g in 0..groups {
+                let unit = direction(state, *class, *driven, turn, g);
+                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, unit.x));
+                let y = or_nan::<R, R, G>(failed, g, unit.y);
+                rows.put(entry, range, g, entry.index + entry.y, y);
+            }
+        }
+        for entry in &self.rates {
+            for g in 0..groups {
+                let rate = state.pose.theta[entry.source][g] + R::splat(entry.driven);
+                let rate = entry.scaled_rate(rate, unit);
+                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, rate));
+            }
+        }
+    }
+}
+
+/// Unit vector along a link's x axis in a register.
+#[inline(always)]
+fn direction<R: Real, const G: usize>(
+    state: &State<R, G>,
+    class: usize,
+    driven: Option<usize>,
+    turn: Vector<R>,
+    g: usize,
+) -> Vector<R> {
+    let unit = state.pose.class[class][g] * turn;
+    match driven {
+        Some(orientation) => unit * state.pose.phase[orientation][g],
+        None => unit,
     }
 }
 
@@ -414,6 +504,18 @@ impl RowEntry {
         rows.chunks_mut(self.width * R::LANES).enumerate()
     }
 
+    /// The derivative of an angle by drivers' coordinates in their own units.
+    #[inline(always)]
+    fn scaled_rate<R: Real>(&self, rate: R, unit: &Units) -> R {
+        let factor = unit.angle[self.k];
+        let scaled = rate * R::splat(factor);
+        if factor.is_infinite() {
+            // Only a link that does not turn keeps a finite derivative.
+            return R::select(rate.abs().le(R::ZERO), rate, scaled);
+        }
+        scaled
+    }
+
     /// Writes one number for each lane that has a row.
     #[inline(always)]
     fn store<R: Real>(&self, out: &mut [MaybeUninit<f64>], past: bool, x: R) {
@@ -426,6 +528,13 @@ impl RowEntry {
 }
 
 impl RowSlices<'_> {
+    /// Writes a register of rows, number `g` of a range, with [`Layout::Blocks`].
+    #[inline(always)]
+    fn put<R: Real>(&mut self, entry: &RowEntry, range: RowRange, g: usize, index: usize, x: R) {
+        let at = place_in_blocks(range.first + g * R::LANES, entry.width, index);
+        x.write(&mut self.columns[entry.column][at..at + R::LANES]);
+    }
+
     /// The rows of an entry's column.
     #[inline(always)]
     fn of(&mut self, entry: &RowEntry, range: RowRange) -> &mut [MaybeUninit<f64>] {
@@ -471,10 +580,19 @@ impl RowSlices<'_> {
     /// Writes NaN into the derivatives from `order` on.
     pub(crate) fn write_nan(&mut self, columns: &[Column], order: usize, row: usize, count: usize) {
         for (column, out) in columns.iter().zip(&mut self.columns) {
-            if column.order >= order {
-                let rows = row * column.width..(row + count) * column.width;
-                out[rows].fill(MaybeUninit::new(f64::NAN));
+            if column.order < order {
+                continue;
             }
+            if self.layout == Layout::Blocks {
+                for row in row..row + count {
+                    for entry in 0..column.width {
+                        out[place_in_blocks(row, column.width, entry)] = MaybeUninit::new(f64::NAN);
+                    }
+                }
+                continue;
+            }
+            let rows = row * column.width..(row + count) * column.width;
+            out[rows].fill(MaybeUninit::new(f64::NAN));
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::batch::chunks::{Chunk, Chunks, DesignRow, Designs};
 use crate::batch::dispatch::{Entry, ForLevel};
 use crate::batch::scratch::{Scratch, ScratchRows};
 use crate::batch::worker::Worker;
-use crate::batch::writer::RowSlices;
+use crate::batch::writer::{Layout, RowSlices};
 use crate::description::error::SolveError;
 use crate::math::lanes::Real;
 use crate::state::status::Status;
@@ -53,7 +53,7 @@ impl ForLevel for Measure<'_, '_> {
         let worker = || ThreadState::<'_, L::Register, G> {
             solver: Solver { worker: new_worker(), probe: new_worker(), probed: 0, dropped: 0 },
             designs: Designs::default(),
-            scratch: Scratch::new(columns, batch.shape.positions),
+            scratch: Scratch::new(columns, batch.shape.positions, Layout::Rows),
         };
         let work =
             |state: &mut ThreadState<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {

@@ -23,9 +23,7 @@ impl Partials<'_> {
     #[inline(always)]
     pub(super) fn point<R: Real>(self, point: usize, a: usize) -> Vector<R> {
         match self.sources.points[point] {
-            Some(column) => {
-                self.rows.read_pairs(self.solved.columns[column + 1], self.plan.drivers, a)
-            }
+            Some(column) => self.rows.pairs(self.solved.columns[column + 1], self.plan.drivers, a),
             None => Vector::ZERO,
         }
     }
@@ -34,7 +32,7 @@ impl Partials<'_> {
     #[inline(always)]
     pub(super) fn angle<R: Real>(self, link: usize, a: usize) -> R {
         match self.sources.rates[link] {
-            Some(column) => self.rows.read(self.solved.columns[column], self.plan.drivers, a),
+            Some(column) => self.rows.solved(self.solved.columns[column], self.plan.drivers, a),
             None => R::ZERO,
         }
     }
@@ -44,7 +42,7 @@ impl Partials<'_> {
     fn second_point<R: Real>(self, point: usize, [a, b]: [usize; 2]) -> Vector<R> {
         let n = self.plan.drivers;
         match self.sources.points[point] {
-            Some(column) => self.rows.read_pairs(self.solved.columns[column + 2], n * n, a * n + b),
+            Some(column) => self.rows.pairs(self.solved.columns[column + 2], n * n, a * n + b),
             None => Vector::ZERO,
         }
     }
@@ -53,7 +51,7 @@ impl Partials<'_> {
     fn second_angle<R: Real>(self, link: usize, [a, b]: [usize; 2]) -> R {
         let n = self.plan.drivers;
         match self.sources.rates[link] {
-            Some(column) => self.rows.read(self.solved.columns[column + 1], n * n, a * n + b),
+            Some(column) => self.rows.solved(self.solved.columns[column + 1], n * n, a * n + b),
             None => R::ZERO,
         }
     }

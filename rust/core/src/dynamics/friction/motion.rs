@@ -18,6 +18,7 @@ use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_direction
 use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::dynamics::reactions::scene::Scene;
 use crate::dynamics::value::Numbers;
+use crate::math::lanes::LANES;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 
@@ -82,7 +83,7 @@ impl<'m> FrictionMotion<'m> {
             sources: Sources::new(&plan, &columns),
             guides: guide_directions(mechanism, dimensions),
             unit,
-            values: columns.iter().map(|column| vec![0.0; column.width]).collect(),
+            values: columns.iter().map(|column| vec![0.0; column.width * LANES]).collect(),
             scene,
             friction: FrictionWorkspace::default(),
             pairs: FrictionPair::of(&plan, &links_at, &machine.friction),
@@ -199,11 +200,11 @@ impl<'m> FrictionMotion<'m> {
             match column.quantity {
                 Quantity::Joint(joint) => {
                     let place = pose.point(Point::Joint(joint), k);
-                    values.copy_from_slice(&[place.x, place.y]);
+                    [values[0], values[LANES]] = [place.x, place.y];
                 }
                 Quantity::Origin(link) => {
                     let place = pose.point(Point::Link { link, at: [0.0, 0.0] }, k);
-                    values.copy_from_slice(&[place.x, place.y]);
+                    [values[0], values[LANES]] = [place.x, place.y];
                 }
                 Quantity::Slide(slide) => values[0] = pose.slide(slide, k),
                 Quantity::Angle(link) if k > 0 => values[0] = pose.angle(link, k),
@@ -212,7 +213,7 @@ impl<'m> FrictionMotion<'m> {
                 Quantity::Angle(link) => values[0] = pose.frame(link, 0).angle(),
                 Quantity::Direction(link) => {
                     let unit = pose.frame(link, k);
-                    values.copy_from_slice(&[unit.x, unit.y]);
+                    [values[0], values[LANES]] = [unit.x, unit.y];
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! The curves over other coordinates, and the directions in which these move, at some positions of one
 //! design.
 
+use crate::batch::writer::place_in_blocks;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::{Measure, sign};
 use crate::dynamics::reactions::columns::{Solved, Sources};
@@ -85,6 +86,7 @@ fn derivative(
     match measure {
         Measure::Driver(followed) => f64::from(followed == driver),
         // The column of the first derivatives follows.
-        _ => column(sources, measure).map_or(0.0, |c| solved.columns[c + 1][row * n + driver]),
+        _ => column(sources, measure)
+            .map_or(0.0, |c| solved.columns[c + 1][place_in_blocks(row, n, driver)]),
     }
 }

@@ -11,7 +11,7 @@ use crate::batch::request::{Column, Coordinates, Request, Shape, product};
 use crate::batch::schedule::Control;
 use crate::batch::scratch::Scratch;
 use crate::batch::worker::{Job, Worker};
-use crate::batch::writer::Writer;
+use crate::batch::writer::{Layout, Writer};
 use crate::description::error::SolveError;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
@@ -120,7 +120,7 @@ impl<'b> MachineBatch<'b> {
         Positions {
             worker: Worker::new(mechanism, request, derivatives, writer, control),
             designs: Designs::default(),
-            scratch: Scratch::new(self.columns, self.shape.positions),
+            scratch: Scratch::new(self.columns, self.shape.positions, Layout::Blocks),
             tables: vec![Vec::new(); self.machine.tables.len()],
             followed: Followed::default(),
         }
@@ -191,6 +191,7 @@ impl<'b> MachineBatch<'b> {
         if is_valid {
             L::run(worker, &mut job);
         }
+        scratch_rows.repeat_last(rows.len());
         let size = worker.size();
         let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
         let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();

@@ -5,6 +5,7 @@ use std::ops::Add;
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
 use crate::batch::request::{Column, Quantity};
+use crate::batch::writer::place_in_blocks;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -55,7 +56,8 @@ pub(crate) fn guide_directions(mechanism: &Mechanism, dimensions: &[f64]) -> Vec
     slides.map(|slide| crate::plan::constants::unit(slide.angle(dimensions))).collect()
 }
 
-/// The positions in the lanes: from `first` on; lanes beyond the last position repeat it.
+/// The positions in the lanes: from `first` on, a multiple of the lanes; those beyond the last position
+/// repeat it.
 #[derive(Clone, Copy)]
 pub(crate) struct Rows {
     pub first: usize,
@@ -88,7 +90,7 @@ impl Rows {
     pub(crate) fn rate<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut rate = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {
-            rate += self.read::<R>(derivatives, speeds.len(), driver) * speed;
+            rate += self.solved::<R>(derivatives, speeds.len(), driver) * speed;
         }
         rate
     }
@@ -98,7 +100,7 @@ impl Rows {
     pub(crate) fn rate_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut sum = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {
-            sum += self.read::<R>(derivatives, speeds.len(), driver).abs() * speed.abs();
+            sum += self.solved::<R>(derivatives, speeds.len(), driver).abs() * speed.abs();
         }
         sum
     }
@@ -108,32 +110,26 @@ impl Rows {
     pub(crate) fn velocity_size<R: Real>(self, derivatives: &[f64], speeds: &[R]) -> R {
         let mut sum = R::ZERO;
         for (driver, &speed) in speeds.iter().enumerate() {
-            let rate = self.read_pairs::<R>(derivatives, speeds.len(), driver);
+            let rate = self.pairs::<R>(derivatives, speeds.len(), driver);
             sum += rate.size() * speed.abs();
         }
         sum
     }
 
-    /// The entry `offset` of `width` pairs of each position: all its first numbers come before the
+    /// Number `entry` of `width` of each solved position, in blocks.
+    #[inline(always)]
+    pub(crate) fn solved<R: Real>(self, column: &[f64], width: usize, entry: usize) -> R {
+        R::read(&column[place_in_blocks(self.first, width, entry)..])
+    }
+
+    /// The entry `offset` of `width` pairs of each solved position: all its first numbers come before the
     /// second ones.
     #[inline(always)]
-    pub(crate) fn read_pairs<R: Real>(
-        self,
-        values: &[f64],
-        width: usize,
-        offset: usize,
-    ) -> Vector<R> {
-        let first = self.first * 2;
-        match (values.get(first..first + R::LANES * 2), width) {
-            (Some(all), 1) => {
-                let [x, y] = R::unzip(R::read(all), R::read(&all[R::LANES..]));
-                Vector::new(x, y)
-            }
-            _ => Vector::new(
-                self.read(values, 2 * width, offset),
-                self.read(values, 2 * width, width + offset),
-            ),
-        }
+    pub(crate) fn pairs<R: Real>(self, column: &[f64], width: usize, offset: usize) -> Vector<R> {
+        Vector::new(
+            self.solved(column, 2 * width, offset),
+            self.solved(column, 2 * width, width + offset),
+        )
     }
 }
 
@@ -172,7 +168,7 @@ impl<R: Real> Scene<R> {
         }
         for (slide, source) in self.slides.iter_mut().zip(&sources.slides) {
             let &Some(column) = source else { continue };
-            *slide = rows.read(solved.columns[column], 1, 0);
+            *slide = rows.solved(solved.columns[column], 1, 0);
         }
         for link in (0..self.directions.len()).filter(|&link| plan.needs_direction[link]) {
             self.directions[link] = match plan.direction[link] {
@@ -183,7 +179,7 @@ impl<R: Real> Scene<R> {
                 }
                 Direction::Angle => Vector::at_angle(self.angles[link].at),
                 Direction::Solved => match sources.directions[link] {
-                    Some(column) => rows.read_pairs(solved.columns[column], 1, 0),
+                    Some(column) => rows.pairs(solved.columns[column], 1, 0),
                     None => Vector::ONE,
                 },
             };
@@ -260,7 +256,7 @@ impl<R: Real> Term<R> for R {
     }
     #[inline(always)]
     fn read(rows: Rows, values: &[f64], width: usize, offset: usize) -> Self {
-        rows.read(values, width, offset)
+        rows.solved(values, width, offset)
     }
 }
 
@@ -272,6 +268,6 @@ impl<R: Real> Term<R> for Vector<R> {
     }
     #[inline(always)]
     fn read(rows: Rows, values: &[f64], width: usize, offset: usize) -> Self {
-        rows.read_pairs(values, width, offset)
+        rows.pairs(values, width, offset)
     }
 }
