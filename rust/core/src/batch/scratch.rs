@@ -75,7 +75,6 @@ impl<'a> ScratchRows<'a> {
             return;
         }
         for column in &mut self.0.columns {
-            // A block is as long as an eighth of the array has numbers for each row.
             let block = count / LANES;
             let width = column.len() / self.0.status.len().next_multiple_of(LANES);
             let numbers = &mut column[block * LANES * width..(block + 1) * LANES * width];

@@ -31,9 +31,12 @@ impl Partials<'_> {
     /// Derivative of a link's angle by driver `a`.
     #[inline(always)]
     pub(super) fn angle<R: Real>(self, link: usize, a: usize) -> R {
-        match self.sources.rates[link] {
-            Some(column) => self.rows.solved(self.solved.columns[column], self.plan.drivers, a),
-            None => R::ZERO,
+        match (self.sources.rates[link], &self.plan.turns[link]) {
+            (_, Some(turns)) => R::splat(turns[a]),
+            (Some(column), None) => {
+                self.rows.solved(self.solved.columns[column], self.plan.drivers, a)
+            }
+            (None, None) => R::ZERO,
         }
     }
 
@@ -50,9 +53,11 @@ impl Partials<'_> {
     #[inline(always)]
     fn second_angle<R: Real>(self, link: usize, [a, b]: [usize; 2]) -> R {
         let n = self.plan.drivers;
-        match self.sources.rates[link] {
-            Some(column) => self.rows.solved(self.solved.columns[column + 1], n * n, a * n + b),
-            None => R::ZERO,
+        match (self.sources.rates[link], &self.plan.turns[link]) {
+            (Some(column), None) => {
+                self.rows.solved(self.solved.columns[column + 1], n * n, a * n + b)
+            }
+            _ => R::ZERO,
         }
     }
 

@@ -48,6 +48,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     fn run(&mut self) {
         let MachineBatch { plan, machine, sources, .. } = &self.batch.positions;
         let count = self.design.solved.positions;
+        self.scene.place_known(self.design.known);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.design.guides, &self.design.solved, rows);

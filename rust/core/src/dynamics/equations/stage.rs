@@ -93,6 +93,7 @@ impl<R: Real> Task<R> for Stage<'_, R> {
         let MachineBatch { plan, machine, sources, .. } = &self.batch.positions;
         let solved = &{ self.design.solved };
         let count = solved.positions;
+        self.scene.place_known(self.design.known);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
             self.scene.read(plan, sources, &self.design.guides, solved, rows);

@@ -57,6 +57,7 @@ pub(crate) struct Positions<'b, R: Real, const G: usize> {
     scratch: Scratch,
     tables: Vec<Vec<f64>>,
     followed: Followed,
+    known: Vec<(usize, Vector)>,
 }
 
 /// Positions of one design to solve.
@@ -84,6 +85,8 @@ pub(crate) struct DesignPositions<'d> {
     /// The size of the design, m.
     pub size: f64,
     pub guides: Vec<Vector>,
+    /// Points of the ground that are known for the design.
+    pub known: &'d [(usize, Vector)],
     pub solved: Solved<'d>,
     pub values: Values<'d>,
     pub status: &'d [u8],
@@ -123,6 +126,7 @@ impl<'b> MachineBatch<'b> {
             scratch: Scratch::new(self.columns, self.shape.positions, Layout::Blocks),
             tables: vec![Vec::new(); self.machine.tables.len()],
             followed: Followed::default(),
+            known: Vec::new(),
         }
     }
 
@@ -182,7 +186,7 @@ impl<'b> MachineBatch<'b> {
         each: &mut impl FnMut(DesignPositions<'_>),
     ) -> bool {
         let drivers = self.shape.drivers;
-        let Positions { worker, designs, scratch, tables, followed } = state;
+        let Positions { worker, designs, scratch, tables, followed, known } = state;
         let &Asked { q, speed, shared, index, design, ref rows, binds } = asked;
         let row = designs.row(index);
         let mut scratch_rows = scratch.rows();
@@ -192,6 +196,9 @@ impl<'b> MachineBatch<'b> {
             L::run(worker, &mut job);
         }
         scratch_rows.repeat_last(rows.len());
+        known.clear();
+        let points = (0..self.plan.points.len()).filter(|&point| self.plan.is_known[point]);
+        known.extend(points.map(|point| (point, worker.fixed_point(point))));
         let size = worker.size();
         let unit = |link: &Option<usize>| if link.is_some() { 1.0 } else { size };
         let units: Vec<f64> = self.plan.driven_links.iter().map(unit).collect();
@@ -217,6 +224,7 @@ impl<'b> MachineBatch<'b> {
             rows: rows.clone(),
             size,
             guides: guide_directions(self.mechanism, row.dimensions),
+            known,
             solved,
             values: Values {
                 tables,

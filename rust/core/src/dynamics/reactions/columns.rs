@@ -134,6 +134,15 @@ impl Rows {
 }
 
 impl<R: Real> Scene<R> {
+    /// Sets the points of the ground that are known for a design.
+    pub(crate) fn place_known(&mut self, known: &[(usize, Vector)]) {
+        for &(point, at) in known {
+            let rest = Vector::ZERO;
+            let at = Vector::splat(at);
+            self.points[point] = Moving { at, velocity: rest, acceleration: rest };
+        }
+    }
+
     /// Reads positions.
     #[inline(always)]
     pub(crate) fn read(
@@ -164,6 +173,14 @@ impl<R: Real> Scene<R> {
                 let rates = &solved.columns[column..];
                 let [velocity, acceleration] = changing(plan.order, drive, rows, rates);
                 *angle = Moving { velocity, acceleration, ..*angle };
+            }
+        }
+        for (angle, turns) in self.angles.iter_mut().zip(&plan.turns) {
+            let Some(turns) = turns else { continue };
+            (angle.velocity, angle.acceleration) = (R::ZERO, R::ZERO);
+            for (&turns, &[speed, speed_rate]) in turns.iter().zip(drive) {
+                angle.velocity += R::splat(turns) * speed;
+                angle.acceleration += R::splat(turns) * speed_rate;
             }
         }
         for (slide, source) in self.slides.iter_mut().zip(&sources.slides) {

@@ -77,6 +77,10 @@ pub(crate) struct ForcePlan {
     /// Whether angles are solved only where a load reads them, and else their derivatives alone: angles of
     /// several drivers are followed from the drawing.
     spares_angles: bool,
+    /// Points of the ground that are not solved at every position, but known for the design.
+    pub is_known: Vec<bool>,
+    /// For every link that the drivers alone turn, by how much each turns it, if that is not solved.
+    pub turns: Vec<Option<Vec<f64>>>,
     /// Whether accelerations, and velocities, are needed.
     pub has_inertia: bool,
     pub has_speeds: bool,
@@ -106,6 +110,13 @@ impl ForcePlan {
         let mut compiled = Self::without_needs(mechanism, machine);
         compiled.spares_angles = true;
         compiled.order = order;
+        compiled.is_known.clone_from(&mechanism.plan().fixed);
+        compiled.is_known[GROUND_POINT] = false;
+        for (turns, rotation) in compiled.turns.iter_mut().zip(&mechanism.plan().rotation) {
+            if rotation.class == 0 {
+                *turns = Some(rotation.turns.iter().map(|&turns| f64::from(turns)).collect());
+            }
+        }
         for direction in &mut compiled.direction {
             if *direction == Direction::Angle {
                 *direction = Direction::Solved;
@@ -171,6 +182,8 @@ impl ForcePlan {
             direction,
             needs_direction: vec![false; linkage.links.len()],
             spares_angles: false,
+            is_known: vec![false; plan.points],
+            turns: vec![None; linkage.links.len()],
             slide_links: plan.slide_links.clone(),
             steps: transposed_steps(plan),
             self_stresses: self_stresses(mechanism),
@@ -275,7 +288,7 @@ impl ForcePlan {
     }
 
     fn need_point(&mut self, point: usize) {
-        if point == GROUND_POINT || self.points[point].is_some() {
+        if point == GROUND_POINT || self.is_known[point] || self.points[point].is_some() {
             return;
         }
         let quantity = if point <= self.joints {
@@ -308,7 +321,7 @@ impl ForcePlan {
     fn need_rate(&mut self, link: usize) {
         if !self.spares_angles {
             self.need_angle(link);
-        } else if link != self.ground && !self.outputs.rates.contains(&link) {
+        } else if self.turns[link].is_none() && !self.outputs.rates.contains(&link) {
             self.outputs.rates.push(link);
         }
     }
