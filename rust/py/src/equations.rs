@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
 
-use assur::dynamics::{EquationRequest, Machine, StepRequest, Term};
+use assur::dynamics::{EquationPlan, EquationRequest, Machine, StepRequest, Term};
 use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -48,6 +48,11 @@ impl Words for Kind {
 pub(crate) struct TermKey(Word<Kind>, usize);
 
 impl TermKey {
+    /// Whether it is a Jacobian.
+    pub(crate) fn is_of_a_joint(&self) -> bool {
+        matches!(self.0.0, Kind::Jacobian)
+    }
+
     fn term(&self) -> Term {
         match self.0.0 {
             Kind::MassMatrix => Term::MassMatrix,
@@ -79,8 +84,7 @@ pub(crate) struct Inputs<'py> {
 /// See `assur.Machine.dynamics` and `acceleration`.
 pub(crate) fn equations<'py>(
     py: Python<'py>,
-    mechanism: &Mechanism,
-    machine: &Machine,
+    (mechanism, machine, plan): (&Mechanism, &Machine, &EquationPlan),
     inputs: &Inputs<'py>,
     keys: &[TermKey],
     threads: Option<NonZeroUsize>,
@@ -125,7 +129,7 @@ pub(crate) fn equations<'py>(
             Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
         let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
         arrays.map_or(Err(SolveError::Interrupted), |arrays| {
-            machine.equations(mechanism, &request, arrays, &control)
+            machine.equations(mechanism, plan, &request, arrays, &control)
         })
     });
     drop(arrays);
@@ -158,8 +162,7 @@ pub(crate) struct Environments<'py> {
 /// See `assur.Machine.step`.
 pub(crate) fn step<'py>(
     py: Python<'py>,
-    mechanism: &Mechanism,
-    machine: &Machine,
+    (mechanism, machine, plan): (&Mechanism, &Machine, &EquationPlan),
     environments: &Environments<'py>,
     (dt, steps): (f64, u64),
     threads: Option<NonZeroUsize>,
@@ -191,7 +194,7 @@ pub(crate) fn step<'py>(
         let control = Control { threads, cancel: Some(cancel), ..Control::default() };
         let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
         arrays.map_or(Err(SolveError::Interrupted), |arrays| {
-            machine.step(mechanism, &request, arrays, &control)
+            machine.step(mechanism, plan, &request, arrays, &control)
         })
     });
     drop(arrays);

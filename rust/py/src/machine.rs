@@ -1,11 +1,12 @@
 //! Machines for Python: reduced inertias and moments, runs and steady states.
 
 use std::num::NonZeroUsize;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    EndCondition, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean, Point,
-    RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    EndCondition, EquationPlan, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
+    Point, RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -66,6 +67,8 @@ pub(crate) struct Machine {
     /// Python functions: those of loads, then those of motors.
     functions: Vec<Py<PyAny>>,
     load_functions: usize,
+    /// Its compiled equations of motion: without Jacobians of joints, and with all of them.
+    plans: [OnceLock<EquationPlan>; 2],
 }
 
 #[pymethods]
@@ -108,6 +111,7 @@ impl Machine {
             inner: Inner::Mechanism(mechanism, machine),
             functions,
             load_functions,
+            plans: Default::default(),
         })
     }
 
@@ -132,7 +136,7 @@ impl Machine {
             let motors = motors(&[motor], &mut values)?;
             let Values { tables, functions, .. } = values;
             let inner = Inner::Tables(TabulatedMachine { tables, motors });
-            Ok(Self { inner, functions, load_functions: 0 })
+            Ok(Self { inner, functions, load_functions: 0, plans: Default::default() })
         })
     }
 
@@ -341,7 +345,13 @@ impl Machine {
             sense,
             rows,
         };
-        equations::equations(py, mechanism, machine, &inputs, &terms, threads, &report)
+        let joints = terms.iter().any(TermKey::is_of_a_joint);
+        let plan = self.plans[usize::from(joints)].get_or_init(|| {
+            let all = if joints { mechanism.linkage().joints.len() } else { 0 };
+            EquationPlan::new(mechanism, machine, (0..all).collect())
+        });
+        let of = (mechanism, machine, plan);
+        equations::equations(py, of, &inputs, &terms, threads, &report)
     }
 
     /// Steps environments in time; see `assur.Machine.step`. `state`: coordinates, speeds and efforts.
@@ -364,7 +374,8 @@ impl Machine {
         let (q, speed, effort) = state;
         let environments =
             equations::Environments { dimensions, q, speed, effort, has_motors, holds, rows };
-        equations::step(py, mechanism, machine, &environments, steps, threads)
+        let plan = self.plans[0].get_or_init(|| EquationPlan::new(mechanism, machine, Vec::new()));
+        equations::step(py, (mechanism, machine, plan), &environments, steps, threads)
     }
 
     /// Positions of rest of one design.

@@ -68,8 +68,9 @@ class Dynamics:
         mechanism = machine.mechanism
         assert mechanism is not None
         n = machine.driver_count
-        self._joints = list(mechanism.joint_names)
-        jacobians: list[Term] = [("jacobian", joint) for joint in range(len(self._joints))]
+        self._mechanism = mechanism
+        joints = len(mechanism.description.joints)
+        jacobians: list[Term] = [("jacobian", joint) for joint in range(joints)]
         found = terms_of(machine, state, TERMS + jacobians, threads)
         if on_error == "raise":
             if found.failure is not None:
@@ -111,11 +112,9 @@ class Dynamics:
                [0.1]])
         """
         name = checked_name(joint, "jacobian")
-        if name not in self._joints:
-            message = f"there is no joint {name!r}; there are {', '.join(map(repr, self._joints))}"
-            raise InputError(message, joint=name)
+        index = self._mechanism.core.index_of("joint", name)
         shape = self.bias.shape
-        return self._jacobians[self._joints.index(name)].reshape(*shape[:-1], 2, shape[-1])
+        return self._jacobians[index].reshape(*shape[:-1], 2, shape[-1])
 
     def __repr__(self) -> str:
         drivers = self.bias.shape[-1]
@@ -153,6 +152,8 @@ def require_values(
     what: str,
 ) -> None:
     """Raise the error of the first position that exists where a load has no finite value."""
+    if np.isfinite(values).all():
+        return
     missing = np.flatnonzero(~np.isfinite(values).all(axis=1) & has_analogues(status))
     if not missing.size:
         return

@@ -84,10 +84,11 @@ def terms_of(
         effort = _rates(state.effort, "effort", full, n, x)
     per_design = bool(designs) and x.ndim > (1 if n == 1 else 2)
     rows = int(np.prod(shape)) if shape else 1
-    every_q = every_speed = NOTHING
+    every_q: Float
+    every_speed: Float
     functions, follows_ways = machine.core.functions, machine.core.follows[1]
     values, senses = NOTHING, list[float]()
-    t = finite_array(state.t, "t")
+    t = state.t if type(state.t) is float else finite_array(state.t, "t")
     if functions or follows_ways:
         every_q = np.broadcast_to(x, full).reshape(-1, n)
         every_speed = speed if speed.size == rows * n else np.broadcast_to(speed, (rows, n))

@@ -46,6 +46,7 @@ pub(crate) mod value;
 
 pub use angle_between::{Angle, Line};
 pub use body::Body;
+pub use equations::plan::EquationPlan;
 pub use equations::request::{EquationRequest, Term};
 pub use equations::step::StepRequest;
 pub use equilibria::{Equilibria, Equilibrium, EquilibriumRange};

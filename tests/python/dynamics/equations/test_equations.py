@@ -189,7 +189,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
         "effort is nan: finite numbers are needed",
     ),
     "both q and deg": (lambda: press().dynamics(0.5, deg=30.0), r"both q and deg"),
-    "an unknown joint": (lambda: press().dynamics(0.5).jacobian("X"), "there is no joint 'X'"),
+    "an unknown joint": (lambda: press().dynamics(0.5).jacobian("X"), 'there is no joint "X"'),
     "a load without a value": (
         lambda: press(
             loads=[assur.Torque("crank", assur.Table([0.0, 1.0], [1.0, 2.0], periodic=False))]

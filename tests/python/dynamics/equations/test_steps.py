@@ -19,7 +19,7 @@ def five_bar() -> assur.Machine:
         name: assur.Body(mass=1.0 + 0.2 * i, inertia=0.03, at=(0.1, 0.05 * i))
         for i, name in enumerate(name for name in mechanism.links if name != "ground")
     }
-    loads = [assur.Gravity(), assur.Damper("P", "A", 0.5)]
+    loads: list[Any] = [assur.Gravity(), assur.Damper("P", "A", 0.5)]
     return assur.Machine(mechanism, bodies=bodies, loads=loads)
 
 
@@ -122,18 +122,18 @@ def test_an_environment_has_the_bits_that_it_has_alone() -> None:
     speed = rng.normal(size=(700, 2))
     every = machine.step(q, speed, [0.1, -0.1], 1e-3, n=5, threads=2)
     again = machine.step(q, speed, [0.1, -0.1], 1e-3, n=5, threads=1)
-    assert (every.q == again.q).all()
-    assert (every.speed == again.speed).all()
+    assert np.array_equal(every.q, again.q)
+    assert np.array_equal(every.speed, again.speed)
     for row in (0, 255, 256, 699):
         alone = machine.step(q[row], speed[row], [0.1, -0.1], 1e-3, n=5)
-        assert (alone.q == every.q[row]).all()
-        assert (alone.speed == every.speed[row]).all()
+        assert np.array_equal(alone.q, every.q[row])
+        assert np.array_equal(alone.speed, every.speed[row])
     # Five calls of one step, too.
     now, rate = q, speed
     for _ in range(5):
         now, rate, _ = machine.step(now, rate, [0.1, -0.1], 1e-3)
-    assert (now == every.q).all()
-    assert (rate == every.speed).all()
+    assert np.array_equal(now, every.q)
+    assert np.array_equal(rate, every.speed)
 
 
 def test_designs_have_environments_of_their_own() -> None:
@@ -144,7 +144,7 @@ def test_designs_have_environments_of_their_own() -> None:
     assert after.q.shape == (2, 3)
     for index, effort in enumerate((0.1, 0.2)):
         alone = machine.of(mechanism.design(index)).step(q[index], 1.0, effort, 1e-3, n=3)
-        assert (alone.q == after.q[index]).all()
+        assert np.array_equal(alone.q, after.q[index])
     assert machine.step(0.5, 1.0, 0.0, 1e-3).q.shape == (2,)
 
 

@@ -1,20 +1,18 @@
 //! The equations of motion of many designs at many positions.
 
-use super::equation_batch::{EquationBatch, rotors};
+use super::equation_batch::EquationBatch;
 use super::evaluate::{Equation, Evaluate};
+use super::plan::EquationPlan;
 use super::request::{EquationRequest, Term};
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
 use crate::batch::schedule::Control;
-use crate::batch::writer::{RowSlices, Writer};
+use crate::batch::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::dynamics::kinetostatics::positions::{Driven, MachineBatch, Positions, of_rows};
 use crate::dynamics::machine::Machine;
-use crate::dynamics::reactions::columns::Sources;
-use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::dynamics::reactions::scene::Scene;
-use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 
@@ -31,24 +29,20 @@ impl Machine {
     pub fn equations(
         &self,
         mechanism: &Mechanism,
+        plan: &EquationPlan,
         request: &EquationRequest<'_>,
         arrays: Arrays<'_>,
         control: &Control<'_>,
     ) -> Result<(), SolveError> {
-        let has_inertia = self.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let mut plan = ForcePlan::for_equations(mechanism, self, if has_inertia { 2 } else { 1 });
-        let n = plan.drivers;
-        for term in request.terms {
-            if let &Term::Jacobian(joint) = term {
-                plan.need_joint(joint);
-            }
-        }
+        let forces = &plan.forces;
+        let n = forces.drivers;
+        plan.check(request.terms)?;
         let solve_request = Request {
             dimensions: request.dimensions,
             coordinates: request.coordinates,
             signs: request.signs,
-            order: plan.order,
-            outputs: &plan.outputs,
+            order: forces.order,
+            outputs: &forces.outputs,
             by: None,
         };
         let shape = Shape::of(mechanism, &solve_request)?;
@@ -57,19 +51,17 @@ impl Machine {
             |term: &Term| Column { quantity: Quantity::Joint(0), order: 0, width: term.width(n) };
         let results: Vec<Column> = request.terms.iter().map(column).collect();
         check_arrays(&results, &arrays, rows)?;
-        let derivatives = DerivativeTables::new(n, plan.order);
-        let writer = Writer::of(mechanism, &derivatives, &solve_request);
         let rest = vec![0.0; n];
         let batch = EquationBatch {
             positions: MachineBatch {
                 mechanism,
                 machine: self,
-                sources: Sources::new(&plan, &writer.columns),
-                plan: &plan,
+                sources: &plan.sources,
+                plan: forces,
                 request: &solve_request,
-                derivatives: &derivatives,
-                writer: &writer,
-                columns: &writer.columns,
+                derivatives: &plan.derivatives,
+                writer: &plan.writer,
+                columns: &plan.writer.columns,
                 driven: Driven {
                     speed: request.speed,
                     // The bias is what the drivers give without accelerations.
@@ -82,7 +74,7 @@ impl Machine {
                 control,
             },
             request,
-            rotors: rotors(self, n),
+            rotors: &plan.rotors,
         };
         batch.positions.check()?;
         let fits = [request.effort, request.acceleration]
@@ -92,7 +84,7 @@ impl Machine {
             return Err(SolveError::Shape("efforts or accelerations do not fit".into()));
         }
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
-        if plan.outputs.links.is_empty() && mechanism.plan().has_closed_forms() {
+        if forces.outputs.links.is_empty() && mechanism.plan().has_closed_forms() {
             // One branch serves all positions of a chunk.
             chunks.size = chunks.size.max(CHUNK);
         }

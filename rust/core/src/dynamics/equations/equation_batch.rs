@@ -2,7 +2,6 @@
 
 use super::request::EquationRequest;
 use crate::dynamics::kinetostatics::positions::MachineBatch;
-use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::value::Numbers;
 
@@ -11,16 +10,7 @@ pub(super) struct EquationBatch<'b> {
     pub positions: MachineBatch<'b>,
     pub request: &'b EquationRequest<'b>,
     /// Inertia of the rotors, driver by driver.
-    pub rotors: Vec<f64>,
-}
-
-/// Inertia of the rotors, driver by driver.
-pub(super) fn rotors(machine: &Machine, drivers: usize) -> Vec<f64> {
-    let mut rotors = vec![0.0; drivers];
-    for motor in &machine.motors {
-        rotors[motor.driver] += motor.inertia();
-    }
-    rotors
+    pub rotors: &'b [f64],
 }
 
 impl EquationBatch<'_> {

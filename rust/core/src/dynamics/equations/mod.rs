@@ -10,6 +10,7 @@ mod batch;
 mod bodies;
 mod equation_batch;
 mod evaluate;
+pub(crate) mod plan;
 pub(crate) mod request;
 mod solve;
 mod stage;

@@ -3,8 +3,9 @@
 
 use std::mem::MaybeUninit;
 
-use super::equation_batch::{EquationBatch, rotors};
+use super::equation_batch::EquationBatch;
 use super::evaluate::Equation;
+use super::plan::EquationPlan;
 use super::request::{EquationRequest, Term};
 use super::stage::{Stage, StageArrays};
 use crate::batch::chunks::{Chunk, Chunks};
@@ -14,16 +15,13 @@ use crate::batch::request::{
     Arrays, Column, Coordinates, Quantity, Request, Shape, check_arrays, product,
 };
 use crate::batch::schedule::Control;
-use crate::batch::writer::{RowSlices, Writer};
+use crate::batch::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::dynamics::kinetostatics::positions::{
     Asked, DesignPositions, Driven, MachineBatch, Positions, of_rows,
 };
 use crate::dynamics::machine::Machine;
-use crate::dynamics::reactions::columns::Sources;
-use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::dynamics::reactions::scene::Scene;
-use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
@@ -66,20 +64,20 @@ impl Machine {
     pub fn step(
         &self,
         mechanism: &Mechanism,
+        plan: &EquationPlan,
         request: &StepRequest<'_>,
         arrays: Arrays<'_>,
         control: &Control<'_>,
     ) -> Result<(), SolveError> {
-        let has_inertia = self.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let plan = ForcePlan::for_equations(mechanism, self, if has_inertia { 2 } else { 1 });
-        let n = plan.drivers;
+        let forces = &plan.forces;
+        let n = forces.drivers;
         let coordinates = Coordinates::PerDesign(request.q);
         let solve_request = Request {
             dimensions: request.dimensions,
             coordinates,
             signs: request.signs,
-            order: plan.order,
-            outputs: &plan.outputs,
+            order: forces.order,
+            outputs: &forces.outputs,
             by: None,
         };
         let shape = Shape::of(mechanism, &solve_request)?;
@@ -90,8 +88,6 @@ impl Machine {
         if request.speed.len() != rows * n || ![rows * n, n].contains(&request.effort.len()) {
             return Err(SolveError::Shape("speeds or efforts do not fit".into()));
         }
-        let derivatives = DerivativeTables::new(n, plan.order);
-        let writer = Writer::of(mechanism, &derivatives, &solve_request);
         let known_signs = KnownSigns::new(shape.designs)
             .map_err(|_| SolveError::OutOfMemory { numbers: shape.designs })?;
         let control = &Control { known_signs: Some(&known_signs), failures: None, ..*control };
@@ -114,12 +110,12 @@ impl Machine {
             positions: MachineBatch {
                 mechanism,
                 machine: self,
-                sources: Sources::new(&plan, &writer.columns),
-                plan: &plan,
+                sources: &plan.sources,
+                plan: forces,
                 request: &solve_request,
-                derivatives: &derivatives,
-                writer: &writer,
-                columns: &writer.columns,
+                derivatives: &plan.derivatives,
+                writer: &plan.writer,
+                columns: &plan.writer.columns,
                 driven: Driven {
                     speed: request.speed,
                     acceleration: &rest,
@@ -131,7 +127,7 @@ impl Machine {
                 control,
             },
             request: &equation_request,
-            rotors: rotors(self, n),
+            rotors: &plan.rotors,
         };
         let batch = StepBatch { equations, request, positions: shape.positions };
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);

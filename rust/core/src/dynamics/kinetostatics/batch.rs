@@ -70,6 +70,7 @@ impl Machine {
         };
         let balances = !request.reactions.iter().all(|reaction| reaction.is_given());
         let friction: &[Friction] = if balances { &self.friction } else { &[] };
+        let sources = Sources::new(&plan, &writer.columns);
         let batch = ReactionBatch {
             balances,
             joints: request.reactions.iter().map(joint_force).collect(),
@@ -78,7 +79,7 @@ impl Machine {
             positions: MachineBatch {
                 mechanism,
                 machine: self,
-                sources: Sources::new(&plan, &writer.columns),
+                sources: &sources,
                 plan: &plan,
                 request: &solve_request,
                 derivatives: &derivatives,

@@ -39,7 +39,7 @@ pub(crate) struct MachineBatch<'b> {
     pub mechanism: &'b Mechanism,
     pub machine: &'b Machine,
     pub plan: &'b ForcePlan,
-    pub sources: Sources,
+    pub sources: &'b Sources,
     pub request: &'b Request<'b>,
     pub derivatives: &'b DerivativeTables,
     pub writer: &'b Arc<Writer>,
@@ -217,7 +217,7 @@ impl<'b> MachineBatch<'b> {
         };
         if self.machine.follows() {
             let drivers = Drivers { q, units: &units, sense: self.driven.sense };
-            followed.read(self.machine, &self.sources, &solved, drivers, size);
+            followed.read(self.machine, self.sources, &solved, drivers, size);
         }
         each(DesignPositions {
             index,

@@ -1,0 +1,67 @@
+//! What the equations of motion of a machine read at every position, compiled once for all calls.
+
+use std::sync::Arc;
+
+use super::request::Term;
+use crate::batch::request::{Coordinates, Request};
+use crate::batch::writer::Writer;
+use crate::description::error::SolveError;
+use crate::dynamics::machine::Machine;
+use crate::dynamics::reactions::columns::Sources;
+use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::math::derivatives::DerivativeTables;
+use crate::plan::mechanism::Mechanism;
+
+/// The compiled equations of a machine on its mechanism.
+#[derive(Debug)]
+pub struct EquationPlan {
+    pub(super) forces: ForcePlan,
+    pub(super) derivatives: DerivativeTables,
+    pub(super) writer: Arc<Writer>,
+    pub(super) sources: Sources,
+    /// Inertia of the rotors, driver by driver.
+    pub(super) rotors: Vec<f64>,
+    /// Joints whose Jacobians may be requested.
+    joints: Vec<usize>,
+}
+
+impl EquationPlan {
+    /// Compiles a machine; `joints`: those whose Jacobians may be requested.
+    #[must_use]
+    pub fn new(mechanism: &Mechanism, machine: &Machine, joints: Vec<usize>) -> Self {
+        let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
+        let order = if has_inertia { 2 } else { 1 };
+        let mut forces = ForcePlan::for_equations(mechanism, machine, order);
+        for &joint in &joints {
+            forces.need_joint(joint);
+        }
+        let derivatives = DerivativeTables::new(forces.drivers, order);
+        let request = Request {
+            dimensions: &[],
+            coordinates: Coordinates::Shared(&[]),
+            signs: &[],
+            order,
+            outputs: &forces.outputs,
+            by: None,
+        };
+        let writer = Writer::of(mechanism, &derivatives, &request);
+        let sources = Sources::new(&forces, &writer.columns);
+        let mut rotors = vec![0.0; forces.drivers];
+        for motor in &machine.motors {
+            rotors[motor.driver] += motor.inertia();
+        }
+        Self { forces, derivatives, writer, sources, rotors, joints }
+    }
+
+    /// Refuses Jacobians of joints that it was not compiled for.
+    pub(super) fn check(&self, terms: &[Term]) -> Result<(), SolveError> {
+        for term in terms {
+            if let Term::Jacobian(joint) = term
+                && !self.joints.contains(joint)
+            {
+                return Err(SolveError::Shape("a Jacobian of another joint".into()));
+            }
+        }
+        Ok(())
+    }
+}
