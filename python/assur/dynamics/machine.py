@@ -508,7 +508,7 @@ class Machine(MachineModel):
         ...     assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=20.0)}
         ... )
         >>> machine.acceleration([0.5, 1.5], speed=10.0, effort=4.0).round(3)
-        array([-108.711,   40.103])
+        array([-115.277,   37.575])
         """
         require_equations(self, "acceleration")
         q = q_or_deg(self.mechanism, q, deg, "acceleration")
@@ -580,7 +580,7 @@ class Machine(MachineModel):
         >>> for _ in range(3):
         ...     q, speed, status = machine.step(q, speed, effort=0.0, dt=0.01, n=10)
         >>> q.round(4), status.tolist()
-        (array([-1.5463, -1.6367, -1.5854, -1.3201]), [0, 0, 0, 0])
+        (array([-1.5538, -1.4683, -1.3598, -1.2089]), [0, 0, 0, 0])
         """
         require_equations(self, "step")
         one_of(method, ("rk4",), "method")

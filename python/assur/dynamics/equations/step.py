@@ -34,6 +34,16 @@ class Stepped(NamedTuple):
     status : int or numpy.ndarray of uint8
         The worst `Status` on the way: `UNREACHABLE` beyond a dead point, `BAD_INPUT` where a driver
         would go more than 1 rad (or the size of the mechanism) in a step.
+
+    Examples
+    --------
+    >>> import assur
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+    ... )
+    >>> after = machine.step(0.0, 2.0, 1.0, dt=0.01, n=10)  # N·m, s; ten steps
+    >>> round(after.q, 6), round(after.speed, 6), after.status
+    (np.float64(0.21), np.float64(2.2), np.uint8(0))
     """
 
     q: Number

@@ -2,8 +2,8 @@
 
 use std::mem::MaybeUninit;
 
+use super::rows::RowRange;
 use super::worker::{Job, Worker};
-use super::writer::RowRange;
 use crate::branch::position::BranchPoint;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::Real;

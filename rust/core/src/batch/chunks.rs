@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::request::{Arrays, Column};
-use super::writer::{Layout, RowSlices};
+use super::rows::{Layout, RowSlices};
 use crate::plan::mechanism::Mechanism;
 
 /// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking

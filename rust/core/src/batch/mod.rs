@@ -8,6 +8,7 @@ pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod known_signs;
 pub(crate) mod request;
+pub(crate) mod rows;
 pub(crate) mod schedule;
 pub(crate) mod scratch;
 pub(crate) mod solve;

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::chunks::{Chunk, Chunks};
 use super::failure_log::FailureLog;
 use super::known_signs::KnownSigns;
-use super::writer::RowSlices;
+use super::rows::RowSlices;
 use crate::description::error::SolveError;
 use crate::math::simd::Simd;
 

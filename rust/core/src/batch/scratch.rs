@@ -3,10 +3,10 @@
 use std::num::NonZeroUsize;
 
 use super::request::Column;
+use super::rows::{Layout, RowSlices};
 use super::schedule::{Control, available_threads};
 use super::solve::as_unwritten;
 use super::worker::Job;
-use super::writer::{Layout, RowSlices};
 use crate::description::error::SolveError;
 use crate::math::lanes::LANES;
 use crate::math::room::has_room;

@@ -8,9 +8,10 @@ use super::dispatch::{self, Entry, ForLevel};
 use super::request::{
     Arrays, Coordinates, Motion, Quantity, Request, Series, Shape, check_arrays, product,
 };
+use super::rows::RowSlices;
 use super::schedule::Control;
 use super::worker::{Job, Worker};
-use super::writer::{RowSlices, Writer};
+use super::writer::Writer;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;

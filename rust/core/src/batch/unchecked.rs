@@ -3,8 +3,8 @@
 
 use std::mem::MaybeUninit;
 
+use super::rows::RowRange;
 use super::worker::{Job, Worker, mask};
-use super::writer::RowRange;
 use crate::branch::lanes::uniform::reference_of;
 use crate::math::angle::unwrap_to;
 use crate::math::lanes::{LANES, Mask, Real};

@@ -7,7 +7,7 @@ use super::equation_batch::EquationBatch;
 use super::request::Term;
 use super::solve::solve_positive;
 use crate::batch::dispatch::Task;
-use crate::batch::writer::RowSlices;
+use crate::batch::rows::RowSlices;
 use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
 use crate::dynamics::reactions::columns::Rows;
 use crate::dynamics::reactions::scene::Scene;

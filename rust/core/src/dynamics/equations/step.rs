@@ -14,8 +14,8 @@ use crate::batch::known_signs::KnownSigns;
 use crate::batch::request::{
     Arrays, Column, Coordinates, Quantity, Request, Shape, check_arrays, product,
 };
+use crate::batch::rows::RowSlices;
 use crate::batch::schedule::Control;
-use crate::batch::writer::RowSlices;
 use crate::description::error::SolveError;
 use crate::dynamics::kinetostatics::positions::{
     Asked, DesignPositions, Driven, MachineBatch, Positions, of_rows,

@@ -7,7 +7,7 @@ use super::positions::{DesignPositions, MachineBatch};
 use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
 use crate::batch::dispatch::Task;
-use crate::batch::writer::{RowSlices, begins_line, store_pairs, write};
+use crate::batch::rows::{RowSlices, begins_line, store_pairs, write};
 use crate::dynamics::friction::pairs::{FrictionPair, PairKind};
 use crate::dynamics::friction::rows::FrictionRequest;
 use crate::dynamics::friction::workspace::FrictionWorkspace;

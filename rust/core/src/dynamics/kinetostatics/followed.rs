@@ -1,7 +1,7 @@
 //! The curves over other coordinates, and the directions in which these move, at some positions of one
 //! design.
 
-use crate::batch::writer::place_in_blocks;
+use crate::batch::rows::place_in_blocks;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::{Measure, sign};
 use crate::dynamics::reactions::columns::{Solved, Sources};

@@ -5,7 +5,7 @@ use std::ops::Add;
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
 use crate::batch::request::{Column, Quantity};
-use crate::batch::writer::place_in_blocks;
+use crate::batch::rows::place_in_blocks;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -135,6 +135,7 @@ impl Rows {
 
 impl<R: Real> Scene<R> {
     /// Sets the points of the ground that are known for a design.
+    #[inline(always)]
     pub(crate) fn place_known(&mut self, known: &[(usize, Vector)]) {
         for &(point, at) in known {
             let rest = Vector::ZERO;
