@@ -59,7 +59,7 @@ Method: TypeAlias = Literal["DOP853", "RK45"]
     forward_dynamics="acceleration(q, speed, effort), run(t_end, q0, speed0)",
     simulate="run(t_end, q0, speed0)",
     torque="effort(q, speed, acceleration)",
-    jacobian="dynamics(q).jacobian(joint)",
+    jacobian="dynamics(q).jacobian(joint), mechanism.solve(q).jacobian(name, by=…)",
     solve="mechanism.solve(q), or run(t_end, q0, speed0)",
     kinetic_energy="run(t_end).energy",
     driving_torque="effort(q, speed, acceleration)",

@@ -54,7 +54,7 @@ __all__ = ["Mechanism"]
 @other_names(
     forward_kinematics="solve(q) has positions, velocities and accelerations",
     inverse_kinematics="find(name, value) has every q and assembly",
-    jacobian="solve(q).joint(name).d1 is by the drivers, solve(q).sensitivity(name) by a dimension",
+    jacobian="solve(q).jacobian(name, by=…)",
     dof="it is structure.mobility",
     mobility="it is structure.mobility",
     simulate="assur.Machine(mechanism, bodies=…).run(t_end)",

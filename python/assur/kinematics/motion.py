@@ -18,6 +18,7 @@ from assur._validate import (
     require_one_driver,
 )
 from assur.errors import InputError
+from assur.kinematics import jacobian as jacobians
 from assur.kinematics import transmission
 from assur.kinematics.motion_model import MotionModel
 from assur.kinematics.sensitivity import Sensitivity
@@ -38,7 +39,6 @@ __all__ = ["Motion"]
 
 
 @other_names(
-    jacobian="joint(name).d1 is by the drivers, sensitivity(dimension) by a dimension",
     positions="joint(name).value",
     angles="link(name).value",
     velocity="joint(name).velocity(speed), link(name).velocity(speed)",
@@ -277,6 +277,48 @@ class Motion(MotionModel):
         array(0.600266)
         """
         return transmission.angle(self, name, between)
+
+    def jacobian(self, name: str, *, by: str | Sequence[str] = "q", order: int = 0) -> Float:
+        """Return exact derivatives of a joint, an angle or a slide by drivers or dimensions.
+
+        Parameters
+        ----------
+        name : str
+            A joint, link or slide among the outputs of this motion.
+        by : str or sequence of str
+            ``"q"``, the drivers' coordinates; or dimensions, columns in this order. ``*``, ``?``
+            and ``[…]`` stand for parts of names: ``"*.length"`` is every length.
+        order : {0, 1, 2, 3}
+            Of the value, or of its analogue of this order.
+
+        Returns
+        -------
+        numpy.ndarray
+            The last axis is that of the drivers (also of one) or dimensions: S + (N, 2, D) for a
+            joint, S + (N, D) else; with n drivers each order adds an axis of n before it. Per m, or
+            per rad for angles. NaN where there is no position or no derivative.
+
+        Raises
+        ------
+        InputError
+            An unknown name; a motion that was solved to a lower order (`by` of ``"q"`` needs one
+            more); a linkage with redundant links.
+
+        See Also
+        --------
+        sensitivity : All outputs by one dimension.
+
+        Examples
+        --------
+        >>> import assur
+        >>> motion = assur.FourBar(1.0, 3.0, 2.5, 3.0).solve([0.5, 1.0])
+        >>> motion.jacobian("rocker", by="q").shape, motion.jacobian("C", by="*.length").shape
+        ((2, 1), (2, 2, 3))
+        >>> motion.jacobian("rocker", by=["coupler.length", "ground.D.x"]).round(4)  # rad/m
+        array([[-0.5609,  0.4149],
+               [-0.4852,  0.4044]])
+        """
+        return jacobians.jacobian(self, name, by, order)
 
     def sensitivity(self, dimension: str) -> Sensitivity:
         """Return derivatives by a dimension of all values and analogues of this motion.

@@ -160,6 +160,7 @@ def _of_motions() -> Iterable[tuple[str, Call]]:
         point=point,
         polygon={"what": "velocity", "at": 0},
         sensitivity={"dimension": "coupler.length"},
+        jacobian={"name": "C", "by": "coupler.length"},
         to_dataframe=rates,
         to_excel={"path": "m.xlsx", **rates},
         to_parquet={"path": "m.parquet", **rates},
