@@ -20,6 +20,7 @@ from cases import (
     random_six_bars,
     runs,
     slider_cranks,
+    steps,
     threads,
     turning_four_bars,
 )
@@ -46,6 +47,7 @@ MAKERS = (
     forces.case,
     flywheels.case,
     runs.case,
+    steps.case,
 )
 
 
