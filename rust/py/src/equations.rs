@@ -15,8 +15,8 @@ use crate::{detach, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 
-/// Positions up to which a call need not check for signals.
-const FEW_POSITIONS: usize = 20_000;
+/// Positions of a slider-crank up to which a call need not check for signals.
+const FEW_POSITIONS: u64 = 20_000;
 
 /// A term without its index.
 #[derive(Clone, Copy)]
@@ -124,7 +124,7 @@ pub(crate) fn equations<'py>(
     };
     let arrays = Mutex::new(Some(arrays));
     let log = FailureLog::default();
-    let solved = detach::run(py, rows < FEW_POSITIONS, |cancel| {
+    let solved = detach::run(py, rows as u64 * plan.cost(mechanism) < FEW_POSITIONS, |cancel| {
         let control =
             Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
         let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
@@ -144,8 +144,10 @@ pub(crate) fn equations<'py>(
 pub(crate) type Stepped<'py> =
     (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u8>>);
 
-/// Environments up to which a step need not check for signals.
+/// Steps of a slider-crank up to which a call need not check for signals.
 const FEW_STEPS: u64 = 100_000;
+/// As many environments take about as long as one.
+const LIKE_ONE: u64 = 32;
 
 /// The environments that make steps: dimensions, coordinates, speeds and efforts.
 pub(crate) struct Environments<'py> {
@@ -189,7 +191,8 @@ pub(crate) fn step<'py>(
         status: as_uninitialized(&mut borrowed_status)?,
     };
     let arrays = Mutex::new(Some(arrays));
-    let is_short = steps.saturating_mul(rows as u64) < FEW_STEPS;
+    let cost = plan.cost(mechanism).saturating_mul((rows as u64).max(LIKE_ONE));
+    let is_short = steps.saturating_mul(cost) < FEW_STEPS;
     let stepped = detach::run(py, is_short, |cancel| {
         let control = Control { threads, cancel: Some(cancel), ..Control::default() };
         let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());

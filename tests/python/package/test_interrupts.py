@@ -151,6 +151,10 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "reduced inertia": lambda n: partial(_machine().reduced_inertia, _angles(n)),
     "run": lambda n: partial(_machine().run, float(n), 0.0, 1.0, max_steps=10**9),
     "reactions": lambda n: partial(_machine().reactions, *_moving(n)),
+    "reactions of class IV": lambda n: partial(_loom().reactions, np.linspace(0.2, 1.4, n), 1.0),
+    "dynamics of class IV": lambda n: partial(_loom().dynamics, np.linspace(0.2, 1.4, n), 1.0),
+    "steps": lambda n: partial(_machine().step, 0.1, 1.0, 0.0, 1e-6, n=n),
+    "steps of class IV": lambda n: partial(_loom().step, 0.5, 0.1, 0.0, 1e-7, n=n),
     "a flywheel of one long table": lambda n: partial(_wheel, n),
     "reactions that friction locks": lambda n: partial(_rubbing().reactions, *_moving(n)),
     "safety": lambda n: partial(getattr, _rubbing(0.1).reactions(*_moving(n)), "safety"),
@@ -369,6 +373,12 @@ def _loaded(table: assur.Table) -> assur.Machine:
     return assur.Machine(
         assur.SliderCrank(0.1, 0.4), bodies={}, loads=[assur.Torque("crank", table)]
     )
+
+
+def _loom() -> assur.Machine:
+    loom = assur.examples.loom()
+    body = assur.Body(mass=1.0, inertia=0.01)
+    return assur.Machine(loom, bodies=dict.fromkeys(set(loom.links) - {"ground"}, body))
 
 
 def _machine() -> assur.Machine:

@@ -38,7 +38,8 @@ class Dynamics:
     Attributes
     ----------
     mass_matrix : numpy.ndarray
-        kg·m² (kg for slides), S + (N, n, n); the rotors of the machine's motors count.
+        kg·m² (kg for slides), S + (N, n, n); the rotors of the machine's motors count, which
+        `Machine.effort` leaves out.
     d_mass_matrix : numpy.ndarray
         Its derivatives by the coordinates, S + (N, n, n, n), the last axis that of the coordinate.
     bias : numpy.ndarray

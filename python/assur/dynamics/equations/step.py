@@ -33,7 +33,8 @@ class Stepped(NamedTuple):
         Coordinates and speeds of the drivers, in the shape in which they were given.
     status : int or numpy.ndarray of uint8
         The worst `Status` on the way: `UNREACHABLE` beyond a dead point, `BAD_INPUT` where a driver
-        would go more than 1 rad (or the size of the mechanism) in a step.
+        would go more than 1 rad (or the size of the mechanism) in a step or a state is not finite,
+        `NO_VALUE` where a load, an effort or the inertia gives no acceleration.
 
     Examples
     --------
@@ -153,10 +154,12 @@ def _require_good(
     at = tuple(int(i) for i in np.unravel_index(row, shape)) if shape else ()
     where = f"environment {at[0] if len(at) == 1 else at}: " if at else ""
     name = Status(int(status[row])).name
-    why = (
-        f"it goes too far in a step of {dt:g} s, or its state is not finite: take shorter steps"
-        if name == "BAD_INPUT"
-        else "it reaches a position that does not exist"
-    )
+    why = {
+        "BAD_INPUT": f"it goes too far in a step of {dt:g} s, or its state is not finite: take "
+        "shorter steps",
+        "NO_VALUE": "a load has no finite value there, or no inertia resists a driver",
+        "SINGULAR": "it reaches a singular position",
+        "BAD_DIMENSION": "its design has a dimension that is not valid",
+    }.get(name, "it reaches a position that does not exist")
     message = f"{where}{name} within these steps from q = {q}, speed = {speed}: {why}"
     raise InputError(message, q=q if drivers > 1 else q[0])

@@ -83,6 +83,8 @@ def terms_of(
     if state.effort is not None:
         effort = _rates(state.effort, "effort", full, n, x)
     per_design = bool(designs) and x.ndim > (1 if n == 1 else 2)
+    if per_design:
+        x = np.broadcast_to(x, full)
     rows = int(np.prod(shape)) if shape else 1
     every_q: Float
     every_speed: Float

@@ -43,6 +43,11 @@ pub(crate) struct Chunks<'a> {
     past_caches: bool,
 }
 
+/// Most positions of one design in a chunk, of `positions`.
+pub(crate) fn most_positions(positions: usize) -> usize {
+    positions.min(CHUNK_OF_MANY_DESIGNS)
+}
+
 impl<'a> Chunks<'a> {
     pub(crate) fn new(
         arrays: Arrays<'a>,

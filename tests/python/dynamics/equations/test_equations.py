@@ -126,6 +126,8 @@ def test_designs_and_positions() -> None:
     own = np.stack([q, q + 0.1, q + 0.2])
     assert machine.acceleration(own, 1.0, 2.0).shape == (3, 5)
     assert machine.acceleration(0.5, 1.0, 2.0).shape == (3,)
+    # One row of positions may stand for all designs.
+    assert (machine.dynamics(q[None], speed=3.0).bias == now.bias).all()
 
 
 def test_motors_act_where_no_effort_is_given() -> None:

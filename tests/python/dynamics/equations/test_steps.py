@@ -189,6 +189,55 @@ def test_environments_that_reach_a_dead_point_say_so() -> None:
     assert machine.dynamics(held.q[1], held.speed[1]).status == 0
 
 
+def test_a_step_that_ends_where_nothing_is_fails() -> None:
+    """Also where only its last stage, or only its end, is beyond what exists."""
+    table = assur.Table([0.0, 1.0], [1.0, 2.0], periodic=False)
+    machine = engine(loads=[assur.Torque("crank", table)])
+    for n in (1, 2):
+        after = machine.step(0.9992, 1.0, 0.0, 1e-3, n=n)
+        assert after.status == assur.Status.NO_VALUE
+        assert np.isnan([after.q, after.speed]).all()
+        held = machine.step(0.9992, 1.0, 0.0, 1e-3, n=n, on_error="hold")
+        assert (held.q, held.speed) == (0.9992, 1.0)
+    with pytest.raises(assur.InputError, match=r"NO_VALUE .* a load has no finite value there"):
+        machine.step(0.9992, 1.0, 0.0, 1e-3, on_error="raise")
+    # Beside the dead point at 1.37156: many states, each after a step of its own.
+    ends = assur.Machine(
+        assur.FourBar(3.0, 2.5, 2.0, 4.0),
+        bodies={"rocker": assur.Body(mass=1.0, inertia=0.1), "crank": assur.Body(inertia=0.2)},
+    )
+    rng = np.random.default_rng(7)
+    q = 1.37156 - rng.uniform(0.0, 0.02, 20_000)
+    speed, effort = rng.uniform(-30.0, 30.0, q.size), rng.uniform(-50.0, 50.0, q.size)
+    for rule in ("nan", "hold"):
+        after = ends.step(q, speed, effort, 1e-3, on_error=rule)
+        good = after.status <= 1
+        assert 0 < good.sum() < q.size
+        assert (np.abs(np.asarray(after.q) - q)[good] <= 1.0).all()
+        there = good if rule == "nan" else np.isfinite(after.q)
+        assert (ends.dynamics(np.asarray(after.q)[there], on_error="nan").status <= 2).all()
+
+
+@pytest.mark.parametrize(("speed", "effort"), [(0.0, 1e9), (900.0, -1e7)])
+def test_no_step_goes_farther_than_a_radian(speed: float, effort: float) -> None:
+    assert engine().step(1.0, speed, effort, 1e-3).status == assur.Status.BAD_INPUT
+
+
+def test_a_change_point_is_stepped_through() -> None:
+    """A parallelogram goes on in its branch; there the numbers are those of the motion."""
+    machine = assur.Machine(
+        assur.FourBar(4.0, 1.0, 4.0, 1.0),
+        bodies={"rocker": assur.Body(inertia=0.1), "crank": assur.Body(inertia=0.1)},
+    )
+    now = machine.dynamics(0.0, 1.0)
+    assert now.mass_matrix == pytest.approx(machine.reduced_inertia(0.0).value)
+    assert now.status == assur.Status.NEAR_SINGULAR
+    assert machine.acceleration(0.0, 1.0, 1.0) == pytest.approx(5.0)
+    after = machine.step([-0.05, 0.0], 1.0, 0.0, 1e-2, n=10)
+    assert (after.status <= 1).all()
+    assert after.speed == pytest.approx(np.ones(2), rel=1e-9)
+
+
 def test_invalid_designs_are_named_in_place() -> None:
     mechanism = assur.SliderCrank([0.1, -1.0, 0.12], 0.4)
     machine = assur.Machine(mechanism, bodies={"piston": assur.Body(mass=2.0)})

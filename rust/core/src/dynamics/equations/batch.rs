@@ -4,7 +4,7 @@ use super::equation_batch::EquationBatch;
 use super::evaluate::{Equation, Evaluate};
 use super::plan::EquationPlan;
 use super::request::{EquationRequest, Term};
-use crate::batch::chunks::{Chunk, Chunks};
+use crate::batch::chunks::{Chunk, Chunks, most_positions};
 use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
 use crate::batch::rows::RowSlices;
@@ -71,6 +71,7 @@ impl Machine {
                 },
                 callbacks: request.external.len().checked_div(rows).unwrap_or(0),
                 shape: &shape,
+                most: most_positions(shape.positions),
                 control,
             },
             request,
@@ -84,7 +85,7 @@ impl Machine {
             return Err(SolveError::Shape("efforts or accelerations do not fit".into()));
         }
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
-        if forces.outputs.links.is_empty() && mechanism.plan().has_closed_forms() {
+        if plan.serves_all(mechanism) {
             // One branch serves all positions of a chunk.
             chunks.size = chunks.size.max(CHUNK);
         }

@@ -59,6 +59,11 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             self.write(partials, first, R::LANES.min(count - first));
         }
         for (row, &status) in self.design.status.iter().enumerate() {
+            let mut status = status;
+            // At a change point the numbers are those of the motion through it.
+            if status == Status::Singular as u8 && self.is_finite(self.first + row) {
+                status = Status::NearSingular as u8;
+            }
             self.results.status[self.first + row] = MaybeUninit::new(status);
             if status > Status::NearSingular as u8 {
                 self.write_nan(self.first + row);
@@ -189,6 +194,19 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 }
             }
         }
+    }
+
+    /// Whether all numbers of a row are finite.
+    fn is_finite(&self, row: usize) -> bool {
+        let n = self.batch.positions.plan.drivers;
+        let terms = self.batch.request.terms.iter().zip(&self.results.columns);
+        terms.into_iter().all(|(term, column)| {
+            let width = term.width(n);
+            #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+            // SAFETY: `write` has stored the numbers of all positions.
+            let numbers = unsafe { column[row * width..(row + 1) * width].assume_init_ref() };
+            numbers.iter().all(|number| number.is_finite())
+        })
     }
 
     fn write_nan(&mut self, row: usize) {

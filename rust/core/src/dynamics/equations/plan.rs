@@ -53,6 +53,18 @@ impl EquationPlan {
         Self { forces, derivatives, writer, sources, rotors, joints }
     }
 
+    /// About how many times as long as a slider-crank a position takes: groups above class II are solved by
+    /// iteration, and angles of several drivers are followed from the drawing.
+    #[must_use]
+    pub fn cost(&self, mechanism: &Mechanism) -> u64 {
+        if self.serves_all(mechanism) { 1 } else { 100 }
+    }
+
+    /// Whether one branch serves all positions of a design.
+    pub(super) fn serves_all(&self, mechanism: &Mechanism) -> bool {
+        self.forces.outputs.links.is_empty() && mechanism.plan().has_closed_forms()
+    }
+
     /// Refuses Jacobians of joints that it was not compiled for.
     pub(super) fn check(&self, terms: &[Term]) -> Result<(), SolveError> {
         for term in terms {

@@ -7,8 +7,14 @@ use crate::batch::dispatch::Task;
 use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
 use crate::dynamics::reactions::columns::Rows;
 use crate::dynamics::reactions::scene::Scene;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Mask, Real};
 use crate::state::status::Status;
+
+/// Greatest way of a driver from the start of a step to any stage (rad, or in sizes): a longer one skips
+/// what is between.
+pub(super) const LONGEST: f64 = 1.0;
+/// The status where a load has no finite value, or no inertia resists a driver: `assur.Status.NO_VALUE`.
+const NO_VALUE: u8 = 8;
 
 /// The states of environments in a step, drivers fastest.
 #[derive(Debug, Default)]
@@ -25,6 +31,9 @@ pub(super) struct StageArrays {
     /// Weighted sums of speeds and accelerations of the stages so far.
     sum_q: Vec<f64>,
     sum_speed: Vec<f64>,
+    /// The last states that are known to exist.
+    good_q: Vec<f64>,
+    good_speed: Vec<f64>,
 }
 
 impl StageArrays {
@@ -39,6 +48,8 @@ impl StageArrays {
             (&mut self.next_speed, speed),
             (&mut self.sum_q, q),
             (&mut self.sum_speed, speed),
+            (&mut self.good_q, q),
+            (&mut self.good_speed, speed),
         ] {
             array.clear();
             array.extend_from_slice(values);
@@ -56,13 +67,35 @@ impl StageArrays {
         self.stage_speed = std::mem::replace(&mut self.next_speed, speed);
     }
 
+    /// Takes the present stage back, which has no next one.
+    pub(super) fn put_back(&mut self, [q, speed]: [Vec<f64>; 2]) {
+        (self.stage_q, self.stage_speed) = (q, speed);
+    }
+
+    /// Keeps the states of the environments that have not failed.
+    pub(super) fn keep_good(&mut self, q: &[f64], speed: &[f64], status: &[u8]) {
+        let n = q.len() / status.len().max(1);
+        for (row, &status) in status.iter().enumerate() {
+            if status <= Status::NearSingular as u8 {
+                let range = row * n..(row + 1) * n;
+                self.good_q[range.clone()].copy_from_slice(&q[range.clone()]);
+                self.good_speed[range.clone()].copy_from_slice(&speed[range]);
+            }
+        }
+    }
+
+    /// The states at the end: of environments that have failed the last ones that exist.
+    pub(super) fn last_states(&self, failed: bool) -> [&[f64]; 2] {
+        if failed { [&self.good_q, &self.good_speed] } else { [&self.q, &self.speed] }
+    }
+
     /// Begins the next step where the last stage ended; environments that have failed stay where they
     /// were.
     pub(super) fn finish_step(&mut self, status: &[u8], n: usize) {
         for (row, &status) in status.iter().enumerate() {
             let range = row * n..(row + 1) * n;
             if status > Status::NearSingular as u8 {
-                self.stage_q[range.clone()].copy_from_slice(&self.q[range.clone()]);
+                self.stage_q[range.clone()].copy_from_slice(&self.good_q[range.clone()]);
                 self.stage_speed[range].fill(0.0);
             } else {
                 self.q[range.clone()].copy_from_slice(&self.stage_q[range.clone()]);
@@ -82,6 +115,7 @@ pub(super) struct Stage<'e, R: Real> {
     /// Speeds at this stage.
     pub speed: &'e [f64],
     pub arrays: &'e mut StageArrays,
+    pub status: &'e mut [u8],
     pub dt: f64,
     /// 0 to 3.
     pub number: usize,
@@ -132,6 +166,15 @@ impl<R: Real> Stage<'_, R> {
             let toward = if last { (slope_q, slope_speed) } else { (speed, acceleration) };
             let next_q = read(&self.arrays.q) + way * toward.0;
             let next_speed = read(&self.arrays.speed) + way * toward.1;
+            let longest = match self.batch.positions.plan.driven_links[driver] {
+                Some(_) => LONGEST,
+                None => LONGEST * self.design.size,
+            };
+            let gone = (next_q - read(&self.arrays.q)).abs();
+            let is_fine = gone.le(R::splat(longest)).and(next_speed.finite());
+            if !is_fine.all() {
+                self.note_failures(rows.first, lanes, next_speed, is_fine);
+            }
             for lane in 0..lanes {
                 let at = (rows.first + lane) * n + driver;
                 self.arrays.sum_q[at] = slope_q.lane(lane);
@@ -140,5 +183,28 @@ impl<R: Real> Stage<'_, R> {
                 self.arrays.next_speed[at] = next_speed.lane(lane);
             }
         }
+    }
+
+    /// Notes why environments have no next stage: they go too far, or have no acceleration.
+    #[inline(never)]
+    fn note_failures(&mut self, first: usize, lanes: usize, next_speed: R, is_fine: R::Mask) {
+        for lane in (0..lanes).filter(|&lane| !is_fine.lane(lane)) {
+            let row = first + lane;
+            let now = if next_speed.lane(lane).is_finite() {
+                Status::BadInput as u8
+            } else if self.design.status[row] == Status::Singular as u8 {
+                Status::Singular as u8
+            } else {
+                NO_VALUE
+            };
+            note(&mut self.status[row], now);
+        }
+    }
+}
+
+/// Keeps the worst status; of failures the first, which causes the others.
+pub(super) fn note(status: &mut u8, now: u8) {
+    if *status <= Status::NearSingular as u8 {
+        *status = now.max(*status);
     }
 }

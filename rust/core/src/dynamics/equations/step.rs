@@ -7,7 +7,7 @@ use super::equation_batch::EquationBatch;
 use super::evaluate::Equation;
 use super::plan::EquationPlan;
 use super::request::{EquationRequest, Term};
-use super::stage::{Stage, StageArrays};
+use super::stage::{LONGEST, Stage, StageArrays, note};
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::known_signs::KnownSigns;
@@ -27,9 +27,8 @@ use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
 /// Environments of a chunk: what they need stays in the caches.
-const CHUNK: usize = 256;
-/// Greatest way of a driver in one step (rad, or in sizes): a longer one skips what is between.
-const LONGEST: f64 = 1.0;
+const CHUNK: usize = 128;
+/// Stages of a step; one more shows whether the last state exists.
 const STAGES: usize = 4;
 
 /// Environments, each a state of a design, and the steps that they make.
@@ -104,8 +103,6 @@ impl Machine {
             sense: &[],
             terms: &[Term::Acceleration],
         };
-        // Work spaces have room for the environments of a chunk.
-        let work_shape = Shape { positions: shape.positions.min(CHUNK), ..shape };
         let equations = EquationBatch {
             positions: MachineBatch {
                 mechanism,
@@ -123,13 +120,14 @@ impl Machine {
                     sense: &[],
                 },
                 callbacks: 0,
-                shape: &work_shape,
+                shape: &shape,
+                most: shape.positions.min(CHUNK),
                 control,
             },
             request: &equation_request,
             rotors: &plan.rotors,
         };
-        let batch = StepBatch { equations, request, positions: shape.positions };
+        let batch = StepBatch { equations, request };
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
         chunks.size = CHUNK;
         dispatch::at_level(control.simd, Steps { batch: &batch, chunks })
@@ -139,8 +137,6 @@ impl Machine {
 struct StepBatch<'b> {
     equations: EquationBatch<'b>,
     request: &'b StepRequest<'b>,
-    /// Environments of a design.
-    positions: usize,
 }
 
 struct Steps<'b, 'r> {
@@ -190,7 +186,7 @@ impl<'b> StepBatch<'b> {
         let n = self.equations.positions.plan.drivers;
         self.equations.positions.read_designs(&mut state.positions, chunk);
         for (index, design) in chunk.designs.clone().enumerate() {
-            let first = design * self.positions;
+            let first = design * self.equations.positions.shape.positions;
             let rows = first + chunk.positions.start..first + chunk.positions.end;
             let asked = Asked {
                 q: &[],
@@ -237,6 +233,10 @@ impl<'b> StepBatch<'b> {
             }
             state.arrays.finish_step(&state.status, n);
         }
+        // The last state must exist, too.
+        if self.stage::<L, G>(state, &asked, STAGES) {
+            state.arrays.finish_step(&state.status, n);
+        }
         true
     }
 
@@ -260,7 +260,16 @@ impl<'b> StepBatch<'b> {
                     refuse_long_steps(&speed, request.dt, (design.size, batch), status);
                 }
                 for (status, &now) in status.iter_mut().zip(design.status) {
-                    note(status, now);
+                    // At a change point there is a motion through it.
+                    if now != Status::Singular as u8 {
+                        note(status, now);
+                    }
+                }
+                if stage == 0 {
+                    arrays.keep_good(&q, &speed, status);
+                }
+                if stage == STAGES {
+                    return;
                 }
                 let mut effort = of_rows(request.effort, n, &design.rows);
                 if request.has_motors {
@@ -276,13 +285,18 @@ impl<'b> StepBatch<'b> {
                     effort,
                     speed: &speed,
                     arrays: &mut *arrays,
+                    status: &mut *status,
                     dt: request.dt,
                     number: stage,
                 };
                 L::call(&mut task);
             },
         );
-        arrays.go_on([q, speed]);
+        if stage == STAGES {
+            arrays.put_back([q, speed]);
+        } else {
+            arrays.go_on([q, speed]);
+        }
         is_valid
     }
 
@@ -296,7 +310,7 @@ impl<'b> StepBatch<'b> {
         for (row, &status) in state.status.iter().enumerate() {
             results.status[first + row] = MaybeUninit::new(status);
             let fails = status > Status::NearSingular as u8 && !self.request.holds;
-            let [q, speed] = [&state.arrays.q, &state.arrays.speed];
+            let [q, speed] = state.arrays.last_states(status > Status::NearSingular as u8);
             for (column, values) in results.columns.iter_mut().zip([q, speed]) {
                 for driver in 0..n {
                     let value = if fails { f64::NAN } else { values[row * n + driver] };
@@ -304,13 +318,6 @@ impl<'b> StepBatch<'b> {
                 }
             }
         }
-    }
-}
-
-/// Keeps the worst status; of failures the first, which causes the others.
-fn note(status: &mut u8, now: u8) {
-    if *status <= Status::NearSingular as u8 {
-        *status = now.max(*status);
     }
 }
 

@@ -4,7 +4,7 @@ use super::evaluate::{Evaluate, ReactionBatch};
 use super::positions::{Driven, MachineBatch, Positions};
 use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
-use crate::batch::chunks::{Chunk, Chunks};
+use crate::batch::chunks::{Chunk, Chunks, most_positions};
 use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
 use crate::batch::rows::RowSlices;
@@ -94,6 +94,12 @@ impl Machine {
                 },
                 callbacks: request.external.len().checked_div(rows).unwrap_or(0),
                 shape: &shape,
+                // Squares cover all positions.
+                most: if request.squares {
+                    shape.positions
+                } else {
+                    most_positions(shape.positions)
+                },
                 control,
             },
         };

@@ -48,6 +48,8 @@ pub(crate) struct MachineBatch<'b> {
     pub driven: Driven<'b>,
     pub callbacks: usize,
     pub shape: &'b Shape,
+    /// Most positions of a design that are solved at once: room for all of them would take seconds.
+    pub most: usize,
     pub control: &'b Control<'b>,
 }
 
@@ -109,7 +111,7 @@ impl<'b> MachineBatch<'b> {
         if !fits {
             return Err(SolveError::Shape("speeds, accelerations or values do not fit".into()));
         }
-        Scratch::check(self.columns, self.shape.positions, self.control)?;
+        Scratch::check(self.columns, self.most, self.control)?;
         Ok(rows)
     }
 
@@ -124,7 +126,7 @@ impl<'b> MachineBatch<'b> {
         Positions {
             worker: Worker::new(mechanism, request, derivatives, writer, control),
             designs: Designs::default(),
-            scratch: Scratch::new(self.columns, self.shape.positions, Layout::Blocks),
+            scratch: Scratch::new(self.columns, self.most, Layout::Blocks),
             tables: vec![Vec::new(); self.machine.tables.len()],
             followed: Followed::default(),
             known: Vec::new(),

@@ -118,7 +118,8 @@ impl ForcePlan {
             }
         }
         for direction in &mut compiled.direction {
-            if *direction == Direction::Angle {
+            // A root and a division less than from its joints.
+            if *direction != Direction::Ground {
                 *direction = Direction::Solved;
             }
         }
