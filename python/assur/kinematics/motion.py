@@ -18,7 +18,7 @@ from assur._validate import (
     require_one_driver,
 )
 from assur.errors import InputError
-from assur.kinematics import jacobian as jacobians
+from assur.kinematics import sensitivity as sensitivities
 from assur.kinematics import transmission
 from assur.kinematics.motion_model import MotionModel
 from assur.kinematics.sensitivity import Sensitivity
@@ -318,7 +318,7 @@ class Motion(MotionModel):
         array([[-0.5609,  0.4149],
                [-0.4852,  0.4044]])
         """
-        return jacobians.jacobian(self, name, by, order)
+        return sensitivities.jacobian(self, name, by, order)
 
     def sensitivity(self, dimension: str) -> Sensitivity:
         """Return derivatives by a dimension of all values and analogues of this motion.

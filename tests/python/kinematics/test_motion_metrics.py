@@ -20,11 +20,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 PAGE = Path(__file__).parents[3] / "docs" / "reference" / "conventions.md"
+# Derivatives of outputs are no metrics.
 METRICS = {
     name
     for name, method in vars(assur.Motion).items()
     if inspect.isfunction(method) and method.__annotations__.get("return") == "Float"
-}
+} - {"jacobian"}
 
 Q = 0.1 + np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 POINT = (1.3, 0.8)

@@ -186,7 +186,7 @@ impl<R: Real> Stage<'_, R> {
     }
 
     /// Notes why environments have no next stage: they go too far, or have no acceleration.
-    #[inline(never)]
+    #[inline(always)]
     fn note_failures(&mut self, first: usize, lanes: usize, next_speed: R, is_fine: R::Mask) {
         for lane in (0..lanes).filter(|&lane| !is_fine.lane(lane)) {
             let row = first + lane;
