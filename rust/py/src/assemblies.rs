@@ -47,12 +47,14 @@ impl<'py> Found<'py> {
 
     /// The assemblies of many positions: making objects of Python takes longer than finding them.
     pub(crate) fn of_all(py: Python<'py>, all: Vec<Assemblies>) -> PyResult<Bound<'py, PyList>> {
-        let list = PyList::empty(py);
-        for position in all {
-            list.append(Self::of(py, position)?)?;
-            detach::check_signals(py, list.len())?;
-        }
-        Ok(list)
+        detach::make_objects(py, || {
+            let list = PyList::empty(py);
+            for position in all {
+                list.append(Self::of(py, position)?)?;
+                detach::check_signals(py, list.len())?;
+            }
+            Ok(list)
+        })
     }
 }
 

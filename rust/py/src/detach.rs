@@ -44,6 +44,13 @@ pub(crate) fn catch_panic<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> 
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(panic_error(&*panic)))
 }
 
+/// Makes objects of Python. Where Python has no memory for one, `PyO3` panics; this raises `MemoryError`.
+pub(crate) fn make_objects<T>(py: Python<'_>, make: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    // Unwind safety: the objects made so far are dropped with the closure.
+    catch_unwind(AssertUnwindSafe(make))
+        .unwrap_or_else(|_| Err(PyErr::take(py).unwrap_or_else(reserve::out_of_memory)))
+}
+
 fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
     let text = panic
         .downcast_ref::<&str>()

@@ -120,7 +120,7 @@ fn take(size: usize) -> *mut usize {
     }
 }
 
-fn out_of_memory() -> PyErr {
+pub(crate) fn out_of_memory() -> PyErr {
     PyMemoryError::new_err("out of memory: ask for fewer designs or positions at once")
 }
 

@@ -15,8 +15,10 @@ pytestmark = pytest.mark.skipif(
 
 # Each call within so many MiB more than the process has: some are enough, some are not.
 CALLS = """
+import os
 import resource
 import sys
+import traceback
 from pathlib import Path
 
 import numpy as np
@@ -63,24 +65,40 @@ calls = {
 }
 _, hard = resource.getrlimit(resource.RLIMIT_AS)
 four_bar.solve(few)
+
+def outcome_of(call, extra):
+    size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (size + (extra << 20), hard))
+    try:
+        call()
+    except MemoryError:
+        return "MemoryError"
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+    return "done"
+
+
 for name, call in calls.items():
-    for extra in (44, 100):
-        size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (size + (extra << 20), hard))
+    # Each in a process of its own: memory that one call gives back would serve the next.
+    child = os.fork()
+    if child == 0:
         try:
-            call()
-            outcome = "done"
-        except MemoryError:
-            outcome = "MemoryError"
-        finally:
-            resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
-        four_bar.solve(1.0)
-        print(name, extra, outcome, sep=", ", flush=True)
+            for extra in (44, 100):
+                outcome = outcome_of(call, extra)
+                four_bar.solve(1.0)
+                print(name, extra, outcome, sep=", ", flush=True)
+        except BaseException:
+            traceback.print_exc()
+            os._exit(1)
+        os._exit(0)
+    _, status = os.waitpid(child, 0)
+    if status:
+        sys.exit(f"{name} ended its process: {os.waitstatus_to_exitcode(status)}")
 """
 
 
 def test_a_call_that_finds_no_memory_ends_in_order() -> None:
-    command = [sys.executable, "-c", CALLS]
+    command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", CALLS]
     found = subprocess.run(command, capture_output=True, text=True, check=False)
     assert found.returncode == 0, (found.returncode, found.stdout, found.stderr[-2000:])
     assert not found.stderr
