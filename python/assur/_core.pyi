@@ -417,7 +417,7 @@ class Machine:
         steps: tuple[float, int],
         holds: bool,
         threads: int | None,
-    ) -> tuple[_Float, _Float, npt.NDArray[np.uint8]]: ...
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8]]: ...
     def equilibria(
         self, dimensions: _Float, ends: list[float], is_turn: bool, intervals: int
     ) -> tuple[

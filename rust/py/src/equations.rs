@@ -1,17 +1,16 @@
 //! The equations of motion of a machine for Python.
 
 use std::num::NonZeroUsize;
-use std::sync::Mutex;
 
 use assur::dynamics::{EquationPlan, EquationRequest, Machine, StepRequest, Term};
-use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use assur::{Arrays, Control, Coordinates, Mechanism};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::convert::word::{Word, Words};
-use crate::memory::{Memory, as_uninitialized};
+use crate::error_map;
+use crate::memory::filled;
 use crate::reactions::Found;
-use crate::{detach, error_map};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 
@@ -110,39 +109,19 @@ pub(crate) fn equations<'py>(
         terms: &terms,
     };
     let (rows, drivers) = (inputs.rows, mechanism.q0().len());
-    let mut memory = Memory::for_a_call();
-    let status = memory.array::<u8>(py, rows, 1)?;
-    let values = terms
-        .iter()
-        .map(|term| memory.array::<f64>(py, rows, term.width(drivers)))
-        .collect::<PyResult<Vec<_>>>()?;
-    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
-    let mut borrowed_status = status.readwrite();
-    let arrays = Arrays {
-        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
-        status: as_uninitialized(&mut borrowed_status)?,
+    let widths = terms.iter().map(|term| term.width(drivers));
+    let is_short = rows as u64 * plan.cost(mechanism) < FEW_POSITIONS;
+    let fill = |arrays: Arrays<'_>, control: &Control<'_>| {
+        machine.equations(mechanism, plan, &request, arrays, control)
     };
-    let arrays = Mutex::new(Some(arrays));
-    let log = FailureLog::default();
-    let solved = detach::run(py, rows as u64 * plan.cost(mechanism) < FEW_POSITIONS, |cancel| {
-        let control =
-            Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
-        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
-        arrays.map_or(Err(SolveError::Interrupted), |arrays| {
-            machine.equations(mechanism, plan, &request, arrays, &control)
-        })
-    });
-    drop(arrays);
-    solved?.map_err(error_map::solve)?;
-    drop((borrowed, borrowed_status));
+    let (values, status, log) = filled(py, rows, widths, is_short, threads, fill)?;
     let failure =
         log.first().map(|first| error_map::first_failure(&first, report, rows).into_value(py));
     Ok((values, status, failure))
 }
 
 /// Coordinates and speeds after steps, and the statuses.
-pub(crate) type Stepped<'py> =
-    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u8>>);
+pub(crate) type Stepped<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>);
 
 /// Steps of a slider-crank up to which a call need not check for signals.
 const FEW_STEPS: u64 = 100_000;
@@ -181,28 +160,11 @@ pub(crate) fn step<'py>(
         holds: environments.holds,
     };
     let (rows, drivers) = (environments.rows, mechanism.q0().len());
-    let mut memory = Memory::for_a_call();
-    let status = memory.array::<u8>(py, rows, 1)?;
-    let values = [memory.array::<f64>(py, rows, drivers)?, memory.array(py, rows, drivers)?];
-    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
-    let mut borrowed_status = status.readwrite();
-    let arrays = Arrays {
-        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
-        status: as_uninitialized(&mut borrowed_status)?,
-    };
-    let arrays = Mutex::new(Some(arrays));
     let cost = plan.cost(mechanism).saturating_mul((rows as u64).max(LIKE_ONE));
     let is_short = steps.saturating_mul(cost) < FEW_STEPS;
-    let stepped = detach::run(py, is_short, |cancel| {
-        let control = Control { threads, cancel: Some(cancel), ..Control::default() };
-        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
-        arrays.map_or(Err(SolveError::Interrupted), |arrays| {
-            machine.step(mechanism, plan, &request, arrays, &control)
-        })
-    });
-    drop(arrays);
-    stepped?.map_err(error_map::solve)?;
-    drop((borrowed, borrowed_status));
-    let [q, speed] = values;
-    Ok((q, speed, status))
+    let fill = |arrays: Arrays<'_>, control: &Control<'_>| {
+        machine.step(mechanism, plan, &request, arrays, control)
+    };
+    let (values, status, _) = filled(py, rows, [drivers; 2], is_short, threads, fill)?;
+    Ok((values, status))
 }

@@ -2,14 +2,16 @@
 //! take longer than writing the numbers.
 
 use std::mem::MaybeUninit;
+use std::num::NonZeroUsize;
 use std::sync::Mutex;
 
+use assur::{Arrays, Control, FailureLog, SolveError};
 use numpy::{Element, PyArray1, PyArrayMethods, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PySlice};
 
-use crate::error;
+use crate::{detach, error, error_map};
 
 /// Bytes of a cache line. The same number of extra entries is more than enough to align an array.
 const CACHE_LINE: usize = 64;
@@ -118,6 +120,45 @@ impl Memory {
         let owner = Bound::new(py, owner)?;
         Ok(py.import("numpy")?.call_method1("asarray", (owner,))?.cast_into()?)
     }
+}
+
+/// The arrays of a result, the statuses, and the positions that failed.
+pub(crate) type Filled<'py> =
+    (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArray1<u8>>, FailureLog);
+
+/// New arrays with rows of these widths, and statuses, that the core fills without the GIL.
+pub(crate) fn filled(
+    py: Python<'_>,
+    rows: usize,
+    widths: impl IntoIterator<Item = usize>,
+    is_short: bool,
+    threads: Option<NonZeroUsize>,
+    fill: impl Fn(Arrays<'_>, &Control<'_>) -> Result<(), SolveError> + Sync,
+) -> PyResult<Filled<'_>> {
+    let mut memory = Memory::for_a_call();
+    let status = memory.array::<u8>(py, rows, 1)?;
+    let values = widths
+        .into_iter()
+        .map(|width| memory.array::<f64>(py, rows, width))
+        .collect::<PyResult<Vec<_>>>()?;
+    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
+    let mut borrowed_status = status.readwrite();
+    let arrays = Arrays {
+        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
+        status: as_uninitialized(&mut borrowed_status)?,
+    };
+    let arrays = Mutex::new(Some(arrays));
+    let log = FailureLog::default();
+    let done = detach::run(py, is_short, |cancel| {
+        let control =
+            Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
+        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
+        arrays.map_or(Err(SolveError::Interrupted), |arrays| fill(arrays, &control))
+    });
+    drop(arrays);
+    done?.map_err(error_map::solve)?;
+    drop((borrowed, borrowed_status));
+    Ok((values, status, log))
 }
 
 /// The memory of an array borrowed for writing.

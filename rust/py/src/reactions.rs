@@ -1,17 +1,16 @@
 //! Reactions of a machine for Python.
 
 use std::num::NonZeroUsize;
-use std::sync::Mutex;
 
 use assur::dynamics::{Machine, Reaction, ReactionRequest};
-use assur::{Arrays, Control, Coordinates, FailureLog, Mechanism, SolveError};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use assur::{Arrays, Control, Coordinates, Mechanism};
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 
 use crate::convert::word::{Word, Words};
-use crate::memory::{Memory, as_uninitialized};
-use crate::{detach, error_map};
+use crate::error_map;
+use crate::memory::filled;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 /// One array for each reaction, the statuses, and the exception of the first position that failed.
@@ -148,35 +147,14 @@ pub(crate) fn reactions<'py>(
         squares: inputs.squares,
     };
     let rows = inputs.rows;
-    let mut memory = Memory::for_a_call();
-    let status = memory.array::<u8>(py, rows, 1)?;
-    let values = reactions
-        .iter()
-        .map(|reaction| {
-            memory.array::<f64>(py, rows, if inputs.squares { 2 } else { reaction.width() })
-        })
-        .collect::<PyResult<Vec<_>>>()?;
-    let mut borrowed: Vec<_> = values.iter().map(PyArrayMethods::readwrite).collect();
-    let mut borrowed_status = status.readwrite();
-    let arrays = Arrays {
-        columns: borrowed.iter_mut().map(as_uninitialized).collect::<PyResult<_>>()?,
-        status: as_uninitialized(&mut borrowed_status)?,
-    };
-    let arrays = Mutex::new(Some(arrays));
-    let log = FailureLog::default();
+    let width = |reaction: &Reaction| if inputs.squares { 2 } else { reaction.width() };
     let paths = rows.saturating_mul(machine.friction_paths(mechanism));
     let is_short = !inputs.squares && rows < FEW_POSITIONS && paths <= FEW_PATHS;
-    let solved = detach::run(py, is_short, |cancel| {
-        let control =
-            Control { threads, cancel: Some(cancel), failures: Some(&log), ..Control::default() };
-        let arrays = arrays.lock().ok().and_then(|mut arrays| arrays.take());
-        arrays.map_or(Err(SolveError::Interrupted), |arrays| {
-            machine.reactions(mechanism, &request, arrays, &control)
-        })
-    });
-    drop(arrays);
-    solved?.map_err(error_map::solve)?;
-    drop((borrowed, borrowed_status));
+    let fill = |arrays: Arrays<'_>, control: &Control<'_>| {
+        machine.reactions(mechanism, &request, arrays, control)
+    };
+    let (values, status, log) =
+        filled(py, rows, reactions.iter().map(width), is_short, threads, fill)?;
     let failure =
         log.first().map(|first| error_map::first_failure(&first, report, rows).into_value(py));
     Ok((values, status, failure))

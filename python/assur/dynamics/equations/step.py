@@ -97,7 +97,7 @@ def step(
         else:
             effort = _in_shape(effort, "effort", full, q)
     rows = int(np.prod(shape)) if shape else 1
-    after_q, after_speed, status = machine.core.step(
+    (after_q, after_speed), status = machine.core.step(
         mechanism.values.reshape(-1),
         (states[0], states[1], np.ascontiguousarray(effort)),
         environments.effort is None,

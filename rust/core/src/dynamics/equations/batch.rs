@@ -4,13 +4,13 @@ use super::equation_batch::EquationBatch;
 use super::evaluate::{Equation, Evaluate};
 use super::plan::EquationPlan;
 use super::request::{EquationRequest, Term};
-use crate::batch::chunks::{Chunk, Chunks, most_positions};
+use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
 use crate::batch::rows::RowSlices;
 use crate::batch::schedule::Control;
 use crate::description::error::SolveError;
-use crate::dynamics::kinetostatics::positions::{Driven, MachineBatch, Positions, of_rows};
+use crate::dynamics::kinetostatics::positions::{Positions, of_rows};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::Real;
@@ -52,31 +52,13 @@ impl Machine {
         let results: Vec<Column> = request.terms.iter().map(column).collect();
         check_arrays(&results, &arrays, rows)?;
         let rest = vec![0.0; n];
-        let batch = EquationBatch {
-            positions: MachineBatch {
-                mechanism,
-                machine: self,
-                sources: &plan.sources,
-                plan: forces,
-                request: &solve_request,
-                derivatives: &plan.derivatives,
-                writer: &plan.writer,
-                columns: &plan.writer.columns,
-                driven: Driven {
-                    speed: request.speed,
-                    // The bias is what the drivers give without accelerations.
-                    acceleration: &rest,
-                    external: request.external,
-                    sense: request.sense,
-                },
-                callbacks: request.external.len().checked_div(rows).unwrap_or(0),
-                shape: &shape,
-                most: most_positions(shape.positions),
-                control,
-            },
+        let batch = EquationBatch::new(
+            (mechanism, self, plan),
+            (&solve_request, &shape),
             request,
-            rotors: &plan.rotors,
-        };
+            &rest,
+            control,
+        );
         batch.positions.check()?;
         let fits = [request.effort, request.acceleration]
             .iter()

@@ -1,9 +1,15 @@
 //! What all chunks of the equations of motion share.
 
+use super::plan::EquationPlan;
 use super::request::EquationRequest;
-use crate::dynamics::kinetostatics::positions::MachineBatch;
+use crate::batch::chunks::most_positions;
+use crate::batch::request::{Request, Shape};
+use crate::batch::schedule::Control;
+use crate::dynamics::kinetostatics::positions::{Driven, MachineBatch};
+use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::value::Numbers;
+use crate::plan::mechanism::Mechanism;
 
 /// The data that all chunks of a batch share.
 pub(super) struct EquationBatch<'b> {
@@ -13,7 +19,43 @@ pub(super) struct EquationBatch<'b> {
     pub rotors: &'b [f64],
 }
 
-impl EquationBatch<'_> {
+impl<'b> EquationBatch<'b> {
+    /// The batch of a request, with the kinematics that it needs. The drivers' accelerations are `rest`, zero:
+    /// the bias is what the drivers give without them.
+    pub(super) fn new(
+        (mechanism, machine, plan): (&'b Mechanism, &'b Machine, &'b EquationPlan),
+        (kinematics, shape): (&'b Request<'b>, &'b Shape),
+        request: &'b EquationRequest<'b>,
+        rest: &'b [f64],
+        control: &'b Control<'b>,
+    ) -> Self {
+        let rows = shape.designs * shape.positions;
+        Self {
+            positions: MachineBatch {
+                mechanism,
+                machine,
+                sources: &plan.sources,
+                plan: &plan.forces,
+                request: kinematics,
+                derivatives: &plan.derivatives,
+                writer: &plan.writer,
+                columns: &plan.writer.columns,
+                driven: Driven {
+                    speed: request.speed,
+                    acceleration: rest,
+                    external: request.external,
+                    sense: request.sense,
+                },
+                callbacks: request.external.len().checked_div(rows).unwrap_or(0),
+                shape,
+                most: most_positions(shape.positions),
+                control,
+            },
+            request,
+            rotors: &plan.rotors,
+        }
+    }
+
     /// The efforts with those of the motors, position by position.
     pub(super) fn add_motors(
         &self,

@@ -17,9 +17,7 @@ use crate::batch::request::{
 use crate::batch::rows::RowSlices;
 use crate::batch::schedule::Control;
 use crate::description::error::SolveError;
-use crate::dynamics::kinetostatics::positions::{
-    Asked, DesignPositions, Driven, MachineBatch, Positions, of_rows,
-};
+use crate::dynamics::kinetostatics::positions::{Asked, DesignPositions, Positions, of_rows};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::Real;
@@ -103,30 +101,14 @@ impl Machine {
             sense: &[],
             terms: &[Term::Acceleration],
         };
-        let equations = EquationBatch {
-            positions: MachineBatch {
-                mechanism,
-                machine: self,
-                sources: &plan.sources,
-                plan: forces,
-                request: &solve_request,
-                derivatives: &plan.derivatives,
-                writer: &plan.writer,
-                columns: &plan.writer.columns,
-                driven: Driven {
-                    speed: request.speed,
-                    acceleration: &rest,
-                    external: &[],
-                    sense: &[],
-                },
-                callbacks: 0,
-                shape: &shape,
-                most: shape.positions.min(CHUNK),
-                control,
-            },
-            request: &equation_request,
-            rotors: &plan.rotors,
-        };
+        let mut equations = EquationBatch::new(
+            (mechanism, self, plan),
+            (&solve_request, &shape),
+            &equation_request,
+            &rest,
+            control,
+        );
+        equations.positions.most = shape.positions.min(CHUNK);
         let batch = StepBatch { equations, request };
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
         chunks.size = CHUNK;
