@@ -29,6 +29,7 @@ from support.interruptions import (
     is_heard,
     longest_silence,
     longest_standstill,
+    processor_time,
 )
 
 if TYPE_CHECKING:
@@ -233,17 +234,20 @@ def test_a_call_that_hears_nothing_is_found() -> None:
 
     assert heard_after(free, 64) > SOON
     assert heard_after(held, 64) > SOON
-    worked, longest = longest_standstill(free(300_000))
-    assert longest < worked / 2
-    worked, longest = longest_standstill(held(6_000_000))
-    assert longest > worked / 2
+    assert _lets_others_run(free(2_000_000))
+    assert not _lets_others_run(held(6_000_000))
 
 
 def test_other_threads_of_python_go_on_while_a_mechanism_is_built() -> None:
     """The lock is free: of the work of the build little is done while another thread waits."""
-    worked, longest = longest_standstill(lambda: _chain(6000))
-    assert worked > 0.1
-    assert longest < worked / 2
+    assert processor_time(lambda: _chain(6000)) > 0.1
+    assert _lets_others_run(lambda: _chain(6000))
+
+
+def _lets_others_run(call: Callable[[], object]) -> bool:
+    """A call that holds the lock stops the others every time, a busy machine now and then."""
+    tries = (longest_standstill(call) for _ in range(ATTEMPTS))
+    return any(longest < worked / 2 for worked, longest in tries)
 
 
 def _wheel(rows: int) -> assur.flywheel.Flywheel:
