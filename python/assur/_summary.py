@@ -20,8 +20,8 @@ __all__ = ["FORMULA", "LINES", "listed", "shortened", "summary", "typed"]
 
 # Arrays of more numbers are printed by their range, or with their ends alone.
 MOST = 6
-# What is shown at most: columns, lines, entries of a list.
-WIDTH, LINES, ENTRIES = 120, 20, 12
+# What is shown at most: columns, lines, entries of a list, lists in each other.
+WIDTH, LINES, ENTRIES, DEPTH = 120, 20, 12, 4
 # Of a further line.
 INDENT = " " * 4
 # Letters of a structural formula in a line with other things.
@@ -109,7 +109,7 @@ def _short(value: Any) -> str:
     return f"<{shape}: {finite.min():.6g} … {finite.max():.6g}>"
 
 
-def _typed(value: Any) -> str:
+def _typed(value: Any, depth: int = 0) -> str:
     if isinstance(value, np.ndarray):
         if value.size <= MOST:
             return f"array({value.tolist()!r})"
@@ -119,7 +119,9 @@ def _typed(value: Any) -> str:
         return f"array({' '.join(numbers.split())})"
     if type(value) in (tuple, list):
         ends = "()" if type(value) is tuple else "[]"
-        shown = [_typed(entry) for entry in value[:ENTRIES]]
+        if depth == DEPTH:
+            return f"{ends[0]}…{ends[1]}"
+        shown = [_typed(entry, depth + 1) for entry in value[:ENTRIES]]
         shown += [f"… {len(value) - ENTRIES} more"] if len(value) > ENTRIES else []
         comma = "," if len(shown) == 1 and type(value) is tuple else ""
         return f"{ends[0]}{', '.join(shown)}{comma}{ends[1]}"

@@ -261,3 +261,11 @@ def test_what_users_write_can_be_typed_back() -> None:
 def test_numbers_of_results_have_six_digits() -> None:
     text = repr(flywheel.Extreme(as_number(np.pi), as_number(2.0)))
     assert text == "Extreme(value=3.14159, q=2.0)"
+
+
+def test_lists_in_each_other_end() -> None:
+    deep: Any = []
+    for _ in range(10_000):
+        deep = [deep]
+    with pytest.raises(assur.InputError, match=r"\[\[\[\[\[…\]"):
+        press().run(1.0, 0.0, 1.0, events=[events.Crossing(deep)])
