@@ -1,4 +1,4 @@
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypeAlias, TypedDict, final
 
 import numpy as np
@@ -219,6 +219,20 @@ class Mechanism:
         report: list[int] | None,
         known_signs: KnownSigns | None = None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...
+    def sensitivities(
+        self,
+        dimensions: _Float,
+        q: _Float,
+        per_design: bool,
+        signs: list[int],
+        shape: tuple[int, int],
+        of: Sequence[tuple[str, int, int]],
+        by: list[int],
+        threads: int | None,
+        *,
+        rates: _Float | None = None,
+        weights: list[_Float] | None = None,
+    ) -> tuple[list[_Float], npt.NDArray[np.uint8]]: ...
     def measure(
         self,
         dimensions: _Float,

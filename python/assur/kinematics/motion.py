@@ -18,13 +18,12 @@ from assur._validate import (
     require_one_driver,
 )
 from assur.errors import InputError
-from assur.kinematics import sensitivity as sensitivities
-from assur.kinematics import transmission
+from assur.kinematics import derivatives, transmission
 from assur.kinematics.motion_model import MotionModel
 from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from os import PathLike
 
     import pandas as pd
@@ -278,13 +277,65 @@ class Motion(MotionModel):
         """
         return transmission.angle(self, name, between)
 
-    def jacobian(self, name: str, *, by: str | Sequence[str] = "q", order: int = 0) -> Float:
-        """Return exact derivatives of a joint, an angle or a slide by drivers or dimensions.
+    def d_transmission_angle(
+        self,
+        name: str,
+        *,
+        by: str | Sequence[str] = "q",
+        between: tuple[str, str] | None = None,
+    ) -> Float:
+        """Return exact derivatives of the transmission angle by drivers or dimensions.
 
         Parameters
         ----------
         name : str
-            A joint, link or slide among the outputs of this motion.
+            As in `transmission_angle`.
+        by : str or sequence of str
+            As in `jacobian`.
+        between : (str, str), optional
+            As in `transmission_angle`.
+
+        Returns
+        -------
+        numpy.ndarray
+            S + (N, D), rad per m or per rad. NaN where there is no position, and where the angle
+            is 0 or π/2: there it turns back.
+
+        Raises
+        ------
+        InputError
+            As in `transmission_angle` and `jacobian`.
+
+        Examples
+        --------
+        A longer coupler opens the angle:
+
+        >>> import assur
+        >>> motion = assur.FourBar(1.0, 4.5, 1.5, 4.8).solve(2.0)
+        >>> motion.d_transmission_angle("C", by=["coupler.length"]).round(4)
+        array([0.6957])
+        """
+        return transmission.derivative(self, name, by, between)
+
+    @overload
+    def jacobian(self, name: str, *, by: str | Sequence[str] = "q", order: int = 0) -> Float: ...
+    @overload
+    def jacobian(
+        self, name: list[str] | tuple[str, ...], *, by: str | Sequence[str] = "q", order: int = 0
+    ) -> dict[str, Float]: ...
+    def jacobian(
+        self,
+        name: str | list[str] | tuple[str, ...],
+        *,
+        by: str | Sequence[str] = "q",
+        order: int = 0,
+    ) -> Float | dict[str, Float]:
+        """Return exact derivatives of joints, angles or slides by drivers or dimensions.
+
+        Parameters
+        ----------
+        name : str or list of str
+            A joint, link or slide among the outputs of this motion; or several.
         by : str or sequence of str
             ``"q"``, the drivers' coordinates; or dimensions, columns in this order. ``*``, ``?``
             and ``[…]`` stand for parts of names: ``"*.length"`` is every length.
@@ -293,10 +344,11 @@ class Motion(MotionModel):
 
         Returns
         -------
-        numpy.ndarray
+        numpy.ndarray or dict of str to numpy.ndarray
             The last axis is that of the drivers (also of one) or dimensions: S + (N, 2, D) for a
             joint, S + (N, D) else; with n drivers each order adds an axis of n before it. Per m, or
-            per rad for angles. NaN where there is no position or no derivative.
+            per rad for angles. NaN where there is no position or no derivative. Of several names an
+            array each.
 
         Raises
         ------
@@ -306,7 +358,13 @@ class Motion(MotionModel):
 
         See Also
         --------
+        jvp, vjp : Its products with vectors, without the matrix.
         sensitivity : All outputs by one dimension.
+
+        Notes
+        -----
+        All dimensions come from one pass backward through the mechanism for each component (the
+        adjoint method): it costs about as much as solving, however many dimensions there are.
 
         Examples
         --------
@@ -318,7 +376,118 @@ class Motion(MotionModel):
         array([[-0.5609,  0.4149],
                [-0.4852,  0.4044]])
         """
-        return sensitivities.jacobian(self, name, by, order)
+        return derivatives.jacobian(self, name, by, order)
+
+    @overload
+    def jvp(self, name: str, rates: Mapping[str, npt.ArrayLike], *, order: int = 0) -> Float: ...
+    @overload
+    def jvp(
+        self,
+        name: list[str] | tuple[str, ...],
+        rates: Mapping[str, npt.ArrayLike],
+        *,
+        order: int = 0,
+    ) -> dict[str, Float]: ...
+    def jvp(
+        self,
+        name: str | list[str] | tuple[str, ...],
+        rates: Mapping[str, npt.ArrayLike],
+        *,
+        order: int = 0,
+    ) -> Float | dict[str, Float]:
+        """Return how fast joints, angles or slides change where dimensions change at given rates.
+
+        This is the Jacobian times a vector, in one pass forward through the mechanism.
+
+        Parameters
+        ----------
+        name : str or list of str
+            A joint, link or slide among the outputs of this motion; or several.
+        rates : dict of str to array_like
+            The rate of each dimension that changes: a number, or one for each design of a batch.
+        order : {0, 1, 2, 3}
+            Of the value, or of its analogue of this order.
+
+        Returns
+        -------
+        numpy.ndarray or dict of str to numpy.ndarray
+            S + (N, 2) for a joint, S + (N,) else, with an axis of n for each order with n drivers.
+            NaN where there is no position or no derivative. Of several names an array each.
+
+        Raises
+        ------
+        InputError
+            As in `jacobian`; rates of another shape.
+
+        See Also
+        --------
+        vjp : The product from the other side.
+
+        Examples
+        --------
+        All four links grow alike: the joints move away from A, the angles stay.
+
+        >>> import assur
+        >>> m = assur.FourBar(1.0, 3.0, 2.5, 3.0)
+        >>> alike = {"crank.length": 1.0, "coupler.length": 3.0, "rocker.length": 2.5}
+        >>> rates = m.solve(1.0).jvp(["C", "rocker"], alike | {"ground.D.x": 3.0})
+        >>> (rates["C"] - m.solve(1.0).joint("C").value).round(12), abs(rates["rocker"]) < 1e-12
+        (array([0., 0.]), np.True_)
+        """
+        return derivatives.jvp(self, name, rates, order)
+
+    def vjp(
+        self,
+        weights: Mapping[str, npt.ArrayLike],
+        *,
+        by: str | Sequence[str] = "*",
+        order: int = 0,
+    ) -> Float:
+        """Return the derivatives by dimensions of a weighted sum of joints, angles and slides.
+
+        This is a vector times the Jacobian, by one pass backward through the mechanism (the
+        adjoint method): all dimensions cost as much as one.
+
+        Parameters
+        ----------
+        weights : dict of str to array_like
+            For each joint, link or slide the weights of its components at every position,
+            S + (N, 2) for a joint and S + (N,) else; arrays that broadcast to it, too. With n
+            drivers each order adds an axis of n.
+        by : str or sequence of str
+            Dimensions, as in `jacobian`; all of them by default, as in ``m.dimensions``.
+        order : {0, 1, 2, 3}
+            The weights belong to the values, or to their analogues of this order.
+
+        Returns
+        -------
+        numpy.ndarray
+            The derivatives at every position, S + (N, D); ``.sum(axis=-2)`` is the gradient of the
+            sum over all positions. NaN where there is no position or no derivative.
+
+        Raises
+        ------
+        InputError
+            As in `jacobian`; weights of another shape.
+
+        See Also
+        --------
+        jvp : The product from the other side.
+
+        Examples
+        --------
+        The gradient of the squared distance of a coupler point from a path, by all dimensions:
+
+        >>> import assur, numpy as np
+        >>> m, q = assur.examples.crank_rocker(), np.linspace(0.0, 6.0, 7)
+        >>> wanted = m.solve(q).joint("P").value
+        >>> motion = m.with_dimensions({"crank.length": 0.99}).solve(q)
+        >>> apart = motion.joint("P").value - wanted
+        >>> gradient = motion.vjp({"P": 2.0 * apart}, by="*.length").sum(axis=0)
+        >>> gradient.shape
+        (3,)
+        """
+        return derivatives.vjp(self, weights, by, order)
 
     def sensitivity(self, dimension: str) -> Sensitivity:
         """Return derivatives by a dimension of all values and analogues of this motion.

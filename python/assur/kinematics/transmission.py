@@ -11,10 +11,15 @@ from assur._arrays import Float, short
 from assur._trig import sin_cos
 from assur._validate import checked_name
 from assur.errors import InputError
+from assur.kinematics.derivatives import jacobian, named_dimensions, vjp
 
 if TYPE_CHECKING:
     from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion_model import MotionModel
+
+
+# Within this of 0 or π/2, rad, rounding decides on which side of its turning back an angle is.
+TURNS_BACK = 1e-12
 
 
 class JointLine(NamedTuple):
@@ -40,6 +45,46 @@ def angle(motion: MotionModel, name: str, between: tuple[str, ...] | None) -> Fl
     first, second = (_direction(motion, line) for line in pair)
     acute = _acute(motion, first, second)
     return 0.5 * np.pi - acute if complement else acute
+
+
+def derivative(motion: MotionModel, name: str, by: Any, between: tuple[str, str] | None) -> Float:
+    """See `Motion.d_transmission_angle`."""
+    pair, complement = lines(motion.mechanism, name, between)
+    first, second = (_direction(motion, line) for line in pair)
+    cross = first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
+    # An acute angle falls where the angle from one line to the other grows beyond a right one.
+    # Lines along each other, or at right angles, have no derivative: there it turns back.
+    sines = cross * np.sum(first * second, axis=-1)
+    sizes = np.sum(first * first, axis=-1) * np.sum(second * second, axis=-1)
+    sense = np.where(np.abs(sines) <= TURNS_BACK * sizes, np.nan, np.sign(sines))
+    sense = -sense if complement else sense
+    rates = [_turning(motion, line, by) for line in pair]
+    turned: Float = sense[..., np.newaxis] * (rates[1] - rates[0])
+    return turned
+
+
+def _turning(motion: MotionModel, line: Line, by: Any) -> Float:
+    """Return the derivatives of a line's angle, S + (N, D)."""
+    if isinstance(line, JointLine):
+        along = _direction(motion, line)
+        across = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+        weight = across / np.sum(along * along, axis=-1)[..., np.newaxis]
+        if isinstance(by, str) and by == "q":
+            ends = (jacobian(motion, joint, "q", 0) for joint in (line.end, line.start))
+            end, start = (end for end in ends if not isinstance(end, dict))
+            turned: Float = np.sum(weight[..., np.newaxis] * (end - start), axis=-2)
+            return turned
+        return vjp(motion, {line.end: weight, line.start: -weight}, by, 0)
+    if isinstance(by, str) and by == "q":
+        angle = jacobian(motion, line.link, "q", 0)
+        assert not isinstance(angle, dict)
+        return angle
+    turned = vjp(motion, {line.link: 1.0}, by, 0)
+    core = motion.mechanism.core
+    own = f"{line.slide}.angle"
+    if own in core.dimension_names:
+        turned[..., np.equal(named_dimensions(motion, by), core.dimension(own))] += 1.0
+    return turned
 
 
 def lines(mechanism: MechanismModel, name: str, between: Any) -> tuple[list[Line], bool]:

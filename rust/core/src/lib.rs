@@ -47,7 +47,7 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// remedies, batch, assemblies, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
+// remedies, batch, sensitivity, assemblies, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
 mod assemblies;
 mod batch;
 mod branch;
@@ -59,6 +59,7 @@ pub mod papers;
 mod plan;
 mod query;
 mod remedies;
+mod sensitivity;
 mod state;
 mod structure;
 pub mod sweep;
@@ -100,6 +101,7 @@ pub use query::failure::{Failure, GroupName, Reason};
 pub use query::limits::finder::{Interval, Limits, LimitsFinder, Tables};
 pub use query::metrics;
 pub use remedies::{Remedy, RemedyKind, remedies};
+pub use sensitivity::request::{Product, SensitivityRequest};
 pub use state::status::Status;
 pub use structure::Structure;
 pub use structure::assur_group::Group;

@@ -14,6 +14,7 @@ mod machine;
 mod mechanism;
 mod memory;
 mod metrics;
+mod motion;
 mod named;
 mod papers;
 mod parallel_map;
@@ -22,8 +23,6 @@ mod reduce;
 mod remedies;
 mod reserve;
 mod run;
-mod short_calls;
-mod solve;
 mod spline;
 mod sweep;
 #[cfg(feature = "test-hooks")]
@@ -48,6 +47,8 @@ mod _core {
     #[pymodule_export]
     use super::metrics::{acute, curvature, instant_centre};
     #[pymodule_export]
+    use super::motion::solve::KnownSigns;
+    #[pymodule_export]
     use super::named::{class_iv_drawing, four_bar_drawing, slider_crank_drawing};
     #[pymodule_export]
     use super::papers::crank_rocker::{
@@ -65,8 +66,6 @@ mod _core {
     use super::remedies::remedies;
     #[pymodule_export]
     use super::run::Run;
-    #[pymodule_export]
-    use super::solve::KnownSigns;
     #[pymodule_export]
     use super::spline::spline_pieces;
     #[pymodule_export]

@@ -12,9 +12,9 @@ use crate::convert::description::{Driver, Slide};
 use crate::convert::metric::metric_of;
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
-use crate::short_calls::{FEW_ASSEMBLIES, FEW_LINKS, FEW_SIGNS, is_small};
-use crate::solve::KnownSigns;
-use crate::solve::{Question, Solution};
+use crate::motion::sensitivity::{self, Derivatives, ResultKey};
+use crate::motion::short_calls::{FEW_ASSEMBLIES, FEW_LINKS, FEW_SIGNS, is_small};
+use crate::motion::solve::{KnownSigns, Question, Solution};
 use crate::sweep::{self, Found};
 use crate::{assemblies, error, error_map, limits, reserve};
 
@@ -330,6 +330,31 @@ impl Mechanism {
             known_signs,
         };
         question.answer(py, threads, buffers, report)
+    }
+
+    /// Derivatives of results by dimensions, or their products with vectors; see `assur.Motion.jacobian`.
+    /// `of`: kind, index and order of each result; `by`: indices of dimensions; `shape`: designs, positions.
+    #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
+    #[pyo3(signature = (
+        dimensions, q, per_design, signs, shape, of, by, threads, *, rates = None, weights = None
+    ))]
+    fn sensitivities<'py>(
+        &self,
+        py: Python<'py>,
+        dimensions: PyReadonlyArray1<'py, f64>,
+        q: PyReadonlyArray1<'py, f64>,
+        per_design: bool,
+        signs: Vec<i8>,
+        shape: [usize; 2],
+        of: Vec<ResultKey>,
+        by: Vec<usize>,
+        threads: Option<NonZeroUsize>,
+        rates: Option<PyReadonlyArray1<'py, f64>>,
+        weights: Option<Vec<PyReadonlyArray1<'py, f64>>>,
+    ) -> PyResult<Derivatives<'py>> {
+        let positions = sensitivity::Positions { dimensions, q, per_design, signs: &signs, shape };
+        let vectors = sensitivity::Vectors { rates, weights };
+        sensitivity::sensitivities(py, &self.inner, &positions, (&of, &by), &vectors, threads)
     }
 
     /// Metrics of designs; see `assur.sweep`. `conditions`: metric, relation and limit.

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use crate::convert::description::{Driver, Slide};
 use crate::mechanism::described;
-use crate::short_calls::FEW_LINKS;
+use crate::motion::short_calls::FEW_LINKS;
 use crate::{detach, error_map};
 
 /// A remedy; for Python the dictionary of its fields.

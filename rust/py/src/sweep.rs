@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::convert::metric::{condition, metric_of};
 use crate::convert::word::Word;
-use crate::short_calls::is_short;
+use crate::motion::short_calls::is_short;
 use crate::{detach, error_map, reserve};
 
 /// Values of each metric, statuses, and the designs that are kept.

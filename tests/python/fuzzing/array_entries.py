@@ -224,6 +224,8 @@ ENTRIES: dict[str, Entry] = {
         lambda q: FIVE_BAR.solve(q, on_error="nan"), (np.ones((3, 2)), np.ones(2), np.ones((0, 2)))
     ),
     "Mechanism.with_dimensions.dimensions": Entry(with_lengths, numbers(3.0)),
+    "Motion.jvp.rates": Entry(lambda rate: MOTION.jvp("C", {"coupler.length": rate}), numbers(1.0)),
+    "Motion.vjp.weights": Entry(lambda weight: MOTION.vjp({"C": weight}), numbers(1.0)),
     "Mechanism.with_dimensions.by_name": Entry(
         lambda x: FOUR_BAR.with_dimensions(**{"coupler.length": x}).dimensions, numbers(3.0)
     ),

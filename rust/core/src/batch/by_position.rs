@@ -82,7 +82,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         let design = &self.design;
         let drivers = design.mechanism.q0().len();
         let cx = design.context(design.derivatives);
-        let rate = design.rate(index);
+        let mut unit_change = vec![0.0; design.mechanism.dimensions().len()];
+        unit_change[index] = 1.0;
+        let rate = design.rate(&unit_change);
         let nothing = vec![[0.0]; self.space.lifted.len()];
         for (row, q) in job.q.chunks_exact(drivers).enumerate() {
             if self.is_cancelled() {

@@ -7,6 +7,7 @@ mod coordinates;
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
 pub(crate) mod known_signs;
+pub(crate) mod motion;
 pub(crate) mod request;
 pub(crate) mod rows;
 pub(crate) mod schedule;

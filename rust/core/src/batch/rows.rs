@@ -25,6 +25,12 @@ pub(crate) fn place_in_blocks(row: usize, width: usize, entry: usize) -> usize {
     (row / LANES * width + entry) * LANES + row % LANES
 }
 
+/// Number `entry` of `width` of the rows from `row` on, in an array of [`Layout::Blocks`].
+#[inline(always)]
+pub(crate) fn read_block<R: Real>(column: &[f64], row: usize, width: usize, entry: usize) -> R {
+    R::read(&column[place_in_blocks(row, width, entry)..])
+}
+
 /// The rows of some positions in every array, not yet written.
 #[derive(Debug)]
 pub(crate) struct RowSlices<'a> {

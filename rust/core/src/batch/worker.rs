@@ -18,7 +18,6 @@ use crate::branch::lanes::uniform::Traced;
 use crate::branch::location::BranchLocation;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
-use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
 use crate::query::failure::Failure;
 use crate::state::kernel::Level;
@@ -119,16 +118,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         }
     }
 
-    /// The size of the design bound last, m: a power of 2 beside its greatest length.
-    pub(crate) fn size(&self) -> f64 {
-        self.design.constants.scale
-    }
-
-    /// A point of the ground in the design bound last, m.
-    pub(crate) fn fixed_point(&self, point: usize) -> Vector {
-        let constants = &self.design.constants;
-        let origin = Vector::new(constants.origin[0], constants.origin[1]);
-        constants.fixed[point].scale(self.design.units.length[0]) + origin
+    /// The design bound last.
+    pub(super) fn bound_design(&self) -> &Design<'a> {
+        &self.design
     }
 
     /// Swaps work spaces with a worker of the same request, so that each set of jobs finds its own

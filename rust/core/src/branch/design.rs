@@ -14,6 +14,7 @@ use super::lanes::uniform::UniformTracer;
 use super::scalar_chord::may_change;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
+use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
 use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::mechanism::Mechanism;
@@ -213,10 +214,16 @@ impl<'a> Design<'a> {
         may_change
     }
 
-    /// Rates of the fixed vectors by a dimension.
-    pub(crate) fn rate(&self, index: usize) -> ConstantsRate {
+    /// A point of the ground, m.
+    pub(crate) fn fixed_point(&self, point: usize) -> Vector {
+        let origin = Vector::new(self.constants.origin[0], self.constants.origin[1]);
+        self.constants.fixed[point].scale(self.units.length[0]) + origin
+    }
+
+    /// Rates of the constants where the dimensions have these rates.
+    pub(crate) fn rate(&self, by: &[f64]) -> ConstantsRate {
         let mechanism = self.mechanism;
-        ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.constants, &self.values, index)
+        ConstantsRate::new(mechanism.plan(), &mechanism.slots, &self.constants, &self.values, by)
     }
 
     /// Whether a dyad that the tape solves certainly does not close at one of the positions of a turn in

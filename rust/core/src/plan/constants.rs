@@ -80,8 +80,8 @@ pub(crate) enum EdgeSource {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SlideSlots {
-    angle: Slot,
-    link_angle: Slot,
+    pub(super) angle: Slot,
+    pub(super) link_angle: Slot,
     pub(crate) offset: Slot,
     pub(crate) origin: [Slot; 2],
     /// Whether its origin is a point of the drawing, not a joint.

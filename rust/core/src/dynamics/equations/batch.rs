@@ -103,7 +103,11 @@ impl<'b> ForLevel for Terms<'b, '_> {
             |state: &mut ThreadState<'b, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
                 batch.chunk::<L, G>(state, chunk, rows);
             };
-        batch.positions.control.run(self.chunks, new_state, work, |state| state.positions.finish())
+        batch
+            .positions
+            .motion
+            .control
+            .run(self.chunks, new_state, work, |state| state.positions.finish())
     }
 }
 

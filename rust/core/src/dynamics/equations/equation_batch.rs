@@ -3,6 +3,7 @@
 use super::plan::EquationPlan;
 use super::request::EquationRequest;
 use crate::batch::chunks::most_positions;
+use crate::batch::motion::MotionBatch;
 use crate::batch::request::{Request, Shape};
 use crate::batch::schedule::Control;
 use crate::dynamics::kinetostatics::positions::{Driven, MachineBatch};
@@ -32,14 +33,18 @@ impl<'b> EquationBatch<'b> {
         let rows = shape.designs * shape.positions;
         Self {
             positions: MachineBatch {
-                mechanism,
+                motion: MotionBatch {
+                    mechanism,
+                    request: kinematics,
+                    derivatives: &plan.derivatives,
+                    writer: &plan.writer,
+                    shape,
+                    most: most_positions(shape.positions),
+                    control,
+                },
                 machine,
                 sources: &plan.sources,
                 plan: &plan.forces,
-                request: kinematics,
-                derivatives: &plan.derivatives,
-                writer: &plan.writer,
-                columns: &plan.writer.columns,
                 driven: Driven {
                     speed: request.speed,
                     acceleration: rest,
@@ -47,9 +52,6 @@ impl<'b> EquationBatch<'b> {
                     sense: request.sense,
                 },
                 callbacks: request.external.len().checked_div(rows).unwrap_or(0),
-                shape,
-                most: most_positions(shape.positions),
-                control,
             },
             request,
             rotors: &plan.rotors,

@@ -11,13 +11,14 @@ use super::stage::{LONGEST, Stage, StageArrays, note};
 use crate::batch::chunks::{Chunk, Chunks};
 use crate::batch::dispatch::{self, Entry, ForLevel};
 use crate::batch::known_signs::KnownSigns;
+use crate::batch::motion::Asked;
 use crate::batch::request::{
     Arrays, Column, Coordinates, Quantity, Request, Shape, check_arrays, product,
 };
 use crate::batch::rows::RowSlices;
 use crate::batch::schedule::Control;
 use crate::description::error::SolveError;
-use crate::dynamics::kinetostatics::positions::{Asked, DesignPositions, Positions, of_rows};
+use crate::dynamics::kinetostatics::positions::{DesignPositions, Positions, of_rows};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::Real;
@@ -108,7 +109,7 @@ impl Machine {
             &rest,
             control,
         );
-        equations.positions.most = shape.positions.min(CHUNK);
+        equations.positions.motion.most = shape.positions.min(CHUNK);
         let batch = StepBatch { equations, request };
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
         chunks.size = CHUNK;
@@ -153,7 +154,7 @@ impl<'b> ForLevel for Steps<'b, '_> {
             |state: &mut ThreadState<'b, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
                 batch.chunk::<L, G>(state, chunk, rows);
             };
-        let control = batch.equations.positions.control;
+        let control = batch.equations.positions.motion.control;
         control.run(self.chunks, new_state, work, |state| state.positions.finish())
     }
 }
@@ -166,19 +167,12 @@ impl<'b> StepBatch<'b> {
         mut results: RowSlices<'_>,
     ) {
         let n = self.equations.positions.plan.drivers;
-        self.equations.positions.read_designs(&mut state.positions, chunk);
+        self.equations.positions.motion.read_designs(&mut state.positions.motion, chunk);
         for (index, design) in chunk.designs.clone().enumerate() {
-            let first = design * self.equations.positions.shape.positions;
+            let first = design * self.equations.positions.motion.shape.positions;
             let rows = first + chunk.positions.start..first + chunk.positions.end;
-            let asked = Asked {
-                q: &[],
-                speed: &[],
-                shared: None,
-                index,
-                design,
-                rows: rows.clone(),
-                binds: true,
-            };
+            let asked =
+                Asked { q: &[], shared: None, index, design, rows: rows.clone(), binds: true };
             state.arrays.start(
                 &self.request.q[rows.start * n..rows.end * n],
                 &self.request.speed[rows.start * n..rows.end * n],
@@ -198,11 +192,11 @@ impl<'b> StepBatch<'b> {
         state: &mut ThreadState<'b, L::Register, G>,
         mut asked: Asked<'_>,
     ) -> bool {
-        let mechanism = self.equations.positions.mechanism;
+        let mechanism = self.equations.positions.motion.mechanism;
         let n = self.equations.positions.plan.drivers;
         let slides = (0..n).any(|driver| mechanism.plan().driven_slide(driver).is_some());
         for _ in 0..self.request.steps {
-            if self.equations.positions.control.is_cancelled() {
+            if self.equations.positions.motion.control.is_cancelled() {
                 return false;
             }
             for stage in 0..STAGES {
@@ -233,10 +227,11 @@ impl<'b> StepBatch<'b> {
         let batch = &self.equations;
         let (request, n) = (self.request, batch.positions.plan.drivers);
         let [q, speed] = arrays.take_stage();
-        let stage_asked = Asked { q: &q, speed: &speed, rows: asked.rows.clone(), ..*asked };
+        let stage_asked = Asked { q: &q, rows: asked.rows.clone(), ..*asked };
         let is_valid = batch.positions.solve_design::<L, G>(
             positions,
             &stage_asked,
+            &speed,
             &mut |design: DesignPositions<'_>| {
                 if stage == 0 {
                     refuse_long_steps(&speed, request.dt, (design.size, batch), status);

@@ -6,6 +6,7 @@ use super::request::{Reaction, ReactionRequest};
 use super::squares::Squares;
 use crate::batch::chunks::{Chunk, Chunks, most_positions};
 use crate::batch::dispatch::{self, Entry, ForLevel};
+use crate::batch::motion::MotionBatch;
 use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
 use crate::batch::rows::RowSlices;
 use crate::batch::schedule::Control;
@@ -78,14 +79,23 @@ impl Machine {
             friction: FrictionPair::of(&plan, &links_at, friction),
             request,
             positions: MachineBatch {
-                mechanism,
+                motion: MotionBatch {
+                    mechanism,
+                    request: &solve_request,
+                    derivatives: &derivatives,
+                    writer: &writer,
+                    shape: &shape,
+                    // Squares cover all positions.
+                    most: if request.squares {
+                        shape.positions
+                    } else {
+                        most_positions(shape.positions)
+                    },
+                    control,
+                },
                 machine: self,
                 sources: &sources,
                 plan: &plan,
-                request: &solve_request,
-                derivatives: &derivatives,
-                writer: &writer,
-                columns: &writer.columns,
                 driven: Driven {
                     speed: request.speed,
                     acceleration: request.acceleration,
@@ -93,14 +103,6 @@ impl Machine {
                     sense: request.sense,
                 },
                 callbacks: request.external.len().checked_div(rows).unwrap_or(0),
-                shape: &shape,
-                // Squares cover all positions.
-                most: if request.squares {
-                    shape.positions
-                } else {
-                    most_positions(shape.positions)
-                },
-                control,
             },
         };
         batch.positions.check()?;
@@ -137,7 +139,11 @@ impl<'b> ForLevel for React<'b, '_> {
             |state: &mut ThreadState<'b, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
                 batch.chunk::<L, G>(state, chunk, rows);
             };
-        batch.positions.control.run(self.chunks, new_state, work, |state| state.positions.finish())
+        batch
+            .positions
+            .motion
+            .control
+            .run(self.chunks, new_state, work, |state| state.positions.finish())
     }
 }
 

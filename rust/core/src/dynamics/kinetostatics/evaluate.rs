@@ -44,7 +44,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
         let ReactionBatch { positions, request, friction, .. } = self.batch;
-        let MachineBatch { plan, machine, sources, control, .. } = positions;
+        let MachineBatch { plan, machine, sources, motion, .. } = positions;
         let count = self.design.solved.positions;
         self.squares.clear();
         self.squares.resize(request.reactions.len(), Squares::NONE);
@@ -55,7 +55,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             if !friction.is_empty() {
                 self.apply_friction(rows);
                 // A position that friction locks takes milliseconds, a block of them seconds.
-                if control.is_cancelled() {
+                if motion.control.is_cancelled() {
                     return;
                 }
             }
@@ -98,7 +98,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
     #[inline(always)]
     fn apply_friction(&mut self, rows: Rows) {
         let ReactionBatch { positions, request, friction, .. } = self.batch;
-        let MachineBatch { plan, sources, control, .. } = positions;
+        let MachineBatch { plan, sources, motion, .. } = positions;
         let size = self.design.size;
         let ways = self.scene.ways(request.sense);
         let pairs = (*plan, &friction[..]);
@@ -106,7 +106,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         let friction_request = FrictionRequest {
             solution: request.solution,
             safety: request.reactions.contains(&Reaction::Safety),
-            cancel: control.cancel,
+            cancel: motion.control.cancel,
         };
         self.friction.apply(self.scene, pairs, friction_request, size);
     }

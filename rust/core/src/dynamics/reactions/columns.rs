@@ -5,7 +5,7 @@ use std::ops::Add;
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
 use crate::batch::request::{Column, Quantity};
-use crate::batch::rows::place_in_blocks;
+use crate::batch::rows::read_block;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -119,7 +119,7 @@ impl Rows {
     /// Number `entry` of `width` of each solved position, in blocks.
     #[inline(always)]
     pub(crate) fn solved<R: Real>(self, column: &[f64], width: usize, entry: usize) -> R {
-        R::read(&column[place_in_blocks(self.first, width, entry)..])
+        read_block(column, self.first, width, entry)
     }
 
     /// The entry `offset` of `width` pairs of each solved position: all its first numbers come before the

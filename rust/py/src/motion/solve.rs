@@ -12,9 +12,9 @@ use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use pyo3::exceptions::{PyBaseException, PyMemoryError};
 use pyo3::prelude::*;
 
+use super::short_calls::{is_near, is_short};
 use crate::detach::{self, catch_panic};
 use crate::memory::{Memory, as_uninitialized};
-use crate::short_calls::{is_near, is_short};
 use crate::{error, error_map};
 
 /// Bytes below which a result is one array: making many takes longer than solving.

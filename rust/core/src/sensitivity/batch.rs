@@ -1,0 +1,183 @@
+//! Derivatives by dimensions of many designs at many positions.
+
+use super::evaluate::{Evaluate, SensitivitySpace};
+use super::plan::SensitivityPlan;
+use super::request::{Product, SensitivityRequest};
+use crate::batch::chunks::{Chunk, Chunks, most_positions};
+use crate::batch::dispatch::{self, Entry, ForLevel};
+use crate::batch::motion::{MotionBatch, MotionWorker};
+use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
+use crate::batch::rows::RowSlices;
+use crate::batch::schedule::Control;
+use crate::batch::writer::Writer;
+use crate::description::error::SolveError;
+use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
+use crate::plan::mechanism::Mechanism;
+use crate::plan::plan::Step;
+use crate::query::failure::redundant_name;
+
+impl Mechanism {
+    /// Derivatives of positions and analogues by dimensions, or their products with vectors, and the statuses.
+    /// Where a position has no derivatives they are NaN.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`crate::fill`]; arrays, rates or weights of other sizes; redundant links.
+    pub fn sensitivities(
+        &self,
+        request: &SensitivityRequest<'_>,
+        arrays: Arrays<'_>,
+        control: &Control<'_>,
+    ) -> Result<(), SolveError> {
+        let redundant = self.plan().steps.iter().position(|s| matches!(s, Step::Redundant(_)));
+        if let Some(step) = redundant {
+            let (kind, name) = redundant_name(self, step);
+            return Err(SolveError::Redundant { kind, name });
+        }
+        let mut sensitivity = SensitivityPlan::new(self, request.of);
+        let outputs = sensitivity.outputs.clone();
+        let motion = Request {
+            dimensions: request.dimensions,
+            coordinates: request.coordinates,
+            signs: request.signs,
+            order: sensitivity.order,
+            outputs: &outputs,
+            by: None,
+        };
+        let shape = Shape::of(self, &motion)?;
+        let rows = product(shape.designs, shape.positions)?;
+        let results = self.columns(request, &sensitivity, [shape.designs, rows])?;
+        check_arrays(&results, &arrays, rows)?;
+        let derivatives = DerivativeTables::shared(shape.drivers, sensitivity.order);
+        let writer = Writer::of(self, &derivatives, &motion);
+        sensitivity.read_from(&writer.columns);
+        let batch = SensitivityBatch {
+            motion: MotionBatch {
+                mechanism: self,
+                request: &motion,
+                derivatives: &derivatives,
+                writer: &writer,
+                shape: &shape,
+                most: most_positions(shape.positions),
+                control,
+            },
+            sensitivity: &sensitivity,
+            request,
+        };
+        batch.motion.check()?;
+        let chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], shape.drivers);
+        dispatch::at_level(control.simd, Derive { batch: &batch, chunks })
+    }
+
+    /// The arrays of a product, after checks of its vectors.
+    fn columns(
+        &self,
+        request: &SensitivityRequest<'_>,
+        sensitivity: &SensitivityPlan<'_>,
+        [designs, rows]: [usize; 2],
+    ) -> Result<Vec<Column>, SolveError> {
+        let linkage = self.linkage();
+        let exists = request.of.iter().all(|&(quantity, _)| match quantity {
+            Quantity::Joint(index) => index < linkage.joints.len(),
+            Quantity::Slide(index) => index < linkage.slides.len(),
+            Quantity::Angle(index) | Quantity::Origin(index) => index < linkage.links.len(),
+            Quantity::Direction(_) => false,
+        });
+        if !exists {
+            return Err(SolveError::Shape("a result has an index that does not exist".into()));
+        }
+        let dimensions = self.dimensions().len();
+        let components = || sensitivity.results.iter().map(Vec::len);
+        let exist = |by: &[usize]| by.iter().all(|&index| index < dimensions);
+        let fits = match request.product {
+            Product::Jacobian { by } => exist(by),
+            Product::Forward { rates } => [dimensions, designs * dimensions].contains(&rates.len()),
+            Product::Backward { weights, by } => {
+                let fit = |(width, weights): (usize, &&[f64])| {
+                    [width, rows * width].contains(&weights.len())
+                };
+                weights.len() == request.of.len() && components().zip(weights).all(fit) && exist(by)
+            }
+        };
+        let column = |width: usize| Column { quantity: Quantity::Joint(0), order: 0, width };
+        let columns = request.widths(self).into_iter().map(column).collect();
+        if fits {
+            Ok(columns)
+        } else {
+            Err(SolveError::Shape("rates, weights or dimensions do not fit".into()))
+        }
+    }
+}
+
+/// What all chunks share.
+struct SensitivityBatch<'b> {
+    motion: MotionBatch<'b>,
+    sensitivity: &'b SensitivityPlan<'b>,
+    request: &'b SensitivityRequest<'b>,
+}
+
+struct Derive<'b, 'r> {
+    batch: &'b SensitivityBatch<'b>,
+    chunks: Chunks<'r>,
+}
+
+/// The working data of one thread.
+struct ThreadState<'b, R: Real, const G: usize> {
+    motion: MotionWorker<'b, R, G>,
+    space: SensitivitySpace<R>,
+}
+
+impl<'b> ForLevel for Derive<'b, '_> {
+    type Output = Result<(), SolveError>;
+
+    fn run<L: Entry, const G: usize>(self) -> Self::Output {
+        let batch = self.batch;
+        let new_state = || ThreadState::<'b, L::Register, G> {
+            motion: batch.motion.thread(),
+            space: SensitivitySpace::default(),
+        };
+        let work =
+            |state: &mut ThreadState<'b, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
+                batch.chunk::<L, G>(state, chunk, rows);
+            };
+        batch.motion.control.run(self.chunks, new_state, work, |state| state.motion.finish())
+    }
+}
+
+impl<'b> SensitivityBatch<'b> {
+    fn chunk<L: Entry, const G: usize>(
+        &self,
+        state: &mut ThreadState<'b, L::Register, G>,
+        chunk: &Chunk,
+        mut results: RowSlices<'_>,
+    ) {
+        let ThreadState { motion, space } = state;
+        self.motion.read_designs(motion, chunk);
+        for asked in self.motion.designs(chunk, false) {
+            let (design, first) = (asked.design, asked.index * asked.rows.len());
+            self.motion.solve::<L, G>(motion, &asked, |solved| {
+                let rates = match self.request.product {
+                    Product::Forward { rates } if solved.is_valid => {
+                        let count = solved.dimensions.len();
+                        let shared = rates.len() == count;
+                        let first = if shared { 0 } else { design * count };
+                        Some(solved.design.rate(&rates[first..first + count]))
+                    }
+                    _ => None,
+                };
+                let mut task = Evaluate {
+                    sensitivity: self.sensitivity,
+                    product: self.request.product,
+                    solved,
+                    rates: rates.as_ref(),
+                    space,
+                    results: &mut results,
+                    first,
+                };
+                L::call(&mut task);
+            });
+        }
+        L::Register::fence();
+    }
+}
