@@ -122,7 +122,6 @@ pub fn beside_by_hand(c: &mut Criterion) {
             signs: mechanism.signs(),
             order: 2,
             outputs: &case.outputs,
-            by: None,
         };
         let columns = request.columns(mechanism);
         let mut buffers = Buffers::new(&columns, total as usize);

@@ -90,7 +90,6 @@ fn request<'r>(
         signs: mechanism.signs(),
         order,
         outputs,
-        by: None,
     }
 }
 

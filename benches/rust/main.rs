@@ -92,7 +92,6 @@ fn batch(c: &mut Criterion, designs_of_each: u32) {
             signs: mechanism.signs(),
             order,
             outputs: &kept,
-            by: None,
         };
         let rows = designs_of_each as usize * q.len();
         let mut buffers = Buffers::new(&request.columns(&mechanism), rows);
@@ -134,8 +133,7 @@ fn one_design(c: &mut Criterion) {
         for order in [0, 2] {
             let coordinates = Coordinates::Shared(&q);
             let (dimensions, signs) = (mechanism.drawing(), mechanism.signs());
-            let everything =
-                Request { dimensions, coordinates, signs, order, outputs: &all, by: None };
+            let everything = Request { dimensions, coordinates, signs, order, outputs: &all };
             group.bench_function(BenchmarkId::new(name, order), |b| {
                 b.iter(|| mechanism.solve(black_box(&everything)).expect("solved"));
             });
@@ -176,7 +174,6 @@ fn several_drivers(c: &mut Criterion) {
             signs: mechanism.signs(),
             order,
             outputs: &outputs,
-            by: None,
         };
         let mut buffers = Buffers::new(&request.columns(&mechanism), q.len() / 2);
         let control = Control { threads: NonZeroUsize::new(1), ..Control::default() };

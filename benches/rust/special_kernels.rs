@@ -23,7 +23,6 @@ fn joints(c: &mut Criterion, group: &str, name: &str, mechanism: &Mechanism, ord
         signs: mechanism.signs(),
         order,
         outputs: &kept,
-        by: None,
     };
     let mut buffers = Buffers::new(&request.columns(mechanism), DESIGNS as usize * q.len());
     let control =

@@ -215,7 +215,6 @@ class Mechanism:
         outputs: tuple[list[int], list[int], list[int], list[int]],
         threads: int | None,
         buffers: Buffers | None,
-        dimension: int | None,
         report: list[int] | None,
         known_signs: KnownSigns | None = None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,16 +12,12 @@ from assur._validate import checked_name, real_array, whole_number
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from assur._arrays import Float
     from assur.kinematics.motion_model import MotionModel
+    from assur.kinematics.request import Kind, ResultKey
 
 __all__ = ["jacobian", "jvp", "vjp"]
 
-Kind: TypeAlias = Literal["joint", "link", "slide"]
-# A joint, link or slide, its index, and the order of its derivative by the drivers.
-ResultKey: TypeAlias = tuple[Kind, int, int]
 # Letters that make a name of a dimension a pattern.
 WILD = "*?["
 # Derivatives of the highest order that is solved need the next.
@@ -38,7 +33,7 @@ def jacobian(motion: MotionModel, of: Any, by: Any, order: Any) -> Float | dict[
     else:
         keys = [_key(motion, name, order, "jacobian") for name in names]
         dimensions = named_dimensions(motion, by)
-        arrays, _ = _derive(motion, keys, dimensions)
+        arrays, _ = motion.request.sensitivities(keys, dimensions)
         shapes = [(*_shape(motion, key), len(dimensions)) for key in keys]
         found = {
             name: array.reshape(shape)
@@ -52,7 +47,7 @@ def jvp(motion: MotionModel, of: Any, rates: Any, order: Any) -> Float | dict[st
     names = _names(of, "jvp")
     order = whole_number(order, "order", 0, HIGHEST)
     keys = [_key(motion, name, order, "jvp") for name in names]
-    arrays, _ = _derive(motion, keys, [], rates=_rates(motion, rates))
+    arrays, _ = motion.request.sensitivities(keys, [], rates=_rates(motion, rates))
     found = {
         name: array.reshape(_shape(motion, key))
         for name, array, key in zip(names, arrays, keys, strict=True)
@@ -80,7 +75,7 @@ def vjp(motion: MotionModel, weights: Any, by: Any, order: Any) -> Float:
     shape = (*motion.shape, len(dimensions))
     if not keys:
         return np.zeros(shape)
-    arrays, _ = _derive(motion, keys, dimensions, weights=flat)
+    arrays, _ = motion.request.sensitivities(keys, dimensions, weights=flat)
     return arrays[0].reshape(shape)
 
 
@@ -177,26 +172,3 @@ def _rates(motion: MotionModel, rates: Any) -> Float:
             )
             raise InputError(message) from None
     return flat.reshape(-1)
-
-
-def _derive(
-    motion: MotionModel,
-    keys: list[ResultKey],
-    by: list[int],
-    *,
-    rates: Float | None = None,
-    weights: list[Float] | None = None,
-) -> tuple[list[Float], npt.NDArray[np.uint8]]:
-    request = motion.request
-    mechanism = request.mechanism
-    shape = math.prod(mechanism.shape), math.prod(request.positions)
-    return mechanism.core.sensitivities(
-        *request.flat(),
-        request.signs,
-        shape,
-        keys,
-        by,
-        request.threads,
-        rates=rates,
-        weights=weights,
-    )

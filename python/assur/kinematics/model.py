@@ -223,7 +223,6 @@ class MechanismModel:
             None,
             None,
             None,
-            None,
             self.known_signs,
         )
         layout = Layout(joints, {}, {}, self.shape, self.driver_count, 0)

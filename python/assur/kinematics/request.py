@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from assur.kinematics.model import MechanismModel
 
 Float: TypeAlias = npt.NDArray[np.float64]
+Kind: TypeAlias = Literal["joint", "link", "slide"]
+# A joint, link or slide, its index, and the order of its derivative by the drivers.
+ResultKey: TypeAlias = tuple[Kind, int, int]
 # Indices of joints, links (angles), links (reference points), slides.
 Outputs: TypeAlias = tuple[list[int], list[int], list[int], list[int]]
 
@@ -48,20 +51,62 @@ class SolveRequest:
         links: Names,
         slides: Names,
         buffers: Buffers | None = None,
-        dimension: int | None = None,
         report: bool = False,
     ) -> tuple[Results, npt.NDArray[np.uint8], AssurError | None]:
         """Solve for joints, angles of links, and slides, into the buffers if given.
 
-        With the index of a dimension, return the derivatives by that dimension. With
-        `report`, return the exception of the first position that failed.
+        With `report`, return the exception of the first position that failed.
         """
         outputs: Outputs = [*joints.values()], [*links.values()], [], [*slides.values()]
-        buffers, failure = self._solve(outputs, buffers, dimension, report)
+        buffers, failure = self._solve(outputs, buffers, report)
         layout = self.layout(joints, links, slides)
         status = buffers.status.reshape(layout.shape)
         status.flags.writeable = False
         return Results(layout, buffers), status, failure
+
+    def derivatives(
+        self, joints: Names, links: Names, slides: Names, dimension: int
+    ) -> tuple[Results, npt.NDArray[np.uint8]]:
+        """Return the derivatives of joints, angles of links, and slides by a dimension."""
+        # In the order of a layout.
+        kinds: tuple[tuple[Kind, Names], ...] = (
+            ("joint", joints),
+            ("slide", slides),
+            ("link", links),
+        )
+        keys = [
+            (kind, index, order)
+            for kind, names in kinds
+            for index in names.values()
+            for order in range(self.order + 1)
+        ]
+        rates = np.zeros(len(self.mechanism.core.dimension_names))
+        rates[dimension] = 1.0
+        arrays, status = self.sensitivities(keys, [], rates=rates)
+        layout = self.layout(joints, links, slides)
+        status = status.reshape(layout.shape)
+        status.flags.writeable = False
+        return Results(layout, Buffers(arrays, status)), status
+
+    def sensitivities(
+        self,
+        keys: list[ResultKey],
+        by: list[int],
+        *,
+        rates: Float | None = None,
+        weights: list[Float] | None = None,
+    ) -> tuple[list[Float], npt.NDArray[np.uint8]]:
+        """Return derivatives of results by dimensions, or their products with vectors, flat."""
+        return self.mechanism.core.sensitivities(
+            *self.flat(),
+            self.signs,
+            (math.prod(self.mechanism.shape), math.prod(self.positions)),
+            keys,
+            by,
+            self.threads,
+            rates=rates,
+            weights=weights,
+        )
 
     def layout(self, joints: Names, links: Names, slides: Names) -> Layout:
         """Return what the columns of a result are."""
@@ -87,7 +132,6 @@ class SolveRequest:
         self,
         outputs: Outputs,
         buffers: Buffers | None = None,
-        dimension: int | None = None,
         report: bool = False,
     ) -> tuple[Buffers, AssurError | None]:
         shape = list(self.mechanism.shape) if report else None
@@ -98,7 +142,6 @@ class SolveRequest:
             outputs,
             self.threads,
             buffers,
-            dimension,
             shape,
             self.mechanism.known_signs if self.own_signs else None,
         )

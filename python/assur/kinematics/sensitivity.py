@@ -41,7 +41,7 @@ class Sensitivity:
         outputs = motion.held_indices
         self.dimension = dimension
         self._drivers = motion.mechanism.driver_count
-        self._results, self.status, _ = motion.request.arrays(*outputs, dimension=index)
+        self._results, self.status = motion.request.derivatives(*outputs, dimension=index)
 
     def joint(self, name: str) -> Analogues:
         """Return derivatives of a joint's position and analogues, m/m or m/rad, S + (N, 2).

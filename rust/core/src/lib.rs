@@ -30,7 +30,6 @@
 //!     signs: engine.signs(),
 //!     order: 1,
 //!     outputs: &Outputs::all(&engine),
-//!     by: None,
 //! })?;
 //! let bore = &motion.slides[0];
 //! let rod2 = 0.17_f64.powi(2) + 0.04_f64.powi(2);

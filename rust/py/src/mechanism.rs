@@ -295,12 +295,11 @@ impl Mechanism {
 
     /// Solves designs at positions; see `assur.Mechanism.solve`. `outputs`: indices of joints,
     /// links (angles), links (reference points) and slides. `buffers`: the arrays of an earlier result
-    /// (`arrays`, `status`) to overwrite; its `complete` is false meanwhile. `dimension`: the
-    /// dimension to differentiate by. `report`: the shape of the designs, for the exception of the
+    /// (`arrays`, `status`) to overwrite; its `complete` is false meanwhile. `report`: the shape of the designs, for the exception of the
     /// first position that failed. `known_signs`: valid for these dimensions and signs.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     #[pyo3(signature = (
-        dimensions, q, per_design, signs, order, outputs, threads, buffers, dimension, report,
+        dimensions, q, per_design, signs, order, outputs, threads, buffers, report,
         known_signs = None
     ))]
     fn solve<'py>(
@@ -314,7 +313,6 @@ impl Mechanism {
         outputs: [Vec<usize>; 4],
         threads: Option<NonZeroUsize>,
         buffers: Option<Bound<'py, PyAny>>,
-        dimension: Option<usize>,
         report: Option<Vec<usize>>,
         known_signs: Option<Bound<'py, KnownSigns>>,
     ) -> PyResult<Solution<'py>> {
@@ -326,7 +324,6 @@ impl Mechanism {
             signs: &signs,
             order,
             outputs,
-            by: dimension,
             known_signs,
         };
         question.answer(py, threads, buffers, report)

@@ -25,7 +25,7 @@ METRICS = {
     name
     for name, method in vars(assur.Motion).items()
     if inspect.isfunction(method) and method.__annotations__.get("return") == "Float"
-} - {"jacobian"}
+} - {"d_transmission_angle", "jacobian", "jvp", "vjp"}
 
 Q = 0.1 + np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
 POINT = (1.3, 0.8)

@@ -3,7 +3,8 @@
 use arbitrary::Unstructured;
 use assur::tolerance::{CLOSURE_PER_CONDITION, REDUNDANT_CLOSURE, SINGULAR_CONDITION};
 use assur::{
-    Coordinates, Diagnosis, Mechanism, Motion, Outputs, Request, Series, SolveError, Status,
+    Control, Coordinates, Diagnosis, Mechanism, Motion, Outputs, Product, Quantity, Request,
+    SensitivityRequest, Series, SolveError, Status,
 };
 
 use super::closures::Row;
@@ -69,7 +70,6 @@ impl Case<'_> {
             signs: &self.signs,
             order: self.question.order,
             outputs: &self.outputs,
-            by: self.by,
         }
     }
 
@@ -83,7 +83,7 @@ impl Case<'_> {
         check_sentence(&error.to_string());
         let is_meant = match error {
             SolveError::Order(order) => *order > 3,
-            SolveError::Redundant { .. } => self.by.is_some() && self.has_redundant_parts(),
+            SolveError::Redundant { .. } => self.has_redundant_parts(),
             SolveError::Shape(_) => {
                 self.mechanism.drawing().is_empty()
                     || self.question.per_design && self.dimensions.is_empty()
@@ -108,10 +108,11 @@ impl Case<'_> {
                 self.check_alone(motion, &position);
             }
         }
-        if self.by.is_none() {
-            self.check_closed(motion);
-        }
+        self.check_closed(motion);
         self.check_assemblies(motion);
+        if let Some(by) = self.by {
+            self.check_sensitivities(motion, by);
+        }
     }
 
     fn positions<'a>(&'a self, motion: &Motion) -> impl Iterator<Item = Position<'a>> {
@@ -147,7 +148,7 @@ impl Case<'_> {
         if status > LAST_WITH_POSITION {
             let all = numbers.iter().all(|(_, x)| x.is_nan());
             assert!(all, "status {status} at q = {:?} has numbers", position.q);
-        } else if self.by.is_none() {
+        } else {
             let is_given = |order: usize, x: f64| match order {
                 0 => x.is_finite(),
                 // Beyond the range of numbers where a slide is driven.
@@ -184,6 +185,44 @@ impl Case<'_> {
         for ((order, batch), (_, alone)) in pairs {
             let same = batch.to_bits() == alone.to_bits() || batch.is_nan() && alone.is_nan();
             assert!(same, "{batch:e} of order {order} is {alone:e} alone at q = {:?}", position.q);
+        }
+    }
+
+    /// Derivatives by a dimension are numbers or NaN as their statuses say, and forward and backward the
+    /// same.
+    fn check_sensitivities(&self, motion: &Motion, by: usize) {
+        let request = self.request();
+        let joints = self.outputs.joints.iter().map(|&joint| (Quantity::Joint(joint), 0));
+        let slides = self.outputs.slides.iter().map(|&slide| (Quantity::Slide(slide), 0));
+        let of: Vec<(Quantity, usize)> = joints.chain(slides).collect();
+        let mut rates = vec![0.0; self.mechanism.drawing().len()];
+        rates[by] = 1.0;
+        let derive = |product| {
+            let asked = SensitivityRequest {
+                dimensions: request.dimensions,
+                coordinates: request.coordinates,
+                signs: request.signs,
+                of: &of,
+                product,
+            };
+            self.mechanism.sensitivities(&asked, &Control::default())
+        };
+        let by = [by];
+        let (back, status) = match derive(Product::Jacobian { by: &by }) {
+            Ok(found) => found,
+            Err(error) => return self.check_refusal(&error),
+        };
+        let (forward, _) = derive(Product::Forward { rates: &rates }).expect("both are there");
+        for (row, (&found, &solved)) in status.iter().zip(&motion.status).enumerate() {
+            assert!(found == solved || found == Status::Singular as u8, "{found} of {solved}");
+            for (back, forward) in back.iter().zip(&forward) {
+                let width = back.len() / status.len();
+                for index in row * width..(row + 1) * width {
+                    let (back, forward) = (back[index], forward[index]);
+                    assert_eq!(back.is_nan(), forward.is_nan(), "{back} and {forward}");
+                    assert!(found < LAST_WITH_POSITION || back.is_nan(), "{back} of {found}");
+                }
+            }
         }
     }
 

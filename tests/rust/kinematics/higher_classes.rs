@@ -57,7 +57,6 @@ fn solve(mechanism: &Mechanism, q: &[f64], order: usize, simd: Simd) -> Motion {
         signs: mechanism.signs(),
         order,
         outputs: &Outputs::all(mechanism),
-        by: None,
     };
     let control = Control { simd, ..Control::default() };
     mechanism.solve_with(&request, &control).expect("a motion")

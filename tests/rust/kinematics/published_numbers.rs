@@ -12,7 +12,6 @@ fn solve(mechanism: &Mechanism, dimensions: &[f64], q: &[f64]) -> Motion {
         signs: mechanism.signs(),
         order: 2,
         outputs: &Outputs::all(mechanism),
-        by: None,
     };
     mechanism.solve(&request).expect("a class II mechanism")
 }

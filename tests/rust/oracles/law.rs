@@ -116,7 +116,6 @@ pub fn compare(mechanism: &Mechanism, oracle: &Oracle, at: &mut Position, q: &[f
             signs: mechanism.signs(),
             order: ORDER,
             outputs: &Outputs::all(mechanism),
-            by: None,
         })
         .expect("a class II mechanism");
     let diagnosis = &mechanism

@@ -124,8 +124,7 @@ impl Mechanism {
         let outputs = Outputs::all(self);
         let lead = |signs: &[i8]| {
             let coordinates = Coordinates::Shared(q);
-            let request =
-                Request { dimensions, coordinates, signs, order: 0, outputs: &outputs, by: None };
+            let request = Request { dimensions, coordinates, signs, order: 0, outputs: &outputs };
             Ok(is_there(&self.solve(&request)?, assembly))
         };
         if lead(&back)? || back.len() > MOST_TRIED {

@@ -1,4 +1,4 @@
-//! Scalar path: positions that lanes cannot decide, and sensitivities.
+//! Scalar path: positions that lanes cannot decide.
 
 use std::mem::MaybeUninit;
 
@@ -72,43 +72,5 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         self.is_smooth = self.design.is_smooth(job.q);
         // They are located again before the next block.
         self.space.locations.clear();
-    }
-
-    /// Sensitivities to a dimension, one position after another.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn sensitivities(&mut self, job: &mut Job<'_, '_>) {
-        let Some((index, mut by)) = self.by.take() else { return };
-        let design = &self.design;
-        let drivers = design.mechanism.q0().len();
-        let cx = design.context(design.derivatives);
-        let mut unit_change = vec![0.0; design.mechanism.dimensions().len()];
-        unit_change[index] = 1.0;
-        let rate = design.rate(&unit_change);
-        let nothing = vec![[0.0]; self.space.lifted.len()];
-        for (row, q) in job.q.chunks_exact(drivers).enumerate() {
-            if self.is_cancelled() {
-                break;
-            }
-            let q = design.scaled(q);
-            let point = design.branch_to(&q);
-            let state = &mut self.space.single;
-            design.prepare(state);
-            design.solve(state, &q, point.as_ref());
-            let at = job.first + row;
-            let status = state.status;
-            job.rows.write_failed(self.columns, at, 1, status as u8);
-            let solved = matches!(status, Status::Ok | Status::NearSingular);
-            if solved && by.solve(state, &cx, &rate) {
-                // A dimension that moves the frame's origin moves every point with it.
-                for point in by.rates.pose.points.chunks_exact_mut(design.derivatives.len()) {
-                    point[0][0] += rate.origin.scale(1.0 / design.constants.scale);
-                }
-                let with = (&design.constants, &design.units);
-                self.writer.write(job.rows, RowRange::single(at), with, &by.rates, &nothing, None);
-                job.rows.status[at] = MaybeUninit::new(status as u8);
-            }
-        }
-        self.by = Some((index, by));
     }
 }

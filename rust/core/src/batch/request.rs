@@ -6,8 +6,6 @@ use std::mem::MaybeUninit;
 use crate::description::error::SolveError;
 use crate::math::derivatives::MAX_ORDER;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::Step;
-use crate::query::failure::redundant_name;
 
 /// Coordinates of the drivers: one number per driver for each position.
 #[derive(Debug, Clone, Copy)]
@@ -41,9 +39,6 @@ pub struct Request<'a> {
     pub order: usize,
     /// The quantities to return.
     pub outputs: &'a Outputs,
-    /// The dimension to differentiate by, in the order of [`Mechanism::dimensions`]; `None` gives
-    /// the motion itself.
-    pub by: Option<usize>,
 }
 
 /// Quantities to return: indices of joints, links and slides.
@@ -231,17 +226,6 @@ impl Shape {
             return Err(SolveError::Order(request.order));
         }
         let (dimensions, drivers) = (mechanism.dimensions().len(), mechanism.q0().len());
-        if let Some(index) = request.by {
-            if index >= dimensions {
-                return Err(SolveError::Shape(format!("there is no dimension number {index}")));
-            }
-            let steps = &mechanism.plan().steps;
-            let redundant = steps.iter().position(|step| matches!(step, Step::Redundant(_)));
-            if let Some(step) = redundant {
-                let (kind, name) = redundant_name(mechanism, step);
-                return Err(SolveError::Redundant { kind, name });
-            }
-        }
         let linkage = mechanism.linkage();
         let all_below = |indices: &[usize], limit: usize| indices.iter().all(|&i| i < limit);
         let outputs = request.outputs;

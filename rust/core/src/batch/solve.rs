@@ -56,21 +56,9 @@ pub(crate) fn solve(
     let [designs, positions] = request.shape(mechanism)?;
     let rows = product(designs, positions)?;
     let columns = request.columns(mechanism);
-    let numbers = rows.saturating_mul(1 + columns.iter().map(|c| c.width).sum::<usize>());
-    if !has_room(numbers) {
-        return Err(SolveError::OutOfMemory { numbers });
-    }
-    let mut values: Vec<Vec<f64>> = columns.iter().map(|c| vec![0.0; rows * c.width]).collect();
-    let mut status = vec![0; rows];
-    // SAFETY: `fill` stores only initialised numbers.
-    #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
-    let arrays = unsafe {
-        Arrays {
-            columns: values.iter_mut().map(|v| as_unwritten(v)).collect(),
-            status: as_unwritten(&mut status),
-        }
-    };
-    fill(mechanism, request, arrays, control)?;
+    let widths = columns.iter().map(|column| column.width);
+    let (values, status) =
+        filled(rows, widths, |arrays| fill(mechanism, request, arrays, control))?;
     let mut motion = Motion { designs, positions, status, ..Motion::default() };
     for (column, values) in columns.iter().zip(values) {
         let (list, index) = match column.quantity {
@@ -91,6 +79,30 @@ pub(crate) fn solve(
         }
     }
     Ok(motion)
+}
+
+/// New arrays of rows with these widths, and statuses, that a function fills.
+pub(crate) fn filled(
+    rows: usize,
+    widths: impl Iterator<Item = usize> + Clone,
+    fill: impl FnOnce(Arrays<'_>) -> Result<(), SolveError>,
+) -> Result<(Vec<Vec<f64>>, Vec<u8>), SolveError> {
+    let numbers = rows.saturating_mul(1 + widths.clone().sum::<usize>());
+    if !has_room(numbers) {
+        return Err(SolveError::OutOfMemory { numbers });
+    }
+    let mut values: Vec<Vec<f64>> = widths.map(|width| vec![0.0; rows * width]).collect();
+    let mut status = vec![0; rows];
+    // SAFETY: only initialised numbers are stored.
+    #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
+    let arrays = unsafe {
+        Arrays {
+            columns: values.iter_mut().map(|v| as_unwritten(v)).collect(),
+            status: as_unwritten(&mut status),
+        }
+    };
+    fill(arrays)?;
+    Ok((values, status))
 }
 
 /// Views initialised numbers as `MaybeUninit`.

@@ -21,7 +21,6 @@ use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 use crate::query::failure::Failure;
 use crate::state::kernel::Level;
-use crate::state::sensitivity::Sensitivity;
 use crate::state::state::Context;
 use crate::state::status::Status;
 
@@ -37,8 +36,6 @@ pub(crate) struct Worker<'a, R: Real, const G: usize> {
     pub(super) writer: &'a Writer,
     pub(super) columns: &'a [Column],
     pub(super) space: Box<WorkSpace<R, G>>,
-    /// The dimension to differentiate by, with its work space.
-    pub(super) by: Option<(usize, Sensitivity)>,
     checks: Checks,
     /// Whether the branch serves all positions of the job and has no change points.
     pub(super) is_smooth: bool,
@@ -65,8 +62,6 @@ enum Path {
     /// One position after another, because a test requests it, no branch serves all positions of several
     /// drivers, or a position of a block cannot be followed.
     ByPosition,
-    /// One position after another, with the requested sensitivities to a dimension.
-    Sensitivities,
 }
 
 /// Some positions of one design, and the rows they go to.
@@ -101,10 +96,8 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         {
             design.trace_by(tape);
         }
-        let plan = mechanism.plan();
         Self {
             space,
-            by: request.by.map(|index| (index, Sensitivity::new(plan, derivatives))),
             design,
             writer,
             columns: &writer.columns,
@@ -198,10 +191,9 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         job: &mut Job<'_, '_>,
         trace: fn(&mut Self, &Job<'_, '_>, bool) -> Traced,
     ) {
-        let traced = trace(self, job, self.by.is_none());
+        let traced = trace(self, job, true);
         let count = job.q.len() / self.design.mechanism.q0().len();
         match self.path(traced) {
-            Path::Sensitivities => self.sensitivities(job),
             Path::ByPosition => self.solve_by_position(job, 0, count),
             path => self.run_blocks::<L>(job, count, (traced, path), trace),
         }
@@ -211,9 +203,6 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     #[inline(always)]
     fn path(&mut self, traced: Traced) -> Path {
         let drivers = self.design.mechanism.q0().len();
-        if self.by.is_some() {
-            return Path::Sensitivities;
-        }
         if self.checks != Checks::Needed || drivers > 1 && !self.design.serves_all {
             return Path::ByPosition;
         }

@@ -16,7 +16,6 @@ use crate::math::lanes::Real;
 use crate::math::stride::Stride;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
-use crate::plan::constants_rate::offsets;
 use crate::plan::mechanism::Mechanism;
 use crate::state::state::State;
 use crate::structure::closure::point_of_joint;
@@ -63,7 +62,6 @@ pub(crate) struct Writer {
     /// The request that it serves.
     outputs: Outputs,
     order: usize,
-    by: Option<usize>,
     /// The arrays that the request fills.
     pub columns: Vec<Column>,
     /// Entries of a jet.
@@ -78,8 +76,6 @@ pub(crate) struct Writer {
     pub classes: Vec<usize>,
     /// For each class, whether its rotation or a derivative of its angle is requested.
     pub needed_classes: Vec<bool>,
-    /// Whether points get the frame's origin added.
-    shifted: bool,
 }
 
 impl Writer {
@@ -89,9 +85,7 @@ impl Writer {
         derivatives: &DerivativeTables,
         request: &Request<'_>,
     ) -> Arc<Self> {
-        let fits = |kept: &Self| {
-            kept.order == request.order && kept.by == request.by && kept.outputs == *request.outputs
-        };
+        let fits = |kept: &Self| kept.order == request.order && kept.outputs == *request.outputs;
         mechanism.number.share(fits, || Self::new(mechanism, derivatives, request))
     }
 
@@ -157,10 +151,9 @@ impl Writer {
                 }
             }
         }
-        let mut writer = Self {
+        Self {
             outputs: request.outputs.clone(),
             order: request.order,
-            by: request.by,
             columns,
             jet: derivatives.len(),
             points,
@@ -170,28 +163,7 @@ impl Writer {
             directions,
             classes,
             needed_classes,
-            shifted: true,
-        };
-        if let Some(index) = request.by {
-            writer.treat_as_sensitivity(mechanism, index);
         }
-        writer
-    }
-
-    /// Sensitivities: angles are treated like their analogues, and points get no origin.
-    fn treat_as_sensitivity(&mut self, mechanism: &Mechanism, index: usize) {
-        let mut unit_change = vec![0.0; mechanism.dimensions().len()];
-        unit_change[index] = 1.0;
-        let offsets = offsets(mechanism.plan(), &mechanism.slots, &unit_change);
-        for entry in &mut self.rates {
-            entry.driven = 0.0;
-        }
-        for AngleEntry { row, class, .. } in self.angles.drain(..) {
-            let driven = offsets[row.source];
-            self.rates.push(RowEntry { source: class * self.jet, driven, ..row });
-        }
-        self.shifted = false;
-        self.classes.clear();
     }
 
     /// The points that are written.
@@ -289,7 +261,7 @@ impl Writer {
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
-            let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
+            let shift = if entry.k == 0 { Some(origin) } else { None };
             let points = &state.pose.points[entry.source];
             let past = rows.past_caches(entry, range);
             let out = rows.of(entry, range);
@@ -361,7 +333,7 @@ impl Writer {
         let groups = range.count.div_ceil(R::LANES);
         for entry in &self.points {
             let scale = R::splat(unit.length[entry.k]);
-            let shift = if entry.k == 0 && self.shifted { Some(origin) } else { None };
+            let shift = if entry.k == 0 { Some(origin) } else { None };
             for g in 0..groups {
                 let p = scaled(state.pose.points[entry.source][g], scale, shift);
                 rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, p.x));

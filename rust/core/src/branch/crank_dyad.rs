@@ -297,7 +297,6 @@ mod tests {
             signs: mechanism.signs(),
             order: 0,
             outputs: &Outputs::all(&mechanism),
-            by: None,
         };
         let solved = mechanism.solve(&request).unwrap_or_else(|error| panic!("{error}"));
         let fails = solved.status.contains(&(Status::Unreachable as u8));

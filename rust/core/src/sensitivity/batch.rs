@@ -9,6 +9,7 @@ use crate::batch::motion::{MotionBatch, MotionWorker};
 use crate::batch::request::{Arrays, Column, Quantity, Request, Shape, check_arrays, product};
 use crate::batch::rows::RowSlices;
 use crate::batch::schedule::Control;
+use crate::batch::solve::filled;
 use crate::batch::writer::Writer;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
@@ -18,13 +19,30 @@ use crate::plan::plan::Step;
 use crate::query::failure::redundant_name;
 
 impl Mechanism {
-    /// Derivatives of positions and analogues by dimensions, or their products with vectors, and the statuses.
-    /// Where a position has no derivatives they are NaN.
+    /// Derivatives of positions and analogues by dimensions, or their products with vectors: the arrays of the
+    /// product, and the status of each row. Where a position has no derivatives they are NaN.
     ///
     /// # Errors
     ///
-    /// Those of [`crate::fill`]; arrays, rates or weights of other sizes; redundant links.
+    /// Those of [`crate::fill`]; rates or weights of other sizes; redundant links.
     pub fn sensitivities(
+        &self,
+        request: &SensitivityRequest<'_>,
+        control: &Control<'_>,
+    ) -> Result<(Vec<Vec<f64>>, Vec<u8>), SolveError> {
+        let [designs, positions] = request.shape(self)?;
+        let widths = request.widths(self).into_iter();
+        filled(product(designs, positions)?, widths, |arrays| {
+            self.fill_sensitivities(request, arrays, control)
+        })
+    }
+
+    /// The same into the caller's arrays.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::sensitivities`]; arrays of other sizes.
+    pub fn fill_sensitivities(
         &self,
         request: &SensitivityRequest<'_>,
         arrays: Arrays<'_>,
@@ -43,7 +61,6 @@ impl Mechanism {
             signs: request.signs,
             order: sensitivity.order,
             outputs: &outputs,
-            by: None,
         };
         let shape = Shape::of(self, &motion)?;
         let rows = product(shape.designs, shape.positions)?;

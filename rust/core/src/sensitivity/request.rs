@@ -1,6 +1,7 @@
 //! A request for derivatives by dimensions.
 
-use crate::batch::request::{Coordinates, Quantity};
+use crate::batch::request::{Coordinates, Outputs, Quantity, Request};
+use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 
 /// Derivatives of results at positions by dimensions, or their products with vectors. Arrays have a row for
@@ -53,6 +54,22 @@ pub struct SensitivityRequest<'a> {
 }
 
 impl SensitivityRequest<'_> {
+    /// Number of designs, and of positions per design.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::solve`].
+    pub fn shape(&self, mechanism: &Mechanism) -> Result<[usize; 2], SolveError> {
+        let motion = Request {
+            dimensions: self.dimensions,
+            coordinates: self.coordinates,
+            signs: self.signs,
+            order: self.of.iter().map(|&(_, order)| order).max().unwrap_or(0),
+            outputs: &Outputs::default(),
+        };
+        motion.shape(mechanism)
+    }
+
     /// Numbers in each row of every array of the product.
     #[must_use]
     pub fn widths(&self, mechanism: &Mechanism) -> Vec<usize> {

@@ -8,7 +8,6 @@ pub(crate) mod kernel;
 pub(crate) mod own_condition;
 pub(crate) mod points;
 pub(crate) mod redundant;
-pub(crate) mod sensitivity;
 pub(crate) mod state;
 pub(crate) mod status;
 pub(crate) mod tape;

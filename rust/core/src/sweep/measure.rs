@@ -48,7 +48,6 @@ impl Mechanism {
             signs: sweep.signs,
             order,
             outputs: &outputs,
-            by: None,
         };
         let shape = Shape::of(self, &request)?;
         if sweep.conditions.iter().any(|condition| condition.metric >= sweep.metrics.len()) {

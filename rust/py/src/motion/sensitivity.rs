@@ -86,7 +86,7 @@ pub(crate) fn sensitivities<'py>(
     let passes = of.len().max(1);
     let small = is_short(mechanism, designs.saturating_mul(passes), count);
     let fill = |arrays: Arrays<'_>, control: &Control<'_>| {
-        mechanism.sensitivities(&request, arrays, control)
+        mechanism.fill_sensitivities(&request, arrays, control)
     };
     let widths = request.widths(mechanism);
     let rows = designs.saturating_mul(count);

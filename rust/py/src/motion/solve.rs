@@ -43,7 +43,7 @@ impl KnownSigns {
 }
 
 /// A request to solve; see `assur.Mechanism.solve`. `outputs`: indices of joints, links (angles), links
-/// (reference points) and slides. `by`: the dimension to differentiate by. `known_signs`: valid for these
+/// (reference points) and slides. `known_signs`: valid for these
 /// dimensions and signs.
 pub(crate) struct Question<'q, 'py> {
     pub mechanism: &'q Mechanism,
@@ -53,7 +53,6 @@ pub(crate) struct Question<'q, 'py> {
     pub signs: &'q [i8],
     pub order: usize,
     pub outputs: [Vec<usize>; 4],
-    pub by: Option<usize>,
     pub known_signs: Option<Bound<'py, KnownSigns>>,
 }
 
@@ -68,14 +67,14 @@ impl<'py> Question<'_, 'py> {
         buffers: Option<Bound<'py, PyAny>>,
         report: Option<Vec<usize>>,
     ) -> PyResult<Solution<'py>> {
-        let Self { mechanism, per_design, signs, order, by, known_signs, .. } = self;
+        let Self { mechanism, per_design, signs, order, known_signs, .. } = self;
         let [joints, links, origins, slides] = self.outputs;
         // Both are the package's own arrays, which never change.
         let (dimensions, q) = (self.dimensions.as_slice()?, self.q.as_slice()?);
         let outputs = Outputs { joints, links, origins, slides, ..Outputs::default() };
         let coordinates =
             if per_design { Coordinates::PerDesign(q) } else { Coordinates::Shared(q) };
-        let request = Request { dimensions, coordinates, signs, order, outputs: &outputs, by };
+        let request = Request { dimensions, coordinates, signs, order, outputs: &outputs };
         let shape = || request.shape(mechanism).map_err(error_map::solve);
         let [designs, positions] = catch_panic(shape)?;
         let columns = request.columns(mechanism);

@@ -42,7 +42,6 @@ impl EquationPlan {
             signs: &[],
             order,
             outputs: &forces.outputs,
-            by: None,
         };
         let writer = Writer::of(mechanism, &derivatives, &request);
         let sources = Sources::new(&forces, &writer.columns);

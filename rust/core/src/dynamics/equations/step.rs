@@ -76,7 +76,6 @@ impl Machine {
             signs: request.signs,
             order: forces.order,
             outputs: &forces.outputs,
-            by: None,
         };
         let shape = Shape::of(mechanism, &solve_request)?;
         let rows = product(shape.designs, shape.positions)?;

@@ -46,7 +46,6 @@ impl Machine {
             signs: request.signs,
             order: plan.order,
             outputs: &plan.outputs,
-            by: None,
         };
         let shape = Shape::of(mechanism, &solve_request)?;
         let rows = product(shape.designs, shape.positions)?;
