@@ -37,11 +37,11 @@ from assur.errors import (
 )
 from assur.kinematics.assembly import Assemblies, Assembly
 from assur.kinematics.curve.curve import ConfigurationCurve
+from assur.kinematics.derivatives.sensitivity import Sensitivity
 from assur.kinematics.limits import DeadPoint, Limits
 from assur.kinematics.mechanism import Mechanism
 from assur.kinematics.motion import Motion
 from assur.kinematics.quantity import Analogues
-from assur.kinematics.sensitivity import Sensitivity
 from assur.mechanisms.class_iv import ClassIV
 from assur.mechanisms.named import FourBar, SliderCrank
 

@@ -420,6 +420,7 @@ class Machine:
         sense: list[float],
         threads: int | None,
         report: list[int],
+        by: list[tuple[str, int]] | None = None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], AssurError | None]: ...
     def step(
         self,

@@ -10,6 +10,8 @@ from assur._other_names import other_names, renamed_rates
 from assur._validate import one_of
 from assur.dynamics.equations import dynamics as equations
 from assur.dynamics.equations import step as steps
+from assur.dynamics.equations.derivatives import derivatives, weights
+from assur.dynamics.equations.linearize import linearize
 from assur.dynamics.equations.step import Environments
 from assur.dynamics.equations.terms import State, require_equations
 from assur.dynamics.flywheel import size as flywheel_size
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
 
     from assur._arrays import Float
     from assur.dynamics.equations.dynamics import Dynamics
+    from assur.dynamics.equations.linearize import Linearized
     from assur.dynamics.equations.step import Stepped
     from assur.dynamics.forces.counterweight import Counterweight
     from assur.dynamics.forces.duty import Duty
@@ -39,7 +42,7 @@ if TYPE_CHECKING:
     from assur.dynamics.forces.reactions import Reactions
     from assur.dynamics.forces.self_locking import SelfLocking
     from assur.dynamics.internal.internal_loads import InternalLoads
-    from assur.dynamics.loads.loads import Force, Torque
+    from assur.dynamics.loads.loads import Body, Force, Torque
     from assur.dynamics.model import OnError
     from assur.dynamics.motion.equilibria import Equilibria
     from assur.dynamics.motion.motion_input import MotionLike
@@ -515,6 +518,188 @@ class Machine(MachineModel):
         one_of(on_error, ("raise", "nan"), "on_error")
         state = State(q, speed, effort=effort, t=t, sense=sense)
         return equations.acceleration(self, state, on_error, threads)
+
+    @renamed_rates
+    def d_effort(
+        self,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
+        acceleration: npt.ArrayLike = 0.0,
+        *,
+        by: str | Sequence[str] = "q",
+        t: npt.ArrayLike = 0.0,
+        sense: float | Sequence[float] | None = None,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Float:
+        """Return exact derivatives of the drive's torque or force.
+
+        Parameters
+        ----------
+        q, speed, acceleration, t, sense, on_error, deg
+            See `effort`.
+        by : str or sequence of str
+            ``"q"``, ``"speed"`` or ``"acceleration"``, a column for each driver; dimensions, also
+            as patterns (``"*.length"``); ``"rod.mass"`` and ``"rod.inertia"`` of links. Columns
+            come in this order.
+        threads : int, optional
+            Most threads; all cores by default.
+
+        Returns
+        -------
+        ndarray
+            S + (N, D); with n drivers (..., n, D).
+
+        Raises
+        ------
+        InputError
+            See `dynamics`; loads that are Python functions; names that do not exist.
+        PositionError
+            A position that cannot be reached.
+
+        Notes
+        -----
+        The equations of `dynamics` in dual numbers, on derivatives of the positions of one order
+        more. At jumps of loads the derivative is that of the piece that counts there.
+
+        Examples
+        --------
+        How the torque of a press changes with the crank's angle and the piston's mass:
+
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
+        >>> machine.d_effort(0.5, speed=10.0, by=["q", "piston.mass"]).round(4)
+        array([9.0967, 0.595 ])
+        """
+        q = q_or_deg(self.mechanism, q, deg, "d_effort")
+        one_of(on_error, ("raise", "nan"), "on_error")
+        state = State(q, speed, t=t, sense=sense, acceleration=acceleration)
+        return derivatives(self, "effort", state, by, on_error, threads, self._with_mass)
+
+    @renamed_rates
+    def d_acceleration(
+        self,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
+        effort: npt.ArrayLike | None = None,
+        *,
+        by: str | Sequence[str] = "q",
+        t: npt.ArrayLike = 0.0,
+        sense: float | Sequence[float] | None = None,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Float:
+        """Return exact derivatives of the drivers' accelerations under efforts.
+
+        Parameters
+        ----------
+        q, speed, effort, t, sense, on_error, deg, threads
+            See `acceleration`.
+        by : str or sequence of str
+            ``"q"``, ``"speed"`` or ``"effort"``, a column for each driver; dimensions, also as
+            patterns (``"*.length"``); ``"rod.mass"`` and ``"rod.inertia"`` of links. Columns come
+            in this order.
+
+        Returns
+        -------
+        ndarray
+            S + (N, D); with n drivers (..., n, D).
+
+        Raises
+        ------
+        InputError
+            See `d_effort`.
+        PositionError
+            A position that cannot be reached.
+
+        See Also
+        --------
+        linearize : The state equations, also of steps.
+
+        Examples
+        --------
+        >>> import assur
+        >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
+        >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
+        >>> machine.d_acceleration(0.5, 10.0, effort=4.0, by=["q", "effort"]).round(3)
+        array([265.635,  14.593])
+        """
+        q = q_or_deg(self.mechanism, q, deg, "d_acceleration")
+        one_of(on_error, ("raise", "nan"), "on_error")
+        state = State(q, speed, effort=effort, t=t, sense=sense)
+        return derivatives(self, "acceleration", state, by, on_error, threads, self._with_mass)
+
+    def _with_mass(self, link: str, body: Body) -> Machine:
+        """Return the machine that has this body alone, and the same weights."""
+        assert self.mechanism is not None
+        return Machine(self.mechanism, bodies={link: body}, loads=weights(self))
+
+    @renamed_rates
+    def linearize(
+        self,
+        q: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike = 0.0,
+        effort: npt.ArrayLike | None = None,
+        *,
+        dt: float | None = None,
+        n: int = 1,
+        t: npt.ArrayLike = 0.0,
+        sense: float | Sequence[float] | None = None,
+        on_error: OnError = "raise",
+        deg: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Linearized:
+        """Return the state equations beside a state: A and B, exact.
+
+        Parameters
+        ----------
+        q, speed, effort, t, sense, on_error, deg, threads
+            See `acceleration`.
+        dt : float, optional
+            Time of a step, s: then A and B are the derivatives of what `step` returns. Without it
+            they are those of the rates.
+        n : int
+            Number of steps.
+
+        Returns
+        -------
+        Linearized
+            ``A, B, status`` for the states (q, speed): S + (N, 2n, 2n) and S + (N, 2n, n) of n
+            drivers.
+
+        Raises
+        ------
+        InputError
+            See `d_effort`; a singular mass matrix; dt of 0.
+        PositionError
+            A position that cannot be reached.
+
+        Notes
+        -----
+        Of steps each stage of the Runge-Kutta method is differentiated: A and B belong to `step`
+        itself, not to the exact motion.
+
+        Examples
+        --------
+        A pendulum held level; SciPy's ``solve_continuous_are`` takes A and B as they are.
+
+        >>> import assur
+        >>> arm = assur.Mechanism({"O": (0, 0), "A": (1, 0)}, {"ground": "O", "arm": "OA"}, "arm")
+        >>> mass = {"arm": assur.Body(mass=2.0, at="A")}
+        >>> pendulum = assur.Machine(arm, bodies=mass, loads=[assur.Gravity()])
+        >>> pendulum.linearize(0.0, effort=19.62).B.T
+        array([[0. , 0.5]])
+        >>> pendulum.linearize(0.0, effort=19.62, dt=0.1).A.round(6)
+        array([[1. , 0.1],
+               [0. , 1. ]])
+        """
+        q = q_or_deg(self.mechanism, q, deg, "linearize")
+        one_of(on_error, ("raise", "nan"), "on_error")
+        state = State(q, speed, effort=effort, t=t, sense=sense)
+        return linearize(self, state, (dt, n), on_error, threads)
 
     def step(
         self,

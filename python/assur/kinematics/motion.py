@@ -18,9 +18,10 @@ from assur._validate import (
     require_one_driver,
 )
 from assur.errors import InputError
-from assur.kinematics import derivatives, transmission
+from assur.kinematics import transmission
+from assur.kinematics.derivatives import jacobian as derivatives
+from assur.kinematics.derivatives.sensitivity import Sensitivity
 from assur.kinematics.motion_model import MotionModel
-from assur.kinematics.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

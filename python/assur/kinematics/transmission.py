@@ -11,7 +11,7 @@ from assur._arrays import Float, short
 from assur._trig import sin_cos
 from assur._validate import checked_name
 from assur.errors import InputError
-from assur.kinematics.derivatives import jacobian, named_dimensions, vjp
+from assur.kinematics.derivatives.jacobian import jacobian, named_dimensions, vjp
 
 if TYPE_CHECKING:
     from assur.kinematics.model import MechanismModel
@@ -83,7 +83,7 @@ def _turning(motion: MotionModel, line: Line, by: Any) -> Float:
     core = motion.mechanism.core
     own = f"{line.slide}.angle"
     if own in core.dimension_names:
-        turned[..., np.equal(named_dimensions(motion, by), core.dimension(own))] += 1.0
+        turned[..., np.equal(named_dimensions(motion.mechanism, by), core.dimension(own))] += 1.0
     return turned
 
 

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use assur::dynamics::{EquationPlan, EquationRequest, Machine, StepRequest, Term};
+use assur::dynamics::{Direction, EquationPlan, EquationRequest, Machine, StepRequest, Term};
 use assur::{Arrays, Control, Coordinates, Mechanism};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -16,6 +16,9 @@ type Flat<'py> = PyReadonlyArray1<'py, f64>;
 
 /// Positions of a slider-crank up to which a call need not check for signals.
 const FEW_POSITIONS: u64 = 20_000;
+
+/// A position in dual numbers, one direction after another, takes about as long as so many.
+const COST_OF_DUALS: u64 = 50;
 
 /// A term without its index.
 #[derive(Clone, Copy)]
@@ -80,15 +83,53 @@ pub(crate) struct Inputs<'py> {
     pub rows: usize,
 }
 
-/// See `assur.Machine.dynamics` and `acceleration`.
+/// A direction in which terms are differentiated, without its index.
+#[derive(Clone, Copy)]
+enum Way {
+    Coordinate,
+    Speed,
+    Acceleration,
+    Effort,
+    Dimension,
+}
+
+impl Words for Way {
+    const WHAT: &'static str = "direction";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("q", Self::Coordinate),
+        ("speed", Self::Speed),
+        ("acceleration", Self::Acceleration),
+        ("effort", Self::Effort),
+        ("dimension", Self::Dimension),
+    ];
+}
+
+/// A direction as Python names it: its kind, and the index of a driver or a dimension.
+#[derive(FromPyObject)]
+pub(crate) struct DirectionKey(Word<Way>, usize);
+
+impl DirectionKey {
+    fn direction(&self) -> Direction {
+        match self.0.0 {
+            Way::Coordinate => Direction::Coordinate(self.1),
+            Way::Speed => Direction::Speed(self.1),
+            Way::Acceleration => Direction::Acceleration(self.1),
+            Way::Effort => Direction::Effort(self.1),
+            Way::Dimension => Direction::Dimension(self.1),
+        }
+    }
+}
+
+/// See `assur.Machine.dynamics` and `acceleration`; with directions, the terms' derivatives in them.
 pub(crate) fn equations<'py>(
     py: Python<'py>,
     (mechanism, machine, plan): (&Mechanism, &Machine, &EquationPlan),
     inputs: &Inputs<'py>,
-    keys: &[TermKey],
+    (keys, by): (&[TermKey], Option<&[DirectionKey]>),
     threads: Option<NonZeroUsize>,
     report: &[usize],
 ) -> PyResult<Found<'py>> {
+    let by: Option<Vec<Direction>> = by.map(|by| by.iter().map(DirectionKey::direction).collect());
     // All are the package's own arrays, which no other code changes meanwhile.
     let q = inputs.q.as_slice()?;
     let terms: Vec<Term> = keys.iter().map(TermKey::term).collect();
@@ -109,10 +150,13 @@ pub(crate) fn equations<'py>(
         terms: &terms,
     };
     let (rows, drivers) = (inputs.rows, mechanism.q0().len());
-    let widths = terms.iter().map(|term| term.width(drivers));
-    let is_short = rows as u64 * plan.cost(mechanism) < FEW_POSITIONS;
-    let fill = |arrays: Arrays<'_>, control: &Control<'_>| {
-        machine.equations(mechanism, plan, &request, arrays, control)
+    let directions = by.as_ref().map_or(1, Vec::len);
+    let widths = terms.iter().map(|term| term.width(drivers) * directions);
+    let cost = plan.cost(mechanism).saturating_mul(if by.is_some() { COST_OF_DUALS } else { 1 });
+    let is_short = (rows as u64).saturating_mul(cost) < FEW_POSITIONS;
+    let fill = |arrays: Arrays<'_>, control: &Control<'_>| match &by {
+        Some(by) => machine.equation_derivatives(mechanism, plan, &request, by, arrays, control),
+        None => machine.equations(mechanism, plan, &request, arrays, control),
     };
     let (values, status, log) = filled(py, rows, widths, is_short, threads, fill)?;
     let failure =

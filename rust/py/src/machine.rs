@@ -21,7 +21,7 @@ use crate::convert::motor::motors;
 use crate::convert::value::{FEW_ROWS, Values};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
-use crate::equations::{self, TermKey};
+use crate::equations::{self, DirectionKey, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
 use crate::run::{PythonCallbacks, Run};
@@ -67,8 +67,8 @@ pub(crate) struct Machine {
     /// Python functions: those of loads, then those of motors.
     functions: Vec<Py<PyAny>>,
     load_functions: usize,
-    /// Its compiled equations of motion: without Jacobians of joints, and with all of them.
-    plans: [OnceLock<EquationPlan>; 2],
+    /// Its compiled equations of motion: without Jacobians of joints, with all of them, for derivatives.
+    plans: [OnceLock<EquationPlan>; 3],
 }
 
 #[pymethods]
@@ -311,8 +311,12 @@ impl Machine {
 
     /// The requested `terms` of the equations of motion of designs at positions, in the layout of
     /// `reactions`. `rates`: speeds, accelerations and efforts of the drivers. `function_values`: of all
-    /// `functions`.
+    /// `functions`. `by`: directions in which the terms are differentiated.
     #[allow(clippy::too_many_arguments, reason = "flat arrays")]
+    #[pyo3(signature = (
+        dimensions, q, per_design, rates, has_motors, function_values, terms, rows, sense, threads,
+        report, by = None
+    ))]
     fn equations<'py>(
         &self,
         py: Python<'py>,
@@ -327,6 +331,7 @@ impl Machine {
         sense: Vec<f64>,
         threads: Option<NonZeroUsize>,
         report: Vec<usize>,
+        by: Option<Vec<DirectionKey>>,
     ) -> PyResult<reactions::Found<'py>> {
         let Inner::Mechanism(mechanism, machine) = &self.inner else {
             return Err(error::input("a machine of a table has no mechanism", None));
@@ -345,13 +350,17 @@ impl Machine {
             sense,
             rows,
         };
-        let joints = terms.iter().any(TermKey::is_of_a_joint);
-        let plan = self.plans[usize::from(joints)].get_or_init(|| {
-            let all = if joints { mechanism.linkage().joints.len() } else { 0 };
-            EquationPlan::new(mechanism, machine, (0..all).collect())
-        });
+        let plan = if by.is_some() {
+            self.plans[2].get_or_init(|| EquationPlan::for_derivatives(mechanism, machine))
+        } else {
+            let joints = terms.iter().any(TermKey::is_of_a_joint);
+            self.plans[usize::from(joints)].get_or_init(|| {
+                let all = if joints { mechanism.linkage().joints.len() } else { 0 };
+                EquationPlan::new(mechanism, machine, (0..all).collect())
+            })
+        };
         let of = (mechanism, machine, plan);
-        equations::equations(py, of, &inputs, &terms, threads, &report)
+        equations::equations(py, of, &inputs, (&terms, by.as_deref()), threads, &report)
     }
 
     /// Steps environments in time; see `assur.Machine.step`. `state`: coordinates, speeds and efforts.

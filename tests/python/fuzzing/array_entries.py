@@ -178,7 +178,10 @@ QUESTIONS = (
     "reactions",
     "effort",
     "acceleration",
+    "d_acceleration",
+    "d_effort",
     "dynamics",
+    "linearize",
     "reduced_inertia",
     "reduced_moment",
     "potential",
@@ -304,6 +307,11 @@ ENTRIES: dict[str, Entry] = {
     ),
     **each_of("Machine.dynamics", MACHINE.dynamics, q=0.0, speed=1.0, t=0.5),
     **each_of("Machine.acceleration", MACHINE.acceleration, q=0.0, speed=1.0, effort=2.0, t=0.5),
+    **each_of("Machine.d_effort", MACHINE.d_effort, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
+    **each_of(
+        "Machine.d_acceleration", MACHINE.d_acceleration, q=0.0, speed=1.0, effort=2.0, t=0.5
+    ),
+    **each_of("Machine.linearize", MACHINE.linearize, q=0.0, speed=1.0, effort=2.0, t=0.5),
     **each_of("Machine.step", partial(MACHINE.step, dt=1e-3), q=0.0, speed=1.0, effort=2.0),
     **each_of("Machine.effort", MACHINE.effort, q=0.0, speed=1.0, acceleration=2.0, t=0.5),
     **each_of("assur.balance.fit", fitted, q=0.5, speed=1.0, acceleration=2.0),

@@ -181,6 +181,8 @@ def not_numbers(array: Any) -> dict[str, Any]:
 # What may be left out.
 OPTIONAL = (
     "Machine.acceleration.effort",
+    "Machine.d_acceleration.effort",
+    "Machine.linearize.effort",
     "Machine.step.effort",
     "Mechanism.map.deg",
     "Mechanism.with_driver.deg",

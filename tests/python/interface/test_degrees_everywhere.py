@@ -26,6 +26,9 @@ CALLS: dict[str, Callable[..., Any]] = {
     "Machine.reactions": lambda **at: MACHINE.reactions(**at, speed=2.0).driver,
     "Machine.dynamics": lambda **at: MACHINE.dynamics(**at, speed=2.0).bias,
     "Machine.acceleration": lambda **at: MACHINE.acceleration(**at, speed=2.0, effort=1.0),
+    "Machine.d_acceleration": lambda **at: MACHINE.d_acceleration(**at, speed=2.0, effort=1.0),
+    "Machine.d_effort": lambda **at: MACHINE.d_effort(**at, speed=2.0),
+    "Machine.linearize": lambda **at: MACHINE.linearize(**at, speed=2.0, effort=1.0).A,
     "Machine.effort": lambda **at: MACHINE.effort(**at, speed=2.0),
     "Machine.duty": lambda **at: MACHINE.duty(**at, speed=2.0).effort,
     "Machine.internal_loads": lambda **at: (

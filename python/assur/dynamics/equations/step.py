@@ -9,6 +9,7 @@ import numpy as np
 from assur._arrays import Float, as_number, real_array, real_number, short
 from assur._validate import checked_threads, whole_number
 from assur.description.words import Status, has_analogues
+from assur.dynamics.equations.terms import flat
 from assur.dynamics.reduction.reduced import with_designs
 from assur.errors import InputError
 
@@ -99,7 +100,7 @@ def step(
     rows = int(np.prod(shape)) if shape else 1
     (after_q, after_speed), status = machine.core.step(
         mechanism.values.reshape(-1),
-        (states[0], states[1], np.ascontiguousarray(effort)),
+        (states[0], states[1], flat(effort)),
         environments.effort is None,
         rows,
         (seconds, steps),
@@ -121,7 +122,7 @@ def _rates(values: npt.ArrayLike, name: str) -> Float:
 
 def _in_shape(values: Float, name: str, full: tuple[int, ...], q: Float) -> Float:
     try:
-        return np.ascontiguousarray(np.broadcast_to(values, full)).reshape(-1)
+        return flat(np.broadcast_to(values, full))
     except ValueError as error:
         message = f"{name} has the shape {values.shape}, q {q.shape}: they do not fit"
         raise InputError(message) from error

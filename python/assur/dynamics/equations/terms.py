@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 # A term as the core names it: its kind, and the index of the joint of a Jacobian.
 Term = tuple[str, int]
+# A direction as the core names it: "q", "speed", "acceleration", "effort" or "dimension", with its
+# index.
+Direction = tuple[str, int]
 NOTHING = np.empty(0)
 
 
@@ -34,6 +37,7 @@ class State(NamedTuple):
     effort: npt.ArrayLike | None = None
     t: npt.ArrayLike = 0.0
     sense: float | Sequence[float] | None = None
+    acceleration: npt.ArrayLike = 0.0
 
 
 class Terms(NamedTuple):
@@ -63,9 +67,13 @@ def require_equations(machine: MachineModel, call: str) -> None:
 
 
 def terms_of(
-    machine: MachineModel, state: State, terms: list[Term], threads: int | None = None
+    machine: MachineModel,
+    state: State,
+    terms: list[Term],
+    threads: int | None = None,
+    by: list[Direction] | None = None,
 ) -> Terms:
-    """Ask the core for terms; `effort` of None is that of the motors."""
+    """Ask the core for terms, or for their derivatives; `effort` of None is that of the motors."""
     mechanism = machine.mechanism
     assert mechanism is not None
     n, designs = machine.driver_count, machine.shape
@@ -77,9 +85,9 @@ def terms_of(
     shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
     full = shape if n == 1 else (*shape, n)
     speed = _rates(state.speed, "speed", full, n, x)
-    # No accelerations are asked for; without efforts the motors act alone.
-    acceleration = np.zeros(n)
-    effort = acceleration
+    acceleration = _rates(state.acceleration, "acceleration", full, n, x)
+    # Without efforts the motors act alone.
+    effort = np.zeros(n)
     if state.effort is not None:
         effort = _rates(state.effort, "effort", full, n, x)
     per_design = bool(designs) and x.ndim > (1 if n == 1 else 2)
@@ -100,7 +108,7 @@ def terms_of(
         values = function_values(functions, every_q, every_speed, at)
     arrays, status, failure = machine.core.equations(
         mechanism.values.reshape(-1),
-        np.ascontiguousarray(x).reshape(-1),
+        flat(x),
         per_design,
         (speed, acceleration, effort),
         state.effort is None,
@@ -110,8 +118,14 @@ def terms_of(
         senses,
         checked_threads(threads),
         list(designs),
+        by,
     )
     return Terms(arrays, shape, status, failure, x, speed)
+
+
+def flat(values: Float) -> Float:
+    """Return the numbers in a row, where they are if the core can read them there."""
+    return np.require(values, requirements=("C", "A")).reshape(-1)
 
 
 def _rates(given: Any, name: str, full: tuple[int, ...], n: int, x: Float) -> Float:
@@ -121,9 +135,9 @@ def _rates(given: Any, name: str, full: tuple[int, ...], n: int, x: Float) -> Fl
     if values.ndim == 0 or (n > 1 and values.shape == (n,)):
         if n > 1 and values.ndim == 0:
             return np.full(n, float(values))
-        return values.reshape(-1)
+        return flat(values)
     try:
-        return np.ascontiguousarray(np.broadcast_to(values, full)).reshape(-1)
+        return flat(np.broadcast_to(values, full))
     except ValueError as error:
         message = f"{name} has the shape {values.shape}, q {x.shape}: they do not fit"
         raise InputError(message) from error

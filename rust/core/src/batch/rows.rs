@@ -3,7 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::request::Column;
-use crate::math::lanes::{LANES, Real};
+use crate::math::lanes::{Real, place_in_blocks};
 use crate::math::vector::Vector;
 
 /// Bytes of a cache line.
@@ -14,21 +14,8 @@ const LINE: usize = 64;
 pub(crate) enum Layout {
     /// Row after row, as results are read.
     Rows,
-    /// Eight rows after eight, of these number after number: each register lies by itself, and an array
-    /// has room for whole eights.
+    /// In [blocks](place_in_blocks): each register lies by itself, and an array has room for whole eights.
     Blocks,
-}
-
-/// Where a number of each row lies in an array of [`Layout::Blocks`].
-#[inline(always)]
-pub(crate) fn place_in_blocks(row: usize, width: usize, entry: usize) -> usize {
-    (row / LANES * width + entry) * LANES + row % LANES
-}
-
-/// Number `entry` of `width` of the rows from `row` on, in an array of [`Layout::Blocks`].
-#[inline(always)]
-pub(crate) fn read_block<R: Real>(column: &[f64], row: usize, width: usize, entry: usize) -> R {
-    R::read(&column[place_in_blocks(row, width, entry)..])
 }
 
 /// The rows of some positions in every array, not yet written.

@@ -6,13 +6,12 @@ use std::sync::Arc;
 
 use super::request::{Column, Outputs, Quantity, Request};
 use super::rows::{
-    Layout, RowRange, RowSlices, begins_line, place_in_blocks, store_lanes, store_pairs, write,
-    write_scaled,
+    Layout, RowRange, RowSlices, begins_line, store_lanes, store_pairs, write, write_scaled,
 };
 use crate::branch::design::Units;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Real, place_in_blocks};
 use crate::math::stride::Stride;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;

@@ -47,7 +47,7 @@ pub(crate) mod value;
 pub use angle_between::{Angle, Line};
 pub use body::Body;
 pub use equations::plan::EquationPlan;
-pub use equations::request::{EquationRequest, Term};
+pub use equations::request::{Direction, EquationRequest, Term};
 pub use equations::step::StepRequest;
 pub use equilibria::{Equilibria, Equilibrium, EquilibriumRange};
 pub use flywheel::cycle::{Cycle, Extreme};

@@ -82,6 +82,29 @@ impl Motor {
         self.moment(speed, cell, numbers)[0]
     }
 
+    /// The same with its rate where the driver's speed has one, and values of tables theirs.
+    pub(crate) fn torque_and_slopes(
+        &self,
+        speed: f64,
+        rate: f64,
+        numbers: Numbers<'_>,
+    ) -> [f64; 2] {
+        if let Characteristic::Value(value) = self.characteristic {
+            let slope = match value {
+                Value::External(_) => 0.0,
+                _ => value.with_slope(numbers)[1],
+            };
+            return [self.torque_at(speed, numbers), self.ratio * slope];
+        }
+        let cell = match self.table() {
+            Some(table) => table.cell(self.ratio * speed),
+            None => Some(Cell::default()),
+        };
+        let Some(cell) = cell else { return [f64::NAN; 2] };
+        let [torque, slope] = self.moment(speed, cell, numbers);
+        [torque, if rate == 0.0 { 0.0 } else { slope * rate }]
+    }
+
     /// The rotor's inertia referred to the driver.
     #[must_use]
     pub fn inertia(&self) -> f64 {

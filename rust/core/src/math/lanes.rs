@@ -11,6 +11,13 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 /// Numbers in the longest vector.
 pub const LANES: usize = 8;
 
+/// Where a number of a row lies in an array in blocks: eight rows after eight, of these number after number.
+#[inline(always)]
+#[must_use]
+pub fn place_in_blocks(row: usize, width: usize, entry: usize) -> usize {
+    (row / LANES * width + entry) * LANES + row % LANES
+}
+
 /// A boolean for each lane.
 pub trait Mask: Copy + Debug + Send + 'static {
     /// False in every lane.
@@ -53,6 +60,8 @@ pub trait Real:
     type Mask: Mask;
     /// Number of lanes.
     const LANES: usize;
+    /// Numbers that a lane is made of in arrays: two of a number with a rate.
+    const PARTS: usize = 1;
     /// Zero in every lane.
     const ZERO: Self;
     /// One in every lane.
@@ -63,6 +72,18 @@ pub trait Real:
     fn from_lanes(number: impl FnMut(usize) -> f64) -> Self;
     /// The number of one lane.
     fn lane(self, lane: usize) -> f64;
+    /// The same number in every lane, from its parts at the front of a slice.
+    #[inline(always)]
+    #[must_use]
+    fn of_parts(numbers: &[f64]) -> Self {
+        Self::splat(numbers[0])
+    }
+    /// Number `entry` of `width` of the rows from `row` on, in an array in [blocks](place_in_blocks).
+    #[inline(always)]
+    #[must_use]
+    fn of_block(column: &[f64], row: usize, width: usize, entry: usize) -> Self {
+        Self::read(&column[place_in_blocks(row, width, entry)..])
+    }
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;

@@ -2,6 +2,7 @@
 
 pub(crate) mod angle;
 pub(crate) mod derivatives;
+pub(crate) mod dual;
 pub(crate) mod inverse;
 pub mod lanes;
 pub(crate) mod pair;

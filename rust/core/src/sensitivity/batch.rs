@@ -15,8 +15,6 @@ use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::Step;
-use crate::query::failure::redundant_name;
 
 impl Mechanism {
     /// Derivatives of positions and analogues by dimensions, or their products with vectors: the arrays of the
@@ -48,11 +46,7 @@ impl Mechanism {
         arrays: Arrays<'_>,
         control: &Control<'_>,
     ) -> Result<(), SolveError> {
-        let redundant = self.plan().steps.iter().position(|s| matches!(s, Step::Redundant(_)));
-        if let Some(step) = redundant {
-            let (kind, name) = redundant_name(self, step);
-            return Err(SolveError::Redundant { kind, name });
-        }
+        SensitivityPlan::refuse_redundant(self)?;
         let mut sensitivity = SensitivityPlan::new(self, request.of);
         let outputs = sensitivity.outputs.clone();
         let motion = Request {

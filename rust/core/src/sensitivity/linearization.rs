@@ -4,7 +4,6 @@
 use nalgebra::DMatrix;
 
 use super::plan::{LinearStep, SensitivityPlan, slide_along};
-use crate::batch::rows::read_block;
 use crate::branch::design::Design;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -14,7 +13,7 @@ use crate::state::closures::{ClosedPath, Closures};
 
 /// Work space.
 #[derive(Debug, Default)]
-pub(super) struct Linearization<R> {
+pub(crate) struct Linearization<R> {
     /// Jets of orientations.
     units: Vec<Vector<R>>,
     /// Jets of the derivatives of every orientation's angle; entry 0 is not used.
@@ -37,7 +36,7 @@ pub(super) struct Linearization<R> {
 impl<R: Real> Linearization<R> {
     /// Reads the register of solved positions that begins at a row.
     #[inline(always)]
-    pub(super) fn read(
+    pub(crate) fn read(
         &mut self,
         sensitivity: &SensitivityPlan<'_>,
         design: &Design<'_>,
@@ -61,7 +60,7 @@ impl<R: Real> Linearization<R> {
 
     /// The inverse of a step's matrix.
     #[inline(always)]
-    pub(super) fn inverse(&self, first: usize, n: usize) -> &[R] {
+    pub(crate) fn inverse(&self, first: usize, n: usize) -> &[R] {
         &self.inverses[first..first + n * n]
     }
 
@@ -76,7 +75,7 @@ impl<R: Real> Linearization<R> {
         let len = sensitivity.len();
         self.slides.clear();
         for (index, source) in sensitivity.slides.iter().enumerate() {
-            let value: R = read_block(columns[source.column], row, source.width, source.entry);
+            let value: R = R::of_block(columns[source.column], row, source.width, source.entry);
             // Powers of two: exact.
             self.slides.push(value / R::splat(design.units.length[index % len]));
         }
@@ -100,14 +99,14 @@ impl<R: Real> Linearization<R> {
             };
             let column = columns[sensitivity.directions[o]];
             let direction =
-                Vector::<R>::new(read_block(column, row, 2, 0), read_block(column, row, 2, 1));
+                Vector::<R>::new(R::of_block(column, row, 2, 0), R::of_block(column, row, 2, 1));
             let unit = direction * Vector::splat(design.constants.turn[link].conj());
             self.units.push(unit);
             self.rates.clear();
             self.rates.push(R::ZERO);
             for k in 1..len {
                 let source = sensitivity.rates[o * len + k];
-                let rate: R = read_block(columns[source.column], row, source.width, source.entry);
+                let rate: R = R::of_block(columns[source.column], row, source.width, source.entry);
                 self.rates.push(rate / R::splat(design.units.angle[k]));
                 let mut sum = unit.scale(self.rates[k]);
                 for term in &tables.rotation[k] {

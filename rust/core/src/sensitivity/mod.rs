@@ -9,7 +9,7 @@
 mod batch;
 mod cotangent;
 mod evaluate;
-mod linearization;
-mod plan;
+pub(crate) mod linearization;
+pub(crate) mod plan;
 pub(crate) mod request;
-mod tangent;
+pub(crate) mod tangent;

@@ -3,15 +3,17 @@
 use std::sync::Arc;
 
 use crate::batch::request::{Column, Outputs, Quantity};
+use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::{EdgeSlide, Plan, Step};
+use crate::query::failure::redundant_name;
 use crate::state::closures::{Closures, signed};
 use crate::structure::closure::point_of_joint;
 
 /// A step of the solution, as linear equations.
 #[derive(Debug)]
-pub(super) enum LinearStep {
+pub(crate) enum LinearStep {
     /// A point is placed from another, along an edge with this sign.
     Place { edge: usize, from: usize, to: usize, sign: f64 },
     /// Closures are solved; the inverse of their matrix begins at this place.
@@ -20,7 +22,7 @@ pub(super) enum LinearStep {
 
 /// A number of each row of a result: where it comes from.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Component {
+pub(crate) struct Component {
     pub kind: ComponentKind,
     /// Entry of the jet.
     pub k: usize,
@@ -28,7 +30,7 @@ pub(super) struct Component {
 
 /// The source of a number of a result.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum ComponentKind {
+pub(crate) enum ComponentKind {
     X { point: usize },
     Y { point: usize },
     Slide(usize),
@@ -37,7 +39,7 @@ pub(super) enum ComponentKind {
 
 /// Number `entry` of `width` in a column of the solved motion.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Source {
+pub(crate) struct Source {
     pub column: usize,
     pub width: usize,
     pub entry: usize,
@@ -45,7 +47,7 @@ pub(super) struct Source {
 
 /// The compiled derivatives.
 #[derive(Debug)]
-pub(super) struct SensitivityPlan<'m> {
+pub(crate) struct SensitivityPlan<'m> {
     pub mechanism: &'m Mechanism,
     pub steps: Vec<LinearStep>,
     /// Numbers in the inverses of all steps.
@@ -66,8 +68,20 @@ pub(super) struct SensitivityPlan<'m> {
 }
 
 impl<'m> SensitivityPlan<'m> {
+    /// Refuses redundant links: changing one dimension alone would break their fit.
+    pub(crate) fn refuse_redundant(mechanism: &Mechanism) -> Result<(), SolveError> {
+        let steps = &mechanism.plan().steps;
+        match steps.iter().position(|step| matches!(step, Step::Redundant(_))) {
+            Some(step) => {
+                let (kind, name) = redundant_name(mechanism, step);
+                Err(SolveError::Redundant { kind, name })
+            }
+            None => Ok(()),
+        }
+    }
+
     /// Compiles the derivatives of these results.
-    pub(super) fn new(mechanism: &'m Mechanism, of: &[(Quantity, usize)]) -> Self {
+    pub(crate) fn new(mechanism: &'m Mechanism, of: &[(Quantity, usize)]) -> Self {
         let plan = mechanism.plan();
         let order = of.iter().map(|&(_, order)| order).max().unwrap_or(0);
         let derivatives = DerivativeTables::shared(plan.drivers.len(), order);
@@ -103,7 +117,7 @@ impl<'m> SensitivityPlan<'m> {
     }
 
     /// Finds the sources in the columns of the request.
-    pub(super) fn read_from(&mut self, columns: &[Column]) {
+    pub(crate) fn read_from(&mut self, columns: &[Column]) {
         let at = |quantity: Quantity, order: usize| {
             columns.iter().position(|c| c.quantity == quantity && c.order == order).unwrap_or(0)
         };
@@ -131,12 +145,12 @@ impl<'m> SensitivityPlan<'m> {
         );
     }
 
-    pub(super) fn plan(&self) -> &'m Plan {
+    pub(crate) fn plan(&self) -> &'m Plan {
         self.mechanism.plan()
     }
 
     /// Entries of a jet.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.derivatives.len()
     }
 }
@@ -183,7 +197,7 @@ fn components(
 }
 
 /// The slide along an edge, whoever finds its value.
-pub(super) fn slide_along(along: EdgeSlide) -> Option<usize> {
+pub(crate) fn slide_along(along: EdgeSlide) -> Option<usize> {
     match along {
         EdgeSlide::Nothing => None,
         EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } => Some(slide),

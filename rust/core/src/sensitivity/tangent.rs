@@ -11,7 +11,7 @@ use crate::plan::plan::EdgeSlide;
 
 /// Rates of points, classes' angles and slides, jet by jet, in units of the scale.
 #[derive(Debug, Default)]
-pub(super) struct Tangent<R> {
+pub(crate) struct Tangent<R> {
     points: Vec<Vector<R>>,
     theta: Vec<R>,
     slides: Vec<R>,
@@ -21,7 +21,7 @@ pub(super) struct Tangent<R> {
 impl<R: Real> Tangent<R> {
     /// Computes all rates.
     #[inline(always)]
-    pub(super) fn solve(
+    pub(crate) fn solve(
         &mut self,
         sensitivity: &SensitivityPlan<'_>,
         linear: &Linearization<R>,
@@ -109,7 +109,7 @@ impl<R: Real> Tangent<R> {
 
     /// The rate of a component of a result, in metres and radians.
     #[inline(always)]
-    pub(super) fn component(
+    pub(crate) fn component(
         &self,
         len: usize,
         (units, by): (&Units, &ConstantsRate),

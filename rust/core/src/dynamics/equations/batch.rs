@@ -41,7 +41,7 @@ impl Machine {
             dimensions: request.dimensions,
             coordinates: request.coordinates,
             signs: request.signs,
-            order: forces.order,
+            order: plan.solved_order,
             outputs: &forces.outputs,
         };
         let shape = Shape::of(mechanism, &solve_request)?;

@@ -148,6 +148,33 @@ impl<R: Real> Equation<R> {
         self.right[driver]
     }
 
+    /// Number `entry` of a term, after [`Self::read`] and, for accelerations, [`Self::accelerate`].
+    #[inline(always)]
+    pub(super) fn entry(
+        &self,
+        term: Term,
+        entry: usize,
+        partials: Partials<'_>,
+        acceleration: &[f64],
+    ) -> R {
+        let n = partials.plan.drivers;
+        match term {
+            Term::MassMatrix => {
+                let (a, b) = (entry / n, entry % n);
+                self.mass[a.max(b) * n + a.min(b)]
+            }
+            Term::MassRates => self.rates[entry],
+            Term::Bias => self.bias[entry],
+            Term::Gravity => self.gravity[entry],
+            Term::Effort => self.effort(entry, acceleration, partials.rows),
+            Term::Acceleration => self.right[entry],
+            Term::Jacobian(joint) => {
+                let rate: Vector<R> = partials.point(point_of_joint(joint), entry % n);
+                if entry < n { rate.x } else { rate.y }
+            }
+        }
+    }
+
     /// The effort of a driver that accelerations need.
     #[inline(always)]
     fn effort(&self, a: usize, acceleration: &[f64], rows: Rows) -> R {
@@ -172,22 +199,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
                 self.equation.accelerate(self.effort, rows);
             }
             for entry in 0..width {
-                let equation = &*self.equation;
-                let value: R = match term {
-                    Term::MassMatrix => {
-                        let (a, b) = (entry / n, entry % n);
-                        equation.mass[a.max(b) * n + a.min(b)]
-                    }
-                    Term::MassRates => equation.rates[entry],
-                    Term::Bias => equation.bias[entry],
-                    Term::Gravity => equation.gravity[entry],
-                    Term::Effort => equation.effort(entry, self.acceleration, rows),
-                    Term::Acceleration => equation.right[entry],
-                    Term::Jacobian(joint) => {
-                        let rate: Vector<R> = partials.point(point_of_joint(joint), entry % n);
-                        if entry < n { rate.x } else { rate.y }
-                    }
-                };
+                let value = self.equation.entry(term, entry, partials, self.acceleration);
                 let out = &mut self.results.columns[column][row * width..(row + lanes) * width];
                 for lane in 0..lanes {
                     out[lane * width + entry] = MaybeUninit::new(value.lane(lane));

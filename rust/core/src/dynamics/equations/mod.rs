@@ -8,6 +8,8 @@
 
 mod batch;
 mod bodies;
+mod derivatives;
+mod dual_row;
 mod equation_batch;
 mod evaluate;
 pub(crate) mod plan;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::request::Term;
-use crate::batch::request::{Coordinates, Request};
+use crate::batch::request::{Coordinates, Outputs, Request};
 use crate::batch::writer::Writer;
 use crate::description::error::SolveError;
 use crate::dynamics::machine::Machine;
@@ -11,11 +11,14 @@ use crate::dynamics::reactions::columns::Sources;
 use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
+use crate::sensitivity::plan::SensitivityPlan;
 
 /// The compiled equations of a machine on its mechanism.
 #[derive(Debug)]
 pub struct EquationPlan {
     pub(super) forces: ForcePlan,
+    /// Order to which positions are solved.
+    pub(super) solved_order: usize,
     pub(super) derivatives: DerivativeTables,
     pub(super) writer: Arc<Writer>,
     pub(super) sources: Sources,
@@ -29,18 +32,40 @@ impl EquationPlan {
     /// Compiles a machine; `joints`: those whose Jacobians may be requested.
     #[must_use]
     pub fn new(mechanism: &Mechanism, machine: &Machine, joints: Vec<usize>) -> Self {
+        Self::compiled(mechanism, machine, joints, false)
+    }
+
+    /// Compiles a machine whose terms are to be differentiated: it is solved to one order more, with what
+    /// derivatives by dimensions need.
+    #[must_use]
+    pub fn for_derivatives(mechanism: &Mechanism, machine: &Machine) -> Self {
+        Self::compiled(mechanism, machine, Vec::new(), true)
+    }
+
+    fn compiled(
+        mechanism: &Mechanism,
+        machine: &Machine,
+        joints: Vec<usize>,
+        differentiates: bool,
+    ) -> Self {
         let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
         let order = if has_inertia { 2 } else { 1 };
         let mut forces = ForcePlan::for_equations(mechanism, machine, order);
         for &joint in &joints {
             forces.need_joint(joint);
         }
-        let derivatives = DerivativeTables::new(forces.drivers, order);
+        let solved_order = if differentiates {
+            add_outputs(&mut forces.outputs, &SensitivityPlan::new(mechanism, &[]).outputs);
+            order + 1
+        } else {
+            order
+        };
+        let derivatives = DerivativeTables::new(forces.drivers, solved_order);
         let request = Request {
             dimensions: &[],
             coordinates: Coordinates::Shared(&[]),
             signs: &[],
-            order,
+            order: solved_order,
             outputs: &forces.outputs,
         };
         let writer = Writer::of(mechanism, &derivatives, &request);
@@ -49,7 +74,7 @@ impl EquationPlan {
         for motor in &machine.motors {
             rotors[motor.driver] += motor.inertia();
         }
-        Self { forces, derivatives, writer, sources, rotors, joints }
+        Self { forces, solved_order, derivatives, writer, sources, rotors, joints }
     }
 
     /// About how many times as long as a slider-crank a position takes: groups above class II are solved by
@@ -75,4 +100,19 @@ impl EquationPlan {
         }
         Ok(())
     }
+}
+
+/// Adds what derivatives by dimensions read, and the turning of every link whose direction is read.
+fn add_outputs(outputs: &mut Outputs, more: &Outputs) {
+    for (list, others) in
+        [(&mut outputs.directions, &more.directions), (&mut outputs.slides, &more.slides)]
+    {
+        list.extend(others);
+        list.sort_unstable();
+        list.dedup();
+    }
+    outputs.rates.extend(more.rates.iter().chain(&outputs.directions));
+    outputs.rates.retain(|link| !outputs.links.contains(link));
+    outputs.rates.sort_unstable();
+    outputs.rates.dedup();
 }

@@ -58,3 +58,18 @@ pub struct EquationRequest<'a> {
     /// The requested terms.
     pub terms: &'a [Term],
 }
+
+/// A direction in which terms are differentiated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// The coordinate of a driver.
+    Coordinate(usize),
+    /// Its speed.
+    Speed(usize),
+    /// Its acceleration, which [`Term::Effort`] reads.
+    Acceleration(usize),
+    /// Its effort, which [`Term::Acceleration`] reads.
+    Effort(usize),
+    /// A dimension, in the order of [`crate::Mechanism::dimensions`].
+    Dimension(usize),
+}

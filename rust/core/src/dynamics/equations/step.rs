@@ -74,7 +74,7 @@ impl Machine {
             dimensions: request.dimensions,
             coordinates,
             signs: request.signs,
-            order: forces.order,
+            order: plan.solved_order,
             outputs: &forces.outputs,
         };
         let shape = Shape::of(mechanism, &solve_request)?;

@@ -1,10 +1,10 @@
 //! The curves over other coordinates, and the directions in which these move, at some positions of one
 //! design.
 
-use crate::batch::rows::place_in_blocks;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::{Measure, sign};
 use crate::dynamics::reactions::columns::{Solved, Sources};
+use crate::math::lanes::place_in_blocks;
 
 /// Values of the loads that follow other coordinates, each at every position.
 #[derive(Debug, Clone, Default)]

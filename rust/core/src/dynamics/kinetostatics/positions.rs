@@ -8,6 +8,7 @@ use crate::batch::chunks::Chunk;
 use crate::batch::dispatch::Entry;
 use crate::batch::motion::{Asked, MotionBatch, MotionWorker};
 use crate::batch::request::{Shape, product};
+use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
@@ -57,6 +58,11 @@ pub(crate) struct DesignPositions<'d> {
     pub guides: Vec<Vector>,
     /// Points of the ground that are known for the design.
     pub known: &'d [(usize, Vector)],
+    /// The bound design, unless it has invalid dimensions, and its dimensions.
+    pub design: Option<&'d Design<'d>>,
+    pub dimensions: &'d [f64],
+    /// Coordinates of the drivers, drivers fastest.
+    pub q: &'d [f64],
     pub solved: Solved<'d>,
     pub values: Values<'d>,
     pub status: &'d [u8],
@@ -156,6 +162,9 @@ impl<'b> MachineBatch<'b> {
                 size,
                 guides: guide_directions(self.motion.mechanism, design.dimensions),
                 known,
+                design: is_valid.then_some(design.design),
+                dimensions: design.dimensions,
+                q: design.q,
                 solved,
                 values: Values {
                     tables,

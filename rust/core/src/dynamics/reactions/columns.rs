@@ -5,7 +5,6 @@ use std::ops::Add;
 use super::force_plan::{Direction, ForcePlan};
 use super::scene::{Moving, Scene};
 use crate::batch::request::{Column, Quantity};
-use crate::batch::rows::read_block;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -69,6 +68,9 @@ impl Rows {
     #[inline(always)]
     pub(crate) fn read<R: Real>(self, values: &[f64], width: usize, offset: usize) -> R {
         let first = self.first * width;
+        if R::PARTS > 1 {
+            return R::of_parts(&values[R::PARTS * (first + offset)..]);
+        }
         // Widths known to the compiler are read by few instructions.
         match (values.get(first..first + R::LANES * width), width) {
             (Some(all), 1) => R::read(all),
@@ -82,7 +84,10 @@ impl Rows {
     /// A speed or acceleration of one of `n` drivers: for each position, or the same for all.
     #[inline(always)]
     pub(crate) fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {
-        if values.len() == n { R::splat(values[driver]) } else { self.read(values, n, driver) }
+        if values.len() == R::PARTS * n {
+            return R::of_parts(&values[R::PARTS * driver..]);
+        }
+        self.read(values, n, driver)
     }
 
     /// The rate of a quantity with these first derivatives, at speeds of the drivers.
@@ -119,7 +124,7 @@ impl Rows {
     /// Number `entry` of `width` of each solved position, in blocks.
     #[inline(always)]
     pub(crate) fn solved<R: Real>(self, column: &[f64], width: usize, entry: usize) -> R {
-        read_block(column, self.first, width, entry)
+        R::of_block(column, self.first, width, entry)
     }
 
     /// The entry `offset` of `width` pairs of each solved position: all its first numbers come before the

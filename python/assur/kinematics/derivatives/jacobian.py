@@ -13,6 +13,7 @@ from assur.errors import InputError
 
 if TYPE_CHECKING:
     from assur._arrays import Float
+    from assur.kinematics.model import MechanismModel
     from assur.kinematics.motion_model import MotionModel
     from assur.kinematics.request import Kind, ResultKey
 
@@ -32,7 +33,7 @@ def jacobian(motion: MotionModel, of: Any, by: Any, order: Any) -> Float | dict[
         found = {name: _by_drivers(motion, name, order) for name in names}
     else:
         keys = [_key(motion, name, order, "jacobian") for name in names]
-        dimensions = named_dimensions(motion, by)
+        dimensions = named_dimensions(motion.request.mechanism, by)
         arrays, _ = motion.request.sensitivities(keys, dimensions)
         shapes = [(*_shape(motion, key), len(dimensions)) for key in keys]
         found = {
@@ -61,7 +62,7 @@ def vjp(motion: MotionModel, weights: Any, by: Any, order: Any) -> Float:
         message = f'weights is {short(weights)}: a mapping such as {{"P": array}} is needed'
         raise InputError(message)
     order = whole_number(order, "order", 0, HIGHEST)
-    dimensions = named_dimensions(motion, by)
+    dimensions = named_dimensions(motion.request.mechanism, by)
     keys = [_key(motion, name, order, "vjp") for name in weights]
     flat = []
     for key, (name, given) in zip(keys, weights.items(), strict=True):
@@ -79,7 +80,7 @@ def vjp(motion: MotionModel, weights: Any, by: Any, order: Any) -> Float:
     return arrays[0].reshape(shape)
 
 
-def named_dimensions(motion: MotionModel, by: Any) -> list[int]:
+def named_dimensions(mechanism: MechanismModel, by: Any) -> list[int]:
     """Return the indices of dimensions that are named, or stand for patterns, in their order."""
     given = [by] if isinstance(by, str) else by
     if not isinstance(given, list | tuple):
@@ -87,7 +88,7 @@ def named_dimensions(motion: MotionModel, by: Any) -> list[int]:
         raise InputError(message)
     from fnmatch import fnmatchcase
 
-    core = motion.request.mechanism.core
+    core = mechanism.core
     known = core.dimension_names
     indices: list[int] = []
     for name in given:

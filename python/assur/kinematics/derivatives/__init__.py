@@ -1,0 +1,1 @@
+"""Derivatives of motions by drivers and dimensions."""

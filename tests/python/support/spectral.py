@@ -1,0 +1,56 @@
+"""Derivatives of a function that is only evaluated: by the polynomial through Chebyshev's points.
+
+On a short interval the polynomial of degree 12 is the function to rounding where the function is
+analytic around it (L. N. Trefethen, Spectral Methods in MATLAB, 2000, chapter 6). Its derivative in
+the middle keeps all but three digits.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+DEGREE = 12
+PLACES = np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
+# Half widths: too long a one meets what is not analytic, too short a one rounding.
+WIDTHS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
+
+
+def _weights() -> Any:
+    """The middle row of the differentiation matrix."""
+    ends = np.ones(DEGREE + 1)
+    ends[0] = ends[-1] = 2.0
+    middle = DEGREE // 2
+    signs = (-1.0) ** (middle + np.arange(DEGREE + 1))
+    others = np.arange(DEGREE + 1) != middle
+    weights = np.zeros(DEGREE + 1)
+    weights[others] = signs[others] / ends[others] / -PLACES[others]
+    return weights
+
+
+WEIGHTS = _weights()
+
+
+def derivative(values: Callable[[Any], Any], unit: float = 1.0) -> tuple[Any, Any]:
+    """The derivative at 0 of a function of many places at once, and how well it is known.
+
+    Of neighbouring widths the two that agree best decide, entry by entry; their difference is how
+    well. It is infinite where none agree because the function has no value beside 0.
+    """
+    found = np.array(
+        [
+            np.tensordot(WEIGHTS, values(PLACES * width * unit), axes=1) / (width * unit)
+            for width in WIDTHS
+        ]
+    )
+    gaps = np.abs(np.diff(found, axis=0))
+    gaps = np.where(np.isnan(gaps), np.inf, gaps)
+    best = np.argmin(gaps, axis=0)[np.newaxis]
+    return (
+        np.take_along_axis(found[1:], best, axis=0)[0],
+        np.take_along_axis(gaps, best, axis=0)[0],
+    )
