@@ -47,6 +47,7 @@ from assur.mechanisms.named import FourBar, SliderCrank
 
 if TYPE_CHECKING:
     from assur import (
+        adapters,
         balance,
         events,
         examples,
@@ -137,6 +138,7 @@ __all__ = [
     "TorsionSpring",
     "Workspace",
     "__version__",
+    "adapters",
     "balance",
     "crank_rocker",
     "events",
@@ -158,6 +160,7 @@ __version__ = version()
 # Imported at first use: more than half of what `import assur` would take (PEP 562).
 _LATER = {
     "assur": (
+        "adapters",
         "balance",
         "events",
         "examples",

@@ -571,7 +571,7 @@ class Machine(MachineModel):
         >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
         >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
         >>> machine.d_effort(0.5, speed=10.0, by=["q", "piston.mass"]).round(4)
-        array([9.0967, 0.595 ])
+        array([10.2198,  0.595 ])
         """
         q = q_or_deg(self.mechanism, q, deg, "d_effort")
         one_of(on_error, ("raise", "nan"), "on_error")
@@ -625,7 +625,7 @@ class Machine(MachineModel):
         >>> press = assur.SliderCrank(crank=0.1, rod=0.4)
         >>> machine = assur.Machine(press, bodies={"piston": assur.Body(mass=20.0)})
         >>> machine.d_acceleration(0.5, 10.0, effort=4.0, by=["q", "effort"]).round(3)
-        array([265.635,  14.593])
+        array([251.221,  14.592])
         """
         q = q_or_deg(self.mechanism, q, deg, "d_acceleration")
         one_of(on_error, ("raise", "nan"), "on_error")

@@ -314,7 +314,7 @@ class Motion(MotionModel):
         >>> import assur
         >>> motion = assur.FourBar(1.0, 4.5, 1.5, 4.8).solve(2.0)
         >>> motion.d_transmission_angle("C", by=["coupler.length"]).round(4)
-        array([0.6957])
+        array([0.8308])
         """
         return transmission.derivative(self, name, by, between)
 
@@ -482,7 +482,8 @@ class Motion(MotionModel):
         >>> import assur, numpy as np
         >>> m, q = assur.examples.crank_rocker(), np.linspace(0.0, 6.0, 7)
         >>> wanted = m.solve(q).joint("P").value
-        >>> motion = m.with_dimensions({"crank.length": 0.99}).solve(q)
+        >>> longer = 1.01 * float(m.dimensions["coupler.length"])
+        >>> motion = m.with_dimensions({"coupler.length": longer}).solve(q)
         >>> apart = motion.joint("P").value - wanted
         >>> gradient = motion.vjp({"P": 2.0 * apart}, by="*.length").sum(axis=0)
         >>> gradient.shape

@@ -26,6 +26,9 @@ CALLS: dict[str, Callable[..., Any]] = {
     "Machine.reactions": lambda **at: MACHINE.reactions(**at, speed=2.0).driver,
     "Machine.dynamics": lambda **at: MACHINE.dynamics(**at, speed=2.0).bias,
     "Machine.acceleration": lambda **at: MACHINE.acceleration(**at, speed=2.0, effort=1.0),
+    "adapters.scipy.Residuals": lambda **at: (
+        missed := assur.adapters.scipy.Residuals(FOUR_BAR, {"rocker": np.ones(3)}, **at)
+    ).fun(missed.x0),
     "Machine.d_acceleration": lambda **at: MACHINE.d_acceleration(**at, speed=2.0, effort=1.0),
     "Machine.d_effort": lambda **at: MACHINE.d_effort(**at, speed=2.0),
     "Machine.linearize": lambda **at: MACHINE.linearize(**at, speed=2.0, effort=1.0).A,

@@ -212,6 +212,10 @@ MADE: dict[str, Callable[[], object]] = {
     ),
     "laws.Tabulated": lambda: laws.Tabulated(PHI, PHI**2),
     "metric.Condition": lambda: sum_of_metrics() > 1.0,
+    "adapters.scipy.Residuals": lambda: assur.adapters.scipy.Residuals(
+        chain(12), {f"rocker{k}": np.zeros(9) for k in range(1, 13)}, np.linspace(0.0, 0.1, 9)
+    ),
+    "adapters.scipy.StateEquations": lambda: assur.adapters.scipy.StateEquations(press()),
     "metric.Metric": sum_of_metrics,
     "slider_crank.Deviation": lambda: assur.slider_crank.deviation(np.linspace(0.1, 0.3, 99), 2),
 }
