@@ -231,6 +231,7 @@ class Mechanism:
         *,
         rates: _Float | None = None,
         weights: list[_Float] | None = None,
+        total: bool = False,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8]]: ...
     def measure(
         self,
@@ -241,6 +242,7 @@ class Mechanism:
         conditions: list[tuple[int, str, float]],
         threads: int | None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]: ...
+    def places_within(self, q: _Float, over: tuple[float, float]) -> list[int]: ...
     def refusal_of_metric(self, q: _Float, metric: Metric) -> str | None: ...
     def diagnostics(
         self,

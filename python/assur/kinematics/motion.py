@@ -443,6 +443,7 @@ class Motion(MotionModel):
         *,
         by: str | Sequence[str] = "*",
         order: int = 0,
+        total: bool = False,
     ) -> Float:
         """Return the derivatives by dimensions of a weighted sum of joints, angles and slides.
 
@@ -459,12 +460,14 @@ class Motion(MotionModel):
             Dimensions, as in `jacobian`; all of them by default, as in ``m.dimensions``.
         order : {0, 1, 2, 3}
             The weights belong to the values, or to their analogues of this order.
+        total : bool
+            Whether to sum over the positions of each design: the gradient of a sum over them.
 
         Returns
         -------
         numpy.ndarray
-            The derivatives at every position, S + (N, D); ``.sum(axis=-2)`` is the gradient of the
-            sum over all positions. NaN where there is no position or no derivative.
+            The derivatives at every position, S + (N, D); with `total` their sum, S + (D,). NaN
+            where there is no position or no derivative, of the sum where one of them is missing.
 
         Raises
         ------
@@ -485,11 +488,11 @@ class Motion(MotionModel):
         >>> longer = 1.01 * float(m.dimensions["coupler.length"])
         >>> motion = m.with_dimensions({"coupler.length": longer}).solve(q)
         >>> apart = motion.joint("P").value - wanted
-        >>> gradient = motion.vjp({"P": 2.0 * apart}, by="*.length").sum(axis=0)
+        >>> gradient = motion.vjp({"P": 2.0 * apart}, by="*.length", total=True)
         >>> gradient.shape
         (3,)
         """
-        return derivatives.vjp(self, weights, by, order)
+        return derivatives.vjp(self, weights, by, order, total)
 
     def sensitivity(self, dimension: str) -> Sensitivity:
         """Return derivatives by a dimension of all values and analogues of this motion.

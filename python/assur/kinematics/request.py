@@ -95,6 +95,7 @@ class SolveRequest:
         *,
         rates: Float | None = None,
         weights: list[Float] | None = None,
+        total: bool = False,
     ) -> tuple[list[Float], npt.NDArray[np.uint8]]:
         """Return derivatives of results by dimensions, or their products with vectors, flat."""
         return self.mechanism.core.sensitivities(
@@ -106,6 +107,7 @@ class SolveRequest:
             self.threads,
             rates=rates,
             weights=weights,
+            total=total,
         )
 
     def layout(self, joints: Names, links: Names, slides: Names) -> Layout:

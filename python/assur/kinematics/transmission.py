@@ -42,7 +42,7 @@ Line: TypeAlias = JointLine | GuideLine
 def angle(motion: MotionModel, name: str, between: tuple[str, ...] | None) -> Float:
     """See `Motion.transmission_angle`."""
     pair, complement = lines(motion.mechanism, name, between)
-    first, second = (_direction(motion, line) for line in pair)
+    first, second = (direction(motion, line) for line in pair)
     acute = _acute(motion, first, second)
     return 0.5 * np.pi - acute if complement else acute
 
@@ -50,40 +50,85 @@ def angle(motion: MotionModel, name: str, between: tuple[str, ...] | None) -> Fl
 def derivative(motion: MotionModel, name: str, by: Any, between: tuple[str, str] | None) -> Float:
     """See `Motion.d_transmission_angle`."""
     pair, complement = lines(motion.mechanism, name, between)
-    first, second = (_direction(motion, line) for line in pair)
+    directions = [direction(motion, line) for line in pair]
+    if isinstance(by, str) and by == "q":
+        rates = [_turning(motion, *of) for of in zip(pair, directions, strict=True)]
+        signs = sense(directions, complement)
+        turned: Float = signs[..., np.newaxis] * (rates[1] - rates[0])
+        return turned
+    weights = derivatives_by_places(pair, directions, complement)
+    indices = named_dimensions(motion.mechanism, by)
+    found = vjp(motion, weights, by, 0)
+    found += of_guides(motion.mechanism, (pair, directions, complement), indices)
+    found[np.isnan(sense(directions, complement))] = np.nan
+    return found
+
+
+def sense(directions: list[Float], complement: bool) -> Float:
+    """Return whether the angle grows with that from the first line to the second: ±1, or NaN."""
+    first, second = directions
     cross = first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0]
     # An acute angle falls where the angle from one line to the other grows beyond a right one.
     # Lines along each other, or at right angles, have no derivative: there it turns back.
     sines = cross * np.sum(first * second, axis=-1)
     sizes = np.sum(first * first, axis=-1) * np.sum(second * second, axis=-1)
-    sense = np.where(np.abs(sines) <= TURNS_BACK * sizes, np.nan, np.sign(sines))
-    sense = -sense if complement else sense
-    rates = [_turning(motion, line, by) for line in pair]
-    turned: Float = sense[..., np.newaxis] * (rates[1] - rates[0])
-    return turned
+    grows: Float = np.where(np.abs(sines) <= TURNS_BACK * sizes, np.nan, np.sign(sines))
+    return -grows if complement else grows
 
 
-def _turning(motion: MotionModel, line: Line, by: Any) -> Float:
-    """Return the derivatives of a line's angle, S + (N, D)."""
-    if isinstance(line, JointLine):
-        along = _direction(motion, line)
-        across = np.stack([-along[..., 1], along[..., 0]], axis=-1)
-        weight = across / np.sum(along * along, axis=-1)[..., np.newaxis]
-        if isinstance(by, str) and by == "q":
-            ends = (jacobian(motion, joint, "q", 0) for joint in (line.end, line.start))
-            end, start = (end for end in ends if not isinstance(end, dict))
-            turned: Float = np.sum(weight[..., np.newaxis] * (end - start), axis=-2)
-            return turned
-        return vjp(motion, {line.end: weight, line.start: -weight}, by, 0)
-    if isinstance(by, str) and by == "q":
+def derivatives_by_places(
+    pair: list[Line], directions: list[Float], complement: bool
+) -> dict[str, Float]:
+    """Return the derivatives of the angle by joints and angles of links, by name."""
+    grows = sense(directions, complement)
+    weights: dict[str, Float] = {}
+
+    def add(name: str, weight: Float) -> None:
+        weights[name] = weights[name] + weight if name in weights else weight
+
+    for line, along, sign in zip(pair, directions, (-1.0, 1.0), strict=True):
+        if isinstance(line, GuideLine):
+            add(line.link, sign * grows)
+            continue
+        weight = (sign * grows)[..., np.newaxis] * _across(along)
+        add(line.end, weight)
+        add(line.start, -weight)
+    return weights
+
+
+def of_guides(
+    mechanism: MechanismModel, of: tuple[list[Line], list[Float], bool], by: list[int]
+) -> Float:
+    """Return the derivatives of the angle by the guides' own angles on their links."""
+    pair, directions, complement = of
+    grows = sense(directions, complement)
+    found = np.zeros((*grows.shape, len(by)))
+    for line, sign in zip(pair, (-1.0, 1.0), strict=True):
+        if not isinstance(line, GuideLine):
+            continue
+        own = f"{line.slide}.angle"
+        if own in mechanism.core.dimension_names:
+            which = np.equal(by, mechanism.core.dimension(own))
+            found[..., which] += (sign * grows)[..., np.newaxis]
+    return found
+
+
+def _across(along: Float) -> Float:
+    """Return the derivative of a line's angle by its end."""
+    left = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    across: Float = left / np.sum(along * along, axis=-1)[..., np.newaxis]
+    return across
+
+
+def _turning(motion: MotionModel, line: Line, along: Float) -> Float:
+    """Return the derivatives of a line's angle by the drivers."""
+    if isinstance(line, GuideLine):
         angle = jacobian(motion, line.link, "q", 0)
         assert not isinstance(angle, dict)
         return angle
-    turned = vjp(motion, {line.link: 1.0}, by, 0)
-    core = motion.mechanism.core
-    own = f"{line.slide}.angle"
-    if own in core.dimension_names:
-        turned[..., np.equal(named_dimensions(motion.mechanism, by), core.dimension(own))] += 1.0
+    ends = (jacobian(motion, joint, "q", 0) for joint in (line.end, line.start))
+    end, start = (end for end in ends if not isinstance(end, dict))
+    turned: Float = np.sum(_across(along)[..., np.newaxis] * (end - start), axis=-2)
     return turned
 
 
@@ -122,7 +167,7 @@ def _acute(motion: MotionModel, a: Float, b: Float) -> Float:
     return _core.acute(flat[0], flat[1]).reshape(motion.shape)
 
 
-def _direction(motion: MotionModel, line: Line) -> Float:
+def direction(motion: MotionModel, line: Line) -> Float:
     """Return the direction of a line, S + (N, 2), not normalised."""
     mechanism = motion.mechanism
     if isinstance(line, JointLine):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from difflib import get_close_matches
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, overload
 
 import numpy as np
@@ -62,7 +63,6 @@ class Measures(Tabular, Mapping[str, Float]):
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q, meet all conditions
         and have all metrics, ascending.
-
     Examples
     --------
     >>> import assur, numpy as np
@@ -83,8 +83,10 @@ class Measures(Tabular, Mapping[str, Float]):
         kept: npt.NDArray[np.intp],
         designs: Designs,
         measuring: Asked,
+        gradient: dict[str, Float] | None = None,
     ) -> None:
         self._values = values
+        self._gradient = gradient or {}
         self.status = status
         self.kept = kept
         self._designs = designs
@@ -94,6 +96,19 @@ class Measures(Tabular, Mapping[str, Float]):
     def shape(self) -> tuple[int, ...]:
         """Shape of the designs."""
         return self.status.shape
+
+    @property
+    def gradient(self) -> Mapping[str, Float]:
+        """With ``sweep(gradient=…)`` the derivatives of each metric by these dimensions, S + (D,).
+
+        In the order of `gradient_by`; NaN of designs that are not in `kept`.
+        """
+        return MappingProxyType(self._gradient)
+
+    @property
+    def gradient_by(self) -> tuple[str, ...]:
+        """Names of the dimensions of `gradient`, in the order of its last axis."""
+        return self._measuring.gradient_by
 
     @property
     def missed(self) -> npt.NDArray[np.intp]:

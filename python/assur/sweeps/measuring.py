@@ -18,6 +18,7 @@ from assur.kinematics.model import with_values
 from assur.kinematics.solve import solve
 from assur.sweeps._measured import Undefined
 from assur.sweeps.engine import results
+from assur.sweeps.gradients import Gradients
 from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
 from assur.sweeps.terms import (
@@ -40,8 +41,10 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Single
 
 Float: TypeAlias = npt.NDArray[np.float64]
-# For some designs: values by name, statuses, and which are kept.
-Block: TypeAlias = tuple[dict[str, Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_]]
+# For some designs: values by name, statuses, which are kept, and gradients by name.
+Block: TypeAlias = tuple[
+    dict[str, Float], npt.NDArray[np.uint8], npt.NDArray[np.bool_], dict[str, Float]
+]
 
 # Positions of a block, between two reports of progress: some ten milliseconds. Positions whose
 # motions a function in Python sees at once: as many as the caches hold.
@@ -67,6 +70,7 @@ class Measuring:
         metrics: Any,
         where: Any,
         threads: int | None,
+        gradient: Any = None,
     ) -> None:
         if not isinstance(metrics, Mapping):
             message = f"metrics is {short(metrics)}: a mapping of names to metrics is needed"
@@ -94,6 +98,10 @@ class Measuring:
             c for c in conditions if any(not isinstance(m, Leaf) for m in c.metric.leaves())
         ]
         early = [c for c in conditions if c not in self.late]
+        self.gradients = None
+        if gradient is not None:
+            self.gradients = Gradients(mechanism, self.metrics, self.q, gradient, threads)
+            self.leaves = list(dict.fromkeys([*self.leaves, *self.gradients.indices]))
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
         for measured in self.leaves:
             located = _with_lines(measured, mechanism)
@@ -104,10 +112,19 @@ class Measuring:
         self.asked = [_with_lines(metric, mechanism) for metric in asked]
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
 
+    @property
+    def gradient_by(self) -> tuple[str, ...]:
+        """The dimensions by which there are gradients."""
+        return () if self.gradients is None else self.gradients.names
+
     def run(self, designs: Designs, report: Report, engine: Any = None) -> Measures:
         """Measure all designs."""
         count, shape = designs.count, designs.shape
         values = {name: np.full(count, np.nan) for name in self.metrics}
+        slopes: dict[str, Float] = {}
+        if self.gradients is not None:
+            width = len(self.gradients.names)
+            slopes = {name: np.full((count, width), np.nan) for name in self.metrics}
         status = np.zeros(count, dtype=np.uint8)
         kept = np.zeros(count, dtype=np.bool_)
         # Allocate the indices now: a sweep without memory for them ends at once.
@@ -117,16 +134,20 @@ class Measuring:
         size = designs.size * max((part.stop - part.start for part in parts), default=0)
         memory = np.empty(size) if engine is None else None
         tasks = ((part, designs.some(part, memory)) for part in parts)
-        for part, (block, status[part], kept[part]) in results(engine, self.measure, tasks):
+        done = results(engine, self.measure, tasks)
+        for part, (block, status[part], kept[part], of_block) in done:
             for name, value in block.items():
                 values[name][part] = value
+            for name, slope in of_block.items():
+                slopes[name][part] = slope
             report(part.stop)
         del room
         indices = np.flatnonzero(kept)
-        for array in (*values.values(), status, indices):
+        for array in (*values.values(), *slopes.values(), status, indices):
             array.flags.writeable = False
         arrays = {name: array.reshape(shape) for name, array in values.items()}
-        return Measures(arrays, status.reshape(shape), indices, designs, self)
+        gradient = {name: array.reshape(*shape, -1) for name, array in slopes.items()}
+        return Measures(arrays, status.reshape(shape), indices, designs, self, gradient)
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
@@ -155,7 +176,23 @@ class Measuring:
             values = {name: np.where(misses, np.nan, value) for name, value in values.items()}
         for value in values.values():
             without |= kept & np.isnan(value) & is_defined
-        return values, np.where(without, np.uint8(Status.NO_VALUE), status), kept & ~without
+        kept &= ~without
+        slopes = self._slopes(some, kept, of)
+        return values, np.where(without, np.uint8(Status.NO_VALUE), status), kept, slopes
+
+    def _slopes(
+        self, some: Mechanism, kept: npt.NDArray[np.bool_], of: dict[Single, Float]
+    ) -> dict[str, Float]:
+        """Return the gradients of the designs that are kept: NaN of the others."""
+        if self.gradients is None:
+            return {}
+        indices = np.flatnonzero(kept)
+        batch = with_values(some, np.ascontiguousarray(some.values[:, indices]))
+        slopes = {}
+        for name, found in self.gradients.of(batch, lambda leaf: of[leaf][indices]).items():
+            slopes[name] = np.full((len(kept), found.shape[1]), np.nan)
+            slopes[name][indices] = found
+        return slopes
 
     def undefined(self, design: Mechanism) -> Undefined:
         """Return which metric of a design has no value, and why."""
@@ -231,7 +268,7 @@ def _with_lines(metric: Metric, mechanism: Mechanism) -> Metric:
             for side in (metric.left, metric.right)
         )
         return replace(metric, left=left, right=right)
-    if isinstance(metric, Leaf) and metric.kind == "min_transmission_angle":
+    if isinstance(metric, Leaf) and metric.kind.endswith("min_transmission_angle"):
         assert metric.of is not None
         pair, complement = transmission.lines(mechanism, metric.of, *metric.options)
         return replace(metric, options=(*pair, complement))

@@ -19,7 +19,7 @@ from assur.sweeps.motions import Course, Solving, in_blocks, moving
 from assur.sweeps.progress import reporter, silent
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -46,6 +46,7 @@ def sweep(
     assembly: Mapping[str, int] | None = ...,
     metrics: None = ...,
     where: None = ...,
+    gradient: None = ...,
     on_error: Literal["nan", "raise", "drop"] = ...,
     threads: int | None = ...,
     progress: Progress = ...,
@@ -62,6 +63,7 @@ def sweep(
     assembly: Mapping[str, int] | None = ...,
     metrics: Mapping[str, Metric],
     where: Iterable[Condition | Metric] | None = ...,
+    gradient: str | Sequence[str] | None = ...,
     threads: int | None = ...,
     progress: Progress = ...,
     engine: Engine | None = ...,
@@ -76,6 +78,7 @@ def sweep(
     assembly: Mapping[str, int] | None = None,
     metrics: Mapping[str, Metric] | None = None,
     where: Iterable[Condition | Metric] | None = None,
+    gradient: str | Sequence[str] | None = None,
     on_error: Literal["nan", "raise", "drop"] = "nan",
     threads: int | None = None,
     progress: Progress = False,
@@ -111,6 +114,12 @@ def sweep(
         them cannot change that (a span only grows, a least value only falls). Put the quickest
         first. `metric.full_rotation` and `metric.reachable` are conditions by themselves. Only with
         `metrics`.
+    gradient : str or sequence of str, optional
+        Dimensions, also as patterns (``"*.length"``), by which the metrics are differentiated as
+        well: `Measures.gradient`. For ``min``, ``max``, ``span``, ``mean``, ``rms``,
+        ``min_transmission_angle`` and what is made of them. An extreme changes as its coordinate
+        does at the position where it is; where another position takes it over there is a bend.
+        Only with `metrics`.
     on_error : {"nan", "raise", "drop"}
         For positions that cannot be solved: NaN, each with its status; an error for the first
         one; or the motion of only those designs that move over all of q, with their indices in
@@ -183,6 +192,9 @@ def sweep(
         if where is not None:
             message = "where= is for metrics=; on_error='drop' keeps the designs that move"
             raise InputError(message)
+        if gradient is not None:
+            message = "gradient= is for metrics=; of a motion there is motion.jacobian(name, by=…)"
+            raise InputError(message)
         every = checked_order(2 if order is None else order)
         solving = Solving(every, outputs, threads)
         warn_of_degrees(designs.mechanism, real_array(q, "q", copy=False))
@@ -195,7 +207,7 @@ def sweep(
             "NaN and a status, and .kept has the indices of the others"
         )
         raise InputError(message)
-    measuring = Measuring(designs.mechanism, machine, q, metrics, where, threads)
+    measuring = Measuring(designs.mechanism, machine, q, metrics, where, threads, gradient)
     warn_of_degrees(designs.mechanism, measuring.q, measuring)
     if machine is not None:
         warn_of_jumps(measuring.functions, machine)

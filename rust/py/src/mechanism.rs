@@ -3,13 +3,14 @@
 use std::num::NonZeroUsize;
 use std::sync::atomic::Ordering;
 
+use assur::sweep::Moves;
 use assur::{Description, Named, Status};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use crate::convert::description::{Driver, Slide};
-use crate::convert::metric::metric_of;
+use crate::convert::metric::{metric_of, part};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::motion::sensitivity::{self, Derivatives, ResultKey};
@@ -329,11 +330,22 @@ impl Mechanism {
         question.answer(py, threads, buffers, report)
     }
 
+    /// Indices of the positions within a range of the driver's coordinate, as metrics `over` it have them.
+    fn places_within(
+        &self,
+        q: PyReadonlyArray1<'_, f64>,
+        over: (f64, f64),
+    ) -> PyResult<Vec<usize>> {
+        let q = q.as_slice()?;
+        catch_panic(|| Ok(part(&self.inner, Moves, over).places(q)))
+    }
+
     /// Derivatives of results by dimensions, or their products with vectors; see `assur.Motion.jacobian`.
     /// `of`: kind, index and order of each result; `by`: indices of dimensions; `shape`: designs, positions.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     #[pyo3(signature = (
-        dimensions, q, per_design, signs, shape, of, by, threads, *, rates = None, weights = None
+        dimensions, q, per_design, signs, shape, of, by, threads, *, rates = None, weights = None,
+        total = false
     ))]
     fn sensitivities<'py>(
         &self,
@@ -348,9 +360,10 @@ impl Mechanism {
         threads: Option<NonZeroUsize>,
         rates: Option<PyReadonlyArray1<'py, f64>>,
         weights: Option<Vec<PyReadonlyArray1<'py, f64>>>,
+        total: bool,
     ) -> PyResult<Derivatives<'py>> {
         let positions = sensitivity::Positions { dimensions, q, per_design, signs: &signs, shape };
-        let vectors = sensitivity::Vectors { rates, weights };
+        let vectors = sensitivity::Vectors { rates, weights, total };
         sensitivity::sensitivities(py, &self.inner, &positions, (&of, &by), &vectors, threads)
     }
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import short
+from assur._arrays import flag, short
 from assur._validate import checked_name, real_array, whole_number
 from assur.errors import InputError
 
@@ -56,7 +56,7 @@ def jvp(motion: MotionModel, of: Any, rates: Any, order: Any) -> Float | dict[st
     return found[of] if isinstance(of, str) else found
 
 
-def vjp(motion: MotionModel, weights: Any, by: Any, order: Any) -> Float:
+def vjp(motion: MotionModel, weights: Any, by: Any, order: Any, total: bool = False) -> Float:
     """See `Motion.vjp`."""
     if not isinstance(weights, Mapping):
         message = f'weights is {short(weights)}: a mapping such as {{"P": array}} is needed'
@@ -73,10 +73,12 @@ def vjp(motion: MotionModel, weights: Any, by: Any, order: Any) -> Float:
         except ValueError:
             message = f"weights of {name!r} have the shape {values.shape}: {shape} is needed"
             raise InputError(message) from None
-    shape = (*motion.shape, len(dimensions))
+    total = flag(total, "total")
+    designs = motion.request.mechanism.shape if total else motion.shape
+    shape = (*designs, len(dimensions))
     if not keys:
         return np.zeros(shape)
-    arrays, _ = motion.request.sensitivities(keys, dimensions, weights=flat)
+    arrays, _ = motion.request.sensitivities(keys, dimensions, weights=flat, total=total)
     return arrays[0].reshape(shape)
 
 

@@ -28,9 +28,8 @@ impl Mechanism {
         request: &SensitivityRequest<'_>,
         control: &Control<'_>,
     ) -> Result<(Vec<Vec<f64>>, Vec<u8>), SolveError> {
-        let [designs, positions] = request.shape(self)?;
         let widths = request.widths(self).into_iter();
-        filled(product(designs, positions)?, widths, |arrays| {
+        filled(request.rows(self)?, widths, |arrays| {
             self.fill_sensitivities(request, arrays, control)
         })
     }
@@ -59,7 +58,7 @@ impl Mechanism {
         let shape = Shape::of(self, &motion)?;
         let rows = product(shape.designs, shape.positions)?;
         let results = self.columns(request, &sensitivity, [shape.designs, rows])?;
-        check_arrays(&results, &arrays, rows)?;
+        check_arrays(&results, &arrays, request.rows(self)?)?;
         let derivatives = DerivativeTables::shared(shape.drivers, sensitivity.order);
         let writer = Writer::of(self, &derivatives, &motion);
         sensitivity.read_from(&writer.columns);
@@ -70,14 +69,20 @@ impl Mechanism {
                 derivatives: &derivatives,
                 writer: &writer,
                 shape: &shape,
-                most: most_positions(shape.positions),
+                // A total is of all positions.
+                most: if request.product.is_total() {
+                    shape.positions
+                } else {
+                    most_positions(shape.positions)
+                },
                 control,
             },
             sensitivity: &sensitivity,
             request,
         };
         batch.motion.check()?;
-        let chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], shape.drivers);
+        let written = if request.product.is_total() { 1 } else { shape.positions };
+        let chunks = Chunks::new(arrays, &results, [shape.designs, written], shape.drivers);
         dispatch::at_level(control.simd, Derive { batch: &batch, chunks })
     }
 
@@ -104,7 +109,7 @@ impl Mechanism {
         let fits = match request.product {
             Product::Jacobian { by } => exist(by),
             Product::Forward { rates } => [dimensions, designs * dimensions].contains(&rates.len()),
-            Product::Backward { weights, by } => {
+            Product::Backward { weights, by, .. } => {
                 let fit = |(width, weights): (usize, &&[f64])| {
                     [width, rows * width].contains(&weights.len())
                 };
@@ -165,8 +170,10 @@ impl<'b> SensitivityBatch<'b> {
     ) {
         let ThreadState { motion, space } = state;
         self.motion.read_designs(motion, chunk);
-        for asked in self.motion.designs(chunk, false) {
-            let (design, first) = (asked.design, asked.index * asked.rows.len());
+        let total = self.request.product.is_total();
+        for asked in self.motion.designs(chunk, total) {
+            let written = if total { 1 } else { asked.rows.len() };
+            let (design, first) = (asked.design, asked.index * written);
             self.motion.solve::<L, G>(motion, &asked, |solved| {
                 let rates = match self.request.product {
                     Product::Forward { rates } if solved.is_valid => {

@@ -11,7 +11,7 @@ use crate::batch::dispatch::Task;
 use crate::batch::motion::SolvedDesign;
 use crate::batch::rows::RowSlices;
 use crate::branch::design::Design;
-use crate::math::lanes::{Mask, Real};
+use crate::math::lanes::{LANES, Mask, Real};
 use crate::plan::constants_rate::ConstantsRate;
 use crate::state::status::Status;
 
@@ -22,6 +22,8 @@ pub(super) struct SensitivitySpace<R> {
     tangent: Tangent<R>,
     cotangent: Cotangent<R>,
     by: Vec<R>,
+    /// Sums over positions, several for each dimension.
+    totals: Vec<R>,
 }
 
 /// The derivatives of one design at some positions.
@@ -40,9 +42,19 @@ pub(super) struct Evaluate<'e, 'r, R: Real> {
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     #[inline(always)]
     fn run(&mut self) {
+        let total = self.product.is_total();
         let count = self.solved.status.len();
+        if total {
+            self.set_worst_status();
+            self.space.totals.clear();
+            let count = self.sensitivity.mechanism.dimensions().len();
+            self.space.totals.resize(count * Self::SUMS, R::ZERO);
+        }
         if !self.solved.is_valid {
-            self.set_status(0, count);
+            let count = if total { 1 } else { count };
+            if !total {
+                self.set_status(0, count);
+            }
             for (column, out) in self.results.columns.iter_mut().enumerate() {
                 let width = self.product.width(self.sensitivity.results[column].len());
                 out[self.first * width..(self.first + count) * width]
@@ -52,19 +64,27 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
         }
         for row in (0..count).step_by(R::LANES) {
             let lanes = R::LANES.min(count - row);
-            self.set_status(row, lanes);
+            if !total {
+                self.set_status(row, lanes);
+            }
             let (design, columns) = (self.solved.design, self.solved.columns);
             self.space.linear.read(self.sensitivity, design, columns, row);
             match self.product {
                 Product::Jacobian { by } => self.jacobian(by, row, lanes),
                 Product::Forward { .. } => self.forward(row, lanes),
-                Product::Backward { weights, by } => self.backward(weights, by, row, lanes),
+                Product::Backward { weights, by, .. } => self.backward(weights, by, row, lanes),
             }
+        }
+        if let Product::Backward { by, total: true, .. } = self.product {
+            self.write_totals(by);
         }
     }
 }
 
 impl<R: Real> Evaluate<'_, '_, R> {
+    /// Registers of a sum: as many lanes at every level, so that it has the same bits.
+    const SUMS: usize = LANES / R::LANES;
+
     #[inline(always)]
     fn jacobian(&mut self, by: &[usize], row: usize, lanes: usize) {
         let (sensitivity, design) = (self.sensitivity, self.solved.design);
@@ -114,10 +134,46 @@ impl<R: Real> Evaluate<'_, '_, R> {
             }
         }
         self.space.pull_back(sensitivity, design, self.solved.dimensions);
+        if self.product.is_total() {
+            // Lanes beyond the last position repeat it.
+            let exists = R::from_lanes(|lane| if lane < lanes { 1.0 } else { 0.0 });
+            let sum = row / R::LANES % Self::SUMS;
+            for &dimension in by {
+                self.space.totals[dimension * Self::SUMS + sum] +=
+                    self.space.by[dimension] * exists;
+            }
+            return;
+        }
         for (place, &dimension) in by.iter().enumerate() {
             let number = self.space.by[dimension];
             self.write((0, by.len(), place), row, lanes, number);
         }
+    }
+
+    /// Writes the sums over all positions, lane after lane.
+    #[inline(always)]
+    fn write_totals(&mut self, by: &[usize]) {
+        let worst = self.solved.status.iter().fold(0, |worst, &status| worst.max(status));
+        let exists = worst <= Status::NearSingular as u8;
+        for (place, &dimension) in by.iter().enumerate() {
+            let mut sum = 0.0;
+            for total in &self.space.totals[dimension * Self::SUMS..][..Self::SUMS] {
+                for lane in 0..R::LANES {
+                    sum += total.lane(lane);
+                }
+            }
+            let value = if exists { sum } else { f64::NAN };
+            self.results.columns[0][self.first * by.len() + place] = MaybeUninit::new(value);
+            if exists && !sum.is_finite() {
+                self.results.status[self.first] = MaybeUninit::new(Status::Singular as u8);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn set_worst_status(&mut self) {
+        let worst = self.solved.status.iter().fold(0, |worst, &status| worst.max(status));
+        self.results.status[self.first] = MaybeUninit::new(worst);
     }
 
     /// Copies the statuses of the positions.

@@ -1,6 +1,6 @@
 //! A request for derivatives by dimensions.
 
-use crate::batch::request::{Coordinates, Outputs, Quantity, Request};
+use crate::batch::request::{Coordinates, Outputs, Quantity, Request, product};
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 
@@ -24,6 +24,9 @@ pub enum Product<'a> {
         weights: &'a [&'a [f64]],
         /// The dimensions.
         by: &'a [usize],
+        /// Whether the array has a row for each design, the sum over its positions, NaN if one of them has no
+        /// derivatives; its status is the worst of theirs.
+        total: bool,
     },
 }
 
@@ -35,6 +38,11 @@ impl Product<'_> {
             Self::Forward { .. } => components,
             Self::Backward { by, .. } => by.len(),
         }
+    }
+
+    /// Whether there is one row for each design.
+    pub(super) fn is_total(&self) -> bool {
+        matches!(self, Self::Backward { total: true, .. })
     }
 }
 
@@ -68,6 +76,16 @@ impl SensitivityRequest<'_> {
             outputs: &Outputs::default(),
         };
         motion.shape(mechanism)
+    }
+
+    /// Number of rows of every array of the product.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::solve`].
+    pub fn rows(&self, mechanism: &Mechanism) -> Result<usize, SolveError> {
+        let [designs, positions] = self.shape(mechanism)?;
+        product(designs, if self.product.is_total() { 1 } else { positions })
     }
 
     /// Numbers in each row of every array of the product.

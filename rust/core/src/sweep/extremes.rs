@@ -76,6 +76,37 @@ impl Metric for Extreme {
     }
 }
 
+/// The index of the position that has an extreme, of those that the metric is of; the first of several equal
+/// ones. NaN without positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IndexOf<M>(pub M);
+
+/// A metric that one position decides.
+pub trait Decided: Metric {
+    /// The index of that position.
+    fn index(&self, positions: &Positions<'_>) -> Option<usize>;
+}
+
+impl Decided for Extreme {
+    fn index(&self, positions: &Positions<'_>) -> Option<usize> {
+        self.find(positions).map(|(index, _)| index)
+    }
+}
+
+impl<M: Decided> Metric for IndexOf<M> {
+    fn needs(&self) -> Vec<Need> {
+        self.0.needs()
+    }
+
+    fn of(&self, positions: &Positions<'_>) -> f64 {
+        self.0.index(positions).map_or(f64::NAN, |index| index as f64)
+    }
+
+    fn check(&self, course: &Course<'_>) -> Result<(), String> {
+        self.0.check(course)
+    }
+}
+
 /// The driver's coordinate at an extreme; the first of several equal ones. For one driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlaceOf(pub Extreme);

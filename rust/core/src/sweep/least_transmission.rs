@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::extremes::Decided;
 use super::metric::{Growth, Metric, Need, Positions};
 use crate::batch::request::Quantity;
 use crate::math::lanes::LANES;
@@ -66,17 +67,7 @@ impl Metric for LeastTransmission {
     }
 
     fn of(&self, positions: &Positions<'_>) -> f64 {
-        let [first, second] = self.lines;
-        let (a, b) = positions.values.split_at(first.count().min(positions.values.len()));
-        let directions = match (first, second, a, b) {
-            (Line::Joints(_), Line::Joints(_), &[from, to], &[start, end]) => {
-                self.least_of_lines([points(from), points(to)], [points(start), points(end)])
-            }
-            _ => self.least((0..positions.count()).map(|at| {
-                let dimensions = positions.dimensions;
-                [first.direction(a, dimensions, at), second.direction(b, dimensions, at)]
-            })),
-        };
+        let directions = self.index(positions).map(|at| self.directions(positions, at));
         let angle = directions.map_or(f64::NAN, |[u, v]| acute(u, v));
         if self.complement { FRAC_PI_2 - angle } else { angle }
     }
@@ -86,13 +77,35 @@ impl Metric for LeastTransmission {
     }
 }
 
+impl Decided for LeastTransmission {
+    fn index(&self, positions: &Positions<'_>) -> Option<usize> {
+        let [first, second] = self.lines;
+        let (a, b) = positions.values.split_at(first.count().min(positions.values.len()));
+        match (first, second, a, b) {
+            (Line::Joints(_), Line::Joints(_), &[from, to], &[start, end]) => {
+                self.least_of_lines([points(from), points(to)], [points(start), points(end)])
+            }
+            _ => self.least((0..positions.count()).map(|at| self.directions(positions, at))),
+        }
+    }
+}
+
 impl LeastTransmission {
-    /// The same for lines between joints, with several positions side by side.
+    /// The directions of both lines at a position.
+    #[inline]
+    fn directions(&self, positions: &Positions<'_>, at: usize) -> [Vector; 2] {
+        let [first, second] = self.lines;
+        let (a, b) = positions.values.split_at(first.count().min(positions.values.len()));
+        let dimensions = positions.dimensions;
+        [first.direction(a, dimensions, at), second.direction(b, dimensions, at)]
+    }
+
+    /// The position of the least angle of lines between joints, with several positions side by side.
     fn least_of_lines(
         &self,
         [from, to]: [&[[f64; 2]]; 2],
         [start, end]: [&[[f64; 2]]; 2],
-    ) -> Option<[Vector; 2]> {
+    ) -> Option<usize> {
         let along = |[a, b]: [&[f64; 2]; 2]| Vector::new(b[0] - a[0], b[1] - a[1]);
         let at = |at: usize| [along([&from[at], &to[at]]), along([&start[at], &end[at]])];
         let count = from.len().min(to.len()).min(start.len()).min(end.len());
@@ -111,23 +124,23 @@ impl LeastTransmission {
                 }
             }
         }
-        place.map(at)
+        place
     }
 
-    /// The directions whose angle is least.
+    /// The position whose directions have the least angle.
     #[inline]
-    fn least(&self, directions: impl Iterator<Item = [Vector; 2]>) -> Option<[Vector; 2]> {
+    fn least(&self, directions: impl Iterator<Item = [Vector; 2]>) -> Option<usize> {
         let mut smallest = f64::INFINITY;
-        let mut best = None;
-        for [u, v] in directions {
+        let mut place = None;
+        for (at, [u, v]) in directions.enumerate() {
             // The square of the sine, or of the cosine, has the order of the angle.
             let part = if self.complement { u.dot(v) } else { u.cross(v) };
             let square = part * part / (u.norm2() * v.norm2());
             if square < smallest {
-                (smallest, best) = (square, Some([u, v]));
+                (smallest, place) = (square, Some(at));
             }
         }
-        best
+        place
     }
 }
 

@@ -52,7 +52,7 @@ pub use combination::{Combination, Operand, Operation};
 pub use coordinate::Coordinate;
 pub use course::Course;
 pub use deviation::{Deviation, Shape};
-pub use extremes::{Extreme, PlaceOf, Span};
+pub use extremes::{Decided, Extreme, IndexOf, PlaceOf, Span};
 pub use least_transmission::{LeastTransmission, Line};
 pub use means::{Mean, RootMeanSquare};
 pub use metric::{Condition, Growth, Metric, Moves, Need, Positions, Relation};

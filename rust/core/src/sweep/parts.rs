@@ -30,6 +30,12 @@ struct Chosen {
 }
 
 impl<M> Part<M> {
+    /// The indices of its positions, in the order of the path.
+    #[must_use]
+    pub fn places(&self, q: &[f64]) -> Vec<usize> {
+        self.choose(q).places
+    }
+
     fn contains(&self, q: f64, tolerance: f64) -> bool {
         let length = self.to - self.from;
         match self.period {

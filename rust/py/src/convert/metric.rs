@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use assur::sweep::{
-    Combination, Condition, Deviation, Extreme, LeastTransmission, Mean, Metric, Moves, Operand,
-    Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
+    Combination, Condition, Deviation, Extreme, IndexOf, LeastTransmission, Mean, Metric, Moves,
+    Operand, Part, PlaceOf, Relation, RootMeanSquare, Shape, Span, TimeRatio,
 };
 use assur::{Driver, Mechanism};
 use pyo3::prelude::*;
@@ -29,6 +29,9 @@ enum Kind {
     Greatest,
     PlaceOfLeast,
     PlaceOfGreatest,
+    IndexOfLeast,
+    IndexOfGreatest,
+    IndexOfLeastTransmission,
     Mean,
     RootMeanSquare,
     TimeRatio,
@@ -45,6 +48,10 @@ impl Words for Kind {
         ("max", Self::Greatest),
         ("argmin", Self::PlaceOfLeast),
         ("argmax", Self::PlaceOfGreatest),
+        // Of the position that decides: gradients need it.
+        ("index of min", Self::IndexOfLeast),
+        ("index of max", Self::IndexOfGreatest),
+        ("index of min_transmission_angle", Self::IndexOfLeastTransmission),
         ("mean", Self::Mean),
         ("rms", Self::RootMeanSquare),
         ("time_ratio", Self::TimeRatio),
@@ -61,18 +68,23 @@ struct Leaf<'py> {
 }
 
 impl Leaf<'_> {
+    fn least_transmission(&self, mechanism: &Mechanism) -> PyResult<LeastTransmission> {
+        let (first, second, complement): (LineOf, LineOf, bool) = self.options.extract()?;
+        let lines = [first.of_designs(mechanism)?, second.of_designs(mechanism)?];
+        Ok(LeastTransmission { lines, complement })
+    }
+
     fn metric(self, mechanism: &Mechanism) -> PyResult<Own> {
-        let name = self.of.unwrap_or_default();
+        let name = self.of.clone().unwrap_or_default();
         let coordinate = || -> PyResult<assur::sweep::Coordinate> {
             let tracked = mechanism.coordinate(&name).map_err(error_map::solve)?;
             Ok(assur::sweep::Coordinate::from(tracked).derivative(self.order))
         };
         let metric: Own = match self.kind.0 {
             Kind::Moves => Box::new(Moves),
-            Kind::LeastTransmission => {
-                let (first, second, complement): (LineOf, LineOf, bool) = self.options.extract()?;
-                let lines = [first.of_designs(mechanism)?, second.of_designs(mechanism)?];
-                Box::new(LeastTransmission { lines, complement })
+            Kind::LeastTransmission => Box::new(self.least_transmission(mechanism)?),
+            Kind::IndexOfLeastTransmission => {
+                Box::new(IndexOf(self.least_transmission(mechanism)?))
             }
             Kind::Deviation => {
                 let joint = mechanism.joint(&name).map_err(error_map::solve)?;
@@ -85,14 +97,21 @@ impl Leaf<'_> {
             Kind::Greatest => Box::new(Extreme::Greatest(coordinate()?)),
             Kind::PlaceOfLeast => Box::new(PlaceOf(Extreme::Least(coordinate()?))),
             Kind::PlaceOfGreatest => Box::new(PlaceOf(Extreme::Greatest(coordinate()?))),
+            Kind::IndexOfLeast => Box::new(IndexOf(Extreme::Least(coordinate()?))),
+            Kind::IndexOfGreatest => Box::new(IndexOf(Extreme::Greatest(coordinate()?))),
             Kind::Mean => Box::new(Mean(coordinate()?)),
             Kind::RootMeanSquare => Box::new(RootMeanSquare(coordinate()?)),
             Kind::TimeRatio => Box::new(TimeRatio(coordinate()?)),
         };
-        let Some((from, to)) = self.over else { return Ok(metric) };
-        let is_slide = matches!(mechanism.linkage().drivers.first(), Some(Driver::Slide(_)));
-        Ok(Box::new(Part { metric, from, to, period: (!is_slide).then_some(TAU) }))
+        let Some(over) = self.over else { return Ok(metric) };
+        Ok(Box::new(part(mechanism, metric, over)))
     }
+}
+
+/// A metric of the positions whose coordinate is within a range.
+pub(crate) fn part<M>(mechanism: &Mechanism, metric: M, (from, to): (f64, f64)) -> Part<M> {
+    let is_slide = matches!(mechanism.linkage().drivers.first(), Some(Driver::Slide(_)));
+    Part { metric, from, to, period: (!is_slide).then_some(TAU) }
 }
 
 /// A metric of any class, for a mechanism.

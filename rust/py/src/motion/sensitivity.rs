@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 
 use super::short_calls::is_short;
 use crate::convert::word::Word;
+use crate::error_map;
 use crate::memory::filled;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
@@ -48,6 +49,8 @@ pub(crate) struct Vectors<'py> {
     pub rates: Option<Flat<'py>>,
     /// For each result the weights of its components: of all rows, or row after row.
     pub weights: Option<Vec<Flat<'py>>>,
+    /// Whether their product is summed over the positions of each design.
+    pub total: bool,
 }
 
 /// See `assur.Motion.jacobian`, `jvp` and `vjp`.
@@ -68,7 +71,7 @@ pub(crate) fn sensitivities<'py>(
     };
     let product = match (&vectors.rates, &vectors.weights) {
         (Some(rates), _) => Product::Forward { rates: rates.as_slice()? },
-        (None, Some(_)) => Product::Backward { weights: &weights, by },
+        (None, Some(_)) => Product::Backward { weights: &weights, by, total: vectors.total },
         (None, None) => Product::Jacobian { by },
     };
     let request = SensitivityRequest {
@@ -89,7 +92,7 @@ pub(crate) fn sensitivities<'py>(
         mechanism.fill_sensitivities(&request, arrays, control)
     };
     let widths = request.widths(mechanism);
-    let rows = designs.saturating_mul(count);
+    let rows = request.rows(mechanism).map_err(error_map::solve)?;
     let (values, status, _) = filled(py, rows, widths, small, threads, fill)?;
     Ok((values, status))
 }

@@ -1,0 +1,227 @@
+"""Gradients of metrics by dimensions: of each design, at the positions that decide.
+
+An extreme moves with the dimensions as its coordinate does at the position where it is (the
+envelope theorem, J. M. Danskin 1966): no other position counts, nor where the extreme is. Metrics
+are of the positions of q alone, and so are their gradients. Where another position takes over the
+extreme, as at a tie, there is a bend: the gradient is that of the first of the two.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from assur.errors import InputError
+from assur.kinematics import transmission
+from assur.kinematics.derivatives.jacobian import named_dimensions
+from assur.kinematics.model import with_values
+from assur.kinematics.request import SolveRequest
+from assur.kinematics.solve import solve
+from assur.sweeps.terms import Combination, Leaf, Metric
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from assur._arrays import Float
+    from assur.kinematics.mechanism import Mechanism
+    from assur.kinematics.motion import Motion
+    from assur.kinematics.request import Kind, ResultKey
+    from assur.sweeps.terms import Single
+
+# Kinds that change smoothly with the dimensions. Others are places among the positions, flags,
+# fits, or functions in Python.
+# For every extreme the positions that decide it, each with its sign.
+EXTREMES = {
+    "min": (("min", 1.0),),
+    "max": (("max", 1.0),),
+    "span": (("max", 1.0), ("min", -1.0)),
+    "min_transmission_angle": (("min_transmission_angle", 1.0),),
+}
+MEANS = ("mean", "rms")
+# Positions of the designs that are solved at once: as many as the caches hold.
+POSITIONS = 131_072
+
+
+class _Coordinate(NamedTuple):
+    """A coordinate of a motion: its output, and which of a joint's two numbers."""
+
+    name: str
+    kind: Kind
+    component: int | None
+
+
+class Gradients:
+    """Gradients of metrics by dimensions; it can be sent to other processes."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        metrics: Mapping[str, Metric],
+        q: Float,
+        by: Any,
+        threads: int | None,
+    ) -> None:
+        known = mechanism.core.dimension_names
+        self._by = named_dimensions(mechanism, by)
+        self.names = tuple(known[index] for index in self._by)
+        self._metrics, self._q, self._threads = metrics, q, threads
+        for name, metric in metrics.items():
+            for leaf in metric.leaves():
+                if not (isinstance(leaf, Leaf) and leaf.kind in (*EXTREMES, *MEANS)):
+                    message = (
+                        f"gradient: metrics[{name!r}] holds {leaf!r}, which has none: there are "
+                        "those of min, max, span, mean, rms and min_transmission_angle"
+                    )
+                    raise InputError(message)
+        if any(mechanism.core.redundant):
+            names = ", ".join(repr(one) for of in mechanism.core.redundant for one in of)
+            message = (
+                f"gradient: {names} is redundant: changing one dimension alone would break its fit"
+            )
+            raise InputError(message)
+
+    @property
+    def indices(self) -> list[Leaf]:
+        """What else to measure: the positions that decide extremes."""
+        return [index for leaf in self._leaves for index in _indices(leaf)]
+
+    @property
+    def _leaves(self) -> list[Leaf]:
+        leaves = dict.fromkeys(
+            leaf for metric in self._metrics.values() for leaf in metric.leaves()
+        )
+        return [leaf for leaf in leaves if isinstance(leaf, Leaf)]
+
+    def of(self, some: Mechanism, values: Callable[[Single], Float]) -> dict[str, Float]:
+        """Return the gradients (n, D) of designs (n,) that have all metrics with these values."""
+        each = {leaf: np.empty((some.shape[0], len(self.names))) for leaf in self._leaves}
+        size = max(1, POSITIONS // len(self._q))
+        for leaf in self._leaves:
+            places = self._places(some, leaf)
+            # NaN where a design has no metric: that has none of its positions either.
+            at = [np.nan_to_num(values(index)).astype(np.intp) for index in _indices(leaf)]
+            if at:
+                each[leaf][:] = self._of_extreme(some, leaf, places[np.stack(at, axis=-1)])
+                continue
+            for first in range(0, some.shape[0], size):
+                few = slice(first, first + size)
+                batch = with_values(some, np.ascontiguousarray(some.values[:, few]))
+                each[leaf][few] = self._of_mean(batch, leaf, places)
+        return {name: _chained(metric, values, each)[1] for name, metric in self._metrics.items()}
+
+    def _of_mean(self, batch: Mechanism, leaf: Leaf, places: Any) -> Float:
+        assert leaf.of is not None
+        coordinate = _coordinate(batch, leaf.of)
+        motion = self._solved(batch, self._q[places], leaf.order, [coordinate.name])
+        values = _numbers(motion, coordinate, leaf.order)
+        weights = np.full(values.shape, 1.0 / values.shape[-1])
+        if leaf.kind == "rms":
+            root = np.sqrt(np.mean(values * values, axis=-1, keepdims=True))
+            with np.errstate(invalid="ignore"):
+                weights = weights * values / root
+        of_all = {coordinate.name: _spread(weights, coordinate)}
+        return motion.vjp(of_all, by=self.names, order=leaf.order, total=True)
+
+    def _of_extreme(self, some: Mechanism, leaf: Leaf, places: Any) -> Float:
+        assert leaf.of is not None
+        if leaf.kind == "min_transmission_angle":
+            return self._of_transmission(some, leaf, places)
+        coordinate = _coordinate(some, leaf.of)
+        signs = np.broadcast_to([sign for _, sign in EXTREMES[leaf.kind]], places.shape)
+        return self._pulled(some, places, {coordinate.name: _spread(signs, coordinate)}, leaf.order)
+
+    def _of_transmission(self, some: Mechanism, leaf: Leaf, places: Any) -> Float:
+        assert leaf.of is not None
+        between: Any = leaf.options[0] if leaf.options else None
+        pair, complement = transmission.lines(some, leaf.of, between)
+        read = {
+            name
+            for line in pair
+            for name in (
+                [line.start, line.end] if isinstance(line, transmission.JointLine) else [line.link]
+            )
+        }
+        motion = self._solved(some, self._q[places], 0, sorted(read))
+        directions = [
+            np.broadcast_to(transmission.direction(motion, line), (*places.shape, 2))
+            for line in pair
+        ]
+        weights = transmission.derivatives_by_places(pair, directions, complement)
+        found = self._pulled(some, places, weights, 0)
+        guides = transmission.of_guides(some, (pair, directions, complement), self._by)
+        return found + guides[:, 0]
+
+    def _pulled(
+        self, batch: Mechanism, places: Any, weights: Mapping[str, Float], order: int
+    ) -> Float:
+        """Return the derivatives of weighted sums at some positions of each design, (n, D)."""
+        q = np.ascontiguousarray(self._q[places])
+        each, rows = places.shape
+        request = SolveRequest(batch, q, (rows,), True, order, batch.signs, True, self._threads)
+        keys: list[ResultKey] = []
+        flat: list[Float] = []
+        for name, weight in weights.items():
+            kind: Kind = "joint" if name in batch.joint_names else _coordinate(batch, name).kind
+            keys.append((kind, batch.core.index_of(kind, name), order))
+            flat.append(np.ascontiguousarray(weight).reshape(-1))
+        arrays, _ = request.sensitivities(keys, self._by, weights=flat, total=True)
+        return arrays[0].reshape(each, len(self._by))
+
+    def _places(self, batch: Mechanism, leaf: Leaf) -> Any:
+        if leaf.over is None:
+            return np.arange(len(self._q))
+        return np.array(batch.core.places_within(self._q, leaf.over), dtype=np.intp)
+
+    def _solved(self, batch: Mechanism, q: Float, order: int, outputs: list[str]) -> Motion:
+        return solve(batch, q, order, outputs, None, "nan", self._threads, None)
+
+
+def _spread(numbers: Float, coordinate: _Coordinate) -> Float:
+    """Return numbers of a coordinate as those of its output: of a joint x or y."""
+    if coordinate.component is None:
+        return numbers
+    spread = np.zeros((*numbers.shape, 2))
+    spread[..., coordinate.component] = numbers
+    return spread
+
+
+def _indices(leaf: Leaf) -> list[Leaf]:
+    """Return the metrics that tell which positions decide an extreme."""
+    return [replace(leaf, kind=f"index of {end}") for end, _ in EXTREMES.get(leaf.kind, ())]
+
+
+def _coordinate(mechanism: Mechanism, name: str) -> _Coordinate:
+    joint, _, axis = name.rpartition(".")
+    if axis in ("x", "y") and joint in mechanism.joint_names:
+        return _Coordinate(joint, "joint", "xy".index(axis))
+    return _Coordinate(name, "slide" if name in mechanism.slides else "link", None)
+
+
+def _numbers(motion: Motion, coordinate: _Coordinate, order: int) -> Float:
+    numbers: Float = getattr(motion, coordinate.kind)(coordinate.name).arrays[order]
+    return numbers if coordinate.component is None else numbers[..., coordinate.component]
+
+
+def _chained(
+    metric: Metric | float, values: Callable[[Single], Float], each: Mapping[Any, Float]
+) -> tuple[Float | float, Any]:
+    """Return values and gradients of a combination, by the rules of differentiation."""
+    if isinstance(metric, Leaf):
+        return values(metric), each[metric]
+    if not isinstance(metric, Combination):
+        assert isinstance(metric, float)
+        return metric, 0.0
+    (left, d_left), (right, d_right) = (
+        _chained(side, values, each) for side in (metric.left, metric.right)
+    )
+    a, b = (np.asarray(side)[..., np.newaxis] for side in (left, right))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if metric.sign == "+":
+            return left + right, d_left + d_right
+        if metric.sign == "-":
+            return left - right, d_left - d_right
+        if metric.sign == "*":
+            return left * right, d_left * b + d_right * a
+        return left / right, (d_left - d_right * a / b) / b
