@@ -63,6 +63,7 @@ class Measures(Tabular, Mapping[str, Float]):
     kept : numpy.ndarray
         Indices (of designs in C order) of those that move over all of q, meet all conditions
         and have all metrics, ascending.
+
     Examples
     --------
     >>> import assur, numpy as np
