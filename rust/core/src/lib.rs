@@ -89,6 +89,7 @@ pub use description::{
     Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, SlideDescription,
 };
 pub use inverse::answers::{Answer, Answers};
+pub use inverse::find::Finder;
 pub use inverse::inverse::Inverse;
 pub use inverse::near::{Followed, Start};
 pub use math::simd::Simd;

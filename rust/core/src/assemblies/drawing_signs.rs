@@ -11,29 +11,44 @@ use crate::plan::mechanism::Mechanism;
 
 /// Results nearer than this (rad, or relative to the size) are the same assembly, found in two ways.
 const SAME: f64 = 1.0e-6;
+/// Most assemblies of which it is remembered.
+const MOST_KNOWN: usize = 16;
 /// Most signs whose combinations are tried.
 const MOST_TRIED: usize = 8;
 
 /// Traces signs of a bound design without groups above class II back to the drawing.
-pub(crate) struct DrawingSigns<'d, 'm> {
-    constancy: SignConstancy<'d, 'm>,
-    dimensions: &'d [f64],
+#[derive(Default)]
+pub(crate) struct DrawingSigns {
+    /// Signs, and whether they are the same everywhere.
+    known: Vec<(Vec<i8>, bool)>,
 }
 
-impl<'d, 'm> DrawingSigns<'d, 'm> {
-    pub(crate) fn new(design: &'d mut Design<'m>, dimensions: &'d [f64]) -> Self {
-        Self { constancy: SignConstancy::new(design), dimensions }
-    }
-
+impl DrawingSigns {
     /// Replaces an assembly's signs at `q` by those at the drawing.
-    pub(crate) fn trace(&mut self, assembly: &mut Assembly, q: &[f64]) -> Result<(), SolveError> {
-        let signs: Vec<f64> = assembly.signs.iter().map(|&sign| f64::from(sign)).collect();
-        if !self.constancy.holds(&signs) {
-            let design = &self.constancy.design;
+    pub(crate) fn trace(
+        &mut self,
+        (design, dimensions): (&mut Design<'_>, &[f64]),
+        assembly: &mut Assembly,
+        q: &[f64],
+    ) -> Result<(), SolveError> {
+        if !self.are_constant(design, &assembly.signs) {
+            let signs: Vec<f64> = assembly.signs.iter().map(|&sign| f64::from(sign)).collect();
             let back = design.signs_at_drawing(&signs, &design.scaled(q));
-            assembly.signs = leading_to(design.mechanism, assembly, back, (self.dimensions, q))?;
+            assembly.signs = leading_to(design.mechanism, assembly, back, (dimensions, q))?;
         }
         Ok(())
+    }
+
+    fn are_constant(&mut self, design: &mut Design<'_>, signs: &[i8]) -> bool {
+        if let Some((_, constant)) = self.known.iter().find(|(known, _)| known == signs) {
+            return *constant;
+        }
+        let as_solved: Vec<f64> = signs.iter().map(|&sign| f64::from(sign)).collect();
+        let constant = SignConstancy::new(design).holds(&as_solved);
+        if self.known.len() < MOST_KNOWN {
+            self.known.push((signs.to_vec(), constant));
+        }
+        constant
     }
 }
 

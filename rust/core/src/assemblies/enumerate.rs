@@ -70,14 +70,16 @@ impl Mechanism {
         if design.is_too_far(&design.scaled(q)) {
             return Err(SolveError::CoordinateTooFar { q: q.to_vec() });
         }
-        let mut assemblies = poses(&design, (&fibres, Search::Followed), q, cancel)?;
+        let mut state = design.state(&derivatives);
+        let search = (&*fibres, Search::Followed);
+        let mut assemblies = poses(&design, &mut state, search, q, cancel)?;
         if !design.has_groups() {
-            let mut drawing_signs = DrawingSigns::new(&mut design, dimensions);
+            let mut drawing_signs = DrawingSigns::default();
             for assembly in &mut assemblies.found {
                 if cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                     return Err(SolveError::Interrupted);
                 }
-                drawing_signs.trace(assembly, q)?;
+                drawing_signs.trace((&mut design, dimensions), assembly, q)?;
             }
         }
         Ok(assemblies)
@@ -120,9 +122,10 @@ pub(crate) enum Search {
     Quick,
 }
 
-/// Every assembly of a bound design at `q`, with the signs that it has there.
+/// Every assembly of a bound design at `q`, with the signs that it has there; `state`: its work space.
 pub(crate) fn poses(
     design: &Design<'_>,
+    state: &mut State,
     (fibres, search): (&Fibres, Search),
     q: &[f64],
     cancel: Option<&AtomicBool>,
@@ -137,7 +140,7 @@ pub(crate) fn poses(
         choices: choices(mechanism),
         signs: vec![1.0; mechanism.plan().signs()],
         unknowns: vec![0.0; mechanism.plan().groups().map(|group| group.unknowns.len()).sum()],
-        state: design.state(design.derivatives),
+        state,
         cancel,
         assemblies: Assemblies {
             complex_counts: fibres.0.iter().map(GroupFibres::count).collect(),
@@ -174,7 +177,7 @@ struct Tree<'s> {
     /// The choices so far.
     signs: Vec<f64>,
     unknowns: Vec<f64>,
-    state: State,
+    state: &'s mut State,
     cancel: Option<&'s AtomicBool>,
     assemblies: Assemblies,
     /// Points and rotations of the assemblies so far, in sizes.
@@ -259,7 +262,7 @@ impl Tree<'_> {
         if !self.reaches(index) {
             return Ok(());
         }
-        let parameters = parameters(&group_fibres.forms, group, &self.context(), &self.state);
+        let parameters = parameters(&group_fibres.forms, group, &self.context(), self.state);
         let solutions = match self.search {
             Search::Followed => group_fibres.solutions(&parameters),
             Search::Quick => group_fibres.quick_solutions(&parameters),
@@ -306,7 +309,7 @@ impl Tree<'_> {
 
     /// Adds the position just solved, if it exists.
     fn add(&mut self, is_double: bool) {
-        let state = &self.state;
+        let state = &*self.state;
         if matches!(state.status, Status::Unreachable | Status::BadInput | Status::NotConverged) {
             return;
         }
@@ -328,7 +331,7 @@ impl Tree<'_> {
         }
         self.assemblies.found.push(Assembly::of(
             self.design,
-            &self.state,
+            self.state,
             &self.signs,
             self.scaled,
             is_double,

@@ -29,8 +29,25 @@ pub(super) enum End {
 }
 
 impl Motion<'_> {
+    /// Follows a position straight to values (rad or m). A link's angle goes the shorter way round, or the
+    /// other one where that way ends.
+    pub(super) fn arrive(&mut self, from: &Point, values: &[f64]) -> End {
+        let targets = self.targets(values, from);
+        let end = self.follow(from.clone(), &targets);
+        if matches!(end, End::Reached(_)) {
+            return end;
+        }
+        for other in self.other_way_round(&targets, from) {
+            let other_end = self.follow(from.clone(), &other);
+            if matches!(other_end, End::Reached(_)) {
+                return other_end;
+            }
+        }
+        end
+    }
+
     /// Follows a position straight to other values.
-    pub(super) fn follow(&mut self, from: Point, to: &[f64]) -> End {
+    fn follow(&mut self, from: Point, to: &[f64]) -> End {
         let way: Vec<f64> = to.iter().zip(&from.values).map(|(to, from)| to - from).collect();
         let (mut here, mut done, mut step) = (from, 0.0, 1.0_f64);
         for _ in 0..MOST_STEPS {

@@ -139,6 +139,18 @@ impl<'m> Motion<'m> {
         values.iter().zip(self.coordinates).zip(&near.values).map(target).collect()
     }
 
+    /// The same values with the angle of one link the other way round, for each link.
+    pub(super) fn other_way_round(&self, targets: &[f64], from: &Point) -> Vec<Vec<f64>> {
+        let links = self.coordinates.iter().enumerate();
+        let links = links.filter(|(_, coordinate)| matches!(coordinate, Tracked::Link(_)));
+        let turned = |(index, _): (usize, &Tracked)| {
+            let mut other = targets.to_vec();
+            other[index] -= TAU.copysign(targets[index] - from.values[index]);
+            other
+        };
+        links.map(turned).collect()
+    }
+
     /// What is missing from the values of a position; of angles without whole turns.
     pub(super) fn missing(&self, targets: &[f64], at: &Point) -> Vec<f64> {
         let missing = |((&target, coordinate), &value): ((&f64, &Tracked), &f64)| {

@@ -108,26 +108,23 @@ impl Follower<'_> {
         let is_first = before.is_none();
         let from = if is_first { self.motion.at(start) } else { before.clone() };
         let there = match from {
-            Some(from) => {
-                let targets = self.motion.targets(row, &from);
-                match self.motion.follow(from.clone(), &targets) {
-                    End::Reached(point) => Ok(point),
-                    End::Lost(point) => {
-                        let within = if point.q == from.q { FROM_FOLD } else { AT_FOLD };
-                        let at_fold = self.nearest(&point.q, row, within)?;
-                        if let (Ok(fold), false) = (&at_fold, point.q == from.q) {
+            Some(from) => match self.motion.arrive(&from, row) {
+                End::Reached(point) => Ok(point),
+                End::Lost(point) => {
+                    let is_at_fold = point.q == from.q;
+                    let within = if is_at_fold { FROM_FOLD } else { AT_FOLD };
+                    match self.nearest(&point.q, row, within)? {
+                        Ok(fold) if !is_at_fold => {
                             // From the fold itself no way leads on: the next one begins beside it.
                             let q = self.motion.in_units(&fold.q);
                             self.here = Some(point);
                             return Ok(Ok(q));
                         }
-                        match at_fold {
-                            Err(_) if is_first => self.nearest(start, row, f64::INFINITY)?,
-                            near => near,
-                        }
+                        Err(_) if is_first => self.nearest(start, row, f64::INFINITY)?,
+                        near => near,
                     }
                 }
-            }
+            },
             // The assembly does not exist at the start, or folds there.
             None => self.nearest(start, row, f64::INFINITY)?,
         };

@@ -10,9 +10,7 @@ use crate::assemblies::drawing_signs::DrawingSigns;
 use crate::branch::design::Design;
 use crate::description::Driver;
 use crate::description::error::SolveError;
-use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::redraw::Pose;
 use crate::state::state::{Context, State};
 use crate::state::status::Status;
 
@@ -24,35 +22,33 @@ const BESIDE: f64 = 1.0e-9;
 const AT_FOLD: f64 = 1.0e-3;
 
 /// A design of the original.
-pub(super) struct Original<'d, 'm> {
-    design: &'d mut Design<'m>,
+pub(super) struct Original<'d> {
+    design: Design<'d>,
     dimensions: &'d [f64],
-    derivatives: &'d DerivativeTables,
     cancel: Option<&'d AtomicBool>,
-    /// Made when first needed.
-    state: Option<State>,
+    state: State,
+    drawing_signs: DrawingSigns,
 }
 
-impl<'d, 'm> Original<'d, 'm> {
+impl<'d> Original<'d> {
+    /// A bound design.
     pub(super) fn new(
-        design: &'d mut Design<'m>,
+        design: Design<'d>,
         dimensions: &'d [f64],
-        derivatives: &'d DerivativeTables,
         cancel: Option<&'d AtomicBool>,
     ) -> Self {
-        Self { design, dimensions, derivatives, cancel, state: None }
+        let state = design.state(design.derivatives);
+        Self { design, dimensions, cancel, state, drawing_signs: DrawingSigns::default() }
     }
 
     /// The position that a pose of the inverse shows; none if the original has no such assembly.
     pub(super) fn answer(&mut self, found: &Assembly) -> Result<Option<Answer>, SolveError> {
         let mechanism = self.design.mechanism;
-        let pose = pose_of(mechanism, found);
-        let q = coordinates(mechanism, &pose);
-        let Ok(drawing) = mechanism.drawing_of(&pose) else {
-            // At a fold.
-            return self.beside(q, &pose);
-        };
+        let place = Place::in_part(found, mechanism.linkage());
+        let q = coordinates(mechanism, place);
         if self.design.has_groups() {
+            let pose = place.pose();
+            let Ok(drawing) = mechanism.drawing_of(&pose) else { return self.beside(q, place) };
             let assembly = Assembly {
                 signs: drawing.signs,
                 class_angles: drawing.class_angle,
@@ -63,13 +59,14 @@ impl<'d, 'm> Original<'d, 'm> {
             };
             return Ok(Some(Answer { at: q.clone(), q, assembly }));
         }
-        let Some(mut assembly) = self.solved(&q, &drawing.signs) else {
-            return self.beside(q, &pose);
+        let signs = mechanism.signs_of(place.joints, place.angles);
+        let solved = signs.and_then(|signs| self.solved(&q, &signs));
+        let Some(mut assembly) = solved.filter(|one| self.apart(place, one.into()) <= SAME) else {
+            // At a fold.
+            return self.beside(q, place);
         };
-        if self.gap(&pose, &assembly) > SAME {
-            return self.beside(q, &pose);
-        }
-        DrawingSigns::new(self.design, self.dimensions).trace(&mut assembly, &q)?;
+        let design = (&mut self.design, self.dimensions);
+        self.drawing_signs.trace(design, &mut assembly, &q)?;
         Ok(Some(Answer { at: q.clone(), q, assembly }))
     }
 
@@ -77,10 +74,6 @@ impl<'d, 'm> Original<'d, 'm> {
     pub(super) fn is_same(&self, one: &Answer, other: &Answer) -> bool {
         let (a, b) = (&one.assembly, &other.assembly);
         one.q == other.q && a.signs == b.signs && self.apart(a.into(), b.into()) <= SAME
-    }
-
-    fn gap(&self, pose: &Pose, assembly: &Assembly) -> f64 {
-        self.apart(pose.into(), assembly.into())
     }
 
     fn apart(&self, one: Place<'_>, other: Place<'_>) -> f64 {
@@ -91,22 +84,21 @@ impl<'d, 'm> Original<'d, 'm> {
     fn solved(&mut self, q: &[f64], signs: &[i8]) -> Option<Assembly> {
         let scaled = self.design.scaled(q);
         let signs: Vec<f64> = signs.iter().map(|&sign| f64::from(sign)).collect();
-        let state = self.state.get_or_insert_with(|| self.design.state(self.derivatives));
-        let cx = Context { signs: &signs, ..self.design.context(self.derivatives) };
-        state.solve(&cx, &scaled);
-        let is_regular = state.status == Status::Ok;
-        is_regular.then(|| Assembly::of(self.design, state, &signs, &scaled, false))
+        let cx = Context { signs: &signs, ..self.design.context(self.design.derivatives) };
+        self.state.solve(&cx, &scaled);
+        let is_regular = self.state.status == Status::Ok;
+        is_regular.then(|| Assembly::of(&self.design, &self.state, &signs, &scaled, false))
     }
 
     /// The assembly nearest to a pose, of those at its coordinate or beside it.
-    fn beside(&self, q: Vec<f64>, pose: &Pose) -> Result<Option<Answer>, SolveError> {
+    fn beside(&self, q: Vec<f64>, place: Place<'_>) -> Result<Option<Answer>, SolveError> {
         let mechanism = self.design.mechanism;
         let step = BESIDE / self.design.units.coordinate[0];
         for (step, far) in [(0.0, SAME), (step, AT_FOLD), (-step, AT_FOLD)] {
             let at: Vec<f64> = q.iter().map(|q| q + step).collect();
             let assemblies = mechanism.assemblies(self.dimensions, &at, self.cancel)?;
             let gaps = assemblies.found.into_iter();
-            let gaps = gaps.map(|one| (self.gap(pose, &one), one));
+            let gaps = gaps.map(|one| (self.apart(place, (&one).into()), one));
             let nearest = gaps.min_by(|(a, _), (b, _)| a.total_cmp(b));
             if let Some((_, assembly)) = nearest.filter(|(gap, _)| *gap <= far) {
                 return Ok(Some(Answer { q, at, assembly }));
@@ -116,22 +108,12 @@ impl<'d, 'm> Original<'d, 'm> {
     }
 }
 
-/// The part of the inverse's pose that is the original's.
-fn pose_of(mechanism: &Mechanism, found: &Assembly) -> Pose {
-    let linkage = mechanism.linkage();
-    Pose {
-        joints: found.joints[..linkage.joints.len()].to_vec(),
-        angles: found.angles[..linkage.links.len()].to_vec(),
-        slides: found.slides[..linkage.slides.len()].to_vec(),
-    }
-}
-
 /// The coordinates of the drivers in a pose; angles in (−π, π].
-fn coordinates(mechanism: &Mechanism, pose: &Pose) -> Vec<f64> {
+fn coordinates(mechanism: &Mechanism, place: Place<'_>) -> Vec<f64> {
     let coordinate = |&driver: &Driver| match driver {
-        Driver::Slide(slide) => pose.slides[slide],
+        Driver::Slide(slide) => place.slides[slide],
         Driver::Angle { link, relative_to } => {
-            let angle = pose.angles[link] - pose.angles[relative_to];
+            let angle = place.angles[link] - place.angles[relative_to];
             angle - TAU * ((angle - PI) / TAU).ceil()
         }
     };

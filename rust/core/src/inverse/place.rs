@@ -1,21 +1,16 @@
-//! The distance between two poses.
+//! Where everything is in a pose, and how far it is from there in another one.
 
 use crate::assemblies::assembly::Assembly;
+use crate::description::Linkage;
 use crate::math::trig::sin_cos;
 use crate::plan::redraw::Pose;
 
 /// Where everything is: joints, angles of links, values of slides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place<'p> {
-    joints: &'p [[f64; 2]],
-    angles: &'p [f64],
-    slides: &'p [f64],
-}
-
-impl<'p> From<&'p Pose> for Place<'p> {
-    fn from(pose: &'p Pose) -> Self {
-        Self { joints: &pose.joints, angles: &pose.angles, slides: &pose.slides }
-    }
+    pub joints: &'p [[f64; 2]],
+    pub angles: &'p [f64],
+    pub slides: &'p [f64],
 }
 
 impl<'p> From<&'p Assembly> for Place<'p> {
@@ -25,7 +20,21 @@ impl<'p> From<&'p Assembly> for Place<'p> {
     }
 }
 
-impl Place<'_> {
+impl<'p> Place<'p> {
+    /// The part of a pose that a linkage has: its own joints, links and slides come first.
+    pub(super) fn in_part(assembly: &'p Assembly, linkage: &Linkage) -> Self {
+        Self {
+            joints: &assembly.joints[..linkage.joints.len()],
+            angles: &assembly.angles[..linkage.links.len()],
+            slides: &assembly.slides[..linkage.slides.len()],
+        }
+    }
+
+    pub(super) fn pose(self) -> Pose {
+        let [angles, slides] = [self.angles, self.slides].map(<[f64]>::to_vec);
+        Pose { joints: self.joints.to_vec(), angles, slides }
+    }
+
     /// The greatest difference of two places: of joints and slides in sizes, of links by their unit
     /// vectors. (Joints alone do not distinguish assemblies: a link of one joint may point either way.)
     pub(super) fn distance(self, other: Place<'_>, size: f64) -> f64 {

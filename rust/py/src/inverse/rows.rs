@@ -10,8 +10,8 @@ use pyo3::PyResult;
 use crate::parallel_map::parallel_map;
 use crate::reserve;
 
-/// Rows for which another thread pays off.
-const MIN_PER_THREAD: usize = 16;
+/// Rows of a design that one thread does.
+const BLOCK: usize = 64;
 
 /// Designs with rows of values, for all of them or for each.
 pub(super) struct Rows<'r> {
@@ -24,6 +24,13 @@ pub(super) struct Rows<'r> {
     designs: usize,
     /// Rows of each design.
     length: usize,
+}
+
+/// The positions of a row, one after another.
+#[derive(Clone)]
+struct Row {
+    q: Vec<f64>,
+    status: Status,
 }
 
 /// The positions of all rows.
@@ -76,50 +83,57 @@ impl<'r> Rows<'r> {
         threads: Option<NonZeroUsize>,
         cancel: &AtomicBool,
     ) -> Result<Found, SolveError> {
-        let positions_of = |index: usize| {
-            let (design, row) = (index / self.length, index % self.length);
-            self.positions(&self.dimensions_of(design), self.values_of(design, row, 1), cancel)
-        };
+        let blocks = self.length.div_ceil(BLOCK);
+        let of_block = |index: usize| self.positions(index / blocks, index % blocks, cancel);
         let threads = threads.map(NonZeroUsize::get);
-        let each = parallel_map(self.count(), MIN_PER_THREAD, threads, cancel, &positions_of);
-        let each: Vec<(Vec<f64>, Status)> = each.into_iter().collect::<Result<_, _>>()?;
-        let drivers = self.inverse.drivers();
-        let most = each.iter().map(|(q, _)| q.len() / drivers).max().unwrap_or(0);
+        let each = parallel_map(self.designs * blocks, 1, threads, cancel, &of_block);
+        let each: Vec<Vec<Row>> = each.into_iter().collect::<Result<_, _>>()?;
+        let (each, drivers) = (|| each.iter().flatten(), self.inverse.drivers());
+        let most = each().map(|row| row.q.len() / drivers).max().unwrap_or(0);
         let mut found = Found { q: Vec::new(), most, counts: Vec::new(), status: Vec::new() };
-        found.q.reserve_exact(each.len() * most * drivers);
-        for (q, status) in each {
-            found.counts.push((q.len() / drivers).cast_signed() as i64);
-            found.status.push(status as u8);
-            let missing = most * drivers - q.len();
-            found.q.extend(q);
-            found.q.extend(std::iter::repeat_n(f64::NAN, missing));
+        found.q.reserve_exact(self.count() * most * drivers);
+        for row in each() {
+            found.counts.push((row.q.len() / drivers).cast_signed() as i64);
+            found.status.push(row.status as u8);
+            found.q.extend(&row.q);
+            found.q.extend(std::iter::repeat_n(f64::NAN, most * drivers - row.q.len()));
         }
         Ok(found)
     }
 
-    /// The positions of a row, one after another, and its status.
+    /// The positions of a block of rows of a design.
     fn positions(
         &self,
-        dimensions: &[f64],
-        values: &[f64],
+        design: usize,
+        block: usize,
         cancel: &AtomicBool,
-    ) -> Result<(Vec<f64>, Status), SolveError> {
-        if self.original.dimensions().first_fault(dimensions).is_some() {
-            return Ok((Vec::new(), Status::BadDimension));
-        }
-        if values.iter().any(|value| !value.is_finite()) {
-            return Ok((Vec::new(), Status::BadInput));
-        }
-        let answers = match self.inverse.find(self.original, dimensions, values, Some(cancel)) {
-            Err(SolveError::CoordinateTooFar { .. }) => return Ok((Vec::new(), Status::Lost)),
-            answers => answers?,
+    ) -> Result<Vec<Row>, SolveError> {
+        let first = block * BLOCK;
+        let count = BLOCK.min(self.length - first);
+        let dimensions = self.dimensions_of(design);
+        let finder = self.inverse.finder(self.original, &dimensions, Some(cancel))?;
+        let failed = |status| Row { q: Vec::new(), status };
+        let Some(mut finder) = finder else {
+            return Ok(vec![failed(Status::BadDimension); count]);
         };
-        let status = match (answers.is_complete, answers.found.is_empty()) {
-            (false, _) => Status::NotConverged,
-            (true, true) => Status::Unreachable,
-            (true, false) => Status::Ok,
+        let values = self.values_of(design, first, count).chunks_exact(self.inverse.drivers());
+        let row = |values: &[f64]| {
+            if values.iter().any(|value| !value.is_finite()) {
+                return Ok(failed(Status::BadInput));
+            }
+            let answers = match finder.find(values) {
+                Err(SolveError::CoordinateTooFar { .. }) => return Ok(failed(Status::Lost)),
+                answers => answers?,
+            };
+            let status = match (answers.is_complete, answers.found.is_empty()) {
+                (false, _) => Status::NotConverged,
+                (true, true) => Status::Unreachable,
+                (true, false) => Status::Ok,
+            };
+            let q = answers.found.into_iter().flat_map(|answer| answer.q).collect();
+            Ok(Row { q, status })
         };
-        Ok((answers.found.into_iter().flat_map(|answer| answer.q).collect(), status))
+        values.map(row).collect()
     }
 
     /// Follows every design from a start on, one for all or one for each.
