@@ -63,6 +63,16 @@ def test_a_whole_turn_and_more() -> None:
     np.testing.assert_allclose(m.find("rocker", folded, near=0.5).q, q, rtol=0.0, atol=1e-10)
 
 
+def test_a_rocker_that_swings_by_more_than_half_a_turn() -> None:
+    """The shorter way to the other end is barred: it goes back as it came."""
+    m = assur.FourBar(2.7, 1.9, 1.2, 1.6)
+    q = np.array([-0.75, 1.5, -0.5])
+    rocker = m.solve(q, order=0).link("rocker").value
+    assert abs(rocker[1] - rocker[0]) > 1.2 * math.pi
+    path: Any = m.find("rocker", rocker, near=-0.75)
+    np.testing.assert_allclose(path.q, q, rtol=0.0, atol=1e-12)
+
+
 def test_a_robot_along_a_line() -> None:
     m = five_bar()
     start = np.array(m.joints["P"])
