@@ -153,8 +153,16 @@ def test_a_platform_with_a_group_of_class_iii() -> None:
     motion = m.solve(q, order=0)
     angle = motion.link("platform").value[:, np.newaxis]
     poses = np.concatenate([motion.joint("D").value, angle], axis=1)
-    path = m.find(["D.x", "D.y", "platform"], poses, near=m.q0)
+    names = ["D.x", "D.y", "platform"]
+    path = m.find(names, poses, near=m.q0)
     np.testing.assert_allclose(path.q, q, rtol=0.0, atol=1e-10)
+    # A pose that the legs do not reach is left out.
+    poses[2, 2] += 1.0
+    path = m.find(names, poses, near=m.q0)
+    assert path.status.tolist() == [0, 0, Status.UNREACHABLE, 0, 0, 0]
+    reached = path.status == Status.OK
+    np.testing.assert_allclose(path.q[reached], q[reached], rtol=0.0, atol=1e-10)
+    assert np.isnan(path.q[2]).all()
 
 
 def test_designs_and_sliding_drivers() -> None:

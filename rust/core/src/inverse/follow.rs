@@ -38,11 +38,14 @@ impl Motion<'_> {
             return end;
         }
         for other in self.other_way_round(&targets, from) {
+            self.at(&from.q);
             let other_end = self.follow(from.clone(), &other);
             if matches!(other_end, End::Reached(_)) {
                 return other_end;
             }
         }
+        // Other positions are found from there.
+        self.at(&from.q);
         end
     }
 
@@ -80,7 +83,7 @@ impl Motion<'_> {
         let mut q = sum(&from.q, &first);
         let mut last = predicted;
         for round in 0..CORRECTIONS {
-            let point = self.at(&q)?;
+            let point = self.probe(&q)?;
             let (change, sign_there) = point.newton(&self.missing(target, &point))?;
             let corrected = size(&change);
             let limit = if round == 0 { TRUST * predicted } else { last };

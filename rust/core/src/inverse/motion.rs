@@ -9,10 +9,10 @@ use crate::math::derivatives::DerivativeTables;
 use crate::plan::constants::DesignConstants;
 use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Plan;
-use crate::query::evaluator::{Evaluator, Queries};
+use crate::query::evaluator::{Evaluator, Position, Queries};
 use crate::query::extremes::tracked::Tracked;
 use crate::state::state::{Context, State};
-use crate::state::status::Status;
+use crate::state::status::{Rejection, Status};
 use crate::structure::closure::point_of_joint;
 
 /// Values of the coordinates at a position, in sizes from the solver's origin and rad, and their derivatives by the drivers.
@@ -82,8 +82,22 @@ impl<'m> Motion<'m> {
         Self { solver, coordinates, size, origin, turns }
     }
 
-    /// The position at coordinates (in sizes and rad), if it exists and has derivatives.
+    /// Goes to coordinates (in sizes and rad), if a position is there and has derivatives. Branches of several
+    /// drivers go on from it.
     pub(super) fn at(&mut self, q: &[f64]) -> Option<Point> {
+        self.solve(q, Evaluator::solve)
+    }
+
+    /// The same without going there.
+    pub(super) fn probe(&mut self, q: &[f64]) -> Option<Point> {
+        self.solve(q, Evaluator::probe)
+    }
+
+    fn solve(
+        &mut self,
+        q: &[f64],
+        by_branch: impl Fn(&mut Evaluator<'m>, &[f64]) -> Result<(), Rejection>,
+    ) -> Option<Point> {
         let coordinates = self.coordinates;
         match &mut self.solver {
             Solver::Signs { design, state } => {
@@ -96,14 +110,9 @@ impl<'m> Motion<'m> {
             Solver::Branch(evaluator) => {
                 let given: Vec<f64> =
                     q.iter().enumerate().map(|(d, q)| q * evaluator.unit(d)).collect();
-                evaluator.solve(&given).ok()?;
-                let position = evaluator.position();
-                let solution = Solution {
-                    state: position.state,
-                    plan: position.plan,
-                    constants: position.constants,
-                };
-                Some(solution.point(q, coordinates))
+                by_branch(evaluator, &given).ok()?;
+                let Position { state, plan, constants, .. } = evaluator.position();
+                Some(Solution { state, plan, constants }.point(q, coordinates))
             }
         }
     }

@@ -150,12 +150,12 @@ impl Follower<'_> {
                 continue;
             }
             // In this assembly the coordinates may have other values there.
-            let Some(point) = self.motion.at(&q) else { continue };
+            let Some(point) = self.motion.probe(&q) else { continue };
             let missing = self.motion.missing(&self.motion.targets(row, &point), &point);
             if size(&missing) <= SAME {
                 best = Some((distance, point));
             }
         }
-        Ok(best.map(|(_, point)| point).ok_or(status))
+        Ok(best.and_then(|(_, point)| self.motion.at(&point.q)).ok_or(status))
     }
 }
