@@ -24,6 +24,7 @@ from assur.sweeps.terms import Metric
 
 __all__ = [
     "Flywheels",
+    "Inverse",
     "KnownSigns",
     "Machine",
     "Mechanism",
@@ -67,6 +68,8 @@ __all__ = [
 ]
 
 _Float: TypeAlias = npt.NDArray[np.float64]
+# Dimensions of designs, rows of values, whether each design has its own.
+_Rows: TypeAlias = tuple[_Float, _Float, bool]
 _Three: TypeAlias = tuple[_Float, _Float, _Float]
 
 class _Slide(TypedDict):
@@ -163,6 +166,21 @@ class _JammingRun(TypedDict):
     b: _Float
     c: _Float
     events: list[_JammingEvent]
+
+@final
+class Inverse:
+    def __new__(
+        cls, original: Mechanism, mechanism: Mechanism, names: list[str], bases: list[str | None]
+    ) -> Inverse: ...
+    def find(
+        self, original: Mechanism, dimensions: _Float, values: list[float]
+    ) -> tuple[list[tuple[list[float], list[float], AssemblyNumbers]], list[str], bool]: ...
+    def find_rows(
+        self, original: Mechanism, rows: _Rows, threads: int | None
+    ) -> tuple[_Float, int, npt.NDArray[np.int64], npt.NDArray[np.uint8]]: ...
+    def follow(
+        self, original: Mechanism, signs: list[int], start: _Float, rows: _Rows, threads: int | None
+    ) -> tuple[_Float, npt.NDArray[np.uint8]]: ...
 
 @final
 class KnownSigns:

@@ -9,6 +9,7 @@ from cases import (
     chains,
     classes,
     construction,
+    find,
     flywheels,
     forces,
     grids,
@@ -48,6 +49,7 @@ MAKERS = (
     flywheels.case,
     runs.case,
     steps.case,
+    find.case,
 )
 
 

@@ -98,11 +98,14 @@ class Assembly(Mapping[str, int]):
     def _found(
         cls, place: Place, complex_count: Iterable[int], shown: tuple[str, ...] = ()
     ) -> Assembly:
-        names = [name for name, _ in place.mechanism.core.assembly]
-        assembly = cls(dict(zip(names, place.numbers["signs"], strict=True)))
+        # Signs of the core need no checks.
+        assembly = cls.__new__(cls)
+        names = (name for name, _ in place.mechanism.core.assembly)
+        assembly._signs = tuple(zip(names, place.numbers["signs"], strict=True))
         assembly.place = place
-        assembly._shown = shown
         assembly._complex_count = tuple(complex_count)
+        assembly._core = None
+        assembly._shown = shown
         return assembly
 
     @property

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.extremes import Extremes
     from assur.kinematics.grashof import Grashof
-    from assur.kinematics.inverse.find import InverseSolution
+    from assur.kinematics.inverse.solutions import InversePath, InverseSolution, InverseSolutions
     from assur.kinematics.limits import Limits
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
@@ -53,7 +53,7 @@ __all__ = ["Mechanism"]
 
 @other_names(
     forward_kinematics="solve(q) has positions, velocities and accelerations",
-    inverse_kinematics="find(name, value) has every q and assembly",
+    inverse_kinematics="find(name, value) has every q and assembly; with near=q it follows one",
     jacobian="solve(q).jacobian(name, by=…)",
     dof="it is structure.mobility",
     mobility="it is structure.mobility",
@@ -664,26 +664,99 @@ class Mechanism(MechanismModel):
         """
         return extreme_search.extremes(self, name, order, assembly)
 
+    # A tuple is taken for a value of each coordinate: types do not show how many drivers there are.
+    @overload
     def find(
-        self, name: str, value: npt.ArrayLike | None = None, *, deg: float | None = None
-    ) -> list[InverseSolution]:
+        self, name: str | Sequence[str], value: float | tuple[float, ...]
+    ) -> list[InverseSolution]: ...
+    @overload
+    def find(self, name: str, *, deg: float) -> list[InverseSolution]: ...
+    @overload
+    def find(
+        self,
+        name: str | Sequence[str],
+        value: float | tuple[float, ...],
+        *,
+        near: npt.ArrayLike | InverseSolution,
+    ) -> InverseSolution: ...
+    @overload
+    def find(
+        self, name: str, *, deg: float, near: npt.ArrayLike | InverseSolution
+    ) -> InverseSolution: ...
+    @overload
+    def find(
+        self,
+        name: str | Sequence[str],
+        value: npt.ArrayLike | None = ...,
+        *,
+        deg: npt.ArrayLike | None = ...,
+        threads: int | None = ...,
+    ) -> list[InverseSolution] | InverseSolutions: ...
+    @overload
+    def find(
+        self,
+        name: str | Sequence[str],
+        value: npt.ArrayLike | None = ...,
+        *,
+        deg: npt.ArrayLike | None = ...,
+        near: npt.ArrayLike | InverseSolution,
+        threads: int | None = ...,
+    ) -> InverseSolution | InversePath: ...
+    def find(
+        self,
+        name: str | Sequence[str],
+        value: npt.ArrayLike | None = None,
+        *,
+        deg: npt.ArrayLike | None = None,
+        near: npt.ArrayLike | InverseSolution | None = None,
+        threads: int | None = None,
+    ) -> list[InverseSolution] | InverseSolutions | InverseSolution | InversePath:
         """Return every coordinate and assembly at which a coordinate of the motion has a value.
+
+        This is inverse kinematics. With arrays of values, or a batch of designs, it is asked of
+        each. With `near` one position is followed instead, in its assembly, by Newton's iteration
+        with exact derivatives.
 
         Parameters
         ----------
-        name : str
+        name : str or sequence of str
             A slide, a link (its angle, whole turns apart), or a joint's ``"B.x"`` or ``"B.y"``;
-            with two drivers a joint.
+            with two drivers a joint; with n drivers any n of these, ``["P.x", "P.y", "platform"]``.
         value : float or array_like
-            The value, m or rad; with two drivers the joint's place (x, y).
-        deg : float, optional
+            The value, m or rad; with two drivers the joint's place (x, y), with n drivers n
+            values. Arrays of values have shape (N,), or (N, n) with n drivers; one for each design
+            S + (N,) or S + (N, n).
+        deg : float or array_like, optional
             The angle of a link in degrees, in place of `value`.
+        near : float, array_like or InverseSolution, optional
+            Where to start, the drivers' coordinates, rad or m, in the assembly of the mechanism or
+            of the solution; S + (n,) for a start of each design. The position found is the one
+            reached from there as the value changes straight to the given one; if that way ends, at
+            a fold of the coordinate, the nearest one of the assembly. Arrays of values are
+            followed one after another: each position is reached straight from the one before, and
+            none where that way ends.
+        threads : int, optional
+            Most threads for arrays; by default one per core.
 
         Returns
         -------
         list of InverseSolution
-            Each with ``.q`` and ``.assembly``, and ``q, assembly = solution``. By q, in (−π, π] of
-            an angle; an array of two with two drivers.
+            For one value of one design: each with ``.q`` and ``.assembly``, and ``q, assembly =
+            solution``. By q, in (−π, π] of an angle; an array of n with n drivers. Empty if the
+            value is not reached.
+        InverseSolutions
+            For arrays: ``.q``, ``.count``, ``.status``, and ``found[i]`` is such a list.
+        InverseSolution or InversePath
+            With `near`, for one value or for arrays; q of angles near that of the start.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, a coordinate cannot be set by itself, or a value or `near` has a
+            wrong shape. In arrays values that are not finite are NaN with a status.
+        PositionError
+            If one value with `near` is not reached in the assembly. In arrays that is NaN with a
+            status.
 
         Examples
         --------
@@ -691,10 +764,18 @@ class Mechanism(MechanismModel):
         >>> engine = assur.SliderCrank(1.0, 3.0)
         >>> [round(solution.q, 6) for solution in engine.find("bore", 3.0)]
         [-1.403348, 1.403348]
+        >>> round(engine.find("bore", 3.0, near=1.0).q, 6)
+        1.403348
+        >>> five_bar = assur.examples.five_bar()
+        >>> path = five_bar.find("P", [(0.10, 0.47), (0.11, 0.46), (0.12, 0.45)], near=five_bar.q0)
+        >>> path.q.round(4).tolist()
+        [[1.8751, 1.3208], [1.8716, 1.3625], [1.8677, 1.4051]]
+        >>> five_bar.solve(path.q, assembly=path.assembly).joint("P").value.round(9).tolist()
+        [[0.1, 0.47], [0.11, 0.46], [0.12, 0.45]]
         """
         from assur.kinematics.inverse.find import find
 
-        return find(self, name, value, deg)
+        return find(self, name, value, deg, near, threads)
 
     def configuration_curve(self, *, positions: int = 32) -> ConfigurationCurve:
         """Return all positions of a design as a curve: branches, folds, circuits.

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from assur._arrays import Float, Number, Point
+    from assur._core import Inverse
     from assur._core import Mechanism as Core
     from assur._later import Mechanism
     from assur.description.encode import Description
@@ -80,6 +81,7 @@ class MechanismModel:
         "_structure",
         "core",
         "description",
+        "inverses",
         "known_signs",
         "place",
         "signs",
@@ -89,6 +91,8 @@ class MechanismModel:
     # Designs that earlier calls found to have constant signs.
     known_signs: KnownSigns
     description: Description
+    # What it is when coordinates drive it, by their names: kept for all designs.
+    inverses: dict[tuple[str, ...], Inverse]
     # By how much joints were moved within the tolerance that was given, m.
     _moved: float
     # Dimensions, shape (number of dimensions, *S).
@@ -115,6 +119,7 @@ class MechanismModel:
             _joints=None,
             _moved=0.0,
             _names=None,
+            inverses={},
             place=None,
             signs=[sign for _, sign in core.assembly],
         )
@@ -152,7 +157,7 @@ class MechanismModel:
         """Become the other mechanism with other values of its dimensions."""
         for name in ("core", "description", "_moved", "_structure", "_names", "place", "signs"):
             object.__setattr__(self, name, getattr(other, name))
-        self._set(_joints=None)
+        self._set(_joints=None, inverses=other.inverses)
         self._set_values(values)
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -376,7 +381,7 @@ def with_values(mechanism: AnyMechanism, values: Float) -> AnyMechanism:
 def at_place(mechanism: AnyMechanism, place: Place, core: Core) -> AnyMechanism:
     """Return a mechanism drawn at a place of one of its designs."""
     placed = with_values(mechanism, mechanism.values)
-    placed._set(core=core, place=place, signs=[sign for _, sign in core.assembly])
+    placed._set(core=core, inverses={}, place=place, signs=[sign for _, sign in core.assembly])
     return placed
 
 

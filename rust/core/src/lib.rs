@@ -46,12 +46,14 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// remedies, batch, sensitivity, assemblies, sweep, dynamics, papers. Each imports only from those below it (`tools/check_order`).
+// remedies, batch, sensitivity, assemblies, inverse, sweep, dynamics, papers. Each imports only from those below it
+// (`tools/check_order`).
 mod assemblies;
 mod batch;
 mod branch;
 mod description;
 pub mod dynamics;
+mod inverse;
 mod math;
 pub mod ode;
 pub mod papers;
@@ -87,6 +89,10 @@ pub use description::slider_crank::SliderCrank;
 pub use description::{
     Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, SlideDescription,
 };
+pub use inverse::answers::{Answer, Answers};
+pub use inverse::find::Finder;
+pub use inverse::inverse::Inverse;
+pub use inverse::near::{Followed, Start};
 pub use math::simd::Simd;
 pub use math::vector::Vector;
 // For the binding (`assur._trig`), tests and benches: no part of the public face.

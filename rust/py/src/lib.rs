@@ -9,6 +9,7 @@ mod equilibria;
 mod error;
 mod error_map;
 mod flywheel;
+mod inverse;
 mod limits;
 mod machine;
 mod mechanism;
@@ -40,6 +41,8 @@ mod _core {
     use super::error_map::error_kinds;
     #[pymodule_export]
     use super::flywheel::Flywheels;
+    #[pymodule_export]
+    use super::inverse::Inverse;
     #[pymodule_export]
     use super::machine::Machine;
     #[pymodule_export]

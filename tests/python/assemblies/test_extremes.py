@@ -244,7 +244,6 @@ def test_refusals() -> None:
     four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.2)
     batch = four_bar.with_dimensions({"coupler.length": [3.0, 3.1]})
     refused(assur.InputError, "one design", lambda: batch.extremes("rocker"))
-    refused(assur.InputError, "one design", lambda: batch.find("rocker", 1.0))
     refused(assur.InputError, "one design", lambda: batch.with_driver("rocker", q=1.0))
     refused(assur.InputError, '"C.x" or "C.y"', lambda: four_bar.extremes("C"))
     refused(assur.InputError, "order is 4", lambda: four_bar.extremes("C.x", order=4))

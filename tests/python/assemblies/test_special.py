@@ -51,7 +51,7 @@ def test_find_and_workspace_of_designs_unlike_the_drawing(scale: float) -> None:
     m = base.with_dimensions(lengths)
     assert len(m.workspace("P", positions=12).boundary) == 6
     point = np.array([0.3, 1.1]) * scale
-    found = m.find("P", point)
+    found = m.find("P", (point[0], point[1]))
     assert len(found) == 4
     for q, assembly in found:
         there = m.solve(q, assembly=assembly).joint("P").value

@@ -204,6 +204,10 @@ IN_DEGREES = {
     "Mechanism.find.value": Entry(
         lambda at: [solution.q for solution in FIVE_BAR.find("C", at)], (np.array([1.0, 2.0]),)
     ),
+    "Mechanism.find.deg": Entry(lambda deg: FOUR_BAR.find("rocker", deg=deg), numbers(100.0)),
+    "Mechanism.find.near": Entry(
+        lambda near: FIVE_BAR.find("C", (1.4, 1.9), near=near).q, (np.array([1.3, 1.1]),)
+    ),
     "Mechanism.map.deg": Entry(
         lambda deg: FOUR_BAR.map("assemblies", OVER, deg=deg).values, (np.array(60.0),)
     ),

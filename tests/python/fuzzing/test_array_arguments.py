@@ -180,6 +180,7 @@ def not_numbers(array: Any) -> dict[str, Any]:
 
 # What may be left out.
 OPTIONAL = (
+    "Mechanism.find.near",
     "Machine.acceleration.effort",
     "Machine.d_acceleration.effort",
     "Machine.linearize.effort",

@@ -149,6 +149,8 @@ def results() -> dict[str, object]:
         "extremes": one.extremes("rocker"),
         "found": slider.find("bore", 0.4)[0],
         "two": five.find("P", five.joints["P"])[0],
+        "many": slider.find("bore", [0.4, 0.41]),
+        "path": slider.find("bore", [0.4, 0.41], near=0.5),
         "assemblies": one.assemblies(1.0),
         "assembly": one.assemblies(1.0)[0],
         "grashof": one.grashof,

@@ -82,6 +82,9 @@ def test_structure_and_limits() -> None:
     assert_type(m.assemblies(m.q0)[0], assur.Assembly)
     assert_type(m.assemblies(deg=30.0).complex_count, tuple[int, ...])
     assert_type(assur.SliderCrank(0.1, 0.4).find("bore", 0.4), list[InverseSolution])
+    assert_type(assur.SliderCrank(0.1, 0.4).find("bore", 0.4, near=0.5), InverseSolution)
+    place = assur.examples.five_bar().find("P", (0.1, 0.45))
+    assert_type(place, list[InverseSolution])
     for q, assembly in assur.SliderCrank(0.1, 0.4).find("bore", 0.4):
         assert_type(q, Number)
         assert_type(assembly, assur.Assembly)

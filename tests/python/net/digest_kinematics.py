@@ -106,7 +106,22 @@ def questions(m: assur.Mechanism, q: Any) -> Iterator[Any]:
         yield motion.instant_centre(link, moving[0])
 
 
+def inverse() -> Iterator[tuple[str, Any]]:
+    """Positions at which coordinates have values: all of them, and those along a path."""
+    bars: Any = again(assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0)))
+    for name in ("rocker", "P.x", "C.y"):
+        found = bars.find(name, np.arange(-8.0, 25.0) * 0.125)
+        yield f"find, {name}", [found.q, found.count, found.status]
+    path = bars.find("P.x", np.arange(8.0, 17.0) * 0.0625, near=1.0)
+    yield "find, near", [path.q, path.status]
+    robot: Any = again(assur.examples.five_bar())
+    places = np.array(robot.joints["P"]) + np.arange(-3.0, 4.0)[:, np.newaxis] * [0.03125, -0.0625]
+    found, path = robot.find("P", places), robot.find("P", places[3:], near=robot.q0)
+    yield "find, two drivers", [found.q, found.status, path.q, path.status]
+
+
 def results() -> Iterator[tuple[str, Any]]:
+    yield from inverse()
     for index, (name, m) in enumerate(mechanisms()):
         rng = np.random.default_rng(1)
         short = name.removeprefix("library ").removeprefix("higher ")

@@ -132,10 +132,14 @@ def test_a_gradient_descends() -> None:
     assert (np.diff(angles) > 0.0).all()
 
 
+def nothing(motion: assur.Motion) -> Any:
+    return np.zeros(motion.shape[:-1])
+
+
 REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "a place": ({"metrics": {"a": metric.argmax("C.x")}}, r"argmax\('C.x'\), which has none"),
     "a fit": ({"metrics": {"a": metric.deviation("C")}}, "which has none"),
-    "a function": ({"metrics": {"a": metric.function(np.ndim)}}, "which has none"),
+    "a function": ({"metrics": {"a": metric.function(nothing)}}, "which has none"),
     "a motion": ({}, r"gradient= is for metrics=; .*motion\.jacobian"),
     "an unknown dimension": (
         {"metrics": {"a": metric.span("C.x")}, "gradient": "foo"},

@@ -1,2 +1,3 @@
-//! All assemblies of a position.
+//! All assemblies of a position, and the inverse question.
 mod counts;
+mod inverse;

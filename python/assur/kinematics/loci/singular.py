@@ -19,7 +19,7 @@ from assur._validate import checked_name, real_array, whole_number
 from assur.description.words import Drive
 from assur.errors import AssurWarning, InputError
 from assur.kinematics.configuration import lengths, size_of
-from assur.kinematics.inverse.find import driven_by_joint
+from assur.kinematics.inverse.driven_by import driven_by_joint
 from assur.kinematics.loci.chart import Surface
 from assur.kinematics.loci.folds import (
     Grid,

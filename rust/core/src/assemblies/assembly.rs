@@ -1,8 +1,12 @@
 //! One assembly of a mechanism, and all of them at a position.
 
+use std::f64::consts::{PI, TAU};
 use std::fmt;
 
 use super::solutions::PathEnd;
+use crate::branch::design::Design;
+use crate::state::state::State;
+use crate::structure::closure::point_of_joint;
 
 /// A way to put a mechanism together at a coordinate.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +25,41 @@ pub struct Assembly {
     pub angles: Vec<f64>,
     /// Whether two assemblies meet here.
     pub is_double: bool,
+}
+
+impl Assembly {
+    /// The position of a design that was just solved with these signs at a (scaled) coordinate.
+    pub(crate) fn of(
+        design: &Design<'_>,
+        state: &State,
+        signs: &[f64],
+        scaled: &[f64],
+        is_double: bool,
+    ) -> Self {
+        let (mechanism, constants) = (design.mechanism, &design.constants);
+        let joint = |joint: usize| {
+            let point = state.pose.points[point_of_joint(joint) * state.len][0];
+            let [x, y] = constants.origin;
+            [point.x * constants.scale + x, point.y * constants.scale + y]
+        };
+        let slides = state.pose.slides.chunks_exact(state.len);
+        let angle = |link: usize| {
+            let rotation = &mechanism.plan().rotation[link];
+            let turns = rotation.turns.iter().zip(scaled);
+            let driven: f64 = turns.map(|(&turns, q)| f64::from(turns) * q).sum();
+            let class = state.pose.class[rotation.class][0].angle();
+            let angle = class + constants.offset[link] + driven;
+            angle - TAU * ((angle - PI) / TAU).ceil()
+        };
+        Self {
+            signs: signs.iter().map(|&sign| if sign > 0.0 { 1 } else { -1 }).collect(),
+            class_angles: state.pose.class.iter().map(|unit| unit[0].angle()).collect(),
+            slides: slides.map(|jet| jet[0][0] * constants.scale).collect(),
+            joints: (0..mechanism.linkage().joints.len()).map(joint).collect(),
+            angles: (0..mechanism.linkage().links.len()).map(angle).collect(),
+            is_double,
+        }
+    }
 }
 
 /// A path of the search that did not lead to its own assembly.

@@ -1,16 +1,14 @@
 //! All assemblies of a mechanism at one coordinate: the two of each dyad in closed form, those of each
 //! group above class II by homotopy, one after another in the order of the plan.
 
-use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::assembly::{Assemblies, Assembly, PathFailure};
+use super::drawing_signs::DrawingSigns;
 use super::forms::GroupForms;
 use super::parameters::parameters;
 use super::solutions::{GroupFibres, PathEnd, unknowns};
-use crate::batch::request::{Coordinates, Motion, Outputs, Request, Series};
-use crate::branch::constant_signs::SignConstancy;
 use crate::branch::design::Design;
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
@@ -21,7 +19,6 @@ use crate::plan::mechanism::Mechanism;
 use crate::plan::plan::Step;
 use crate::state::state::{Context, State};
 use crate::state::status::{Fault, Status};
-use crate::structure::closure::point_of_joint;
 
 /// Where a dyad or group is flat, two assemblies nearer than this (relative to the size) are one: beside a
 /// dead point half of all digits are lost.
@@ -30,13 +27,9 @@ const DOUBLE: f64 = 1.0e-8;
 /// dead point that end is good to half of all digits.
 const CONFIRMED: f64 = 1.0e-5;
 
-/// Results nearer than this (rad, or relative to the size) are the same assembly, found in two ways.
-const SAME: f64 = 1.0e-6;
-/// Most signs whose combinations are tried.
-const MOST_TRIED: usize = 8;
-
 /// The fibres of all groups of a mechanism, in order.
-struct Fibres(Vec<GroupFibres>);
+#[derive(Debug)]
+pub(crate) struct Fibres(Vec<GroupFibres>);
 
 /// A step with several solutions.
 enum Choice<'p> {
@@ -74,76 +67,26 @@ impl Mechanism {
         let derivatives = DerivativeTables::shared(q.len(), 1);
         let mut design = Design::new(self, &vec![1; count], &derivatives);
         design.bind(dimensions);
-        let scaled = design.scaled(q);
-        if design.is_too_far(&scaled) {
+        if design.is_too_far(&design.scaled(q)) {
             return Err(SolveError::CoordinateTooFar { q: q.to_vec() });
         }
-        let state = design.state(&derivatives);
-        let mut search = Search {
-            design: &design,
-            fibres: &fibres,
-            derivatives: &derivatives,
-            scaled: &scaled,
-            choices: choices(self),
-            signs: vec![1.0; count],
-            unknowns: vec![0.0; self.plan().groups().map(|group| group.unknowns.len()).sum()],
-            state,
-            cancel,
-            assemblies: Assemblies {
-                complex_counts: fibres.0.iter().map(GroupFibres::count).collect(),
-                ..Assemblies::default()
-            },
-            places: Vec::new(),
-        };
-        search.complete(0, false)?;
-        let mut assemblies = search.assemblies;
+        let mut state = design.state(&derivatives);
+        let search = (&*fibres, Search::Followed);
+        let mut assemblies = poses(&design, &mut state, search, q, cancel)?;
         if !design.has_groups() {
-            let mut constancy = SignConstancy::new(&mut design);
+            let mut drawing_signs = DrawingSigns::default();
             for assembly in &mut assemblies.found {
                 if cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
                     return Err(SolveError::Interrupted);
                 }
-                let signs: Vec<f64> = assembly.signs.iter().map(|&sign| f64::from(sign)).collect();
-                if !constancy.holds(&signs) {
-                    let back = constancy.design.signs_at_drawing(&signs, &scaled);
-                    assembly.signs = self.leading_to(assembly, back, (dimensions, q))?;
-                }
+                drawing_signs.trace((&mut design, dimensions), assembly, q)?;
             }
         }
         Ok(assemblies)
     }
 
-    /// The signs at the drawing that lead to an assembly: those traced back, unless rounding beside a
-    /// change point on the way decides otherwise on the way forward.
-    fn leading_to(
-        &self,
-        assembly: &Assembly,
-        back: Vec<i8>,
-        (dimensions, q): (&[f64], &[f64]),
-    ) -> Result<Vec<i8>, SolveError> {
-        let outputs = Outputs::all(self);
-        let lead = |signs: &[i8]| {
-            let coordinates = Coordinates::Shared(q);
-            let request = Request { dimensions, coordinates, signs, order: 0, outputs: &outputs };
-            Ok(is_there(&self.solve(&request)?, assembly))
-        };
-        if lead(&back)? || back.len() > MOST_TRIED {
-            return Ok(back);
-        }
-        for choice in 1..1_u32 << back.len() {
-            let flipped = |(i, &sign): (usize, &i8)| {
-                if choice >> i & 1 == 1 && !self.plan().is_length(i) { -sign } else { sign }
-            };
-            let signs: Vec<i8> = back.iter().enumerate().map(flipped).collect();
-            if lead(&signs)? {
-                return Ok(signs);
-            }
-        }
-        Ok(back)
-    }
-
     /// The fibres of random dimensions, found once.
-    fn fibres(&self) -> Arc<Fibres> {
+    pub(crate) fn fibres(&self) -> Arc<Fibres> {
         self.number.share(
             |_: &Fibres| true,
             || {
@@ -170,30 +113,43 @@ impl Mechanism {
     }
 }
 
-/// Whether a motion of one position is in an assembly.
-fn is_there(motion: &Motion, assembly: &Assembly) -> bool {
-    // The spread of the joints: their place in the drawing's coordinates does not show the size.
-    let spread = |axis: usize| {
-        let values = assembly.joints.iter().map(|joint| joint[axis]);
-        let [low, high] = values
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-        high - low
+/// How the assemblies of a group above class II are found. Both ways find the same ones, to rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Search {
+    /// By homotopy.
+    Followed,
+    /// By elimination, where that is certain to find them all.
+    Quick,
+}
+
+/// Every assembly of a bound design at `q`, with the signs that it has there; `state`: its work space.
+pub(crate) fn poses(
+    design: &Design<'_>,
+    state: &mut State,
+    (fibres, search): (&Fibres, Search),
+    q: &[f64],
+    cancel: Option<&AtomicBool>,
+) -> Result<Assemblies, SolveError> {
+    let mechanism = design.mechanism;
+    let scaled = design.scaled(q);
+    let mut tree = Tree {
+        design,
+        fibres,
+        search,
+        scaled: &scaled,
+        choices: choices(mechanism),
+        signs: vec![1.0; mechanism.plan().signs()],
+        unknowns: vec![0.0; mechanism.plan().groups().map(|group| group.unknowns.len()).sum()],
+        state,
+        cancel,
+        assemblies: Assemblies {
+            complex_counts: fibres.0.iter().map(GroupFibres::count).collect(),
+            ..Assemblies::default()
+        },
+        places: Vec::new(),
     };
-    let slides = assembly.slides.iter().fold(0.0, |high: f64, value| high.max(value.abs()));
-    let size = spread(0).max(spread(1)).max(slides);
-    let near = |value: f64, expected: f64| (value - expected).abs() <= SAME * size;
-    let joint = |series: &Series| {
-        let [x, y] = assembly.joints[series.index];
-        near(series.derivatives[0][0], x) && near(series.derivatives[0][1], y)
-    };
-    let slide = |series: &Series| near(series.derivatives[0][0], assembly.slides[series.index]);
-    let link = |series: &Series| {
-        let gap = (series.derivatives[0][0] - assembly.angles[series.index]) / TAU;
-        (gap - gap.round()).abs() * TAU <= SAME
-    };
-    motion.joints.iter().all(joint)
-        && motion.slides.iter().all(slide)
-        && motion.links.iter().all(link)
+    tree.complete(0, false)?;
+    Ok(tree.assemblies)
 }
 
 fn choices(mechanism: &Mechanism) -> Vec<Choice<'_>> {
@@ -211,24 +167,24 @@ fn choices(mechanism: &Mechanism) -> Vec<Choice<'_>> {
     choices
 }
 
-/// A search through all choices, depth first.
-struct Search<'s> {
+/// All choices, completed depth first.
+struct Tree<'s> {
     design: &'s Design<'s>,
     fibres: &'s Fibres,
-    derivatives: &'s DerivativeTables,
+    search: Search,
     scaled: &'s [f64],
     choices: Vec<Choice<'s>>,
     /// The choices so far.
     signs: Vec<f64>,
     unknowns: Vec<f64>,
-    state: State,
+    state: &'s mut State,
     cancel: Option<&'s AtomicBool>,
     assemblies: Assemblies,
     /// Points and rotations of the assemblies so far, in sizes.
     places: Vec<Vec<Vector>>,
 }
 
-impl Search<'_> {
+impl Tree<'_> {
     /// Completes the choices from the one at `index` on.
     fn complete(&mut self, index: usize, is_double: bool) -> Result<(), SolveError> {
         if self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
@@ -277,7 +233,7 @@ impl Search<'_> {
     }
 
     fn context(&self) -> Context<'_> {
-        Context { signs: &self.signs, ..self.design.context(self.derivatives) }
+        Context { signs: &self.signs, ..self.design.context(self.design.derivatives) }
     }
 
     fn solve(&mut self) {
@@ -289,7 +245,7 @@ impl Search<'_> {
                 Unknown::Slide(slide) => self.state.pose.slides[slide * self.state.len][0] = value,
             }
         }
-        let cx = Context { signs: &self.signs, ..self.design.context(self.derivatives) };
+        let cx = Context { signs: &self.signs, ..self.design.context(self.design.derivatives) };
         self.state.solve(&cx, self.scaled);
     }
 
@@ -306,8 +262,11 @@ impl Search<'_> {
         if !self.reaches(index) {
             return Ok(());
         }
-        let parameters = parameters(&group_fibres.forms, group, &self.context(), &self.state);
-        let solutions = group_fibres.solutions(&parameters);
+        let parameters = parameters(&group_fibres.forms, group, &self.context(), self.state);
+        let solutions = match self.search {
+            Search::Followed => group_fibres.solutions(&parameters),
+            Search::Quick => group_fibres.quick_solutions(&parameters),
+        };
         let fail = |end| PathFailure { group: group.name.clone(), end };
         self.assemblies.failures.extend(solutions.failures.iter().copied().map(fail));
         let plan = self.design.mechanism.plan();
@@ -350,7 +309,7 @@ impl Search<'_> {
 
     /// Adds the position just solved, if it exists.
     fn add(&mut self, is_double: bool) {
-        let state = &self.state;
+        let state = &*self.state;
         if matches!(state.status, Status::Unreachable | Status::BadInput | Status::NotConverged) {
             return;
         }
@@ -370,36 +329,13 @@ impl Search<'_> {
             // Elsewhere their signs differ.
             is_double = true;
         }
-        let assembly = self.assembly(is_double);
-        self.assemblies.found.push(assembly);
-        self.places.push(place);
-    }
-
-    /// The position just solved.
-    fn assembly(&self, is_double: bool) -> Assembly {
-        let (mechanism, state) = (self.design.mechanism, &self.state);
-        let constants = &self.design.constants;
-        let joint = |joint: usize| {
-            let point = state.pose.points[point_of_joint(joint) * state.len][0];
-            let [x, y] = constants.origin;
-            [point.x * constants.scale + x, point.y * constants.scale + y]
-        };
-        let slides = state.pose.slides.chunks_exact(state.len);
-        let angle = |link: usize| {
-            let rotation = &mechanism.plan().rotation[link];
-            let turns = rotation.turns.iter().zip(self.scaled);
-            let driven: f64 = turns.map(|(&turns, q)| f64::from(turns) * q).sum();
-            let class = state.pose.class[rotation.class][0].angle();
-            let angle = class + constants.offset[link] + driven;
-            angle - TAU * ((angle - PI) / TAU).ceil()
-        };
-        Assembly {
-            signs: self.signs.iter().map(|&sign| if sign > 0.0 { 1 } else { -1 }).collect(),
-            class_angles: state.pose.class.iter().map(|unit| unit[0].angle()).collect(),
-            slides: slides.map(|jet| jet[0][0] * constants.scale).collect(),
-            joints: (0..mechanism.linkage().joints.len()).map(joint).collect(),
-            angles: (0..mechanism.linkage().links.len()).map(angle).collect(),
+        self.assemblies.found.push(Assembly::of(
+            self.design,
+            self.state,
+            &self.signs,
+            self.scaled,
             is_double,
-        }
+        ));
+        self.places.push(place);
     }
 }

@@ -4,6 +4,7 @@
 //! solution: C(2n, n), the greatest possible number (Sommese & Wampler 2005, ch. 8, a two-homogeneous
 //! start). Some paths end at infinity; how many is a property of the group.
 
+use super::compare::is_same;
 use super::follow::{Ends, follow};
 use super::forms::GroupForms;
 use super::homotopy::{Homotopy, Parameters};
@@ -23,9 +24,6 @@ const ROUNDS: usize = 40;
 const REGULAR: f64 = 1.0e-9;
 /// A solution with a first homogeneous coordinate this small is at infinity.
 const AT_INFINITY: f64 = 1.0e-7;
-/// Solutions nearer than this (relative to their size) are the same, found in two searches; different ones
-/// are farther apart.
-const SAME: f64 = 1.0e-8;
 /// Distance of the parameters from those of the drawing, in sizes: near enough for short paths, and far
 /// from the dead points that lie near real parameters.
 const AWAY: f64 = 0.3;
@@ -152,11 +150,4 @@ fn agree(left: &[Vec<Vector>], right: &[Vec<Vector>]) -> bool {
     left.len() == right.len()
         && left.iter().all(|point| right.iter().filter(|right| is_same(point, right)).count() == 1)
         && right.iter().all(|point| left.iter().filter(|right| is_same(point, right)).count() == 1)
-}
-
-/// Whether two solutions are the same to rounding.
-pub(super) fn is_same(a: &[Vector], b: &[Vector]) -> bool {
-    let difference: f64 = a.iter().zip(b).map(|(&a, &b)| (a - b).norm2()).sum();
-    let size: f64 = 1.0 + a.iter().map(|a| a.norm2()).sum::<f64>();
-    difference <= SAME * SAME * size
 }

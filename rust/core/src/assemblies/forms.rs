@@ -50,7 +50,7 @@ pub(super) enum Equation {
 }
 
 /// The equations of a group.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct GroupForms {
     /// Variables of X, without the constant: the unknowns of the group, in order.
     pub variables: usize,

@@ -1,6 +1,9 @@
 //! All assemblies of a mechanism of any class.
 pub(crate) mod assembly;
-mod enumerate;
+mod compare;
+pub(crate) mod drawing_signs;
+mod eliminant;
+pub(crate) mod enumerate;
 mod fibre;
 mod follow;
 mod forms;

@@ -6,7 +6,9 @@
 //! include every isolated solution. The set of ends must be closed under conjugation; where it is not, a
 //! path has jumped to another, and all are followed again with shorter steps and from other parameters.
 
-use super::fibre::{Fibre, is_same};
+use super::compare::{conjugate, is_near, is_same};
+use super::eliminant::by_elimination;
+use super::fibre::Fibre;
 use super::follow::{follow, refine};
 use super::forms::GroupForms;
 use super::homotopy::{Homotopy, Parameters};
@@ -28,8 +30,6 @@ const SETTLED: f64 = 1.0e-7;
 const FAR: f64 = 1.0e6;
 /// The same near the end of a path that cannot be followed to its end.
 const LARGE: f64 = 1.0e2;
-/// A solution nearer than this (relative to its size) to its conjugate may be real.
-const REAL: f64 = 1.0e-6;
 /// Most loops of a group (half the number of its links): the 924 paths of six take seconds, those of seven
 /// a minute.
 const MOST_LOOPS: usize = 6;
@@ -65,6 +65,14 @@ impl GroupFibres {
     /// The number of complex assemblies of random dimensions.
     pub(super) fn count(&self) -> usize {
         self.fibres.first().map_or(0, |fibre| fibre.points.len())
+    }
+
+    /// All solutions with given parameters: by elimination, where that is certain to find them all.
+    pub(super) fn quick_solutions(&self, parameters: &Parameters) -> Solutions {
+        match by_elimination(&self.forms, parameters, self.count()) {
+            Some(points) => Solutions::regular(points),
+            None => self.solutions(parameters),
+        }
     }
 
     /// All solutions with given parameters.
@@ -132,6 +140,12 @@ pub(super) struct Solutions {
 }
 
 impl Solutions {
+    /// Solutions that are all different.
+    fn regular(points: Vec<Vec<Vector>>) -> Self {
+        let solution = |point| Solution { point, paths: 1, is_multiple: false };
+        Self { list: points.into_iter().map(solution).collect(), failures: Vec::new() }
+    }
+
     fn of(
         forms: &GroupForms,
         fibre: &Fibre,
@@ -211,16 +225,4 @@ pub(super) fn unknowns(forms: &GroupForms, parameters: &Parameters, point: &[Vec
         }
     };
     forms.guides.iter().enumerate().map(value).collect()
-}
-
-/// Conj Y, conj X: the mirror image of a solution.
-fn conjugate(point: &[Vector]) -> Vec<Vector> {
-    let (x, y) = point.split_at(point.len() / 2);
-    y.iter().chain(x).map(|x| x.conj()).collect()
-}
-
-fn is_near(a: &[Vector], b: &[Vector]) -> bool {
-    let difference: f64 = a.iter().zip(b).map(|(&a, &b)| (a - b).norm2()).sum();
-    let size: f64 = 1.0 + a.iter().map(|a| a.norm2()).sum::<f64>();
-    difference <= REAL * REAL * size
 }

@@ -8,13 +8,13 @@ use super::trace::BaselineTracer;
 /// A design with the work space for it.
 pub(crate) struct SignConstancy<'d, 'm> {
     pub design: &'d mut Design<'m>,
-    uniform: BaselineTracer,
+    /// Made for the first design that needs it.
+    uniform: Option<Box<BaselineTracer>>,
 }
 
 impl<'d, 'm> SignConstancy<'d, 'm> {
     pub(crate) fn new(design: &'d mut Design<'m>) -> Self {
-        let uniform = design.uniform_tracer();
-        Self { design, uniform }
+        Self { design, uniform: None }
     }
 
     /// Whether an assembly with these signs certainly never passes a change point; if false, it may.
@@ -26,8 +26,11 @@ impl<'d, 'm> SignConstancy<'d, 'm> {
         }
         design.signs.clear();
         design.signs.extend_from_slice(signs);
-        let traced = design.trace_in_closed_form(&[], None) == Traced::Whole
-            || !several && design.trace_in_baseline_lanes(uniform, &[]) == Traced::Whole;
+        let mut traced = design.trace_in_closed_form(&[], None) == Traced::Whole;
+        if !traced && !several {
+            let uniform = uniform.get_or_insert_with(|| Box::new(design.uniform_tracer()));
+            traced = design.trace_in_baseline_lanes(uniform, &[]) == Traced::Whole;
+        }
         traced && design.has_constant_signs()
     }
 }

@@ -262,6 +262,11 @@ impl<'a> Design<'a> {
         &self.tracing_derivatives
     }
 
+    /// Signs at the drawing, as the solver needs them.
+    pub(crate) fn signs_in_use(&self) -> &[f64] {
+        &self.signs
+    }
+
     /// Coordinates in the design's own unit of length.
     pub(crate) fn scaled(&self, q: &[f64]) -> Vec<f64> {
         let units = self.units.coordinate.iter().cycle();

@@ -1,6 +1,7 @@
 //! Arithmetic, functions and small matrices, independent of mechanisms.
 
 pub(crate) mod angle;
+pub(crate) mod complex_roots;
 pub(crate) mod derivatives;
 pub(crate) mod dual;
 pub(crate) mod inverse;

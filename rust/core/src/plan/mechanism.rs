@@ -286,7 +286,8 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
         let Some(sign) = dyad.sign else { continue };
         let name = &plan.dyad_names[sign];
         let named = named_signs.get(name.as_str()).copied();
-        let sine = drawn_sine(linkage, plan, dyad);
+        let at = |point| drawn_point(linkage, plan, point);
+        let sine = sine_of_legs(plan, dyad, at, |slide| linkage.slides[slide].angle);
         signs[sign] = match named {
             Some(-1) if dyad.is_length => {
                 let slide = linkage.slides.iter().position(|slide| slide.name == *name);
@@ -315,18 +316,17 @@ pub(super) fn drawing_signs(linkage: &Linkage, plan: &Plan) -> Result<Vec<i8>, S
     Ok(signs)
 }
 
-/// Sine of the angle between a dyad's legs in the drawing; its sign is that of the assembly.
-fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
+/// Sine of the angle between a dyad's legs, where points are `at` and guides have these angles; its sign is that
+/// of the assembly.
+pub(super) fn sine_of_legs(
+    plan: &Plan,
+    dyad: &Dyad,
+    at: impl Fn(usize) -> [f64; 2],
+    guide_angle: impl Fn(usize) -> f64,
+) -> f64 {
     let at = |point: usize| {
-        let xy = match point.checked_sub(1) {
-            None => [0.0; 2],
-            Some(j) if j < linkage.joints.len() => linkage.joints[j].at,
-            Some(_) => {
-                let link = plan.reference.iter().position(|&r| r == point).unwrap_or(0);
-                linkage.reference_point(link).unwrap_or([0.0; 2])
-            }
-        };
-        Vector::new(xy[0], xy[1])
+        let [x, y] = at(point);
+        Vector::new(x, y)
     };
     let mut terms = [Vector::ZERO; 2];
     let mut guide = Vector::ZERO;
@@ -337,7 +337,7 @@ fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
             terms[unknown] += signed(at(edge.edge.to) - at(edge.edge.from));
         }
         if let (Some(slide), Some(_)) = (edge.edge.slide(), term.slides) {
-            guide = signed(Vector::at_angle(linkage.slides[slide].angle));
+            guide = signed(Vector::at_angle(guide_angle(slide)));
         }
     }
     match dyad.form {
@@ -345,5 +345,17 @@ fn drawn_sine(linkage: &Linkage, plan: &Plan, dyad: &Dyad) -> f64 {
         Form::CircleAndLine => -guide.dot(terms[0]) / terms[0].norm(),
         Form::TurningGuide => guide.dot(terms[0]) / terms[0].norm(),
         Form::TwoLines => 1.0,
+    }
+}
+
+/// Where a linkage is drawn to have a point of its plan.
+pub(super) fn drawn_point(linkage: &Linkage, plan: &Plan, point: usize) -> [f64; 2] {
+    match point.checked_sub(1) {
+        None => [0.0; 2],
+        Some(j) if j < linkage.joints.len() => linkage.joints[j].at,
+        Some(_) => {
+            let link = plan.reference.iter().position(|&r| r == point).unwrap_or(0);
+            linkage.reference_point(link).unwrap_or([0.0; 2])
+        }
     }
 }

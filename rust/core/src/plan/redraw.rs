@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::constants::DesignConstants;
-use super::mechanism::{Mechanism, class_angles, drawing_signs};
+use super::mechanism::{Mechanism, class_angles, drawing_signs, drawn_point, sine_of_legs};
 use super::work_spaces::PlanNumber;
 use crate::description::error::StructureError;
 use crate::description::{Driver, Linkage};
+use crate::math::tolerance::FLAT_SINE;
 use crate::structure::closure::Rotation;
 
 /// The places of all parts at one position.
@@ -49,6 +50,35 @@ impl Mechanism {
             class_angle: class_angles(&linkage, &self.plan),
             slide_value: pose.slides.clone(),
         })
+    }
+
+    /// The signs of all dyads in a pose, as [`Self::drawing_of`] finds them, where joints and angles of links
+    /// are given; none if a dyad is flat.
+    pub(crate) fn signs_of(&self, joints: &[[f64; 2]], angles: &[f64]) -> Option<Vec<i8>> {
+        let (linkage, plan) = (&self.linkage, &self.plan);
+        let at = |point: usize| match point.checked_sub(1) {
+            Some(joint) if joint < joints.len() => joints[joint],
+            None => [0.0; 2],
+            Some(_) => {
+                let (joints, angles) = (joints.to_vec(), angles.to_vec());
+                let pose = Pose { joints, angles, slides: Vec::new() };
+                drawn_point(&self.linkage_at(&pose), plan, point)
+            }
+        };
+        let guide_angle = |slide: usize| {
+            let slide = &linkage.slides[slide];
+            slide.angle + (angles[slide.on] - linkage.drawing_angle(slide.on))
+        };
+        let mut signs = vec![1; plan.signs()];
+        for dyad in plan.dyads() {
+            let Some(sign) = dyad.sign else { continue };
+            let sine = sine_of_legs(plan, dyad, at, guide_angle);
+            if sine.abs() < FLAT_SINE || sine.is_nan() {
+                return None;
+            }
+            signs[sign] = if sine > 0.0 { 1 } else { -1 };
+        }
+        Some(signs)
     }
 
     /// The linkage as drawn in a pose.
