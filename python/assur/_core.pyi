@@ -28,6 +28,7 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Run",
+    "Runs",
     "acute",
     "asin",
     "atan2",
@@ -330,6 +331,19 @@ class Run:
     def ending(self) -> _Ending: ...
     @property
     def statistics(self) -> dict[str, Any]: ...
+    def imbalance(self) -> tuple[list[float], None] | tuple[None, float]: ...
+
+@final
+class Runs:
+    def __new__(cls, states: list[Any]) -> Self: ...
+    def __reduce__(self) -> tuple[type[Runs], tuple[list[Any]]]: ...
+    def run(self, index: int) -> Run | None: ...
+    def error(self, index: int) -> AssurError | None: ...
+    def status(self) -> npt.NDArray[np.uint8]: ...
+    def kinds(self) -> list[str]: ...
+    def ends(self, drivers: int) -> list[_Float]: ...
+    def imbalance(self) -> tuple[_Float, _Float, _Float, _Float]: ...
+    def at(self, indices: list[int], points: _Float, drivers: int) -> list[_Float]: ...
 
 @final
 class Machine:
@@ -443,6 +457,21 @@ class Machine:
         breaks: list[float],
         events: list[Rest | Position | Speed | AngleLimit | Crossing | Obstacle],
     ) -> Run: ...
+    def runs(
+        self,
+        dimensions: _Float,
+        designs: int,
+        along_q: bool,
+        start: tuple[float, _Float, _Float],
+        ends: _Float,
+        method: Method,
+        tolerances: tuple[float, list[float] | None],
+        limits: tuple[float, int, float | None],
+        breaks: list[float],
+        events: list[Rest | Position | Speed | AngleLimit | Crossing | Obstacle],
+        only_ends: bool,
+        threads: int | None,
+    ) -> Runs: ...
     def steady(
         self,
         dimensions: list[float],

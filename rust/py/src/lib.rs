@@ -66,6 +66,8 @@ mod _core {
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
+    use super::run::outcomes::Runs;
+    #[pymodule_export]
     use super::solve::KnownSigns;
     #[pymodule_export]
     use super::spline::spline_pieces;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use assur::dynamics::{
     EndCondition, EquationPlan, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
-    Point, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    Point, RunBatch, RunOptions, SteadyOptions, TabulatedMachine, Variable,
 };
 use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -24,6 +24,8 @@ use crate::detach::{self, catch_panic};
 use crate::equations::{self, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
+use crate::run::batch::{self, Source};
+use crate::run::outcomes::Runs;
 use crate::run::{PythonCallbacks, Run};
 use crate::{equilibria, error, error_map, reduce, reserve};
 
@@ -447,6 +449,69 @@ impl Machine {
             Inner::Tables(tabulated) => tabulated.run(&options, calls),
         })?;
         run.map(Run::new).map_err(error_map::run)
+    }
+
+    /// Integrates runs of designs, the same number of each: `start` has the initial time, then coordinates
+    /// and speeds (runs × drivers), `ends` where each run ends. `dimensions`: the first of every design,
+    /// then the second. Only their ends are kept if `only_ends`.
+    #[allow(clippy::too_many_arguments, reason = "the parameters of runs")]
+    fn runs(
+        &self,
+        py: Python<'_>,
+        dimensions: Flat<'_>,
+        designs: usize,
+        along_q: bool,
+        start: (f64, Flat<'_>, Flat<'_>),
+        ends: Flat<'_>,
+        method: Word<Method>,
+        tolerances: (f64, Option<[f64; 2]>),
+        limits: (f64, u64, Option<f64>),
+        breaks: Vec<f64>,
+        events: Vec<Bound<'_, PyAny>>,
+        only_ends: bool,
+        threads: Option<usize>,
+    ) -> PyResult<Runs> {
+        let (core, source) = match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                let core = &mechanism.get().inner;
+                (Some(core), Source::Mechanism(core, machine))
+            }
+            Inner::Tables(tabulated) => (None, Source::Tables(tabulated)),
+        };
+        let dimensions = reserve::copied(&dimensions)?;
+        let [q, speed, ends] = [start.1, start.2, ends].map(|array| reserve::copied(&array));
+        let (q, speed, ends) = (q?, speed?, ends?);
+        let mut functions = Vec::new();
+        let events =
+            batch::events_of_designs(core, (&dimensions, designs), &events, &mut functions)?;
+        let (max_step, max_steps, seconds) = limits;
+        let options = RunOptions {
+            along: if along_q { Variable::Coordinate } else { Variable::Time },
+            t: start.0,
+            q: &[],
+            speed: &[],
+            end: 0.0,
+            method: method.0,
+            relative: tolerances.0,
+            absolute: tolerances.1,
+            max_step,
+            max_steps,
+            deadline: None,
+            breaks: &breaks,
+            events: &[],
+            flywheel: 0.0,
+        };
+        let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        let (q, speed, ends, events) = (&q, &speed, &ends, &events);
+        let dimensions = &dimensions;
+        let runs = RunBatch { dimensions, designs, q, speed, ends, events, limit, options };
+        if self.functions.is_empty() && functions.is_empty() {
+            return batch::in_threads(py, source, &runs, only_ends, threads);
+        }
+        let kept = self.with_callbacks(py, functions, |calls| {
+            batch::one_by_one(source, &runs, only_ends, calls)
+        })??;
+        Runs::new(py, kept)
     }
 
     /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.

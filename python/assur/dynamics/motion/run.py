@@ -34,8 +34,6 @@ __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statisti
 
 # `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as much.
 END_ULPS = 4.0
-# Rounding of the sum of the energies, in units of the last place of the greatest.
-ROUNDINGS = 64.0
 
 
 class State(NamedTuple):
@@ -194,14 +192,13 @@ class Energy(NamedTuple):
         changes = [self.kinetic, self.potential - self.potential[:1], self.work]
         return max(float(np.nanmax(np.abs(change))) for change in changes)
 
-    def _is_off(self, part: float) -> bool:
-        """Whether the imbalance is above a part of the energies, and above rounding.
 
-        A machine that has hardly moved has a potential far greater than all changes.
-        """
-        rounding = ROUNDINGS * np.finfo(float).eps * float(np.nanmax(np.abs(self.potential)))
-        worst = float(np.nanmax(np.abs(self.balance)))
-        return worst > max(part * self._size(), rounding)
+def energies_are_infinite(t: float) -> MotionError:
+    """Return the error of a run whose energies are infinite at a time."""
+    message = (
+        f"energies of the run are infinite at t = {t:g} s: its speeds, masses or loads are too great"
+    )
+    return MotionError(message, kind="not_finite", t=t)
 
 
 class Statistics(NamedTuple):
@@ -419,12 +416,7 @@ class Run(Tabular):
             total = kinetic + potential - work
         infinite = np.isinf([kinetic, potential, work, total]).any(axis=0)
         if infinite.any():
-            first = float(self.t[np.argmax(infinite)])
-            message = (
-                f"energies of the run are infinite at t = {first:g} s: its speeds, masses or loads "
-                "are too great"
-            )
-            raise MotionError(message, kind="not_finite", t=first)
+            raise energies_are_infinite(float(self.t[np.argmax(infinite)]))
         return Energy(kinetic, potential, work, total - total[0])
 
     def _columns(self, degrees: bool) -> list[Column]:

@@ -136,6 +136,11 @@ impl<'m> Evaluator<'m> {
         }
     }
 
+    /// Forgets the last position: the next one is traced from the drawing again.
+    pub(crate) fn restart(&mut self) {
+        self.last = None;
+    }
+
     /// Names what failed at coordinates that were rejected.
     pub(crate) fn failure(&self, rejection: Rejection, q: &[f64]) -> Failure {
         Failure::of(&self.design, rejection, q)

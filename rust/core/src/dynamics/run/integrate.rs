@@ -4,8 +4,9 @@ use super::callbacks::Callbacks;
 use super::dead_point::Tail;
 use super::equation::Equation;
 use super::error::{RunError, check_counts};
-use super::model::{MechanismModel, ReducedModel, TabulatedMachine};
+use super::model::{ReducedModel, TabulatedMachine};
 use super::options::{EventKind, RunOptions};
+use super::runner::{RunTables, Runner};
 use super::sample::Samples;
 use super::stick_slip::Change;
 use super::system::{Ended, RunSystem};
@@ -13,11 +14,9 @@ use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, same_within};
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use super::variable::Variable;
-use crate::description::Driver;
 use crate::description::error::Hint;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
-use crate::math::derivatives::DerivativeTables;
 use crate::math::room::has_room;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
@@ -42,15 +41,8 @@ impl Machine {
         options: &RunOptions<'_>,
         callbacks: O,
     ) -> Result<Run, RunError<O::Error>> {
-        let drivers = mechanism.q0().len();
-        options.check(drivers, &self.motors)?;
-        let needed = mechanism.dimensions().len();
-        check_counts(&[("dimensions", needed, dimensions.len())])?;
-        let derivatives = DerivativeTables::new(drivers, 2);
-        let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
-        let sizes = sizes_of(mechanism, dimensions);
-        let equation = Equation::new(model, callbacks, &self.tables, &self.motors, options.q.len());
-        run(equation, options, &sizes)
+        let tables = RunTables::new(mechanism);
+        Runner::new(self, mechanism, dimensions, &tables)?.run(options, callbacks)
     }
 }
 
@@ -67,7 +59,8 @@ impl TabulatedMachine {
     ) -> Result<Run, RunError<O::Error>> {
         options.check(1, &self.motors)?;
         self.check()?;
-        run(Equation::new(self, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
+        let mut model = self;
+        run(Equation::new(&mut model, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
     }
 
     /// Checks that there are tables of inertia and moment, the first two.
@@ -96,7 +89,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     match (options.along, options.q) {
         (Variable::Time, &[q]) => equation.begin_in_time(q, options.speed[0])?,
         (Variable::Coordinate, _) => {
-            stations = stations_between(&mut equation.model, [from, to])?;
+            stations = stations_between(equation.model, [from, to])?;
             if let Some((end, which)) = equation.first_uncovered([from, to], &stations) {
                 (to, clipped) = (end, Some(which));
                 stations.retain(|&station| (station - end) * (to - from).signum() < 0.0);
@@ -231,19 +224,6 @@ pub(crate) fn breaks_of<E>(
     breaks.sort_unstable_by(f64::total_cmp);
     breaks.dedup_by(|a, b| (*a - *b).abs() <= same_within(*b, unit));
     Ok(breaks)
-}
-
-/// The unit of the tolerance of each coordinate: 1 for an angle, the greatest length for a slide.
-/// It must not be the unit of length that is a power of 2: the tolerance would depend on the unit in which
-/// lengths are given.
-fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
-    let greatest = mechanism.slots.size(dimensions);
-    let length = if greatest > 0.0 { greatest } else { 1.0 };
-    let size = |driver: &Driver| match driver {
-        Driver::Angle { .. } => 1.0,
-        Driver::Slide(_) => length,
-    };
-    mechanism.linkage().drivers.iter().map(size).collect()
 }
 
 /// Why a motion cannot be continued, and where.

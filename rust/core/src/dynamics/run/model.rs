@@ -147,7 +147,9 @@ pub(crate) struct MechanismModel<'m> {
     held: Held,
     followers: Followers,
     friction: Option<FrictionMotion<'m>>,
-    /// The pairs with friction, whose reversals are stations.
+    /// The pairs with friction.
+    sliding: Vec<Sliding>,
+    /// Those whose reversals are stations.
     reversing: Vec<Sliding>,
 }
 
@@ -215,9 +217,21 @@ impl<'m> MechanismModel<'m> {
         let unit = evaluator.unit_of_length();
         let friction =
             has_friction.then(|| FrictionMotion::new(machine, mechanism, dimensions, unit));
-        let reversing = if has_friction { Sliding::of(machine, mechanism) } else { Vec::new() };
+        let sliding = if has_friction { Sliding::of(machine, mechanism) } else { Vec::new() };
         let (held, followers) = (Held::default(), Followers::default());
-        Self { machine, derivatives, evaluator, held, followers, friction, reversing }
+        let reversing = sliding.clone();
+        Self { machine, derivatives, evaluator, held, followers, friction, sliding, reversing }
+    }
+
+    /// Forgets the motion before, on which the next one must not depend.
+    pub(crate) fn restart(&mut self) {
+        self.evaluator.restart();
+        self.held = Held::default();
+        self.followers = Followers::default();
+        if let Some(friction) = &mut self.friction {
+            friction.release();
+        }
+        self.reversing.clone_from(&self.sliding);
     }
 }
 

@@ -75,6 +75,19 @@ impl Samples {
         self.get(self.len().checked_sub(1)?)
     }
 
+    /// Gives back the memory that they do not need.
+    pub(crate) fn shrink(&mut self) {
+        for numbers in [
+            &mut self.t,
+            &mut self.q,
+            &mut self.speed,
+            &mut self.acceleration,
+            &mut self.work,
+        ] {
+            numbers.shrink_to_fit();
+        }
+    }
+
     /// Appends a sample.
     pub fn push(&mut self, sample: &Sample) {
         self.t.push(sample.t);

@@ -55,8 +55,8 @@ impl Machine {
             return Err(SteadyError::NotRotary);
         }
         size_flywheel(options, target, |options, guess| {
-            let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
-            let equation = Equation::new(model, &mut callbacks, &self.tables, &self.motors, 1);
+            let mut model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
+            let equation = Equation::new(&mut model, &mut callbacks, &self.tables, &self.motors, 1);
             solve_period(equation, options, guess)
         })
     }
@@ -76,7 +76,8 @@ impl TabulatedMachine {
     ) -> Result<Steady, SteadyError<O::Error>> {
         self.check().map_err(SteadyError::Run)?;
         size_flywheel(options, target, |options, guess| {
-            let equation = Equation::new(self, &mut callbacks, &self.tables, &self.motors, 1);
+            let mut model = self;
+            let equation = Equation::new(&mut model, &mut callbacks, &self.tables, &self.motors, 1);
             solve_period(equation, options, guess)
         })
     }

@@ -130,7 +130,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         let mut breaks: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
         let range = [q, q + span];
         let stations =
-            stations_between(&mut self.equation.model, range).map_err(SteadyError::Run)?;
+            stations_between(self.equation.model, range).map_err(SteadyError::Run)?;
         self.equation.begin_along(range, &stations).map_err(SteadyError::Run)?;
         breaks.extend(stations);
         self.from = q;

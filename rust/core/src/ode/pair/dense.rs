@@ -179,6 +179,13 @@ impl DenseOutput {
         Ok(())
     }
 
+    /// Gives back the memory that it does not need.
+    pub(crate) fn shrink(&mut self) {
+        for list in [&mut self.starts, &mut self.widths, &mut self.ends, &mut self.rows] {
+            list.shrink_to_fit();
+        }
+    }
+
     /// Ends of the steps.
     pub fn ends(&self) -> &[f64] {
         &self.ends

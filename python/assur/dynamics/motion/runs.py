@@ -1,0 +1,258 @@
+"""Motions of a machine from many initial states or designs: the result of `Machine.run` of arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+
+from assur._arrays import as_number, counted, real_array
+from assur.dynamics.motion.run import END_ULPS, Run, State, energies_are_infinite
+from assur.errors import InputError
+from assur.kinematics.solve_arguments import in_radians
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur import _core
+    from assur._arrays import Float, Number
+    from assur.errors import AssurError
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Runs"]
+
+FAILED = "failed"
+# `Status.NO_VALUE`.
+NO_VALUE = 8
+
+
+class Made(NamedTuple):
+    """What the runs of a batch have in common."""
+
+    core: _core.Runs
+    mechanism: Mechanism | None
+    drivers: int
+    # Of the events, those of friction last.
+    events: list[Any]
+    along_q: bool
+    tables: tuple[str, ...]
+    # Where each begins: its time, or over q its coordinate.
+    starts: Float
+    # The times at which energies are infinite: there is no such run. NaN elsewhere.
+    infinite: Float
+    # Whether their motions between start and end are kept.
+    whole: bool
+
+
+class Runs(Sequence[Any]):
+    """Motions of a machine, one for each initial state or design.
+
+    Made by `Machine.run` where it is given arrays, or designs. A sequence of `Run`, each with the
+    bits that it has alone; the shape S + (E,) is that of the designs and states.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Shape of the runs; `len` and iteration go along its first axis.
+    t_end : ndarray
+        Time at which each ended, s: of that shape. NaN where there is no run.
+    q_end, speed_end : ndarray
+        Coordinate and speed of the driver there, rad or m, and per s; with n drivers S + (E, n).
+    end : ndarray of str
+        Why each ended, as `Run.end`; "failed" where there is no run.
+    status : ndarray of uint8
+        `Status.OK`, or that of the initial position where there is none; `NO_VALUE` where the
+        motion has no finite value, as without inertia.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> machine = assur.Machine(
+    ...     assur.SliderCrank(0.1, 0.4),
+    ...     bodies={"crank": assur.Body(inertia=0.5)},
+    ...     loads=[assur.Torque("crank", 2.0)],
+    ... )
+    >>> runs = machine.run(t_end=1.0, q0=0.0, speed0=[0.0, 1.0, 2.0])
+    >>> runs
+    <assur.Runs of shape (3,): 3 reached>
+    >>> runs.speed_end.round(6), runs.at(0.5).speed.round(6)  # rad/s: 4 rad/s² for t
+    (array([4., 5., 6.]), array([2., 3., 4.]))
+    >>> runs[1].energy.error < 1e-9
+    True
+    """
+
+    def __init__(self, made: Made, indices: npt.NDArray[np.intp]) -> None:
+        self._made, self._indices = made, indices
+        self.shape: tuple[int, ...] = indices.shape
+        kinds = np.array(made.core.kinds(), dtype=np.str_)
+        status = made.core.status()
+        ends = made.core.ends(made.drivers)
+        infinite = ~np.isnan(made.infinite)
+        if infinite.any():
+            status[infinite], kinds = NO_VALUE, np.where(infinite, FAILED, kinds)
+            for values in ends[:3]:
+                values.reshape(len(infinite), -1)[infinite] = np.nan
+        tail = () if made.drivers == 1 else (made.drivers,)
+
+        def chosen(values: npt.NDArray[Any], tail: tuple[int, ...] = ()) -> Any:
+            picked = values.reshape(-1, *tail)[indices]
+            picked.flags.writeable = False
+            return picked
+
+        self.t_end: Float = chosen(ends[0])
+        self.q_end: Float = chosen(ends[1], tail)
+        self.speed_end: Float = chosen(ends[2], tail)
+        self.end: npt.NDArray[np.str_] = chosen(kinds)
+        self.status: npt.NDArray[np.uint8] = chosen(status)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Runs, (self._made, self._indices)
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    @overload
+    def __getitem__(self, index: int) -> Any: ...
+    @overload
+    def __getitem__(self, index: Any) -> Any: ...
+    def __getitem__(self, index: Any) -> Any:
+        """Return a run, or the runs of a part of the shape, as NumPy indexes arrays.
+
+        Raises the run's own error where there is none.
+        """
+        if isinstance(index, float | str):
+            message = f"runs[{index!r}]: an index is a whole number, or one for each axis"
+            raise InputError(message)
+        chosen = self._indices[index]
+        if np.ndim(chosen):
+            return Runs(self._made, np.asarray(chosen))
+        flat = int(chosen)
+        failure = self._failure(flat)
+        if failure is not None:
+            raise failure
+        made = self._made
+        core = made.core.run(flat)
+        assert core is not None
+        return Run(core, made.mechanism, made.drivers, made.events, made.along_q, made.tables)
+
+    def __repr__(self) -> str:
+        kinds, counts = np.unique(self.end, return_counts=True)
+        found = ", ".join(f"{count} {kind}" for kind, count in zip(kinds, counts, strict=True))
+        return f"<assur.Runs of shape {self.shape}: {found or counted(0, 'run')}>"
+
+    def explain(self, index: int | tuple[int, ...]) -> str:
+        """Return why a run ended, or why there is none, as a sentence.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Index into `shape`.
+
+        Returns
+        -------
+        str
+            `Run.message`, or that of the error.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+        ... )
+        >>> machine.run(t_end=1.0, q0=[0.0, 1.0], speed0=3.0).explain(1)
+        'reached its end'
+        """
+        chosen = self._indices[index]
+        if np.ndim(chosen):
+            message = f"explain({index!r}): an index is needed for each axis of {self.shape}"
+            raise InputError(message)
+        failure = self._failure(int(chosen))
+        return str(failure) if failure is not None else str(self[index].message)
+
+    def _failure(self, flat: int) -> AssurError | None:
+        """Return the error of a run that there is not."""
+        failure = self._made.core.error(flat)
+        if failure is not None:
+            return failure
+        infinite_at = float(self._made.infinite[flat])
+        return None if np.isnan(infinite_at) else energies_are_infinite(infinite_at)
+
+    def at(
+        self,
+        t: npt.ArrayLike | None = None,
+        *,
+        q: npt.ArrayLike | None = None,
+        deg: npt.ArrayLike | None = None,
+    ) -> State:
+        """Return the motions at common times.
+
+        Parameters
+        ----------
+        t : array_like
+            Times, s: a number or (N,), the same for all runs.
+        q : array_like
+            Coordinates instead of times, for runs over q (`q_end`).
+        deg : array_like, optional
+            The coordinates in degrees, in place of `q`.
+
+        Returns
+        -------
+        State
+            t, q, speed and acceleration, S + (E,) + (N,), with n drivers (…, n); NaN before the
+            start of a run and beyond its end. The bits are those of `Run.at`.
+
+        Raises
+        ------
+        InputError
+            Times of runs over q, or of more than one axis; runs of which only the ends are kept.
+
+        Examples
+        --------
+        >>> import assur
+        >>> machine = assur.Machine(
+        ...     assur.SliderCrank(0.1, 0.4), bodies={"crank": assur.Body(inertia=0.5)}
+        ... )
+        >>> stop = assur.events.Position(1.5)
+        >>> runs = machine.run(t_end=1.0, q0=0.0, speed0=[1.0, 2.0], events=[stop])
+        >>> runs.at([0.5, 1.0]).q.round(6)
+        array([[0.5, 1. ],
+               [1. , nan]])
+        """
+        made = self._made
+        if deg is not None:
+            q = in_radians(made.mechanism, q, deg, "at")
+        coordinate, unused, name = (q, t, "q") if made.along_q else (t, q, "t")
+        if coordinate is None or unused is not None:
+            message = f"these runs go along {name}: call at({name}=...)"
+            raise InputError(message)
+        if not made.whole:
+            message = "only the ends of these runs are kept: run with keep='all'"
+            raise InputError(message)
+        x = real_array(coordinate, name)
+        if x.ndim > 1:
+            message = f"{name} has the shape {x.shape}: a number, or (N,) is needed"
+            raise InputError(message)
+        flat = self._indices.ravel()
+        points = _clipped(x.ravel(), made.starts[flat], self._lasts().ravel())
+        arrays = made.core.at(flat.tolist(), points.ravel(), made.drivers)
+        shape = (*self.shape, *x.shape)
+        tail = () if made.drivers == 1 else (made.drivers,)
+        return State(
+            _shaped(arrays[0], shape), *(_shaped(values, (*shape, *tail)) for values in arrays[1:4])
+        )
+
+    def _lasts(self) -> Float:
+        return self.q_end if self._made.along_q else self.t_end
+
+
+def _shaped(values: Float, shape: tuple[int, ...]) -> Number:
+    return as_number(values.reshape(shape)[()])
+
+
+def _clipped(x: Float, first: Float, last: Float) -> Float:
+    """Return the points of each run; NaN outside, where a few ulps beyond an end count as the end."""
+    low, high = (choice(first, last)[:, np.newaxis] for choice in (np.minimum, np.maximum))
+    slack = END_ULPS * np.finfo(np.float64).eps * np.maximum(np.abs(low), np.abs(high))
+    inside = (x >= low - slack) & (x <= high + slack)
+    return np.where(inside, np.clip(x, low, high), np.nan)
