@@ -14,6 +14,7 @@ from cases import (
     grids,
     growth,
     jansen_legs,
+    many_runs,
     metrics,
     one_design,
     random_four_bars,
@@ -47,6 +48,7 @@ MAKERS = (
     forces.case,
     flywheels.case,
     runs.case,
+    many_runs.case,
     steps.case,
 )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
+from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 
 from assur._arrays import real_number
 from assur._other_names import other_names, renamed_rates
@@ -21,7 +21,6 @@ from assur.dynamics.motion import equilibria, integrate
 from assur.dynamics.motion.discontinuities import driven_motion
 from assur.dynamics.motion.motion_input import motion_of
 from assur.dynamics.motion.run import Run
-from assur.dynamics.motion.runs import Runs
 from assur.dynamics.motion.steady import SteadyState
 from assur.dynamics.reduction import reduce
 from assur.kinematics.solve_arguments import in_radians, q_or_deg
@@ -44,6 +43,7 @@ if TYPE_CHECKING:
     from assur.dynamics.model import OnError
     from assur.dynamics.motion.equilibria import Equilibria
     from assur.dynamics.motion.motion_input import MotionLike
+    from assur.dynamics.motion.runs import RunOrRuns, Runs
     from assur.dynamics.reduction.reduce import Reduced
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean
@@ -1074,7 +1074,7 @@ class Machine(MachineModel):
         keep: Literal["all", "ends"] = ...,
         on_error: Literal["raise", "nan"] = ...,
         threads: int | None = ...,
-    ) -> Any: ...
+    ) -> RunOrRuns: ...
     def run(
         self,
         t_end: npt.ArrayLike | None = None,

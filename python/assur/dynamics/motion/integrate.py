@@ -69,8 +69,10 @@ IMBALANCE_WARN_FLOOR, IMBALANCE_WARN_RTOLS = 1e-6, 1e3
 # than all changes.
 ROUNDING = 64.0 * float(np.finfo(np.float64).eps)
 # Of an error, passed on with the index of the run.
-FIELDS = ("kind", "hint", "joint", "link", "slide", "driver", "dimension", "names", "group")
-FIELDS = (*FIELDS, "design", "q", "t", "value")
+FIELDS = (
+    *("kind", "hint", "joint", "link", "slide", "driver", "dimension", "names", "group"),
+    *("design", "q", "t", "value"),
+)
 # Warn when the balancing moment exceeds this fraction of the motor's.
 BALANCE_WARN_RTOL = 1e-6
 
@@ -174,16 +176,16 @@ def _one(machine: MachineModel, inputs: Inputs, state: tuple[Float, Float, float
         )
     # The core numbers friction's events after those that were asked for.
     events = [*inputs.events, STICK, SLIP]
-    made = Run(core, machine.mechanism, n, events, inputs.along_q, table_names(machine))
+    tables = table_names(machine) if core.ending["kind"] == "table ends" else ()
+    made = Run(core, machine.mechanism, n, events, inputs.along_q, tables)
     if made.end in EARLY_ENDS:
         warnings.warn(f"the run ended early: {made.message}", AssurWarning, stacklevel=4)
     # A machine from a table has no singular positions.
     if machine.mechanism is None:
         return made
-    energies, infinite_at = core.imbalance()
-    if energies is None:
+    worst, size, potential, infinite_at = core.imbalance()
+    if infinite_at is not None:
         raise energies_are_infinite(infinite_at)
-    worst, size, potential = energies
     if worst > max(_allowed(inputs) * size, ROUNDING * potential):
         warnings.warn(_imbalance_text("", worst / size if size else worst), AssurWarning, 4)
     return made

@@ -255,11 +255,6 @@ class Run(Tabular):
     end : str
         Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "zero length"
         (of a cylinder), "locked", "lost", "table ends", "stalled", "step limit" or "time limit".
-    message : str
-        The same as a sentence.
-    at_rest_from : float or None
-        The time from which the machine stands still until the end, s: friction holds it, or it is
-        in balance. None if it moves to the end, or only comes to rest there.
     statistics : Statistics
         Computing effort.
 
@@ -303,10 +298,10 @@ class Run(Tabular):
             )
             for record in core.events
         )
-        self.at_rest_from = self._at_rest_from()
-        self.end, self.message = self._end_and_message(events)
+        self._ending = core.ending
+        self.end: str = self._ending["kind"]
         if self.end in ("dead point", "rest", "near_change_point"):
-            near = core.ending["near_change_point"]
+            near = self._ending["near_change_point"]
             event = self.end if near is None else NearChangePoint(**near)
             self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
@@ -320,7 +315,13 @@ class Run(Tabular):
             f"{counted(len(self.events), 'event')}, {self.end}{self._rest()}>"
         )
 
-    def _at_rest_from(self) -> float | None:
+    @cached_property
+    def at_rest_from(self) -> float | None:
+        """The time from which the machine stands still until the end, s, or None.
+
+        Friction holds it, or it is in balance. None if it moves to the end, or only comes to rest
+        there.
+        """
         # What rests has no acceleration either, to the last bit.
         moves = np.reshape((self.speed != 0.0) | (self.acceleration != 0.0), (len(self.t), -1))
         moving = np.flatnonzero(moves.any(axis=1))
@@ -528,18 +529,20 @@ class Run(Tabular):
     def _per_driver(self, numbers: list[float]) -> Any:
         return numbers[0] if self._drivers == 1 else np.array(numbers)
 
-    def _end_and_message(self, events: list[Any]) -> tuple[str, str]:
-        ending = self._core.ending
+    @cached_property
+    def message(self) -> str:
+        """Why the run ended, as a sentence."""
+        ending = self._ending
         kind, which, near = ending["kind"], ending["event"], ending["near_change_point"]
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
         if near is not None:
-            return kind, (
+            return (
                 f"nearly a change point of dyad {near['dyad']!r} at {place}: near q = "
                 f"{near['q']:.9g} its lengths miss one by {near['miss']:.1e} m, and the motion "
                 "turns within less than can be integrated; draw the change point exactly, or "
                 "lengths clear of it"
             )
-        event = None if which is None else events[which]
+        event = None if which is None else self._init_args[3][which]
         index = ending["table"]
         table = "a table" if index is None or index >= len(self._tables) else self._tables[index]
         sentences = {
@@ -559,4 +562,4 @@ class Run(Tabular):
             + (": the equation is stiff there" if ending["stiff"] else ""),
             "time limit": f"max_seconds was reached at {place}",
         }
-        return kind, sentences[kind]
+        return sentences[kind]

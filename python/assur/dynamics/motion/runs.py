@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
-from assur._arrays import as_number, counted, real_array
+from assur._arrays import as_number, counted, real_array, short
 from assur.dynamics.motion.run import END_ULPS, Run, State, energies_are_infinite
 from assur.errors import InputError
 from assur.kinematics.solve_arguments import in_radians
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from assur import _core
     from assur._arrays import Float, Number
     from assur.errors import AssurError
+    from assur.events import Event
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Runs"]
@@ -34,7 +35,7 @@ class Made(NamedTuple):
     mechanism: Mechanism | None
     drivers: int
     # Of the events, those of friction last.
-    events: list[Any]
+    events: list[Event | str]
     along_q: bool
     tables: tuple[str, ...]
     # Where each begins: its time, or over q its coordinate.
@@ -45,16 +46,16 @@ class Made(NamedTuple):
     whole: bool
 
 
-class Runs(Sequence[Any]):
+class Runs(Sequence[Run]):
     """Motions of a machine, one for each initial state or design.
 
     Made by `Machine.run` where it is given arrays, or designs. A sequence of `Run`, each with the
-    bits that it has alone; the shape S + (E,) is that of the designs and states.
+    bits that it has alone: ``runs[3]`` is the fourth, ``runs[1, 0]`` that at a place of the shape.
 
     Attributes
     ----------
     shape : tuple of int
-        Shape of the runs; `len` and iteration go along its first axis.
+        S + (E,), that of the designs and states.
     t_end : ndarray
         Time at which each ended, s: of that shape. NaN where there is no run.
     q_end, speed_end : ndarray
@@ -110,24 +111,17 @@ class Runs(Sequence[Any]):
         return Runs, (self._made, self._indices)
 
     def __len__(self) -> int:
-        return self.shape[0]
+        return self._indices.size
 
     @overload
-    def __getitem__(self, index: int) -> Any: ...
+    def __getitem__(self, index: int | tuple[int, ...]) -> Run: ...
     @overload
-    def __getitem__(self, index: Any) -> Any: ...
-    def __getitem__(self, index: Any) -> Any:
-        """Return a run, or the runs of a part of the shape, as NumPy indexes arrays.
-
-        Raises the run's own error where there is none.
-        """
-        if isinstance(index, float | str):
-            message = f"runs[{index!r}]: an index is a whole number, or one for each axis"
-            raise InputError(message)
-        chosen = self._indices[index]
-        if np.ndim(chosen):
-            return Runs(self._made, np.asarray(chosen))
-        flat = int(chosen)
+    def __getitem__(self, index: slice) -> Runs: ...
+    def __getitem__(self, index: int | tuple[int, ...] | slice) -> Run | Runs:
+        """Return a run, or raise its error where there is none; of a slice all its runs."""
+        if isinstance(index, slice):
+            return Runs(self._made, self._indices.reshape(-1)[index])
+        flat = self._place(index)
         failure = self._failure(flat)
         if failure is not None:
             raise failure
@@ -135,6 +129,19 @@ class Runs(Sequence[Any]):
         core = made.core.run(flat)
         assert core is not None
         return Run(core, made.mechanism, made.drivers, made.events, made.along_q, made.tables)
+
+    def _place(self, index: int | tuple[int, ...]) -> int:
+        """Return the index of a run among those of the core."""
+        axes: tuple[Any, ...] = index if isinstance(index, tuple) else (index,)
+        of = self._indices if isinstance(index, tuple) else self._indices.reshape(-1)
+        is_whole = all(isinstance(i, int | np.integer) and not isinstance(i, bool) for i in axes)
+        if not is_whole or len(axes) != of.ndim:
+            message = (
+                f"runs[{short(index)}]: an index is a whole number, or one for each axis of "
+                f"{self.shape}"
+            )
+            raise InputError(message)
+        return int(of[axes])
 
     def __repr__(self) -> str:
         kinds, counts = np.unique(self.end, return_counts=True)
@@ -147,12 +154,17 @@ class Runs(Sequence[Any]):
         Parameters
         ----------
         index : int or tuple of int
-            Index into `shape`.
+            As in ``runs[index]``.
 
         Returns
         -------
         str
             `Run.message`, or that of the error.
+
+        Raises
+        ------
+        InputError
+            An index that is not one; IndexError where there are fewer runs.
 
         Examples
         --------
@@ -163,12 +175,8 @@ class Runs(Sequence[Any]):
         >>> machine.run(t_end=1.0, q0=[0.0, 1.0], speed0=3.0).explain(1)
         'reached its end'
         """
-        chosen = self._indices[index]
-        if np.ndim(chosen):
-            message = f"explain({index!r}): an index is needed for each axis of {self.shape}"
-            raise InputError(message)
-        failure = self._failure(int(chosen))
-        return str(failure) if failure is not None else str(self[index].message)
+        failure = self._failure(self._place(index))
+        return str(failure) if failure is not None else self[index].message
 
     def _failure(self, flat: int) -> AssurError | None:
         """Return the error of a run that there is not."""
@@ -244,6 +252,12 @@ class Runs(Sequence[Any]):
 
     def _lasts(self) -> Float:
         return self.q_end if self._made.along_q else self.t_end
+
+
+if TYPE_CHECKING:
+
+    class RunOrRuns(Run, Runs):  # type: ignore[misc]
+        """Of one state of one design a `Run`, of arrays and designs `Runs`: see `_arrays.Number`."""
 
 
 def _shaped(values: Float, shape: tuple[int, ...]) -> Number:

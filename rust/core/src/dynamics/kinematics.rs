@@ -2,6 +2,7 @@
 //! derivatives by the drivers, in metres and radians.
 
 use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::query::evaluator::Position;
 use crate::structure::closure::point_of_joint;
@@ -21,14 +22,14 @@ pub enum Point {
     },
 }
 
-/// A solved position.
-pub(crate) struct SolvedPose<'p> {
-    position: Position<'p>,
+/// A solved position; or one in each lane.
+pub(crate) struct SolvedPose<'p, R: Real = f64> {
+    position: Position<'p, R>,
     derivatives: &'p DerivativeTables,
 }
 
-impl<'p> SolvedPose<'p> {
-    pub(crate) fn new(position: Position<'p>, derivatives: &'p DerivativeTables) -> Self {
+impl<'p, R: Real> SolvedPose<'p, R> {
+    pub(crate) fn new(position: Position<'p, R>, derivatives: &'p DerivativeTables) -> Self {
         Self { position, derivatives }
     }
 
@@ -49,15 +50,9 @@ impl<'p> SolvedPose<'p> {
 
     /// Derivative `k` of a point's position (0: the position), m.
     pub(crate) fn point(&self, point: Point, k: usize) -> Vector {
-        let Position { state, plan, constants, units, .. } = &self.position;
-        let position = |point: usize| {
-            let scaled =
-                state.pose.points[point * self.derivatives.len() + k][0].scale(units.length[k]);
-            let origin = Vector::new(constants.origin[0], constants.origin[1]);
-            if k == 0 { scaled + origin } else { scaled }
-        };
+        let plan = self.position.plan;
         match point {
-            Point::Joint(joint) => position(point_of_joint(joint)),
+            Point::Joint(joint) => self.place(point_of_joint(joint), k),
             // The ground's frame is the drawing's, wherever its first joint is.
             Point::Link { link, at: [x, y] } if link == plan.ground => {
                 if k == 0 {
@@ -67,18 +62,53 @@ impl<'p> SolvedPose<'p> {
                 }
             }
             Point::Link { link, at } => {
-                position(plan.reference[link]) + self.frame(link, k) * Vector::new(at[0], at[1])
+                self.place(plan.reference[link], k) + self.frame(link, k) * Vector::new(at[0], at[1])
             }
         }
     }
 
-    /// Derivative `k` of the unit vector along a link's x axis, up to the second order.
-    pub(crate) fn frame(&self, link: usize, k: usize) -> Vector {
+    /// The position of a point and its first and second derivatives by the only driver: those of
+    /// [`point`](Self::point), with what they share computed once.
+    pub(crate) fn point_jet(&self, point: Point) -> [Vector; 3] {
+        let plan = self.position.plan;
+        match point {
+            Point::Link { link, at } if link != plan.ground => {
+                let at = Vector::new(at[0], at[1]);
+                let unit = self.unit_vector(link);
+                let [first, second] = [1, 2].map(|k| self.angle(link, k));
+                let tangent = unit.left();
+                let frames = [
+                    unit,
+                    tangent.scale(first),
+                    tangent.scale(second) - unit.scale(first * first),
+                ];
+                let reference = plan.reference[link];
+                std::array::from_fn(|k| self.place(reference, k) + frames[k] * at)
+            }
+            _ => std::array::from_fn(|k| self.point(point, k)),
+        }
+    }
+
+    /// Derivative `k` of the position of a point of the plan, m.
+    fn place(&self, point: usize, k: usize) -> Vector {
+        let Position { state, constants, units, .. } = &self.position;
+        let scaled = state.pose.points[point * self.derivatives.len() + k][0].scale(units.length[k]);
+        let origin = Vector::new(constants.origin[0], constants.origin[1]);
+        if k == 0 { scaled + origin } else { scaled }
+    }
+
+    /// The unit vector along a link's x axis.
+    fn unit_vector(&self, link: usize) -> Vector {
         let Position { state, plan, constants, .. } = &self.position;
         let o = plan.link_orientation[link];
         let orientation = &plan.orientations[o];
         let phase = if orientation.driven { state.pose.phase[o][0] } else { Vector::ONE };
-        let unit = state.pose.class[orientation.class][0] * phase * constants.turn[link];
+        state.pose.class[orientation.class][0] * phase * constants.turn[link]
+    }
+
+    /// Derivative `k` of the unit vector along a link's x axis, up to the second order.
+    pub(crate) fn frame(&self, link: usize, k: usize) -> Vector {
+        let unit = self.unit_vector(link);
         if k == 0 {
             return unit;
         }

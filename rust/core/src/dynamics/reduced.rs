@@ -79,6 +79,21 @@ impl Reduced {
     /// derivatives from second analogues, and its weight.
     pub(crate) fn add_body(&mut self, pose: &SolvedPose<'_>, body: &Body, gravity: Vector) {
         let n = self.conservative.len();
+        let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
+            body.mass * p.dot(r) + body.inertia * u * v
+        };
+        let weight = gravity.scale(body.mass);
+        if n == 1 {
+            let [place, first, second] = pose.point_jet(body.at);
+            let [first, second] =
+                [(first, pose.angle(body.link, 1)), (second, pose.angle(body.link, 2))];
+            self.potential += -weight.dot(place);
+            self.inertia[0] += product(first, first);
+            self.d_inertia[0] += 2.0 * product(first, second);
+            self.conservative[0] += weight.dot(first.0);
+            return;
+        }
+        self.potential += -weight.dot(pose.point(body.at, 0));
         let first = |a: usize| {
             let k = SolvedPose::first_order(a);
             (pose.point(body.at, k), pose.angle(body.link, k))
@@ -87,18 +102,6 @@ impl Reduced {
             let k = pose.second_order(a, c);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
-        let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
-            body.mass * p.dot(r) + body.inertia * u * v
-        };
-        let weight = gravity.scale(body.mass);
-        self.potential += -weight.dot(pose.point(body.at, 0));
-        if n == 1 {
-            let (first_order, second_order) = (first(0), second(0, 0));
-            self.inertia[0] += product(first_order, first_order);
-            self.d_inertia[0] += 2.0 * product(first_order, second_order);
-            self.conservative[0] += weight.dot(first_order.0);
-            return;
-        }
         for a in 0..n {
             self.conservative[a] += weight.dot(first(a).0);
             for b in 0..n {

@@ -5,7 +5,7 @@ use super::error::Error;
 use super::event_location::{Cut, Step};
 use super::integrator::Integrator;
 use super::options::Options;
-use super::pair::stages::{Refusal, Scale};
+use super::pair::stages::{Refusal, Scale, Stages};
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
 use super::system::{Attempt, System};
@@ -58,6 +58,27 @@ enum Next {
     End(End),
 }
 
+/// What a run does next.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Plan {
+    /// It attempts a step.
+    Attempt(Planned),
+    /// It ends.
+    End(End),
+}
+
+/// A step to attempt.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Planned {
+    /// Its width, and where it ends.
+    pub h: f64,
+    t_new: f64,
+    /// The width that the control proposes.
+    proposed: f64,
+    /// Whether it is the last of its smooth interval.
+    last: bool,
+}
+
 impl Integrator {
     /// Integrates from `t` with state `y` to `t_end`, which may be before `t`.
     ///
@@ -74,16 +95,38 @@ impl Integrator {
         t_end: f64,
         options: &Options,
     ) -> Result<Solution, Error<S::Error>> {
+        let mut run = self.begin(system, t, y, t_end, options)?;
+        loop {
+            match run.plan()? {
+                Plan::Attempt(planned) => run.attempt(planned)?,
+                Plan::End(end) => return Ok(run.finish(end)),
+            }
+        }
+    }
+
+    /// Begins a run from `t` with state `y` to `t_end`, to go on step by step.
+    ///
+    /// # Errors
+    ///
+    /// An invalid argument.
+    pub(crate) fn begin<'a, S: System>(
+        &'a mut self,
+        system: &'a mut S,
+        t: f64,
+        y: &[f64],
+        t_end: f64,
+        options: &'a Options<'a>,
+    ) -> Result<Run<'a, S>, Error<S::Error>> {
         options.check(t, t_end, y, self.n)?;
         self.y.as_flattened_mut()[..self.n].copy_from_slice(y);
         self.stages.evaluations = 0;
         self.tracker.reset(options.events);
-        Run::new(self, system, (t, t_end), options).integrate()
+        Ok(Run::new(self, system, (t, t_end), options))
     }
 }
 
 /// A run in progress. The integrator holds its state.
-pub(super) struct Run<'a, S> {
+pub(crate) struct Run<'a, S> {
     integrator: &'a mut Integrator,
     system: &'a mut S,
     options: &'a Options<'a>,
@@ -91,6 +134,12 @@ pub(super) struct Run<'a, S> {
     control: Control,
     t: f64,
     t_end: f64,
+    /// End of the smooth interval that it is in.
+    interval: Option<f64>,
+    /// Whether the signs of the event functions are taken again at the start of the next interval.
+    resets_signs: bool,
+    /// Why it has ended.
+    end: Option<End>,
     /// 1 or -1: the direction of the run.
     direction: f64,
     /// Width proposed for the next step.
@@ -138,6 +187,9 @@ impl<'a, S: System> Run<'a, S> {
             options,
             t,
             t_end,
+            interval: None,
+            resets_signs: true,
+            end: None,
             direction,
             h: None,
             attempted: 0,
@@ -153,33 +205,79 @@ impl<'a, S: System> Run<'a, S> {
         }
     }
 
-    /// Integrates to the end, or as far as possible.
-    pub(super) fn integrate(mut self) -> Result<Solution, Error<S::Error>> {
-        let mut end = if self.t == self.t_end { Some(End::Reached) } else { None };
-        let mut reset_signs = true;
-        while end.is_none() {
-            let to = self.interval_end();
-            end = match self.smooth_interval(to, reset_signs)? {
-                Next::Step if self.t == self.t_end => Some(End::Reached),
-                Next::End(end) => Some(end),
-                next => {
-                    self.statistics.restarts += 1;
-                    reset_signs = matches!(next, Next::Restart);
-                    None
-                }
+    /// The step to attempt next, unless it ends.
+    pub(crate) fn plan(&mut self) -> Result<Plan, Error<S::Error>> {
+        loop {
+            if let Some(end) = self.end {
+                return Ok(Plan::End(end));
+            }
+            if self.interval.is_none() && self.t == self.t_end {
+                self.end = Some(End::Reached);
+                continue;
+            }
+            let Some(to) = self.interval else {
+                let to = self.interval_end();
+                self.end = self.begin_interval(to)?;
+                self.interval = Some(to);
+                continue;
             };
+            if self.t != to {
+                match self.plan_step(to)? {
+                    Plan::End(end) => self.end = Some(end),
+                    plan @ Plan::Attempt(_) => return Ok(plan),
+                }
+            } else if self.t == self.t_end {
+                self.end = Some(End::Reached);
+            } else {
+                self.leave_interval(false);
+            }
         }
+    }
+
+    /// The stages of its steps.
+    pub(super) fn stages(&self) -> &Stages {
+        &self.integrator.stages
+    }
+
+    /// Its present state.
+    pub(super) fn state(&self) -> &[f64] {
+        &self.integrator.y.as_flattened()[..self.integrator.n]
+    }
+
+    /// The rates there.
+    pub(super) fn rates(&self) -> &[f64] {
+        &self.integrator.stages.rates(0).as_flattened()[..self.integrator.n]
+    }
+
+    /// Gives the rates of stages of the step that it has planned; see [`Stages::give`].
+    pub(super) fn give(
+        &mut self,
+        count: usize,
+        rate: impl Fn(usize, usize) -> f64,
+        argument: impl Fn(usize) -> f64,
+    ) {
+        self.integrator.stages.give(count, rate, argument);
+    }
+
+    /// Goes on to the next smooth interval.
+    fn leave_interval(&mut self, resets_signs: bool) {
+        self.statistics.restarts += 1;
+        (self.interval, self.resets_signs) = (None, resets_signs);
+    }
+
+    /// The run so far, which ends here.
+    pub(crate) fn finish(mut self, end: End) -> Solution {
         self.statistics.evaluations = self.integrator.stages.evaluations;
-        Ok(Solution {
+        Solution {
             t: self.t,
             y: self.integrator.y.as_flattened()[..self.integrator.n].to_vec(),
-            end: end.unwrap_or(End::Reached),
+            end,
             events: self.record.events,
             event_states: self.record.event_states,
             samples: self.record.samples,
             dense: self.record.dense,
             statistics: self.statistics,
-        })
+        }
     }
 
     /// The next break, or the end of the run.
@@ -193,22 +291,21 @@ impl<'a, S: System> Run<'a, S> {
         next.copied().filter(|b| (self.t_end - b) * self.direction > 0.0).unwrap_or(self.t_end)
     }
 
-    /// Integrates a smooth interval. Returns `Next::Step` if nothing ends it before `to`. With
-    /// `reset_signs`, the signs of the event functions are taken again at its start.
-    fn smooth_interval(&mut self, to: f64, reset_signs: bool) -> Result<Next, Error<S::Error>> {
+    /// Begins a smooth interval; returns why the run ends there, if it does.
+    fn begin_interval(&mut self, to: f64) -> Result<Option<End>, Error<S::Error>> {
         let Integrator { n, stages, tracker, y, new, .. } = &mut *self.integrator;
         let flat = &y.as_flattened()[..*n];
         self.system.begin_interval(self.t, to, flat).map_err(Error::System)?;
         stages.begin_interval();
         if tracker.len() > 0 {
             self.system.events(self.t, flat, tracker.start_values()).map_err(Error::System)?;
-            if reset_signs {
+            if self.resets_signs {
                 tracker.reset_signs();
             }
         }
         if let Err(refusal) = stages.evaluate(self.system, 0, self.t, y) {
             return match refusal {
-                Refusal::OutOfDomain => Ok(Next::End(End::DomainBoundary { t: self.t })),
+                Refusal::OutOfDomain => Ok(Some(End::DomainBoundary { t: self.t })),
                 Refusal::NotFinite { t, component } => Err(Error::NotFinite { t, component }),
                 Refusal::System(error) => Err(Error::System(error)),
             };
@@ -228,23 +325,17 @@ impl<'a, S: System> Run<'a, S> {
                 if self.options.first_step.is_some() { width } else { FIRST_STEP_FACTOR * width };
             self.h = Some(self.direction * width.max(MIN_FIRST_STEP * spacing(self.t)));
         }
-        while self.t != to {
-            match self.step(to)? {
-                Next::Step => {}
-                next => return Ok(next),
-            }
-        }
-        Ok(Next::Step)
+        Ok(None)
     }
 
-    /// Attempts one step.
-    fn step(&mut self, to: f64) -> Result<Next, Error<S::Error>> {
+    /// The next step of a smooth interval, unless the run ends.
+    fn plan_step(&mut self, to: f64) -> Result<Plan, Error<S::Error>> {
         if self.attempted >= self.options.max_steps {
             let stiff = 2 * self.statistics.stiff > self.statistics.steps;
-            return Ok(Next::End(End::StepLimit { t: self.t, stiff }));
+            return Ok(Plan::End(End::StepLimit { t: self.t, stiff }));
         }
         if self.attempted.is_multiple_of(CANCEL_CHECK_STEPS) && self.system.cancelled() {
-            return Ok(Next::End(End::Cancelled { t: self.t }));
+            return Ok(Plan::End(End::Cancelled { t: self.t }));
         }
         self.attempted += 1;
         let remaining = to - self.t;
@@ -261,18 +352,39 @@ impl<'a, S: System> Run<'a, S> {
             (h, self.t + h)
         };
         if self.refusals > MAX_REFUSALS || self.to_boundary == Some(0.0) {
-            return Ok(Next::End(End::DomainBoundary { t: self.t }));
+            return Ok(Plan::End(End::DomainBoundary { t: self.t }));
         }
         if !last && h.abs() < MIN_STEP * spacing(self.t) {
             return match self.obstacle {
-                None => Ok(Next::End(End::Stalled { t: self.t })),
-                Some(Obstacle::DomainBoundary) => Ok(Next::End(End::DomainBoundary { t: self.t })),
+                None => Ok(Plan::End(End::Stalled { t: self.t })),
+                Some(Obstacle::DomainBoundary) => Ok(Plan::End(End::DomainBoundary { t: self.t })),
                 Some(Obstacle::NotFinite { t, component }) => {
                     Err(Error::NotFinite { t, component })
                 }
             };
         }
-        let factor = match self.attempt(h, t_new) {
+        Ok(Plan::Attempt(Planned { h, t_new, proposed, last }))
+    }
+
+    /// Attempts a planned step.
+    pub(crate) fn attempt(&mut self, planned: Planned) -> Result<(), Error<S::Error>> {
+        let outcome = self.compute(planned.h, planned.t_new);
+        self.integrator.stages.forget_given();
+        match self.conclude(planned, outcome)? {
+            Next::Step => {}
+            Next::Restart => self.leave_interval(true),
+            Next::End(end) => self.end = Some(end),
+        }
+        Ok(())
+    }
+
+    /// Accepts or rejects a step with its error relative to the tolerance.
+    fn conclude(
+        &mut self,
+        Planned { h, t_new, proposed, last }: Planned,
+        outcome: Result<f64, Refusal<S::Error>>,
+    ) -> Result<Next, Error<S::Error>> {
+        let factor = match outcome {
             Ok(error) if error <= 1.0 => {
                 let factor = self.control.factor_after_accept(error);
                 // A step cut short by the end of its interval shows little of the width that the tolerance
@@ -304,7 +416,7 @@ impl<'a, S: System> Run<'a, S> {
 
     /// Computes a step and its error relative to the tolerance. If the error is at most 1, all
     /// stages are evaluated.
-    fn attempt(&mut self, h: f64, t_new: f64) -> Result<f64, Refusal<S::Error>> {
+    fn compute(&mut self, h: f64, t_new: f64) -> Result<f64, Refusal<S::Error>> {
         let dense = self.integrator.tracker.len() > 0 || self.record.needs_dense_output(t_new);
         let Integrator { n, stages, interpolant, y, new, .. } = &mut *self.integrator;
         let end = stages.tableau.stages;
@@ -332,6 +444,9 @@ impl<'a, S: System> Run<'a, S> {
         }
         if !stages.tableau.error_needs_end {
             stages.evaluate(self.system, end, t_new, new)?;
+        }
+        if stages.is_given(end) {
+            self.system.place(t_new, &new.as_flattened()[..*n]);
         }
         let drift = self.system.drift(t_new, &new.as_flattened()[..*n]);
         if drift > 1.0 && self.drift_retries < MAX_DRIFT_RETRIES {

@@ -193,12 +193,12 @@ impl Run {
         Ok(arrays(py, all))
     }
 
-    /// The greatest imbalance, energy and potential energy, J; or the time at which an energy is
-    /// infinite, s.
-    fn imbalance(&self) -> (Option<[f64; 3]>, Option<f64>) {
+    /// The greatest imbalance, energy and potential energy, J; and the time at which an energy is
+    /// infinite, s, if one is.
+    fn imbalance(&self) -> (f64, f64, f64, Option<f64>) {
         match self.0.imbalance() {
-            Ok(Imbalance { worst, size, potential }) => (Some([worst, size, potential]), None),
-            Err(t) => (None, Some(t)),
+            Ok(Imbalance { worst, size, potential }) => (worst, size, potential, None),
+            Err(t) => (f64::NAN, f64::NAN, f64::NAN, Some(t)),
         }
     }
 
