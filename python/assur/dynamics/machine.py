@@ -1149,8 +1149,8 @@ class Machine(MachineModel):
         -------
         Run or Runs
             The motion; it ends early at an event that stops it, at a dead point (also an event), or
-            at a limit. Of arrays or designs S: `Runs` of the shape S + (E,), each with the bits that
-            it has alone.
+            at a limit. Of arrays or designs S: `Runs` of the shape S + (E,), each with the bits
+            that it has alone.
 
         Raises
         ------

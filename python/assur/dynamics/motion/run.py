@@ -196,7 +196,8 @@ class Energy(NamedTuple):
 def energies_are_infinite(t: float) -> MotionError:
     """Return the error of a run whose energies are infinite at a time."""
     message = (
-        f"energies of the run are infinite at t = {t:g} s: its speeds, masses or loads are too great"
+        f"energies of the run are infinite at t = {t:g} s: its speeds, masses or loads are too "
+        "great"
     )
     return MotionError(message, kind="not_finite", t=t)
 

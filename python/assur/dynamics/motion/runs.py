@@ -1,4 +1,4 @@
-"""Motions of a machine from many initial states or designs: the result of `Machine.run` of arrays."""
+"""Motions of a machine from many initial states or designs: what `Machine.run` of arrays gives."""
 
 from __future__ import annotations
 
@@ -257,7 +257,7 @@ class Runs(Sequence[Run]):
 if TYPE_CHECKING:
 
     class RunOrRuns(Run, Runs):  # type: ignore[misc]
-        """Of one state of one design a `Run`, of arrays and designs `Runs`: see `_arrays.Number`."""
+        """Of one state and design a `Run`, of arrays and designs `Runs`: see `Number`."""
 
 
 def _shaped(values: Float, shape: tuple[int, ...]) -> Number:
@@ -265,7 +265,7 @@ def _shaped(values: Float, shape: tuple[int, ...]) -> Number:
 
 
 def _clipped(x: Float, first: Float, last: Float) -> Float:
-    """Return the points of each run; NaN outside, where a few ulps beyond an end count as the end."""
+    """Return the points of each run, NaN outside; a few ulps beyond an end count as the end."""
     low, high = (choice(first, last)[:, np.newaxis] for choice in (np.minimum, np.maximum))
     slack = END_ULPS * np.finfo(np.float64).eps * np.maximum(np.abs(low), np.abs(high))
     inside = (x >= low - slack) & (x <= high + slack)

@@ -61,7 +61,7 @@ pub use measure::{Curve, Measure, OneWay, Over};
 pub use motor::{Characteristic, Motor};
 pub use pair_friction::Friction;
 pub use reactions::load_actions::LoadAction;
-pub use run::callbacks::{Callbacks, NoCallbacks};
+pub use run::callbacks::{Callbacks, NoCallbacks, UnlessCancelled};
 pub use run::dead_point::Tail;
 pub use run::error::RunError;
 pub use run::imbalance::Imbalance;

@@ -265,17 +265,18 @@ impl<'a, S: System> Run<'a, S> {
         (self.interval, self.resets_signs) = (None, resets_signs);
     }
 
-    /// The run so far, which ends here.
-    pub(crate) fn finish(mut self, end: End) -> Solution {
+    /// Takes the solution of a run that has ended.
+    pub(crate) fn finish(&mut self, end: End) -> Solution {
         self.statistics.evaluations = self.integrator.stages.evaluations;
+        let record = &mut self.record;
         Solution {
             t: self.t,
             y: self.integrator.y.as_flattened()[..self.integrator.n].to_vec(),
             end,
-            events: self.record.events,
-            event_states: self.record.event_states,
-            samples: self.record.samples,
-            dense: self.record.dense,
+            events: std::mem::take(&mut record.events),
+            event_states: std::mem::take(&mut record.event_states),
+            samples: std::mem::take(&mut record.samples),
+            dense: std::mem::take(&mut record.dense),
             statistics: self.statistics,
         }
     }

@@ -3,10 +3,10 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use assur::Mechanism;
+use assur::{Mechanism, Simd};
 use assur::dynamics::{
     Callbacks, EventKind, EventSpec, Machine, Outcome, RunBatch, RunError, StopReason,
-    TabulatedMachine,
+    TabulatedMachine, UnlessCancelled,
 };
 use pyo3::prelude::*;
 
@@ -16,8 +16,9 @@ use crate::convert::event::event;
 use crate::parallel_map::parallel_map;
 use crate::{detach, reserve};
 
-/// Runs of a chunk, which share the traced branch of their design.
-const CHUNK: usize = 32;
+/// Runs of a chunk, which share the traced branch of their design; and the chunks of a small batch.
+const CHUNK: [usize; 2] = [16, 128];
+const CHUNKS: usize = 32;
 /// Runs that take only milliseconds.
 const FEW_RUNS: usize = 8;
 
@@ -41,6 +42,27 @@ impl Source<'_> {
                 machine.runs(mechanism, batch, range, callbacks, keep);
             }
             Self::Tables(tabulated) => tabulated.runs(batch, range, callbacks, keep),
+        }
+    }
+}
+
+impl Source<'_> {
+    /// The same for runs that call no functions of Python.
+    fn runs_without_functions(
+        self,
+        batch: &RunBatch<'_>,
+        range: Range<usize>,
+        cancel: &AtomicBool,
+        keep: &mut impl FnMut(usize, Outcome<PyErr>) -> ControlFlow<()>,
+    ) {
+        match self {
+            Self::Mechanism(mechanism, machine) => {
+                let control = (cancel, Simd::default());
+                machine.runs_side_by_side(mechanism, batch, range, control, keep);
+            }
+            Self::Tables(tabulated) => {
+                tabulated.runs(batch, range, &mut UnlessCancelled::new(cancel), keep);
+            }
         }
     }
 }
@@ -70,29 +92,6 @@ pub(crate) fn events_of_designs(
     Ok(all)
 }
 
-/// No functions; a flag cancels it.
-struct Unless<'c>(&'c AtomicBool);
-
-impl Callbacks for Unless<'_> {
-    type Error = PyErr;
-
-    fn count(&self) -> usize {
-        0
-    }
-
-    fn numbers(&mut self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) -> PyResult<()> {
-        Ok(())
-    }
-
-    fn event(&mut self, _: usize, _: f64, _: &[f64], _: &[f64]) -> PyResult<f64> {
-        Ok(f64::NAN)
-    }
-
-    fn cancelled(&mut self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
-
 /// All runs of a batch on several threads, without functions of Python.
 pub(crate) fn in_threads(
     py: Python<'_>,
@@ -103,17 +102,18 @@ pub(crate) fn in_threads(
 ) -> PyResult<Runs> {
     let count = batch.len();
     let _room = reserve::room(py, count.saturating_mul(2 * size_of::<Kept>()))?;
+    let size = count.div_ceil(CHUNKS).clamp(CHUNK[0], CHUNK[1]);
     let chunks = detach::run(py, count <= FEW_RUNS, |cancel| {
         let chunk = |index: usize| {
-            let range = index * CHUNK..((index + 1) * CHUNK).min(count);
+            let range = index * size..((index + 1) * size).min(count);
             let mut kept = Vec::with_capacity(range.len());
-            source.runs(batch, range, &mut Unless(cancel), &mut |_, outcome| {
+            source.runs_without_functions(batch, range, cancel, &mut |_, outcome| {
                 kept.push(Kept::new(outcome, only_ends));
                 go_on(cancel.load(Ordering::Relaxed))
             });
             kept
         };
-        parallel_map(count.div_ceil(CHUNK), 1, threads, cancel, &chunk)
+        parallel_map(count.div_ceil(size), 1, threads, cancel, &chunk)
     })?;
     Runs::new(py, chunks.into_iter().flatten().collect())
 }

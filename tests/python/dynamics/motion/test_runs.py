@@ -72,7 +72,7 @@ def with_table() -> assur.Machine:
 
 
 def with_functions() -> assur.Machine:
-    return slider_crank(loads=[Force("B", (lambda t, q, v: 20.0 * math.cos(t) - 2.0 * v, 0.0))])
+    return slider_crank(loads=[Force("B", (lambda t, _, v: 20.0 * math.cos(t) - 2.0 * v, 0.0))])
 
 
 def lever() -> assur.Machine:
@@ -112,7 +112,11 @@ CASES: dict[str, tuple[Any, dict[str, Any]]] = {
             "t_end": 3.0,
             "q0": STATES,
             "speed0": SPEEDS,
-            "events": [events.Position(2.0, stop=False), events.Speed(1.0), events.Rest(stop=False)],
+            "events": [
+                events.Position(2.0, stop=False),
+                events.Speed(1.0),
+                events.Rest(stop=False),
+            ],
         },
     ),
     "obstacle": (
@@ -121,7 +125,7 @@ CASES: dict[str, tuple[Any, dict[str, Any]]] = {
     ),
     "crossing": (
         lambda: slider_crank(loads=[Gravity()]),
-        {"t_end": 1.0, "q0": STATES, "events": [events.Crossing(lambda t, q, v: t - 0.4)]},
+        {"t_end": 1.0, "q0": STATES, "events": [events.Crossing(lambda t, *_: t - 0.4)]},
     ),
     "dead points": (lever, {"t_end": 9.0, "q0": [2.1, 2.3, 1.9], "speed0": [1.0, -1.0, 0.5]}),
     "over q": (
@@ -231,7 +235,7 @@ def test_designs_and_states() -> None:
     assert runs[1:3].shape == (2,)
     assert same(runs[1:3][1], runs[1, 0])
     assert runs.at([0.1, 0.2, 0.3]).speed.shape == (3, 2, 3)
-    each = machine.run(0.1, q0=0.5)
+    each: Any = machine.run(0.1, q0=0.5)
     assert isinstance(each, assur.Runs)
     assert each.shape == (3,)
 
@@ -304,7 +308,7 @@ def test_one_warning_counts_early_ends() -> None:
 
 
 def test_a_function_that_fails_ends_all() -> None:
-    def load(t: float, q: float, speed: float) -> float:
+    def load(t: float, q: float, _: float) -> float:
         if t > 0.05 and q > 1.0:
             message = "no more"
             raise ZeroDivisionError(message)
@@ -333,7 +337,9 @@ def test_bad_input(arguments: dict[str, Any], told: str) -> None:
 
 
 def test_the_last_axis_is_that_of_the_drivers() -> None:
-    with pytest.raises(assur.InputError, match=r"speed0 has the shape \(3,\): its last axis must be 2"):
+    with pytest.raises(
+        assur.InputError, match=r"speed0 has the shape \(3,\): its last axis must be 2"
+    ):
         two_drivers().run(0.1, speed0=[1.0, 2.0, 3.0])
 
 

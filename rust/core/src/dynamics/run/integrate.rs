@@ -18,10 +18,11 @@ use crate::description::error::Hint;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
 use crate::math::room::has_room;
+use crate::ode::error::Error as IntegratorError;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
-use crate::ode::system::System;
+use crate::ode::system::{Crossing, System};
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
 use crate::query::failure::{Failure, Reason};
@@ -70,11 +71,58 @@ impl TabulatedMachine {
 }
 
 /// Integrates the motion; `sizes`: for each driver, the size that its tolerance is relative to.
-pub(crate) fn run<S: ReducedModel, O: Callbacks>(
-    mut equation: Equation<'_, S, O>,
-    options: &RunOptions<'_>,
+pub(crate) fn run<'a, S: ReducedModel, O: Callbacks>(
+    equation: Equation<'a, S, O>,
+    options: &RunOptions<'a>,
     sizes: &[f64],
 ) -> Result<Run, RunError<O::Error>> {
+    let (mut system, prepared) = prepare(equation, options, sizes)?;
+    let mut integrator = Integrator::new(options.method, system.len());
+    let ode_options = prepared.options(options);
+    let [from, to] = prepared.range;
+    let solution = integrator.run(&mut system, from, &prepared.start, to, &ode_options);
+    conclude(system, options, &prepared, solution)
+}
+
+/// What the integrator needs of a run.
+pub(crate) struct Prepared {
+    /// Where it begins, and where it is to end.
+    pub range: [f64; 2],
+    /// Its initial state.
+    pub start: Vec<f64>,
+    /// The table at whose end it ends.
+    clipped: Option<usize>,
+    tolerances: [Vec<f64>; 2],
+    breaks: Vec<f64>,
+    crossings: Vec<Crossing>,
+    max_step: f64,
+    max_change: Vec<f64>,
+}
+
+impl Prepared {
+    /// The options of the integrator.
+    pub(crate) fn options(&self, options: &RunOptions<'_>) -> Options<'_> {
+        let [relative, absolute] = &self.tolerances;
+        Options {
+            relative,
+            absolute,
+            first_step: None,
+            max_step: self.max_step,
+            max_change: &self.max_change,
+            max_steps: options.max_steps,
+            breaks: &self.breaks,
+            events: &self.crossings,
+            output: Output::Dense,
+        }
+    }
+}
+
+/// Sets up the system of a run.
+pub(crate) fn prepare<'a, S: ReducedModel, O: Callbacks>(
+    mut equation: Equation<'a, S, O>,
+    options: &RunOptions<'a>,
+    sizes: &[f64],
+) -> Result<(RunSystem<'a, S, O>, Prepared), RunError<O::Error>> {
     equation.flywheel = options.flywheel;
     equation.begin(options.q[0], options.speed)?;
     let (from, end) = match options.along {
@@ -110,7 +158,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
             breaks_of(system.equation.tables, &knots, [from, to], sizes[0])?
         }
     };
-    let [relative, absolute] = tolerances(&mut system, options, sizes)?;
+    let tolerances = tolerances(&mut system, options, sizes)?;
     let crossings = system.crossings();
     // Wide steps of a smooth motion could skip over an angle's event.
     let has_angle_events =
@@ -127,28 +175,29 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         // While the machine rests, only these steps find loads that move it.
         max_step = max_step.min((to - from).abs() / STEPS_AT_REST);
     }
-    let ode_options = Options {
-        relative: &relative,
-        absolute: &absolute,
-        first_step: None,
-        max_step,
-        max_change: &max_change,
-        max_steps: options.max_steps,
-        breaks: &breaks,
-        events: &crossings,
-        output: Output::Dense,
-    };
-    let mut integrator = Integrator::new(options.method, system.len());
     let start = RunSystem::<S, O>::initial_state(options);
-    let solution = integrator
-        .run(&mut system, from, &start, to, &ode_options)
-        .map_err(|error| RunError::of_integrator(error, options.along, from))?;
+    let range = [from, to];
+    let prepared =
+        Prepared { range, start, clipped, tolerances, breaks, crossings, max_step, max_change };
+    Ok((system, prepared))
+}
+
+/// The run of a solution.
+pub(crate) fn conclude<S: ReducedModel, O: Callbacks>(
+    system: RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
+    prepared: &Prepared,
+    solution: Result<Solution, IntegratorError<RunError<O::Error>>>,
+) -> Result<Run, RunError<O::Error>> {
+    let [from, _] = prepared.range;
+    let solution =
+        solution.map_err(|error| RunError::of_integrator(error, options.along, from))?;
     // Samples are made from the record, and Python's arrays from the samples.
     let steps = solution.dense.ends().len();
     if !has_room(COPIES * (3 * options.q.len() + 4) * (steps + 2)) {
         return Err(RunError::OutOfMemory { steps });
     }
-    Ok(assemble_run(system, options, from, solution, clipped))
+    Ok(assemble_run(system, options, from, solution, prepared.clipped))
 }
 
 /// Clips the end of a run along the coordinate to its tables; returns it and the table that ends.

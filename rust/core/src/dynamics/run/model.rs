@@ -223,6 +223,18 @@ impl<'m> MechanismModel<'m> {
         Self { machine, derivatives, evaluator, held, followers, friction, sliding, reversing }
     }
 
+    pub(crate) fn machine(&self) -> &'m Machine {
+        self.machine
+    }
+
+    pub(crate) fn derivatives(&self) -> &'m DerivativeTables {
+        self.derivatives
+    }
+
+    pub(crate) fn evaluator(&self) -> &Evaluator<'m> {
+        &self.evaluator
+    }
+
     /// Forgets the motion before, on which the next one must not depend.
     pub(crate) fn restart(&mut self) {
         self.evaluator.restart();

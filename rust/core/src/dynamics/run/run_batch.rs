@@ -50,36 +50,40 @@ impl RunBatch<'_> {
     }
 
     /// The design of a run.
-    fn design(&self, run: usize) -> usize {
+    pub(super) fn design(&self, run: usize) -> usize {
         run / (self.len() / self.designs.max(1)).max(1)
     }
 
     /// The dimensions of a design.
-    fn dimensions_of(&self, design: usize) -> Vec<f64> {
+    pub(super) fn dimensions_of(&self, design: usize) -> Vec<f64> {
         self.dimensions.iter().skip(design).step_by(self.designs.max(1)).copied().collect()
     }
 
+    /// The options of a run.
+    pub(super) fn options_of(&self, run: usize) -> RunOptions<'_> {
+        let drivers = self.q.len().checked_div(self.len()).unwrap_or(0);
+        let states = run * drivers..(run + 1) * drivers;
+        let events = self.events.get(self.design(run)).or(self.events.first());
+        RunOptions {
+            q: self.q.get(states.clone()).unwrap_or(&[]),
+            speed: self.speed.get(states).unwrap_or(&[]),
+            end: self.ends[run],
+            events: events.map_or(&[], |events| events),
+            deadline: self.limit.and_then(|limit| Instant::now().checked_add(limit)),
+            ..self.options
+        }
+    }
+
     /// Calls `integrate` with the options of each run in a range, until a callback fails or
-    /// `integrate` breaks off.
+    /// `keep` breaks off.
     fn each<E>(
         &self,
         range: Range<usize>,
         mut integrate: impl FnMut(usize, &RunOptions<'_>) -> Outcome<E>,
         keep: &mut impl FnMut(usize, Outcome<E>) -> ControlFlow<()>,
     ) {
-        let drivers = self.q.len().checked_div(self.len()).unwrap_or(0);
         for run in range {
-            let design = self.design(run);
-            let states = run * drivers..(run + 1) * drivers;
-            let options = RunOptions {
-                q: self.q.get(states.clone()).unwrap_or(&[]),
-                speed: self.speed.get(states).unwrap_or(&[]),
-                end: self.ends[run],
-                events: self.events.get(design).or(self.events.first()).map_or(&[], |all| all),
-                deadline: self.limit.and_then(|limit| Instant::now().checked_add(limit)),
-                ..self.options
-            };
-            let outcome = integrate(design, &options);
+            let outcome = integrate(self.design(run), &self.options_of(run));
             let has_failed = matches!(outcome, Err(RunError::Callback(_)));
             if keep(run, outcome).is_break() || has_failed {
                 return;

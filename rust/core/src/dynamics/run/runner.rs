@@ -14,7 +14,7 @@ use crate::plan::mechanism::Mechanism;
 
 /// Index tables that the runs of a mechanism need.
 #[derive(Debug)]
-pub struct RunTables(DerivativeTables);
+pub struct RunTables(pub(super) DerivativeTables);
 
 impl RunTables {
     /// Those of a mechanism.
@@ -78,7 +78,7 @@ impl<'m> Runner<'m> {
 /// The unit of the tolerance of each coordinate: 1 for an angle, the greatest length for a slide.
 /// It must not be the unit of length that is a power of 2: the tolerance would depend on the unit in which
 /// lengths are given.
-fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
+pub(super) fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
     let greatest = mechanism.slots.size(dimensions);
     let length = if greatest > 0.0 { greatest } else { 1.0 };
     let size = |driver: &Driver| match driver {

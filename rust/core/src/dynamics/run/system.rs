@@ -488,6 +488,11 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         })
     }
 
+    fn place(&mut self, _: f64, y: &[f64]) {
+        // Its rates are known, so it exists.
+        let _ = self.equation.set_configuration(&y[..self.drivers]);
+    }
+
     fn watch_invariant(&mut self, _: f64, y: &[f64]) {
         self.total = self.balance(y).0;
     }
