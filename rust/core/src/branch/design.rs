@@ -274,6 +274,7 @@ impl<'a> Design<'a> {
     }
 
     /// The same in every lane.
+    #[inline(always)]
     pub(crate) fn prepare_lanes<R: Real>(&self, state: &mut State<R>) {
         state.prepare(self.mechanism.plan(), &self.constants, self.derivatives);
     }

@@ -51,7 +51,11 @@ impl<'p, R: Real> SolvedPose<'p, R> {
             Point::Joint(joint) => self.place(point_of_joint(joint), k),
             // The ground's frame is the drawing's, wherever its first joint is.
             Point::Link { link, at: [x, y] } if link == plan.ground => {
-                if k == 0 { Vector::splat(Vector::new(x, y)) } else { Vector::ZERO }
+                if k == 0 {
+                    Vector::splat(Vector::new(x, y))
+                } else {
+                    Vector::ZERO
+                }
             }
             Point::Link { link, at } => {
                 let at = Vector::splat(Vector::new(at[0], at[1]));
@@ -71,11 +75,8 @@ impl<'p, R: Real> SolvedPose<'p, R> {
                 let unit = self.unit_vector(link);
                 let (first, second) = (self.angle(link, 1), self.angle(link, 2));
                 let tangent = unit.left();
-                let frames = [
-                    unit,
-                    tangent.scale(first),
-                    tangent.scale(second) - unit.scale(first * first),
-                ];
+                let frames =
+                    [unit, tangent.scale(first), tangent.scale(second) - unit.scale(first * first)];
                 let reference = plan.reference[link];
                 [
                     self.place(reference, 0) + frames[0] * at,
@@ -120,7 +121,8 @@ impl<'p, R: Real> SolvedPose<'p, R> {
         }
         // ∂∂U = i U ∂∂Θ − U ∂Θ ∂Θ.
         let (driver, lower) = self.derivatives.lowered[k];
-        let rates = self.angle(link, SolvedPose::<f64>::first_order(driver)) * self.angle(link, lower);
+        let rates =
+            self.angle(link, SolvedPose::<f64>::first_order(driver)) * self.angle(link, lower);
         tangential - unit.scale(rates)
     }
 
@@ -149,7 +151,6 @@ impl<'p, R: Real> SolvedPose<'p, R> {
     pub(crate) fn unit(&self, driver: usize) -> f64 {
         self.position.units.coordinate[driver]
     }
-
 }
 
 impl SolvedPose<'_> {

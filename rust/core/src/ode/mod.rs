@@ -59,6 +59,7 @@ pub(crate) mod record;
 pub(crate) mod run;
 pub(crate) mod side_by_side;
 pub(crate) mod solution;
+mod step;
 pub(crate) mod system;
 #[cfg(test)]
 mod tests;

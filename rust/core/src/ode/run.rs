@@ -2,57 +2,30 @@
 
 use super::control::{Control, first_width};
 use super::error::Error;
-use super::event_location::{Cut, Step};
 use super::integrator::Integrator;
 use super::options::Options;
 use super::pair::stages::{Refusal, Scale, Stages};
 use super::record::Record;
 use super::solution::{End, Solution, Statistics};
-use super::system::{Attempt, System};
+use super::system::System;
 
-/// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a
-/// lock, and a hundred evaluations are a short wait.
-const CANCEL_CHECK_STEPS: u64 = 16;
-/// A step goes to the end of its smooth interval if that widens it by at most this factor, so that no
-/// sliver remains (Hairer's programs).
-const LAST_STEP_STRETCH: f64 = 1.01;
-/// The last steps of a smooth interval, up to this many, are made equal instead of leaving a narrow
-/// one at its end: the same number of steps with smaller errors.
-const EQUAL_STEPS: f64 = 4.0;
 /// Fraction of the theoretical first width that is used. The first step has no other to check its
 /// error estimate, and a narrow feature between the stages deceives it (errors of hundreds of
 /// tolerances occurred). From a narrow step the width grows within a step or two, each checked by
 /// the one before.
 const FIRST_STEP_FACTOR: f64 = 0.1;
-/// Least width of a step, in spacings of t: the stages of a narrower one coincide.
-const MIN_STEP: f64 = 4.0;
 /// Least width of the first step, in spacings of t: it can still be halved a few times.
 const MIN_FIRST_STEP: f64 = 256.0;
 
-/// This many refused steps mean a domain boundary, even if some steps succeed between them: a slow
-/// component may stay on its last number before the boundary while the others go on for ever.
-/// Halving alone needs about a hundred.
-const MAX_REFUSALS: u32 = 256;
-/// Refusals are forgotten after this many steps without one: each step may be several times wider than the
-/// one before, so near a boundary a refusal comes sooner.
-const REFUSAL_MEMORY: u32 = 8;
-
-/// Limit of retries of a step because of its drift: a drift that remains does not depend on the
-/// width.
-const MAX_DRIFT_RETRIES: u32 = 3;
-
-/// Limit of restarts at one t: pieces whose boundaries do not meet send the run back and forth.
-const MAX_RESTARTS_IN_PLACE: u32 = 64;
-
 /// Why a step could not be evaluated.
 #[derive(Debug, Clone, Copy)]
-enum Obstacle {
+pub(super) enum Obstacle {
     DomainBoundary,
     NotFinite { t: f64, component: usize },
 }
 
 /// How the run continues after a step.
-enum Next {
+pub(super) enum Next {
     Step,
     Restart,
     End(End),
@@ -72,11 +45,11 @@ pub(crate) enum Plan {
 pub(crate) struct Planned {
     /// Its width, and where it ends.
     pub h: f64,
-    t_new: f64,
+    pub(super) t_new: f64,
     /// The width that the control proposes.
-    proposed: f64,
+    pub(super) proposed: f64,
     /// Whether it is the last of its smooth interval.
-    last: bool,
+    pub(super) last: bool,
 }
 
 impl Integrator {
@@ -127,41 +100,41 @@ impl Integrator {
 
 /// A run in progress. The integrator holds its state.
 pub(crate) struct Run<'a, S> {
-    integrator: &'a mut Integrator,
-    system: &'a mut S,
-    options: &'a Options<'a>,
-    scale: Scale,
-    control: Control,
-    t: f64,
-    t_end: f64,
+    pub(super) integrator: &'a mut Integrator,
+    pub(super) system: &'a mut S,
+    pub(super) options: &'a Options<'a>,
+    pub(super) scale: Scale,
+    pub(super) control: Control,
+    pub(super) t: f64,
+    pub(super) t_end: f64,
     /// End of the smooth interval that it is in.
-    interval: Option<f64>,
+    pub(super) interval: Option<f64>,
     /// Whether the signs of the event functions are taken again at the start of the next interval.
-    resets_signs: bool,
+    pub(super) resets_signs: bool,
     /// Why it has ended.
-    end: Option<End>,
+    pub(super) end: Option<End>,
     /// 1 or -1: the direction of the run.
-    direction: f64,
+    pub(super) direction: f64,
     /// Width proposed for the next step.
-    h: Option<f64>,
-    attempted: u64,
+    pub(super) h: Option<f64>,
+    pub(super) attempted: u64,
     /// Whether stability limited the last accepted step.
-    stiff: bool,
+    pub(super) stiff: bool,
     /// Why a step could not be evaluated since the last accepted one.
-    obstacle: Option<Obstacle>,
+    pub(super) obstacle: Option<Obstacle>,
     /// Refused steps near a domain boundary, and accepted steps since the last of them.
-    refusals: u32,
-    steps_since_refusal: u32,
+    pub(super) refusals: u32,
+    pub(super) steps_since_refusal: u32,
     /// Where the last step ended that left the domain.
-    refused: Option<f64>,
+    pub(super) refused: Option<f64>,
     /// Width of the next step toward the domain boundary, if one is ahead.
-    to_boundary: Option<f64>,
+    pub(super) to_boundary: Option<f64>,
     /// Consecutive restarts at one t.
-    restarts_in_place: u32,
+    pub(super) restarts_in_place: u32,
     /// Consecutive steps rejected for their drift.
-    drift_retries: u32,
-    record: Record<'a>,
-    statistics: Statistics,
+    pub(super) drift_retries: u32,
+    pub(super) record: Record<'a>,
+    pub(super) statistics: Statistics,
 }
 
 impl<'a, S: System> Run<'a, S> {
@@ -234,6 +207,11 @@ impl<'a, S: System> Run<'a, S> {
         }
     }
 
+    /// Its system.
+    pub(crate) fn system(&mut self) -> &mut S {
+        self.system
+    }
+
     /// The stages of its steps.
     pub(super) fn stages(&self) -> &Stages {
         &self.integrator.stages
@@ -260,7 +238,7 @@ impl<'a, S: System> Run<'a, S> {
     }
 
     /// Goes on to the next smooth interval.
-    fn leave_interval(&mut self, resets_signs: bool) {
+    pub(super) fn leave_interval(&mut self, resets_signs: bool) {
         self.statistics.restarts += 1;
         (self.interval, self.resets_signs) = (None, resets_signs);
     }
@@ -328,217 +306,9 @@ impl<'a, S: System> Run<'a, S> {
         }
         Ok(None)
     }
-
-    /// The next step of a smooth interval, unless the run ends.
-    fn plan_step(&mut self, to: f64) -> Result<Plan, Error<S::Error>> {
-        if self.attempted >= self.options.max_steps {
-            let stiff = 2 * self.statistics.stiff > self.statistics.steps;
-            return Ok(Plan::End(End::StepLimit { t: self.t, stiff }));
-        }
-        if self.attempted.is_multiple_of(CANCEL_CHECK_STEPS) && self.system.cancelled() {
-            return Ok(Plan::End(End::Cancelled { t: self.t }));
-        }
-        self.attempted += 1;
-        let remaining = to - self.t;
-        let mut proposed = self.h.unwrap_or(remaining);
-        if let Some(width) = self.to_boundary {
-            proposed = self.direction * width.min(proposed.abs());
-        }
-        let steps_left = (remaining / (proposed * LAST_STEP_STRETCH)).ceil();
-        let last = steps_left <= 1.0;
-        let (h, t_new) = if last {
-            (remaining, to)
-        } else {
-            let h = if steps_left <= EQUAL_STEPS { remaining / steps_left } else { proposed };
-            (h, self.t + h)
-        };
-        if self.refusals > MAX_REFUSALS || self.to_boundary == Some(0.0) {
-            return Ok(Plan::End(End::DomainBoundary { t: self.t }));
-        }
-        if !last && h.abs() < MIN_STEP * spacing(self.t) {
-            return match self.obstacle {
-                None => Ok(Plan::End(End::Stalled { t: self.t })),
-                Some(Obstacle::DomainBoundary) => Ok(Plan::End(End::DomainBoundary { t: self.t })),
-                Some(Obstacle::NotFinite { t, component }) => {
-                    Err(Error::NotFinite { t, component })
-                }
-            };
-        }
-        Ok(Plan::Attempt(Planned { h, t_new, proposed, last }))
-    }
-
-    /// Attempts a planned step.
-    pub(crate) fn attempt(&mut self, planned: Planned) -> Result<(), Error<S::Error>> {
-        let outcome = self.compute(planned.h, planned.t_new);
-        self.integrator.stages.forget_given();
-        match self.conclude(planned, outcome)? {
-            Next::Step => {}
-            Next::Restart => self.leave_interval(true),
-            Next::End(end) => self.end = Some(end),
-        }
-        Ok(())
-    }
-
-    /// Accepts or rejects a step with its error relative to the tolerance.
-    fn conclude(
-        &mut self,
-        Planned { h, t_new, proposed, last }: Planned,
-        outcome: Result<f64, Refusal<S::Error>>,
-    ) -> Result<Next, Error<S::Error>> {
-        let factor = match outcome {
-            Ok(error) if error <= 1.0 => {
-                let factor = self.control.factor_after_accept(error);
-                // A step cut short by the end of its interval shows little of the width that the tolerance
-                // allows.
-                let wider =
-                    if last { (h * factor).abs().max(proposed.abs()) } else { (h * factor).abs() };
-                self.h = Some(self.direction * wider.min(self.options.max_step));
-                return self.accept(h, t_new, last);
-            }
-            Ok(error) => self.control.factor_after_reject(error),
-            Err(Refusal::System(error)) => return Err(Error::System(error)),
-            Err(Refusal::OutOfDomain) => {
-                self.obstacle = Some(Obstacle::DomainBoundary);
-                self.refusals += 1;
-                self.steps_since_refusal = 0;
-                self.refused = Some(t_new);
-                self.look_for_boundary(h)?;
-                self.control.factor_after_refusal()
-            }
-            Err(Refusal::NotFinite { t, component }) => {
-                self.obstacle = Some(Obstacle::NotFinite { t, component });
-                self.control.factor_after_refusal()
-            }
-        };
-        self.statistics.rejected += 1;
-        self.h = Some(h * factor);
-        Ok(Next::Step)
-    }
-
-    /// Computes a step and its error relative to the tolerance. If the error is at most 1, all
-    /// stages are evaluated.
-    fn compute(&mut self, h: f64, t_new: f64) -> Result<f64, Refusal<S::Error>> {
-        let dense = self.integrator.tracker.len() > 0 || self.record.needs_dense_output(t_new);
-        let Integrator { n, stages, interpolant, y, new, .. } = &mut *self.integrator;
-        let end = stages.tableau.stages;
-        stages.advance(self.system, self.t, y, h, new)?;
-        if let Some(component) = new.as_flattened().iter().position(|y| !y.is_finite()) {
-            return Err(Refusal::NotFinite { t: t_new, component });
-        }
-        let excess = self
-            .options
-            .max_change
-            .iter()
-            .enumerate()
-            .map(|(i, limit)| (new.as_flattened()[i] - y.as_flattened()[i]).abs() / limit);
-        // Raised to the order, it acts as an error that gives the right width.
-        let excess = libm::pow(excess.fold(0.0, f64::max), f64::from(stages.tableau.order));
-        if excess > 1.0 {
-            return Ok(excess);
-        }
-        if stages.tableau.error_needs_end {
-            stages.evaluate(self.system, end, t_new, new)?;
-        }
-        let error = stages.error(&self.scale, y, new, h).max(excess);
-        if error > 1.0 {
-            return Ok(error);
-        }
-        if !stages.tableau.error_needs_end {
-            stages.evaluate(self.system, end, t_new, new)?;
-        }
-        if stages.is_given(end) {
-            self.system.place(t_new, &new.as_flattened()[..*n]);
-        }
-        let drift = self.system.drift(t_new, &new.as_flattened()[..*n]);
-        if drift > 1.0 && self.drift_retries < MAX_DRIFT_RETRIES {
-            self.drift_retries += 1;
-            return Ok(drift);
-        }
-        // Before `extend`, which overwrites the state that this compares.
-        self.stiff = stages.is_stiff(&self.scale, y, new, h);
-        if dense {
-            stages.extend(self.system, self.t, y, h)?;
-            interpolant.set(stages, y, new, h);
-        }
-        Ok(error)
-    }
-
-    /// Takes an accepted step, up to an event that cuts it.
-    fn accept(&mut self, h: f64, t_new: f64, last: bool) -> Result<Next, Error<S::Error>> {
-        self.obstacle = None;
-        self.drift_retries = 0;
-        self.steps_since_refusal = self.steps_since_refusal.saturating_add(1);
-        if self.steps_since_refusal >= REFUSAL_MEMORY {
-            self.refusals = 0;
-        }
-        let cut = self.detect_events(h, t_new).map_err(Error::System)?;
-        let reached = cut.as_ref().map_or(t_new, |cut| cut.t);
-        self.statistics.add_step((reached - self.t).abs(), last || cut.is_some(), self.stiff);
-        if reached != self.t {
-            let Integrator { interpolant, n, .. } = &*self.integrator;
-            let width = cut.as_ref().map_or(h, |cut| cut.width);
-            let recorded = self.record.step(interpolant, *n, self.t, width, reached);
-            recorded.map_err(|_| Error::OutOfMemory { steps: self.record.dense.ends().len() })?;
-            self.restarts_in_place = 0;
-        }
-        self.restarts_in_place += 1;
-        self.t = reached;
-        let Some(cut) = cut else {
-            self.system.keep_invariant();
-            std::mem::swap(&mut self.integrator.y, &mut self.integrator.new);
-            self.integrator.stages.next_step();
-            self.look_for_boundary(h)?;
-            return Ok(Next::Step);
-        };
-        self.integrator.y.copy_from_slice(&self.integrator.state);
-        match cut.stop {
-            Some(index) => Ok(Next::End(End::Event { index, t: cut.t })),
-            None if self.t == self.t_end => Ok(Next::Step),
-            None if self.restarts_in_place > MAX_RESTARTS_IN_PLACE => {
-                Ok(Next::End(End::Stalled { t: self.t }))
-            }
-            None => Ok(Next::Restart),
-        }
-    }
-
-    /// Requests the width of a step toward the domain boundary after an attempted step of width `h`.
-    fn look_for_boundary(&mut self, h: f64) -> Result<(), Error<S::Error>> {
-        let Integrator { n, y, .. } = &*self.integrator;
-        self.refused = self.refused.filter(|t| (t - self.t) * self.direction > 0.0);
-        // Steps that aim at a boundary do not count as refused.
-        let has_left_domain = self.refusals > 0 || self.to_boundary.is_some();
-        let last = Attempt { h, refused: self.refused, has_left_domain };
-        let width = self.system.step_to_boundary(self.t, &y.as_flattened()[..*n], last);
-        self.to_boundary = width.map_err(Error::System)?;
-        Ok(())
-    }
-
-    fn detect_events(&mut self, h: f64, t_new: f64) -> Result<Option<Cut>, S::Error> {
-        let Integrator { n, stages, interpolant, tracker, y, new, state, event_state, event_rates } =
-            &mut *self.integrator;
-        if tracker.len() == 0 {
-            return Ok(None);
-        }
-        let mut step = Step {
-            system: self.system,
-            stages,
-            interpolant,
-            n: *n,
-            t: self.t,
-            h,
-            t_new,
-            y,
-            new,
-            state,
-            event_state,
-            event_rates,
-        };
-        let record = &mut self.record;
-        step.detect(tracker, |index, t, y| record.event(index, t, y))
-    }
 }
 
 /// Approximate distance from a number to the next.
-fn spacing(t: f64) -> f64 {
+pub(super) fn spacing(t: f64) -> f64 {
     (t.abs() * f64::EPSILON).max(f64::MIN_POSITIVE)
 }

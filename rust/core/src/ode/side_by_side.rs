@@ -25,8 +25,9 @@ pub(crate) struct Underway<'a, S> {
 ///
 /// A trait: a closure would not be compiled for the level's instructions.
 pub(crate) trait LaneRates<R: Real> {
-    /// Writes the rates of a state; returns the lanes in which they are known.
-    fn rates(&mut self, state: &LaneState<R>, rates: &mut LaneState<R>) -> R::Mask;
+    /// Writes the rates of a state; returns the lanes in which they are known. `is_end`: whether it is
+    /// the state at the end of the steps.
+    fn rates(&mut self, state: &LaneState<R>, is_end: bool, rates: &mut LaneState<R>) -> R::Mask;
 }
 
 /// Work space for the stages of a step in every lane.
@@ -74,7 +75,7 @@ impl<R: Real> LaneStages<R> {
                 argument = at;
             }
             let mut found = [R::ZERO; COMPONENTS];
-            let mut are_known = system.rates(&at, &mut found);
+            let mut are_known = system.rates(&at, stage == end, &mut found);
             for number in found {
                 are_known = are_known.and(number.finite());
             }

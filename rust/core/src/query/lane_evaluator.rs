@@ -12,6 +12,7 @@ use crate::state::state::State;
 pub(crate) struct LaneEvaluator<'d, 'm, R: Real> {
     design: &'d Design<'m>,
     state: State<R>,
+    is_prepared: bool,
 }
 
 impl<'d, 'm, R: Real> LaneEvaluator<'d, 'm, R> {
@@ -22,26 +23,37 @@ impl<'d, 'm, R: Real> LaneEvaluator<'d, 'm, R> {
         if !(design.has_one_rotary_driver() && design.has_constant_signs()) {
             return None;
         }
-        let branch = &design.branch;
-        let mut state = State::new(design.mechanism.plan(), design.derivatives);
-        design.prepare_lanes(&mut state);
-        for (lanes, &sign) in state.pose.signs.iter_mut().zip(branch.signs(design.q0[0])) {
+        let state = State::new(design.mechanism.plan(), design.derivatives);
+        Some(Self { design, state, is_prepared: false })
+    }
+
+    /// Sets what all positions share. Not in `new`, which is not compiled for the level's instructions.
+    #[inline(always)]
+    fn prepare(&mut self) {
+        let Self { design, state, is_prepared } = self;
+        design.prepare_lanes(state);
+        let signs = design.branch.signs(design.q0[0]);
+        for (lanes, &sign) in state.pose.signs.iter_mut().zip(signs) {
             lanes[0] = R::splat(sign);
         }
-        Some(Self { design, state })
+        *is_prepared = true;
     }
 
     /// Solves at a coordinate in each lane, rad. Returns the lanes with a position whose condition is
-    /// at most `most`; the `Evaluator` must look at the others.
+    /// at most `most`, and the conditions; the `Evaluator` must look at the others.
     #[inline(always)]
-    pub(crate) fn solve<L: Level<Register = R>>(&mut self, q: R, most: f64) -> R::Mask {
-        let Self { design, state } = self;
+    pub(crate) fn solve<L: Level<Register = R>>(&mut self, q: R, most: f64) -> (R::Mask, R) {
+        if !self.is_prepared {
+            self.prepare();
+        }
+        let Self { design, state, .. } = self;
         let scaled = q * R::splat(design.units.coordinate[0]);
         state.pose.q[0][0] = scaled;
         state.pose.unit[0][0] = Vector::at_angle(scaled);
         L::solve(state, &design.context(design.derivatives));
         let condition = state.conditions.greatest[0].sqrt();
-        state.conditions.needs_scalar[0].not().and(condition.le(R::splat(most)))
+        let is_solved = state.conditions.needs_scalar[0].not();
+        (is_solved.and(condition.le(R::splat(most))), condition)
     }
 
     /// The positions solved last.

@@ -3,11 +3,11 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use assur::{Mechanism, Simd};
 use assur::dynamics::{
     Callbacks, EventKind, EventSpec, Machine, Outcome, RunBatch, RunError, StopReason,
     TabulatedMachine, UnlessCancelled,
 };
+use assur::{Mechanism, Simd};
 use pyo3::prelude::*;
 
 use super::PythonCallbacks;
@@ -17,7 +17,7 @@ use crate::parallel_map::parallel_map;
 use crate::{detach, reserve};
 
 /// Runs of a chunk, which share the traced branch of their design; and the chunks of a small batch.
-const CHUNK: [usize; 2] = [16, 128];
+const CHUNK: [usize; 2] = [16, 512];
 const CHUNKS: usize = 32;
 /// Runs that take only milliseconds.
 const FEW_RUNS: usize = 8;

@@ -4,18 +4,17 @@ use super::callbacks::Callbacks;
 use super::dead_point::Tail;
 use super::equation::Equation;
 use super::error::{RunError, check_counts};
-use super::model::{ReducedModel, TabulatedMachine};
+use super::model::ReducedModel;
 use super::options::{EventKind, RunOptions};
-use super::runner::{RunTables, Runner};
 use super::sample::Samples;
 use super::stick_slip::Change;
 use super::system::{Ended, RunSystem};
 use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, same_within};
+use super::tabulated::TabulatedMachine;
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use super::variable::Variable;
 use crate::description::error::Hint;
-use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
 use crate::math::room::has_room;
 use crate::ode::error::Error as IntegratorError;
@@ -23,29 +22,9 @@ use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
 use crate::ode::system::{Crossing, System};
-use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::NearMiss;
 use crate::query::failure::{Failure, Reason};
 use crate::state::status::{Rejection, Status};
-
-impl Machine {
-    /// Integrates the motion of a design of the mechanism.
-    ///
-    /// # Errors
-    ///
-    /// Invalid options or initial state, a reduced inertia that is not positive, or a failed
-    /// callback.
-    pub fn run<O: Callbacks>(
-        &self,
-        mechanism: &Mechanism,
-        dimensions: &[f64],
-        options: &RunOptions<'_>,
-        callbacks: O,
-    ) -> Result<Run, RunError<O::Error>> {
-        let tables = RunTables::new(mechanism);
-        Runner::new(self, mechanism, dimensions, &tables)?.run(options, callbacks)
-    }
-}
 
 impl TabulatedMachine {
     /// Integrates the motion of the tabulated machine.
@@ -81,7 +60,7 @@ pub(crate) fn run<'a, S: ReducedModel, O: Callbacks>(
     let ode_options = prepared.options(options);
     let [from, to] = prepared.range;
     let solution = integrator.run(&mut system, from, &prepared.start, to, &ode_options);
-    conclude(system, options, &prepared, solution)
+    conclude(system, options, &prepared, solution, |_| Vec::new())
 }
 
 /// What the integrator needs of a run.
@@ -182,22 +161,22 @@ pub(crate) fn prepare<'a, S: ReducedModel, O: Callbacks>(
     Ok((system, prepared))
 }
 
-/// The run of a solution.
+/// The run of a solution; `energies`: those of its samples that are known, and NaN.
 pub(crate) fn conclude<S: ReducedModel, O: Callbacks>(
     system: RunSystem<'_, S, O>,
     options: &RunOptions<'_>,
     prepared: &Prepared,
     solution: Result<Solution, IntegratorError<RunError<O::Error>>>,
+    energies: impl FnOnce(&Samples) -> Vec<[f64; 2]>,
 ) -> Result<Run, RunError<O::Error>> {
     let [from, _] = prepared.range;
-    let solution =
-        solution.map_err(|error| RunError::of_integrator(error, options.along, from))?;
+    let solution = solution.map_err(|error| RunError::of_integrator(error, options.along, from))?;
     // Samples are made from the record, and Python's arrays from the samples.
     let steps = solution.dense.ends().len();
     if !has_room(COPIES * (3 * options.q.len() + 4) * (steps + 2)) {
         return Err(RunError::OutOfMemory { steps });
     }
-    Ok(assemble_run(system, options, from, solution, prepared.clipped))
+    Ok(assemble_run(system, options, (from, prepared.clipped), solution, energies))
 }
 
 /// Clips the end of a run along the coordinate to its tables; returns it and the table that ends.
@@ -311,9 +290,9 @@ fn is_about_to_rest<S: ReducedModel, O: Callbacks>(
 fn assemble_run<S: ReducedModel, O: Callbacks>(
     mut system: RunSystem<'_, S, O>,
     options: &RunOptions<'_>,
-    from: f64,
+    (from, clipped): (f64, Option<usize>),
     solution: Solution,
-    clipped: Option<usize>,
+    energies: impl FnOnce(&Samples) -> Vec<[f64; 2]>,
 ) -> Run {
     let Solution { end, events, event_states, dense: path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (system.along, system.sign, system.len());
@@ -388,9 +367,13 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
         }
         _ => None,
     };
+    let mut energies = energies(&samples);
+    energies.resize(samples.len(), [f64::NAN; 2]);
     // Backward: with several drivers each position is solved from its neighbour.
-    let mut energies = vec![[f64::NAN; 2]; samples.len()];
     for (index, pair) in energies.iter_mut().enumerate().rev() {
+        if !pair.iter().any(|energy| energy.is_nan()) {
+            continue;
+        }
         let (q, speed) = samples.state(index);
         if system.equation.ensure_tables_at(q[0]) && system.equation.set_configuration(q).is_ok() {
             let reduced = &system.equation.reduced;

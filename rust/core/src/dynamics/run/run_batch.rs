@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use super::callbacks::Callbacks;
 use super::error::RunError;
-use super::model::TabulatedMachine;
 use super::options::{EventSpec, RunOptions};
 use super::runner::{RunTables, Runner};
+use super::tabulated::TabulatedMachine;
 use super::trajectory::Run;
 use crate::dynamics::machine::Machine;
 use crate::plan::mechanism::Mechanism;

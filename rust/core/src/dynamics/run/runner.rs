@@ -69,9 +69,27 @@ impl<'m> Runner<'m> {
         let Self { machine, model, drivers, sizes } = self;
         options.check(*drivers, &machine.motors)?;
         model.restart();
-        let equation =
-            Equation::new(model, callbacks, &machine.tables, &machine.motors, *drivers);
+        let equation = Equation::new(model, callbacks, &machine.tables, &machine.motors, *drivers);
         integrate::run(equation, options, sizes)
+    }
+}
+
+impl Machine {
+    /// Integrates the motion of a design of the mechanism.
+    ///
+    /// # Errors
+    ///
+    /// Invalid options or initial state, a reduced inertia that is not positive, or a failed
+    /// callback.
+    pub fn run<O: Callbacks>(
+        &self,
+        mechanism: &Mechanism,
+        dimensions: &[f64],
+        options: &RunOptions<'_>,
+        callbacks: O,
+    ) -> Result<Run, RunError<O::Error>> {
+        let tables = RunTables::new(mechanism);
+        Runner::new(self, mechanism, dimensions, &tables)?.run(options, callbacks)
     }
 }
 

@@ -77,13 +77,9 @@ impl Samples {
 
     /// Gives back the memory that they do not need.
     pub(crate) fn shrink(&mut self) {
-        for numbers in [
-            &mut self.t,
-            &mut self.q,
-            &mut self.speed,
-            &mut self.acceleration,
-            &mut self.work,
-        ] {
+        for numbers in
+            [&mut self.t, &mut self.q, &mut self.speed, &mut self.acceleration, &mut self.work]
+        {
             numbers.shrink_to_fit();
         }
     }

@@ -6,14 +6,16 @@ use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::AtomicBool;
 
-use super::callbacks::UnlessCancelled;
+use super::callbacks::{Callbacks, UnlessCancelled};
 use super::equation::Equation;
 use super::integrate::{Prepared, conclude, prepare};
-use super::lane_equation::LaneEquation;
-use super::model::MechanismModel;
+use super::lane_equation::{Configuration, LaneEquation};
+use super::model::{MechanismModel, ReducedModel};
 use super::options::RunOptions;
 use super::run_batch::{Outcome, RunBatch};
 use super::runner::{RunTables, sizes_of};
+use super::sample::Samples;
+use super::system::RunSystem;
 use super::variable::Variable;
 use crate::batch::dispatch::{self, Entry, ForLevel, Task};
 use crate::dynamics::machine::Machine;
@@ -110,10 +112,8 @@ where
     type Output = Option<ControlFlow<()>>;
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
-        let mut lanes = Lanes::<L> {
-            equation: LaneEquation::new(self.reference?)?,
-            stages: LaneStages::new(),
-        };
+        let mut lanes =
+            Lanes::<L> { equation: LaneEquation::new(self.reference?)?, stages: LaneStages::new() };
         let count = self.runs.len().min(TOGETHER);
         let mut models: Vec<_> = (0..count).map(|_| (self.model)()).collect();
         let method = self.batch.options.method;
@@ -162,7 +162,9 @@ impl<'m, M, K, E: Display> SideBySide<'_, 'm, M, K, E> {
         let of_begun: Vec<_> = of_begun.map(|(options, _)| *options).collect();
         let solutions = lanes.solve(&mut systems, &prepared, &of_begun, integrators);
         let mut concluded = systems.into_iter().zip(&prepared).zip(&of_begun).zip(solutions).map(
-            |(((system, needs), options), solution)| conclude(system, options, needs, solution),
+            |(((system, needs), options), solution)| {
+                conclude(system, options, needs, solution, |samples| lanes.energies(samples))
+            },
         );
         let mut outcomes = Vec::with_capacity(begun.len());
         for started in begun {
@@ -184,9 +186,28 @@ struct Lanes<'d, 'm, L: Entry> {
 /// The solution of a run, once it has one.
 type Solved<S> = Option<Result<Solution, Error<<S as System>::Error>>>;
 
+/// A system that takes what lanes have found.
+trait InLane: System {
+    /// Takes the configuration at the end of the next step.
+    fn give(&mut self, configuration: Configuration);
+}
+
+impl<S: ReducedModel, O: Callbacks> InLane for RunSystem<'_, S, O> {
+    fn give(&mut self, configuration: Configuration) {
+        self.give(configuration);
+    }
+}
+
 impl<L: Entry> Lanes<'_, '_, L> {
+    /// Kinetic and potential energies of samples; NaN where they are not known.
+    fn energies(&mut self, samples: &Samples) -> Vec<[f64; 2]> {
+        let mut energies = vec![[f64::NAN; 2]; samples.len()];
+        L::call(&mut Energies { lanes: self, samples, energies: &mut energies });
+        energies
+    }
+
     /// Integrates all systems to their ends.
-    fn solve<S: System>(
+    fn solve<S: InLane>(
         &mut self,
         systems: &mut [S],
         prepared: &[Prepared],
@@ -238,10 +259,28 @@ struct GiveStages<'t, 'a, 'd, 'm, L: Entry, S> {
     runs: &'t mut [Underway<'a, S>],
 }
 
-impl<L: Entry, S: System> Task<L::Register> for GiveStages<'_, '_, '_, '_, L, S> {
+impl<L: Entry, S: InLane> Task<L::Register> for GiveStages<'_, '_, '_, '_, L, S> {
     #[inline(always)]
     fn run(&mut self) {
         let Lanes { equation, stages } = &mut *self.lanes;
         stages.give(&mut *self.runs, equation);
+        for (lane, Underway { run, .. }) in self.runs.iter_mut().enumerate() {
+            run.system().give(equation.end(lane));
+        }
+    }
+}
+
+/// Finds the energies of samples.
+struct Energies<'t, 'd, 'm, L: Entry> {
+    lanes: &'t mut Lanes<'d, 'm, L>,
+    samples: &'t Samples,
+    energies: &'t mut [[f64; 2]],
+}
+
+impl<L: Entry> Task<L::Register> for Energies<'_, '_, '_, L> {
+    #[inline(always)]
+    fn run(&mut self) {
+        let Samples { q, speed, .. } = self.samples;
+        self.lanes.equation.energies(q, speed, self.energies);
     }
 }

@@ -140,8 +140,17 @@ fn component_slope(rows: &[f64], n: usize, theta: f64, i: usize) -> f64 {
 }
 
 fn evaluate(rows: &[f64], n: usize, theta: f64, y: &mut [f64]) {
-    for (i, y) in y.iter_mut().enumerate().take(n) {
-        *y = component(rows, n, theta, i);
+    // As `component`, for all of them together.
+    let y = &mut y[..n];
+    y.fill(0.0);
+    for (row, numbers) in rows.chunks_exact(n).enumerate().skip(1).rev() {
+        let factor = if row % 2 == 1 { theta } else { 1.0 - theta };
+        for (y, number) in y.iter_mut().zip(numbers) {
+            *y = (number + *y) * factor;
+        }
+    }
+    for (y, number) in y.iter_mut().zip(rows) {
+        *y += number;
     }
 }
 
