@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use assur::dynamics::{
     EndCondition, EquationPlan, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
-    Point, RunBatch, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    Point, RunBatch, RunOptions, SteadyOptions, TabulatedMachine,
 };
 use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -25,6 +25,7 @@ use crate::equations::{self, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
 use crate::run::batch::{self, Source};
+use crate::run::options::{Tolerances, options};
 use crate::run::outcomes::Runs;
 use crate::run::{PythonCallbacks, Run};
 use crate::{equilibria, error, error_map, reduce, reserve};
@@ -410,7 +411,7 @@ impl Machine {
         start: (f64, Vec<f64>, Vec<f64>),
         end: f64,
         method: Word<Method>,
-        tolerances: (f64, Option<[f64; 2]>),
+        tolerances: Tolerances,
         limits: (f64, u64, Option<f64>),
         breaks: Vec<f64>,
         events: Vec<Bound<'_, PyAny>>,
@@ -427,20 +428,12 @@ impl Machine {
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;
         let options = RunOptions {
-            along: if along_q { Variable::Coordinate } else { Variable::Time },
-            t,
             q: &q,
             speed: &speed,
             end,
-            method: method.0,
-            relative: tolerances.0,
-            absolute: tolerances.1,
-            max_step,
-            max_steps,
-            deadline: deadline(seconds),
-            breaks: &breaks,
             events: &events,
-            flywheel: 0.0,
+            deadline: deadline(seconds),
+            ..options(along_q, t, method.0, tolerances, (max_step, max_steps), &breaks)
         };
         let run = self.with_callbacks(py, event_functions, |calls| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
@@ -464,7 +457,7 @@ impl Machine {
         start: (f64, Flat<'_>, Flat<'_>),
         ends: Flat<'_>,
         method: Word<Method>,
-        tolerances: (f64, Option<[f64; 2]>),
+        tolerances: Tolerances,
         limits: (f64, u64, Option<f64>),
         breaks: Vec<f64>,
         events: Vec<Bound<'_, PyAny>>,
@@ -485,22 +478,8 @@ impl Machine {
         let events =
             batch::events_of_designs(core, (&dimensions, designs), &events, &mut functions)?;
         let (max_step, max_steps, seconds) = limits;
-        let options = RunOptions {
-            along: if along_q { Variable::Coordinate } else { Variable::Time },
-            t: start.0,
-            q: &[],
-            speed: &[],
-            end: 0.0,
-            method: method.0,
-            relative: tolerances.0,
-            absolute: tolerances.1,
-            max_step,
-            max_steps,
-            deadline: None,
-            breaks: &breaks,
-            events: &[],
-            flywheel: 0.0,
-        };
+        let steps = (max_step, max_steps);
+        let options = options(along_q, start.0, method.0, tolerances, steps, &breaks);
         let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let (q, speed, ends, events) = (&q, &speed, &ends, &events);
         let dimensions = &dimensions;

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -44,7 +44,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur._arrays import Float
-    from assur.dynamics.machine import Method
     from assur.dynamics.model import MachineModel
 
 # Less accurate periods do not determine the speed.
@@ -82,7 +81,7 @@ class Inputs(NamedTuple):
 
     along_q: bool
     t0: float
-    method: Method
+    method: Literal["DOP853", "RK45"]
     tolerances: tuple[float, list[float] | None]
     limits: tuple[float, int, float | None]
     breaks: list[float]

@@ -96,12 +96,15 @@ impl Prepared {
     }
 }
 
+/// The system of a run, and what the integrator needs.
+type Set<'a, S, O> = (RunSystem<'a, S, O>, Prepared);
+
 /// Sets up the system of a run.
 pub(crate) fn prepare<'a, S: ReducedModel, O: Callbacks>(
     mut equation: Equation<'a, S, O>,
     options: &RunOptions<'a>,
     sizes: &[f64],
-) -> Result<(RunSystem<'a, S, O>, Prepared), RunError<O::Error>> {
+) -> Result<Set<'a, S, O>, RunError<O::Error>> {
     equation.flywheel = options.flywheel;
     equation.begin(options.q[0], options.speed)?;
     let (from, end) = match options.along {

@@ -202,7 +202,7 @@ impl<L: Entry> Lanes<'_, '_, L> {
     /// Kinetic and potential energies of samples; NaN where they are not known.
     fn energies(&mut self, samples: &Samples) -> Vec<[f64; 2]> {
         let mut energies = vec![[f64::NAN; 2]; samples.len()];
-        L::call(&mut Energies { lanes: self, samples, energies: &mut energies });
+        L::call(&mut Energies { lanes: self, samples, out: &mut energies });
         energies
     }
 
@@ -274,13 +274,13 @@ impl<L: Entry, S: InLane> Task<L::Register> for GiveStages<'_, '_, '_, '_, L, S>
 struct Energies<'t, 'd, 'm, L: Entry> {
     lanes: &'t mut Lanes<'d, 'm, L>,
     samples: &'t Samples,
-    energies: &'t mut [[f64; 2]],
+    out: &'t mut [[f64; 2]],
 }
 
 impl<L: Entry> Task<L::Register> for Energies<'_, '_, '_, L> {
     #[inline(always)]
     fn run(&mut self) {
         let Samples { q, speed, .. } = self.samples;
-        self.lanes.equation.energies(q, speed, self.energies);
+        self.lanes.equation.energies(q, speed, self.out);
     }
 }
