@@ -17,7 +17,7 @@ from assur.dynamics import components
 from assur.dynamics.components import as_list
 from assur.dynamics.loads.table import Table
 from assur.dynamics.motion.run import Run, energies_are_infinite
-from assur.dynamics.motion.runs import FAILED, Made, Runs
+from assur.dynamics.motion.runs import FAILED, Made, Outcomes, Runs
 from assur.dynamics.motion.steady import SteadyState
 from assur.dynamics.preconditions import (
     checked_breaks,
@@ -204,20 +204,17 @@ def _many(
                 raise _of_run(refused, flat, shape, 0)
     dimensions = np.empty(0) if machine.mechanism is None else machine.mechanism.values
     core = machine.core.runs(
-        dimensions.reshape(-1),
-        math.prod(designs),
+        (dimensions.reshape(-1), math.prod(designs)),
         inputs.along_q,
-        (inputs.t0, q, speed),
-        end,
-        inputs.method,
-        inputs.tolerances,
+        (inputs.t0, q, speed, end),
+        (inputs.method, inputs.tolerances),
         inputs.limits,
         inputs.breaks,
         inputs.checked,
-        keep == "ends",
-        threads,
+        (keep == "ends", threads),
     )
-    worst, size, potential, infinite = core.imbalance()
+    ends, (worst, size, potential, infinite), kinds, status = core.outcomes(n)
+    # A machine from a table has no energies of its own to check.
     if machine.mechanism is None:
         infinite = np.full_like(infinite, np.nan)
     made = Made(
@@ -228,7 +225,7 @@ def _many(
         inputs.along_q,
         table_names(machine),
         q if inputs.along_q else np.full(end.size, inputs.t0),
-        infinite,
+        Outcomes(ends[:3], np.array(kinds, np.str_), status, infinite),
         keep == "all",
     )
     runs = Runs(made, np.arange(end.size).reshape(shape))

@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import as_number, counted, real_array, short
 from assur.dynamics.motion.run import END_ULPS, Run, State, energies_are_infinite
-from assur.errors import InputError
+from assur.errors import AssurError, InputError
 from assur.kinematics.solve_arguments import in_radians
 
 if TYPE_CHECKING:
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from assur import _core
     from assur._arrays import Float, Number
-    from assur.errors import AssurError
     from assur.events import Event
     from assur.kinematics.mechanism import Mechanism
 
@@ -26,6 +25,17 @@ __all__ = ["Runs"]
 FAILED = "failed"
 # `Status.NO_VALUE`.
 NO_VALUE = 8
+
+
+class Outcomes(NamedTuple):
+    """How the runs of a batch ended, all in a row."""
+
+    # Time, coordinates and speeds at the ends.
+    ends: list[Float]
+    kinds: npt.NDArray[np.str_]
+    status: npt.NDArray[np.uint8]
+    # The times at which energies are infinite: there is no such run. NaN elsewhere.
+    infinite: Float
 
 
 class Made(NamedTuple):
@@ -40,8 +50,7 @@ class Made(NamedTuple):
     tables: tuple[str, ...]
     # Where each begins: its time, or over q its coordinate.
     starts: Float
-    # The times at which energies are infinite: there is no such run. NaN elsewhere.
-    infinite: Float
+    outcomes: Outcomes
     # Whether their motions between start and end are kept.
     whole: bool
 
@@ -86,14 +95,17 @@ class Runs(Sequence[Run]):
     def __init__(self, made: Made, indices: npt.NDArray[np.intp]) -> None:
         self._made, self._indices = made, indices
         self.shape: tuple[int, ...] = indices.shape
-        kinds = np.array(made.core.kinds(), dtype=np.str_)
-        status = made.core.status()
-        ends = made.core.ends(made.drivers)
-        infinite = ~np.isnan(made.infinite)
+        ends, kinds, status, infinite_at = made.outcomes
+        infinite = ~np.isnan(infinite_at)
         if infinite.any():
-            status[infinite], kinds = NO_VALUE, np.where(infinite, FAILED, kinds)
-            for values in ends[:3]:
-                values.reshape(len(infinite), -1)[infinite] = np.nan
+            status, kinds = (
+                np.where(infinite, np.uint8(NO_VALUE), status),
+                np.where(infinite, FAILED, kinds),
+            )
+            ends = [
+                np.where(infinite[:, np.newaxis], np.nan, values.reshape(len(infinite), -1))
+                for values in ends
+            ]
         tail = () if made.drivers == 1 else (made.drivers,)
 
         def chosen(values: npt.NDArray[Any], tail: tuple[int, ...] = ()) -> Any:
@@ -121,14 +133,10 @@ class Runs(Sequence[Run]):
         """Return a run, or raise its error where there is none; of a slice all its runs."""
         if isinstance(index, slice):
             return Runs(self._made, self._indices.reshape(-1)[index])
-        flat = self._place(index)
-        failure = self._failure(flat)
-        if failure is not None:
-            raise failure
-        made = self._made
-        core = made.core.run(flat)
-        assert core is not None
-        return Run(core, made.mechanism, made.drivers, made.events, made.along_q, made.tables)
+        made, outcome = self._made, self._outcome(index)
+        if isinstance(outcome, AssurError):
+            raise outcome
+        return Run(outcome, made.mechanism, made.drivers, made.events, made.along_q, made.tables)
 
     def _place(self, index: int | tuple[int, ...]) -> int:
         """Return the index of a run among those of the core."""
@@ -175,16 +183,16 @@ class Runs(Sequence[Run]):
         >>> machine.run(t_end=1.0, q0=[0.0, 1.0], speed0=3.0).explain(1)
         'reached its end'
         """
-        failure = self._failure(self._place(index))
-        return str(failure) if failure is not None else self[index].message
+        outcome = self._outcome(index)
+        return str(outcome) if isinstance(outcome, AssurError) else self[index].message
 
-    def _failure(self, flat: int) -> AssurError | None:
-        """Return the error of a run that there is not."""
-        failure = self._made.core.error(flat)
-        if failure is not None:
-            return failure
-        infinite_at = float(self._made.infinite[flat])
-        return None if np.isnan(infinite_at) else energies_are_infinite(infinite_at)
+    def _outcome(self, index: int | tuple[int, ...]) -> _core.Run | AssurError:
+        """Return a run, or why there is none."""
+        flat = self._place(index)
+        infinite_at = float(self._made.outcomes.infinite[flat])
+        if not np.isnan(infinite_at):
+            return energies_are_infinite(infinite_at)
+        return self._made.core.outcome(flat)
 
     def at(
         self,

@@ -4,6 +4,7 @@ pub(crate) mod batch;
 pub(crate) mod options;
 pub(crate) mod outcomes;
 mod state;
+pub(crate) mod steady_numbers;
 mod stop_reason;
 
 use std::sync::Arc;

@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 
 use assur::dynamics::{Imbalance, Outcome, RunError, Samples};
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::PyMemoryError;
+use pyo3::exceptions::{PyIndexError, PyMemoryError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -57,6 +57,17 @@ enum State {
     Failed(u8, Py<PyAny>),
 }
 
+/// A run or an exception.
+#[derive(IntoPyObject)]
+enum Found {
+    Run(Run),
+    Failed(Py<PyAny>),
+}
+
+/// See [`Runs::outcomes`].
+type Outcomes<'py> =
+    (Vec<Array<'py>>, [Array<'py>; 4], Vec<&'static str>, Bound<'py, PyArray1<u8>>);
+
 impl Runs {
     /// Makes the exceptions of those that failed; raises `MemoryError` where a run found no memory.
     pub(crate) fn new(py: Python<'_>, kept: Vec<Kept>) -> PyResult<Self> {
@@ -76,10 +87,6 @@ impl Runs {
             detach::check_signals(py, entries.len())?;
         }
         Ok(Self(entries))
-    }
-
-    fn get(&self, index: usize) -> Option<&Entry> {
-        self.0.get(index)
     }
 }
 
@@ -101,70 +108,46 @@ impl Runs {
         Self(states.into_iter().map(entry).collect())
     }
 
-    /// A run; `None` where there is none.
-    fn run(&self, index: usize) -> Option<Run> {
-        match self.get(index)? {
-            Entry::Run(run, _) => Some(Run(Arc::clone(run))),
-            Entry::Failed(..) => None,
+    /// A run, or the exception that tells why there is none.
+    fn outcome(&self, py: Python<'_>, index: usize) -> PyResult<Found> {
+        match self.0.get(index) {
+            Some(Entry::Run(run, _)) => Ok(Found::Run(Run(Arc::clone(run)))),
+            Some(Entry::Failed(_, exception)) => {
+                Ok(Found::Failed(exception.clone_ref(py).into_value(py).into_any()))
+            }
+            None => Err(PyIndexError::new_err("there are fewer runs")),
         }
     }
 
-    /// Why there is no run.
-    fn error(&self, py: Python<'_>, index: usize) -> Option<Py<PyAny>> {
-        match self.get(index)? {
-            Entry::Run(..) => None,
-            Entry::Failed(_, exception) => Some(exception.clone_ref(py).into_value(py).into_any()),
-        }
-    }
-
-    /// The status of each: that of its initial position, where it has none.
-    fn status<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        let status = |entry: &Entry| match entry {
-            Entry::Run(..) => 0,
-            Entry::Failed(status, _) => *status,
-        };
-        PyArray1::from_iter(py, self.0.iter().map(status))
-    }
-
-    /// Why each ended; "failed" where there is no run.
-    fn kinds(&self) -> Vec<&'static str> {
-        let kind = |entry: &Entry| match entry {
-            Entry::Run(run, _) => kind_of(&run.stop_reason),
-            Entry::Failed(..) => "failed",
-        };
-        self.0.iter().map(kind).collect()
-    }
-
-    /// The last samples, without energies; NaN where there is no run.
-    fn ends<'py>(&self, py: Python<'py>, drivers: usize) -> Vec<Array<'py>> {
+    /// Of all: the last samples without energies; the greatest imbalance, energy and potential energy, J,
+    /// and the time at which an energy is infinite, s; why each ended, "failed" where there is no run; and
+    /// its status. NaN where there is none.
+    fn outcomes<'py>(&self, py: Python<'py>, drivers: usize) -> Outcomes<'py> {
         let mut ends = Samples::default();
+        let mut balances: [Vec<f64>; 4] = Default::default();
+        let (mut kinds, mut statuses) = (Vec::new(), Vec::new());
         for entry in &self.0 {
-            let last = match entry {
-                Entry::Run(run, _) => run.samples.last(),
-                Entry::Failed(..) => None,
+            let (last, balance, kind, status) = match entry {
+                Entry::Run(run, balance) => {
+                    let balance = match *balance {
+                        Ok(Imbalance { worst, size, potential }) => {
+                            [worst, size, potential, f64::NAN]
+                        }
+                        Err(t) => [f64::NAN, f64::NAN, f64::NAN, t],
+                    };
+                    (run.samples.last(), balance, kind_of(&run.stop_reason), 0)
+                }
+                Entry::Failed(status, _) => (None, [f64::NAN; 4], "failed", *status),
             };
             push_or_nan(&mut ends, last, drivers);
-        }
-        arrays(py, ends)
-    }
-
-    /// Of each the greatest imbalance, energy and potential energy, J, and the time at which an energy
-    /// is infinite, s; NaN where there is none.
-    fn imbalance<'py>(&self, py: Python<'py>) -> [Array<'py>; 4] {
-        let mut columns: [Vec<f64>; 4] = Default::default();
-        for entry in &self.0 {
-            let numbers = match entry {
-                Entry::Run(_, Ok(Imbalance { worst, size, potential })) => {
-                    [*worst, *size, *potential, f64::NAN]
-                }
-                Entry::Run(_, Err(t)) => [f64::NAN, f64::NAN, f64::NAN, *t],
-                Entry::Failed(..) => [f64::NAN; 4],
-            };
-            for (column, number) in columns.iter_mut().zip(numbers) {
+            for (column, number) in balances.iter_mut().zip(balance) {
                 column.push(number);
             }
+            kinds.push(kind);
+            statuses.push(status);
         }
-        columns.map(|column| PyArray1::from_vec(py, column))
+        let balances = balances.map(|column| PyArray1::from_vec(py, column));
+        (arrays(py, ends), balances, kinds, PyArray1::from_vec(py, statuses))
     }
 
     /// The samples without energies at points of runs, all of the first one, then of the second; NaN
@@ -182,7 +165,7 @@ impl Runs {
         let parts = detach::run(py, points.len() < FEW_SAMPLES, |cancel| {
             let samples = |place: usize| {
                 let mut samples = Samples::default();
-                let run = match indices.get(place).and_then(|&index| self.get(index)) {
+                let run = match indices.get(place).and_then(|&index| self.0.get(index)) {
                     Some(Entry::Run(run, _)) => Some(run),
                     _ => None,
                 };
