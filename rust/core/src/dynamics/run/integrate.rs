@@ -31,7 +31,7 @@ impl TabulatedMachine {
     ///
     /// # Errors
     ///
-    /// Those of [`Machine::run`].
+    /// Those of [`crate::dynamics::Machine::run`].
     pub fn run<O: Callbacks>(
         &self,
         options: &RunOptions<'_>,
