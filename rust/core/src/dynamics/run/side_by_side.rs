@@ -54,7 +54,8 @@ impl Machine {
             let of_design = first..last.unwrap_or(range.end);
             first = of_design.end;
             let dimensions = batch.dimensions_of(design);
-            let fits = batch.limit.is_none()
+            let fits = of_design.len() >= WORTH_LANES
+                && batch.limit.is_none()
                 && batch.options.along == Variable::Time
                 && mechanism.q0().len() == 1
                 && dimensions.len() == mechanism.dimensions().len();
