@@ -75,6 +75,7 @@ if TYPE_CHECKING:
     from assur.dynamics.loads.motors import ConstantTorque, InductionMotor, LinearMotor
     from assur.dynamics.machine import Machine
     from assur.dynamics.motion.run import Run
+    from assur.dynamics.motion.runs import Runs
     from assur.dynamics.motion.steady import SteadyState
     from assur.files.contents import load
     from assur.kinematics.curve.design_defects import Defect
@@ -122,6 +123,7 @@ __all__ = [
     "Pressure",
     "Remedy",
     "Run",
+    "Runs",
     "Sensitivity",
     "SingularLocus",
     "Slide",
@@ -188,6 +190,7 @@ _LATER = {
     "assur.dynamics.machine": ("Machine",),
     "assur.dynamics.loads.motors": ("ConstantTorque", "InductionMotor", "LinearMotor"),
     "assur.dynamics.motion.run": ("Run",),
+    "assur.dynamics.motion.runs": ("Runs",),
     "assur.dynamics.motion.steady": ("SteadyState",),
     "assur.files.contents": ("load",),
     "assur.kinematics.curve.design_defects": ("Defect",),

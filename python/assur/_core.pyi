@@ -29,6 +29,7 @@ __all__ = [
     "Machine",
     "Mechanism",
     "Run",
+    "Runs",
     "acute",
     "asin",
     "atan2",
@@ -363,6 +364,18 @@ class Run:
     def ending(self) -> _Ending: ...
     @property
     def statistics(self) -> dict[str, Any]: ...
+    def imbalance(self) -> tuple[float, float, float, float | None]: ...
+
+_Outcome: TypeAlias = Run | tuple[int, AssurError]
+_Outcomes: TypeAlias = tuple[list[_Float], list[_Float], list[str], npt.NDArray[np.uint8]]
+
+@final
+class Runs:
+    def __new__(cls, states: list[_Outcome]) -> Self: ...
+    def __reduce__(self) -> tuple[type[Runs], tuple[list[_Outcome]]]: ...
+    def outcome(self, index: int) -> Run | AssurError: ...
+    def outcomes(self, drivers: int) -> _Outcomes: ...
+    def at(self, indices: list[int], points: _Float, drivers: int) -> list[_Float]: ...
 
 @final
 class Machine:
@@ -477,6 +490,17 @@ class Machine:
         breaks: list[float],
         events: list[Rest | Position | Speed | AngleLimit | Crossing | Obstacle],
     ) -> Run: ...
+    def runs(
+        self,
+        designs: tuple[_Float, int],
+        along_q: bool,
+        states: tuple[float, _Float, _Float, _Float],
+        method: tuple[Method, tuple[float, list[float] | None]],
+        limits: tuple[float, int, float | None],
+        breaks: list[float],
+        events: list[Rest | Position | Speed | AngleLimit | Crossing | Obstacle],
+        keeping: tuple[bool, int | None],
+    ) -> Runs: ...
     def steady(
         self,
         dimensions: list[float],

@@ -15,6 +15,7 @@ from cases import (
     grids,
     growth,
     jansen_legs,
+    many_runs,
     metrics,
     one_design,
     random_four_bars,
@@ -48,6 +49,7 @@ MAKERS = (
     forces.case,
     flywheels.case,
     runs.case,
+    many_runs.case,
     steps.case,
     find.case,
 )

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias, overload
 
 from assur._arrays import real_number
 from assur._other_names import other_names, renamed_rates
-from assur._validate import one_of
+from assur._validate import checked_threads, one_of
 from assur.dynamics.equations import dynamics as equations
 from assur.dynamics.equations import step as steps
 from assur.dynamics.equations.derivatives import derivatives, weights
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from assur.dynamics.model import OnError
     from assur.dynamics.motion.equilibria import Equilibria
     from assur.dynamics.motion.motion_input import MotionLike
+    from assur.dynamics.motion.runs import RunOrRuns, Runs
     from assur.dynamics.reduction.reduce import Reduced
     from assur.events import Event
     from assur.flywheel import Flywheel, Mean
@@ -1216,13 +1217,56 @@ class Machine(MachineModel):
         """
         return flywheel_size.flywheel(self, fluctuation, mean_speed, mean, turns, on_error)
 
+    @overload
     def run(
         self,
-        t_end: float | None = None,
+        t_end: float | None = ...,
+        q0: float | None = ...,
+        speed0: float = ...,
+        *,
+        q_end: float | None = ...,
+        t0: float = ...,
+        rtol: float = ...,
+        atol: float | tuple[float, float] | None = ...,
+        method: Method = ...,
+        events: Sequence[Event] = ...,
+        breaks: npt.ArrayLike = ...,
+        max_step: float = ...,
+        max_steps: int = ...,
+        max_seconds: float | None = ...,
+        deg0: float | None = ...,
+        deg_end: float | None = ...,
+    ) -> Run: ...
+    @overload
+    def run(
+        self,
+        t_end: npt.ArrayLike | None = ...,
+        q0: npt.ArrayLike | None = ...,
+        speed0: npt.ArrayLike = ...,
+        *,
+        q_end: npt.ArrayLike | None = ...,
+        t0: float = ...,
+        rtol: float = ...,
+        atol: float | tuple[float, float] | None = ...,
+        method: Method = ...,
+        events: Sequence[Event] = ...,
+        breaks: npt.ArrayLike = ...,
+        max_step: float = ...,
+        max_steps: int = ...,
+        max_seconds: float | None = ...,
+        deg0: npt.ArrayLike | None = ...,
+        deg_end: npt.ArrayLike | None = ...,
+        keep: Literal["all", "ends"] = ...,
+        on_error: Literal["raise", "nan"] = ...,
+        threads: int | None = ...,
+    ) -> RunOrRuns: ...
+    def run(
+        self,
+        t_end: npt.ArrayLike | None = None,
         q0: npt.ArrayLike | None = None,
         speed0: npt.ArrayLike = 0.0,
         *,
-        q_end: float | None = None,
+        q_end: npt.ArrayLike | None = None,
         t0: float = 0.0,
         rtol: float = 1e-10,
         atol: float | tuple[float, float] | None = None,
@@ -1233,20 +1277,27 @@ class Machine(MachineModel):
         max_steps: int = 1_000_000,
         max_seconds: float | None = None,
         deg0: npt.ArrayLike | None = None,
-        deg_end: float | None = None,
-    ) -> Run:
+        deg_end: npt.ArrayLike | None = None,
+        keep: Literal["all", "ends"] = "all",
+        on_error: Literal["raise", "nan"] = "raise",
+        threads: int | None = None,
+    ) -> Run | Runs:
         """Integrate the motion under loads and motor: J q̈ + ½ J′ q̇² = M.
+
+        Arrays of initial states, and designs, are a run each, all in one call.
 
         Parameters
         ----------
-        t_end : float
+        t_end : array_like
             Final time, s. Give either this or:
-        q_end : float
+        q_end : array_like
             Final coordinate: integrates over q instead of t (one driver, not at rest). Suits
             periodic motions, because over q the knots of all tables are known beforehand.
         q0, speed0 : array_like
-            Initial coordinate and speed of the driver; for n drivers (n,). The default coordinate
-            is that of the drawing (for a table its first row).
+            Initial coordinate and speed of the driver, rad or m and per s; for n drivers (n,). The
+            default coordinate is that of the drawing (for a table its first row). For many runs
+            (E,) or S + (E,), with n drivers a last axis of n; they broadcast against each other and
+            the end.
         t0 : float
             Initial time, s.
         rtol : float
@@ -1266,15 +1317,25 @@ class Machine(MachineModel):
         max_steps : int
             Largest number of attempted steps.
         max_seconds : float, optional
-            Limit of computing time, s.
-        deg0, deg_end : array_like, float, optional
+            Limit of computing time, s; of many runs that of each.
+        deg0, deg_end : array_like, optional
             Initial and final coordinate in degrees, in place of `q0` and `q_end`.
+        keep : {"all", "ends"}
+            Of many runs: whole motions (of order 8 about 300 bytes a step with one driver), or only
+            their ends and events.
+        on_error : {"raise", "nan"}
+            Of many runs: what one has that cannot start or be computed. An error that names it, or
+            NaN and its `status` in its place.
+        threads : int, optional
+            Most threads for many runs; all cores by default. Where loads, motors or events are
+            Python functions, one run follows another.
 
         Returns
         -------
-        Run
+        Run or Runs
             The motion; it ends early at an event that stops it, at a dead point (also an event), or
-            at a limit.
+            at a limit. Of arrays or designs S: `Runs` of the shape S + (E,), each with the bits
+            that it has alone.
 
         Raises
         ------
@@ -1292,7 +1353,7 @@ class Machine(MachineModel):
         AssurWarning
             The run ended early without an event: the tolerance cannot be met, a table ends, or a
             limit of steps or seconds is reached. Or the energy balance is off by more than 1000
-            rtol (and by more than 1e-6).
+            rtol (and by more than 1e-6). Of many runs one warning counts them.
 
         Notes
         -----
@@ -1317,12 +1378,20 @@ class Machine(MachineModel):
         >>> run = machine.run(t_end=1.0, q0=0.0)
         >>> run.at(1.0).speed.round(4)
         np.float64(16.1541)
+
+        From four positions, each until 10 rad/s:
+
+        >>> fast = assur.events.Speed(10.0)
+        >>> runs = machine.run(t_end=1.0, q0=[0.0, 1.5, 3.0, 4.5], events=[fast])
+        >>> runs.t_end.round(4), runs.end.tolist()  # s
+        (array([0.2141, 0.2174, 0.2141, 0.2142]), ['event', 'event', 'event', 'event'])
         """
+        one_of(keep, ("all", "ends"), "keep")
+        one_of(on_error, ("raise", "nan"), "on_error")
         if deg0 is not None:
             q0 = in_radians(self.mechanism, q0, deg0, "run", "q0")
         if deg_end is not None:
-            deg_end = real_number(deg_end, "deg_end")
-            q_end = float(in_radians(self.mechanism, q_end, deg_end, "run", "q_end"))
+            q_end = in_radians(self.mechanism, q_end, deg_end, "run", "q_end")
         return integrate.run(
             self,
             t_end,
@@ -1330,6 +1399,7 @@ class Machine(MachineModel):
             speed0,
             q_end,
             t0,
+            (keep, on_error, checked_threads(threads)),
             rtol=rtol,
             atol=atol,
             method=method,

@@ -7,7 +7,7 @@ use assur::papers::crank_rocker::JammingError;
 use assur::papers::slider_crank::SeriesError;
 use assur::{
     DriverFault, Failure, FirstFailure, GroupName, Hint, Named, Overconstraint, Reason, SolveError,
-    StructureError,
+    Status, StructureError,
 };
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -269,6 +269,20 @@ pub(crate) fn run(error: RunError<PyErr>) -> PyErr {
         _ => (Class::Input, none()),
     };
     raised(&error, class, (&error).into(), &fields)
+}
+
+/// `assur.Status.NO_VALUE`: a load has no finite value, or no inertia resists a driver.
+const NO_VALUE: u8 = 8;
+
+/// The status in place of a run that could not start or be computed.
+pub(crate) fn run_status<E>(error: &RunError<E>) -> u8 {
+    match error {
+        RunError::NoInitialPosition(failure) => failure.status as u8,
+        RunError::Options(_) | RunError::WrongCount { .. } | RunError::TooManyKnots { .. } => {
+            Status::BadInput as u8
+        }
+        _ => NO_VALUE,
+    }
 }
 
 /// A steady state that was not found.

@@ -70,6 +70,8 @@ mod _core {
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
+    use super::run::outcomes::Runs;
+    #[pymodule_export]
     use super::spline::spline_pieces;
     #[pymodule_export]
     #[cfg(feature = "test-hooks")]

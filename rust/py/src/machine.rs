@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use assur::dynamics::{
-    EndCondition, EquationPlan, EquilibriumRange, Extreme, FluctuationTarget, LoadAction, Mean,
-    Point, RunOptions, SteadyOptions, TabulatedMachine, Variable,
+    EndCondition, EquationPlan, EquilibriumRange, FluctuationTarget, LoadAction, Mean, Point,
+    RunBatch, RunOptions, SteadyOptions, TabulatedMachine,
 };
 use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -24,36 +24,15 @@ use crate::detach::{self, catch_panic};
 use crate::equations::{self, DirectionKey, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
+use crate::run::batch::{self, Source};
+use crate::run::options::{Tolerances, options};
+use crate::run::outcomes::Runs;
+use crate::run::steady_numbers::SteadyNumbers;
 use crate::run::{PythonCallbacks, Run};
 use crate::{equilibria, error, error_map, reduce, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 type Array<'py> = Bound<'py, PyArray1<f64>>;
-/// Numbers of a steady state: the multiplier, the moment that keeps the speed, N·m, the work of the
-/// motors, J, the flywheel, kg·m², and the extreme speeds.
-#[derive(IntoPyObject)]
-pub(crate) struct SteadyNumbers {
-    multiplier: f64,
-    found_moment: f64,
-    motor_work: f64,
-    inertia: f64,
-    least: ExtremeFields,
-    greatest: ExtremeFields,
-}
-
-/// An extreme value and its coordinate.
-#[derive(IntoPyObject)]
-struct ExtremeFields {
-    at: f64,
-    value: f64,
-}
-
-impl From<Extreme> for ExtremeFields {
-    fn from(Extreme { at, value }: Extreme) -> Self {
-        Self { at, value }
-    }
-}
-
 /// Source of a machine's inertia and loads.
 enum Inner {
     Mechanism(Py<Mechanism>, assur::dynamics::Machine),
@@ -417,7 +396,7 @@ impl Machine {
         start: (f64, Vec<f64>, Vec<f64>),
         end: f64,
         method: Word<Method>,
-        tolerances: (f64, Option<[f64; 2]>),
+        tolerances: Tolerances,
         limits: (f64, u64, Option<f64>),
         breaks: Vec<f64>,
         events: Vec<Bound<'_, PyAny>>,
@@ -434,20 +413,12 @@ impl Machine {
         let (t, q, speed) = start;
         let (max_step, max_steps, seconds) = limits;
         let options = RunOptions {
-            along: if along_q { Variable::Coordinate } else { Variable::Time },
-            t,
             q: &q,
             speed: &speed,
             end,
-            method: method.0,
-            relative: tolerances.0,
-            absolute: tolerances.1,
-            max_step,
-            max_steps,
-            deadline: deadline(seconds),
-            breaks: &breaks,
             events: &events,
-            flywheel: 0.0,
+            deadline: deadline(seconds),
+            ..options(along_q, t, method.0, tolerances, (max_step, max_steps), &breaks)
         };
         let run = self.with_callbacks(py, event_functions, |calls| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
@@ -456,6 +427,53 @@ impl Machine {
             Inner::Tables(tabulated) => tabulated.run(&options, calls),
         })?;
         run.map(Run::new).map_err(error_map::run)
+    }
+
+    /// Integrates runs of designs, the same number of each. `designs`: their dimensions, the first of
+    /// every design, then the second, and how many there are. `states`: the initial time, coordinates and
+    /// speeds (runs × drivers), and where each run ends. `keeping`: whether only the ends, and threads.
+    #[allow(clippy::too_many_arguments, reason = "the parameters of runs")]
+    fn runs(
+        &self,
+        py: Python<'_>,
+        designs: (Flat<'_>, usize),
+        along_q: bool,
+        states: (f64, Flat<'_>, Flat<'_>, Flat<'_>),
+        method: (Word<Method>, Tolerances),
+        limits: (f64, u64, Option<f64>),
+        breaks: Vec<f64>,
+        events: Vec<Bound<'_, PyAny>>,
+        keeping: (bool, Option<usize>),
+    ) -> PyResult<Runs> {
+        let ((dimensions, designs), (only_ends, threads)) = (designs, keeping);
+        let (core, source) = match &self.inner {
+            Inner::Mechanism(mechanism, machine) => {
+                let core = &mechanism.get().inner;
+                (Some(core), Source::Mechanism(core, machine))
+            }
+            Inner::Tables(tabulated) => (None, Source::Tables(tabulated)),
+        };
+        let dimensions = reserve::copied(&dimensions)?;
+        let (t, q, speed, ends) = states;
+        let [q, speed, ends] = [q, speed, ends].map(|array| reserve::copied(&array));
+        let (q, speed, ends) = (q?, speed?, ends?);
+        let mut functions = Vec::new();
+        let events =
+            batch::events_of_designs(core, (&dimensions, designs), &events, &mut functions)?;
+        let (max_step, max_steps, seconds) = limits;
+        let steps = (max_step, max_steps);
+        let options = options(along_q, t, method.0.0, method.1, steps, &breaks);
+        let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        let (q, speed, ends, events) = (&q, &speed, &ends, &events);
+        let dimensions = &dimensions;
+        let runs = RunBatch { dimensions, designs, q, speed, ends, events, limit, options };
+        if self.functions.is_empty() && functions.is_empty() {
+            return batch::in_threads(py, source, &runs, only_ends, threads);
+        }
+        let kept = self.with_callbacks(py, functions, |calls| {
+            batch::one_by_one(source, &runs, only_ends, calls)
+        })??;
+        Runs::new(py, kept)
     }
 
     /// The steady state from `q` over a span, with a given flywheel or one sized for a fluctuation.
@@ -497,15 +515,7 @@ impl Machine {
             Inner::Tables(tabulated) => tabulated.steady(&options, target, calls),
         })?;
         let steady = steady.map_err(error_map::steady)?;
-        let [least, greatest] = steady.extremes();
-        let numbers = SteadyNumbers {
-            multiplier: steady.multiplier,
-            found_moment: steady.moment,
-            motor_work: steady.drive,
-            inertia: steady.flywheel,
-            least: least.into(),
-            greatest: greatest.into(),
-        };
+        let numbers = SteadyNumbers::of(&steady);
         Ok((Run::new(steady.run), numbers))
     }
 }

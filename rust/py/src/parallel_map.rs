@@ -1,13 +1,16 @@
 //! Maps indices to results on several threads.
 
 use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::{self, ScopedJoinHandle};
 
 use assur::available_threads;
 
+/// Parts of a thread's share that it takes at once: items may take longer in one half than in the other.
+const PARTS: usize = 16;
+
 /// Results of `item` for every index below `count`, on at most one thread for every
-/// `min_per_thread` indices. After a cancellation the rest of each thread's results is missing.
+/// `min_per_thread` indices. After a cancellation some results are missing.
 pub(crate) fn parallel_map<T: Send>(
     count: usize,
     min_per_thread: usize,
@@ -18,26 +21,37 @@ pub(crate) fn parallel_map<T: Send>(
     let most = count.div_ceil(min_per_thread).max(1);
     let threads =
         if most == 1 { 1 } else { threads.unwrap_or_else(available_threads).min(most).max(1) };
-    let share = count.div_ceil(threads);
-    let run_share = |first: usize| -> Vec<T> {
-        let indices = first..(first + share).min(count);
-        indices.take_while(|_| !cancel.load(Ordering::Relaxed)).map(item).collect()
-    };
+    let is_wanted = |_: &usize| !cancel.load(Ordering::Relaxed);
     if threads == 1 {
-        return run_share(0);
+        return (0..count).take_while(is_wanted).map(item).collect();
     }
-    thread::scope(|scope| {
-        let start = |first: usize| {
-            let worker = thread::Builder::new().spawn_scoped(scope, move || run_share(first));
-            // Where the system refuses another thread, this one does the share.
-            worker.map_err(|_| run_share(first))
+    let part = count.div_ceil(threads * PARTS);
+    let taken = AtomicUsize::new(0);
+    let run_parts = || -> Vec<(usize, Vec<T>)> {
+        let mut done = Vec::new();
+        loop {
+            let first = taken.fetch_add(part, Ordering::Relaxed);
+            if first >= count || cancel.load(Ordering::Relaxed) {
+                return done;
+            }
+            let indices = first..(first + part).min(count);
+            done.push((first, indices.take_while(is_wanted).map(item).collect()));
+        }
+    };
+    let mut parts = thread::scope(|scope| {
+        let start = |_| {
+            let worker = thread::Builder::new().spawn_scoped(scope, run_parts);
+            // Where the system refuses another thread, this one helps.
+            worker.map_err(|_| run_parts())
         };
-        let workers: Vec<_> = (0..count).step_by(share).map(start).collect();
+        let workers: Vec<_> = (0..threads).map(start).collect();
         let joined =
             workers.into_iter().flat_map(|worker| match worker.map(ScopedJoinHandle::join) {
                 Ok(Ok(done)) | Err(done) => done,
                 Ok(Err(panic)) => resume_unwind(panic),
             });
-        joined.collect()
-    })
+        joined.collect::<Vec<_>>()
+    });
+    parts.sort_unstable_by_key(|&(first, _)| first);
+    parts.into_iter().flat_map(|(_, results)| results).collect()
 }

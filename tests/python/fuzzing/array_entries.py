@@ -46,6 +46,8 @@ MACHINE = assur.Machine(
 )
 OF_TABLE = assur.Machine.from_table(PHI * (TURN / 6.0), MOMENT, INERTIA, spline="linear")
 RUN = MACHINE.run(4.0, 0.5, 5.0, rtol=1e-6)
+MANY: assur.Runs = MACHINE.run(0.5, [0.5, 1.0], 5.0, rtol=1e-6)
+MANY_ALONG: assur.Runs = MACHINE.run(q_end=8.0, q0=[0.5, 1.0], speed0=5.0, rtol=1e-6)
 ALONG = MACHINE.run(q_end=8.0, q0=0.5, speed0=5.0, rtol=1e-6)
 STEADY = OF_TABLE.steady_state(9.0, mean="period")
 EVEN = np.arange(8.0) * (TURN / 8.0)
@@ -214,9 +216,16 @@ IN_DEGREES = {
     "Machine.impact.deg": Entry(
         lambda deg: MACHINE.impact(PUSH, deg=deg, speed=-20.0, restitution=0.5).speed, numbers(30.0)
     ),
+    "Machine.run.q_end": Entry(
+        lambda q: MACHINE.run(q_end=q, q0=1.0, speed0=5.0), (np.array(2.0), PHI[:3] + 2.0)
+    ),
+    "Machine.run.deg_end": Entry(
+        lambda deg: MACHINE.run(deg_end=deg, deg0=30.0, speed0=5.0), (np.array(60.0),)
+    ),
     "Machine.run.deg0": Entry(
         lambda deg: MACHINE.run(0.25, deg0=deg, speed0=2.0), (np.array(60.0),)
     ),
+    "Runs.at.deg": Entry(lambda deg: MANY_ALONG.at(deg=deg), numbers(60.0)),
     "Run.at.deg": Entry(lambda deg: ALONG.at(deg=deg), numbers(60.0)),
     "SteadyState.at.deg": Entry(lambda deg: STEADY.at(deg=deg), numbers(60.0)),
     **{f"Flywheel.{name}.deg": Entry(wheel_in_degrees(name), numbers(60.0)) for name in CURVES},
@@ -345,6 +354,8 @@ ENTRIES: dict[str, Entry] = {
     ),
     **each_of("MachineModel.from_table", assur.Machine.from_table, **COLUMNS),
     "Run.at.t": Entry(RUN.at, numbers(0.0)),
+    "Runs.at.t": Entry(MANY.at, numbers(0.0)),
+    "Runs.at.q": Entry(lambda q: MANY_ALONG.at(q=q), numbers(1.0)),
     "Run.at.q": Entry(lambda q: ALONG.at(q=q), numbers(1.0)),
     **each_of("SteadyState.at", STEADY.at, q=0.0),
     **each_of("Table.__init__", assur.Table, q=PHI, value=MOMENT),

@@ -14,7 +14,7 @@ import assur
 from assur import crank_rocker, slider_crank
 from assur.dynamics.flywheel import size as size_flywheel
 from fuzzing.fuzz_kinematics import assemblies, change, construct, describe, move
-from fuzzing.fuzz_machines import balanced, harmonics, inside, reduce, run, steady, wheel
+from fuzzing.fuzz_machines import balanced, harmonics, inside, reduce, run, runs, steady, wheel
 from fuzzing.fuzz_values import Choices
 
 if TYPE_CHECKING:
@@ -71,6 +71,7 @@ ENTRIES: tuple[Callable[[Choices], object], ...] = (
     move,
     reduce,
     run,
+    runs,
     steady,
     wheel,
     papers,

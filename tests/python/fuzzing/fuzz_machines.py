@@ -231,6 +231,25 @@ def run(c: Choices) -> object:
     return result.at(c.argument(lambda: 0.1)), result.energy
 
 
+def runs(c: Choices) -> object:
+    machine = _machine(c)
+    result = c.call(
+        machine.run,
+        t_end=lambda: 0.2,
+        q0=c.numbers,
+        speed0=c.number,
+        rtol=lambda: 1e-6,
+        max_steps=MOST_STEPS,
+        max_seconds=MOST_SECONDS,
+        keep=lambda: c.among(("all", "ends")),
+        on_error=lambda: c.among(("raise", "nan")),
+        threads=lambda: 2,
+    )
+    if not isinstance(result, assur.Runs) or not len(result):
+        return result
+    return result.at(c.argument(lambda: 0.1)), result.explain(0), result[0].energy
+
+
 def steady(c: Choices) -> object:
     found = c.call(
         _machine(c).steady_state,

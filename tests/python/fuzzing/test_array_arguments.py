@@ -103,6 +103,7 @@ INSIDE: dict[type, Any] = {
     Dynamics: lambda one: (one.mass_matrix, one.d_mass_matrix, one.bias, one.gravity),
     assur.Machine: lambda one: one._rebuild_with[1],
     assur.SteadyState: lambda one: (one.run, one.mean_speed, one.delta),
+    assur.Runs: lambda one: (one.t_end, one.q_end, one.speed_end, one.status),
     assur.Run: lambda one: (one.t, one.q, one.speed, one.acceleration),
     assur.flywheel.Flywheel: lambda one: (one.inertia, one.speed0, one.motor_moment, one.period),
 }
@@ -194,6 +195,7 @@ OPTIONAL = (
     "FourBar.__init__.point",
     "Machine.run",
     "Run.at",
+    "Runs.at",
     "Machine.equilibria",
     "Machine.impact.impulse",
     "Machine.flywheel",

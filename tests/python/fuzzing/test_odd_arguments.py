@@ -42,14 +42,14 @@ RESULTS = (Bearing, Extremes, Reactions, TimedMotion)
 NOT_CALLED = {
     *("Analogues", "Assemblies", "ConfigurationCurve", "DeadPoint", "Defect", "DesignMap", "Group"),
     *("Limits", "Measures", "Motion", "Remedy", "Run", "Sensitivity", "SingularLocus", "Status"),
-    *("SteadyState", "Structure", "Workspace", "balance.Harmonics", "balance.MomentBounds"),
+    *("Runs", "SteadyState", "Structure", "Workspace", "balance.Harmonics", "balance.MomentBounds"),
     *("balance.RotatingParts", "crank_rocker.JammingEvent", "crank_rocker.JammingRun"),
     *("crank_rocker.Solution", "crank_rocker.Table1", "files.Contents", "flywheel.Extreme"),
     *("flywheel.Flywheel", "flywheel.Mean", "flywheel.ReducedTable", "flywheel.Spline"),
     *("importers.Imported", "metric.Condition"),
     *("slider_crank.Deviation", "slider_crank.Extreme", "Law.at", "Metric.value"),
     *("ClassIV.paper_equations", "MachineModel.explore", "Mechanism.explore"),
-    *("Assembly.__getitem__", "Grid.__getitem__"),
+    *("Assembly.__getitem__", "Grid.__getitem__", "Runs.__getitem__"),
 }
 
 

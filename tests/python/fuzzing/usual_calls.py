@@ -212,7 +212,7 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         flywheel={"fluctuation": 0.1},
         impact={"load": assur.Force("B", (-1.0, 0.0)), "q": 0.5, "speed": -5.0, "restitution": 0.3},
         internal_loads={**AT, "link": "rod", "n": 5},
-        run={"t_end": 0.1, "speed0": 1.0, "rtol": 1e-6, **QUICK},
+        run={"t_end": 0.1, "speed0": 1.0, "rtol": 1e-6, "keep": "all", **QUICK},
         potential=AT,
         reduced_inertia=AT,
         reduced_moment=AT,
@@ -232,6 +232,8 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
     found, wheel = own.reactions(TURN, 2.0), table.flywheel(0.1, mean_speed=9.0)
     rod = {"name": "B", "on": "rod"}
     yield from named("Run", run, at={"t": 0.05}, plot={}, to_html={"path": "m.html"})
+    many: assur.Runs = own.run(0.1, q0=TURN, speed0=1.0, rtol=1e-6)
+    yield from named("Runs", many, at={"t": 0.05}, explain={"index": 0})
     yield from named("SteadyState", steady, at=AT, plot={})
     yield from named(
         "Reactions",

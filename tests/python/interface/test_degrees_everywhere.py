@@ -106,6 +106,9 @@ def test_the_start_and_the_end_of_a_run() -> None:
         spun.run(1.0, 0.0, deg0=30.0)
     with pytest.raises(assur.InputError, match=r"both q_end and deg_end are given"):
         spun.run(q_end=1.0, deg_end=30.0, speed0=1.0)
+    many = spun.run(deg0=[30.0, 40.0], speed0=4.0, deg_end=200.0)
+    np.testing.assert_array_equal(many[0].t, one.t)
+    np.testing.assert_array_equal(many.at(deg=50.0)[1][0], one.at(deg=50.0).q)
     steady = spun.steady_state(10.0, deg0=30.0)
     np.testing.assert_array_equal(steady.q, spun.steady_state(10.0, q0=np.pi / 6).q)
     np.testing.assert_array_equal(steady.at(deg=40.0), steady.at(40.0 * (np.pi / 180.0)))

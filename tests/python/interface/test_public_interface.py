@@ -79,6 +79,7 @@ READ_IN_PLACE = {
     "Motion.plot": 1,
     "Run.at": 1,
     "Run.plot": 1,
+    "Runs.at": 1,
     "SingularLocus.plot": 1,
     "SliderCrank": 1,
     "SteadyState.at": 1,

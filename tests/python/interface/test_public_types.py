@@ -162,6 +162,7 @@ def results() -> dict[str, object]:
         "run": run,
         "event": run.events[0],
         "state": run.at(0.3),
+        "runs": free.run(0.1, [0.0, 1.0], 5.0),
         "energy": run.energy,
         "flywheel": wheel,
         "its max": wheel.max,

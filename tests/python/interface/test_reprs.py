@@ -174,6 +174,7 @@ MADE: dict[str, Callable[[], object]] = {
     "Run.events": lambda: run().events,
     "Run.state": lambda: run().at(np.linspace(0.0, 1.0, MANY)),
     "Run.statistics": lambda: run().statistics,
+    "Runs": lambda: press().run(0.1, np.linspace(0.0, 1.0, 20), 5.0, rtol=1e-6),
     "Sensitivity": lambda: assur.FourBar(1.0, 3.0, 2.5, 3.2).solve(Q).sensitivity("coupler.length"),
     "SingularLocus": lambda: assur.examples.five_bar().singular_loci(positions=12)[0],
     "SliderCrank": lambda: assur.SliderCrank(0.1, np.linspace(0.3, 0.4, MANY)),

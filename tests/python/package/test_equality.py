@@ -245,6 +245,7 @@ RESULTS = {
     "Motion",
     "Remedy",
     "Run",
+    "Runs",
     "Sensitivity",
     "SingularLocus",
     "SteadyState",

@@ -150,6 +150,7 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "deviations": lambda n: partial(assur.slider_crank.deviation, 0.1 + _angles(n) / 30.0, 2),
     "condition": lambda n: _condition(_angles(n)),
     "reduced inertia": lambda n: partial(_machine().reduced_inertia, _angles(n)),
+    "runs": lambda n: partial(_machine().run, 0.5, np.linspace(0.0, 6.0, n), 1.0),
     "run": lambda n: partial(_machine().run, float(n), 0.0, 1.0, max_steps=10**9),
     "reactions": lambda n: partial(_machine().reactions, *_moving(n)),
     "reactions of class IV": lambda n: partial(_loom().reactions, np.linspace(0.2, 1.4, n), 1.0),

@@ -51,6 +51,7 @@ calls = {
     "limits": lambda: designs.limits(),
     "reactions": lambda: rough.reactions(many, speed=1.0),
     "run": lambda: smooth.run(t_end=1e9, q0=1.0, speed0=10.0),
+    "runs": lambda: smooth.run(t_end=20.0, q0=angles[:2000], speed0=10.0),
     "self-locking": lambda: rough.self_locking(n=N),
     "solve": lambda: four_bar.solve(many),
     "stroke": lambda: assur.slider_crank.stroke(many, 1.0, 3.0),

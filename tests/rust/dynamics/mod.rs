@@ -1,3 +1,4 @@
 //! Machines that move.
 
 mod machines;
+mod many_runs;

@@ -34,8 +34,6 @@ __all__ = ["Energy", "EventRecord", "NearChangePoint", "Run", "State", "Statisti
 
 # `Run.at` accepts points this many ulps beyond an end: sums of steps are off by as much.
 END_ULPS = 4.0
-# Rounding of the sum of the energies, in units of the last place of the greatest.
-ROUNDINGS = 64.0
 
 
 class State(NamedTuple):
@@ -194,14 +192,14 @@ class Energy(NamedTuple):
         changes = [self.kinetic, self.potential - self.potential[:1], self.work]
         return max(float(np.nanmax(np.abs(change))) for change in changes)
 
-    def _is_off(self, part: float) -> bool:
-        """Whether the imbalance is above a part of the energies, and above rounding.
 
-        A machine that has hardly moved has a potential far greater than all changes.
-        """
-        rounding = ROUNDINGS * np.finfo(float).eps * float(np.nanmax(np.abs(self.potential)))
-        worst = float(np.nanmax(np.abs(self.balance)))
-        return worst > max(part * self._size(), rounding)
+def energies_are_infinite(t: float) -> MotionError:
+    """Return the error of a run whose energies are infinite at a time."""
+    message = (
+        f"energies of the run are infinite at t = {t:g} s: its speeds, masses or loads are too "
+        "great"
+    )
+    return MotionError(message, kind="not_finite", t=t)
 
 
 class Statistics(NamedTuple):
@@ -258,11 +256,6 @@ class Run(Tabular):
     end : str
         Why it ended: "reached", "event", "rest", "dead point", "near_change_point", "zero length"
         (of a cylinder), "locked", "lost", "table ends", "stalled", "step limit" or "time limit".
-    message : str
-        The same as a sentence.
-    at_rest_from : float or None
-        The time from which the machine stands still until the end, s: friction holds it, or it is
-        in balance. None if it moves to the end, or only comes to rest there.
     statistics : Statistics
         Computing effort.
 
@@ -306,10 +299,10 @@ class Run(Tabular):
             )
             for record in core.events
         )
-        self.at_rest_from = self._at_rest_from()
-        self.end, self.message = self._end_and_message(events)
+        self._ending = core.ending
+        self.end: str = self._ending["kind"]
         if self.end in ("dead point", "rest", "near_change_point"):
-            near = core.ending["near_change_point"]
+            near = self._ending["near_change_point"]
             event = self.end if near is None else NearChangePoint(**near)
             self.events.append(EventRecord(event, float(self.t[-1]), self.q[-1], self.speed[-1]))
 
@@ -323,7 +316,13 @@ class Run(Tabular):
             f"{counted(len(self.events), 'event')}, {self.end}{self._rest()}>"
         )
 
-    def _at_rest_from(self) -> float | None:
+    @cached_property
+    def at_rest_from(self) -> float | None:
+        """The time from which the machine stands still until the end, s, or None.
+
+        Friction holds it, or it is in balance. None if it moves to the end, or only comes to rest
+        there.
+        """
         # What rests has no acceleration either, to the last bit.
         moves = np.reshape((self.speed != 0.0) | (self.acceleration != 0.0), (len(self.t), -1))
         moving = np.flatnonzero(moves.any(axis=1))
@@ -419,12 +418,7 @@ class Run(Tabular):
             total = kinetic + potential - work
         infinite = np.isinf([kinetic, potential, work, total]).any(axis=0)
         if infinite.any():
-            first = float(self.t[np.argmax(infinite)])
-            message = (
-                f"energies of the run are infinite at t = {first:g} s: its speeds, masses or loads "
-                "are too great"
-            )
-            raise MotionError(message, kind="not_finite", t=first)
+            raise energies_are_infinite(float(self.t[np.argmax(infinite)]))
         return Energy(kinetic, potential, work, total - total[0])
 
     def _columns(self, degrees: bool) -> list[Column]:
@@ -536,18 +530,20 @@ class Run(Tabular):
     def _per_driver(self, numbers: list[float]) -> Any:
         return numbers[0] if self._drivers == 1 else np.array(numbers)
 
-    def _end_and_message(self, events: list[Any]) -> tuple[str, str]:
-        ending = self._core.ending
+    @cached_property
+    def message(self) -> str:
+        """Why the run ended, as a sentence."""
+        ending = self._ending
         kind, which, near = ending["kind"], ending["event"], ending["near_change_point"]
         place = f"t = {self.t[-1]:.9g} s, q = {self.q[-1]}"
         if near is not None:
-            return kind, (
+            return (
                 f"nearly a change point of dyad {near['dyad']!r} at {place}: near q = "
                 f"{near['q']:.9g} its lengths miss one by {near['miss']:.1e} m, and the motion "
                 "turns within less than can be integrated; draw the change point exactly, or "
                 "lengths clear of it"
             )
-        event = None if which is None else events[which]
+        event = None if which is None else self._init_args[3][which]
         index = ending["table"]
         table = "a table" if index is None or index >= len(self._tables) else self._tables[index]
         sentences = {
@@ -567,4 +563,4 @@ class Run(Tabular):
             + (": the equation is stiff there" if ending["stiff"] else ""),
             "time limit": f"max_seconds was reached at {place}",
         }
-        return kind, sentences[kind]
+        return sentences[kind]

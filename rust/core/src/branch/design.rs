@@ -285,6 +285,12 @@ impl<'a> Design<'a> {
         state.prepare(self.mechanism.plan(), &self.constants, self.derivatives);
     }
 
+    /// The same in every lane.
+    #[inline(always)]
+    pub(crate) fn prepare_lanes<R: Real>(&self, state: &mut State<R>) {
+        state.prepare(self.mechanism.plan(), &self.constants, self.derivatives);
+    }
+
     /// Work space for [`Design::trace_in_lanes`].
     pub(crate) fn uniform_tracer<R: Real, const G: usize>(&self) -> UniformTracer<R, G> {
         UniformTracer::new(self.mechanism.plan(), &self.tracing_derivatives)

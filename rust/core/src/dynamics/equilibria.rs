@@ -12,7 +12,7 @@ use super::kinematics::SolvedPose;
 use super::machine::Machine;
 use super::motor::Motor;
 use super::reduced::Reduced;
-use super::run::model::TabulatedMachine;
+use super::run::tabulated::TabulatedMachine;
 use super::stiffness::Reach;
 use super::value::Numbers;
 use crate::math::derivatives::DerivativeTables;

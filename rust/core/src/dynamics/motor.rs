@@ -70,6 +70,15 @@ impl Motor {
         [self.ratio * torque, self.ratio * self.ratio * slope]
     }
 
+    /// Whether its moment is a formula of its speed, or constant.
+    pub(crate) fn reads_its_speed_only(&self) -> bool {
+        match &self.characteristic {
+            Characteristic::Value(value) => matches!(value, Value::Number(_)),
+            Characteristic::Linear { .. } | Characteristic::Induction { .. } => true,
+            Characteristic::Table(_) => false,
+        }
+    }
+
     /// Moment on the driver at its speed; NaN where a table over the motor's speed ends.
     pub(crate) fn torque_at(&self, speed: f64, numbers: Numbers<'_>) -> f64 {
         let cell = match self.table() {

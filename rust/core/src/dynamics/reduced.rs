@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::kinematics::SolvedPose;
+use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
 /// Inertia, forces and energy of a machine, referred to its drivers.
@@ -79,6 +80,19 @@ impl Reduced {
     /// derivatives from second analogues, and its weight.
     pub(crate) fn add_body(&mut self, pose: &SolvedPose<'_>, body: &Body, gravity: Vector) {
         let n = self.conservative.len();
+        let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
+            body.mass * p.dot(r) + body.inertia * u * v
+        };
+        if n == 1 {
+            let terms = BodyTerms::of(pose, body, gravity);
+            self.inertia[0] += terms.inertia;
+            self.d_inertia[0] += terms.d_inertia;
+            self.conservative[0] += terms.conservative;
+            self.potential += terms.potential;
+            return;
+        }
+        let weight = gravity.scale(body.mass);
+        self.potential += -weight.dot(pose.point(body.at, 0));
         let first = |a: usize| {
             let k = SolvedPose::first_order(a);
             (pose.point(body.at, k), pose.angle(body.link, k))
@@ -87,18 +101,6 @@ impl Reduced {
             let k = pose.second_order(a, c);
             (pose.point(body.at, k), pose.angle(body.link, k))
         };
-        let product = |(p, u): (Vector, f64), (r, v): (Vector, f64)| {
-            body.mass * p.dot(r) + body.inertia * u * v
-        };
-        let weight = gravity.scale(body.mass);
-        self.potential += -weight.dot(pose.point(body.at, 0));
-        if n == 1 {
-            let (first_order, second_order) = (first(0), second(0, 0));
-            self.inertia[0] += product(first_order, first_order);
-            self.d_inertia[0] += 2.0 * product(first_order, second_order);
-            self.conservative[0] += weight.dot(first_order.0);
-            return;
-        }
         for a in 0..n {
             self.conservative[a] += weight.dot(first(a).0);
             for b in 0..n {
@@ -108,6 +110,31 @@ impl Reduced {
                     self.d_inertia[(c * n + a) * n + b] += rate;
                 }
             }
+        }
+    }
+}
+
+/// What a body adds to a machine with one driver; or in each lane.
+pub(crate) struct BodyTerms<R> {
+    pub inertia: R,
+    pub d_inertia: R,
+    pub conservative: R,
+    pub potential: R,
+}
+
+impl<R: Real> BodyTerms<R> {
+    /// See [`Reduced::add_body`].
+    #[inline(always)]
+    pub(crate) fn of(pose: &SolvedPose<'_, R>, body: &Body, gravity: Vector) -> Self {
+        let [place, first, second] = pose.point_jet(body.at);
+        let (rate, second_rate) = (pose.angle(body.link, 1), pose.angle(body.link, 2));
+        let (mass, inertia) = (R::splat(body.mass), R::splat(body.inertia));
+        let weight = Vector::splat(gravity.scale(body.mass));
+        Self {
+            inertia: mass * first.dot(first) + inertia * rate * rate,
+            d_inertia: R::splat(2.0) * (mass * first.dot(second) + inertia * rate * second_rate),
+            conservative: weight.dot(first),
+            potential: -weight.dot(place),
         }
     }
 }

@@ -57,7 +57,9 @@ pub(crate) mod options;
 pub(crate) mod pair;
 pub(crate) mod record;
 pub(crate) mod run;
+pub(crate) mod side_by_side;
 pub(crate) mod solution;
+mod step;
 pub(crate) mod system;
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,7 @@ use crate::branch::knot::{InitialGuess, Taylor2};
 use crate::branch::position::BranchPoint;
 use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
+use crate::math::lanes::Real;
 use crate::math::root::ternary::ternary_search;
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::plan::constants::DesignConstants;
@@ -79,10 +80,10 @@ struct LastPosition {
     taylor: Vec<Taylor2>,
 }
 
-/// The position solved last.
+/// The position solved last; or one in each lane.
 #[derive(Clone, Copy)]
-pub(crate) struct Position<'p> {
-    pub state: &'p State,
+pub(crate) struct Position<'p, R: Real = f64> {
+    pub state: &'p State<R>,
     pub plan: &'p Plan,
     pub constants: &'p DesignConstants,
     pub units: &'p Units,
@@ -134,6 +135,16 @@ impl<'m> Evaluator<'m> {
             last: None,
             continues_from_last,
         }
+    }
+
+    /// Forgets the last position: the next one is traced from the drawing again.
+    pub(crate) fn restart(&mut self) {
+        self.last = None;
+    }
+
+    /// The design with its branch.
+    pub(super) fn design(&self) -> &Design<'m> {
+        &self.design
     }
 
     /// Names what failed at coordinates that were rejected.
@@ -346,6 +357,21 @@ impl LastPosition {
         let (branch, at) =
             Branch::along_segment(&cx, &mut design.state(derivatives), &self.q, q, start);
         BranchPoint { branch: Cow::Owned(branch), at }
+    }
+}
+
+impl<'p, R: Real> Position<'p, R> {
+    /// A position of a design, without its angles.
+    pub(super) fn of(design: &'p Design<'_>, state: &'p State<R>) -> Self {
+        Self {
+            state,
+            plan: design.mechanism.plan(),
+            constants: &design.constants,
+            units: &design.units,
+            q: &[],
+            reference_angles: &[],
+            whole_turns: &design.mechanism.whole_turns,
+        }
     }
 }
 

@@ -5,5 +5,6 @@ pub(crate) mod evaluator;
 pub(crate) mod extremes;
 pub(crate) mod failure;
 pub(crate) mod folding;
+pub(crate) mod lane_evaluator;
 pub(crate) mod limits;
 pub mod metrics;

@@ -1,12 +1,17 @@
 //! Runs of machines for Python: calls functions, returns arrays.
 
+pub(crate) mod batch;
+pub(crate) mod options;
+pub(crate) mod outcomes;
 mod state;
+pub(crate) mod steady_numbers;
 mod stop_reason;
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use assur::dynamics::{Callbacks, Sample, Samples};
+use assur::dynamics::{Callbacks, Imbalance, Sample, Samples};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyTuple, PyType};
@@ -141,11 +146,11 @@ impl Callbacks for PythonCallbacks {
 
 /// A run of a machine.
 #[pyclass(frozen, module = "assur._core")]
-pub(crate) struct Run(assur::dynamics::Run);
+pub(crate) struct Run(Arc<assur::dynamics::Run>);
 
 impl Run {
     pub(crate) fn new(run: assur::dynamics::Run) -> Self {
-        Self(run)
+        Self(Arc::new(run))
     }
 }
 
@@ -154,7 +159,7 @@ impl Run {
     /// The run of a state, which `__reduce__` gives.
     #[new]
     fn from_state(state: &Bound<'_, PyAny>) -> PyResult<Self> {
-        catch_panic(|| state::run(state).map(Self))
+        catch_panic(|| state::run(state).map(Self::new))
     }
 
     /// At the ends of steps: time, coordinates, speeds, accelerations, work, kinetic and potential
@@ -178,23 +183,25 @@ impl Run {
     ) -> PyResult<Vec<Array<'py>>> {
         let samples = &self.0.samples;
         let points = reserve::copied(&points)?;
-        let nan = vec![f64::NAN; samples.q.len() / samples.len().max(1)];
-        let _room = reserve::room_for(py, points.len() * (3 * nan.len() + 2))?;
-        let nothing = Sample {
-            t: f64::NAN,
-            q: nan.clone(),
-            speed: nan.clone(),
-            acceleration: nan,
-            work: f64::NAN,
-        };
+        let drivers = samples.q.len() / samples.len().max(1);
+        let _room = reserve::room_for(py, points.len() * (3 * drivers + 2))?;
         let all = detach::run(py, points.len() < FEW_POINTS, |cancel| {
             let mut all = Samples::default();
             for &point in points.iter().take_while(|_| !cancel.load(Ordering::Relaxed)) {
-                all.push(self.0.at(point).as_ref().unwrap_or(&nothing));
+                push_or_nan(&mut all, self.0.at(point), drivers);
             }
             all
         })?;
         Ok(arrays(py, all))
+    }
+
+    /// The greatest imbalance, energy and potential energy, J; and the time at which an energy is
+    /// infinite, s, if one is.
+    fn imbalance(&self) -> (f64, f64, f64, Option<f64>) {
+        match self.0.imbalance() {
+            Ok(Imbalance { worst, size, potential }) => (worst, size, potential, None),
+            Err(t) => (f64::NAN, f64::NAN, f64::NAN, Some(t)),
+        }
     }
 
     /// The run's type and its state.
@@ -227,6 +234,16 @@ impl Run {
         dict.set_item("largest_step", statistics.largest)?;
         Ok(dict)
     }
+}
+
+/// Adds a sample, or one of NaN.
+fn push_or_nan(samples: &mut Samples, sample: Option<Sample>, drivers: usize) {
+    let nan = || {
+        let nan = vec![f64::NAN; drivers];
+        let (q, speed, acceleration) = (nan.clone(), nan.clone(), nan);
+        Sample { t: f64::NAN, q, speed, acceleration, work: f64::NAN }
+    };
+    samples.push(&sample.unwrap_or_else(nan));
 }
 
 fn arrays(py: Python<'_>, moments: Samples) -> Vec<Array<'_>> {

@@ -36,28 +36,39 @@ pub(crate) struct NearChangePoint {
 
 impl From<StopReason> for StopReasonState {
     fn from(reason: StopReason) -> Self {
-        let of_kind = |kind: &str| Self { kind: kind.into(), ..Self::default() };
+        let kind = Self { kind: kind_of(&reason).into(), ..Self::default() };
         match reason {
-            StopReason::Reached => of_kind("reached"),
-            StopReason::Event(event) => Self { event: Some(event), ..of_kind("event") },
-            StopReason::Rest => of_kind("rest"),
-            StopReason::DeadPoint => of_kind("dead point"),
-            StopReason::Locked => of_kind("locked"),
-            StopReason::Lost(why) => Self { why: Some(why), ..of_kind("lost") },
+            StopReason::Event(event) => Self { event: Some(event), ..kind },
+            StopReason::Lost(why) => Self { why: Some(why), ..kind },
             StopReason::NearChangePoint { dyad, miss, q } => {
-                let near_change_point = Some(NearChangePoint { dyad, miss, q });
-                Self { near_change_point, ..of_kind("near_change_point") }
+                Self { near_change_point: Some(NearChangePoint { dyad, miss, q }), ..kind }
             }
-            StopReason::ZeroLength(slide) => Self { slide: Some(slide), ..of_kind("zero length") },
-            StopReason::TableEnds(table) => Self { table: Some(table), ..of_kind("table ends") },
-            StopReason::MotorTableEnds(motor) => {
-                Self { motor: Some(motor), ..of_kind("motor table ends") }
-            }
-            StopReason::StepLimit(stiff) => Self { stiff: Some(stiff), ..of_kind("step limit") },
-            StopReason::TimeLimit => of_kind("time limit"),
-            StopReason::Cancelled => of_kind("cancelled"),
-            _ => of_kind("stalled"),
+            StopReason::ZeroLength(slide) => Self { slide: Some(slide), ..kind },
+            StopReason::TableEnds(table) => Self { table: Some(table), ..kind },
+            StopReason::MotorTableEnds(motor) => Self { motor: Some(motor), ..kind },
+            StopReason::StepLimit(stiff) => Self { stiff: Some(stiff), ..kind },
+            _ => kind,
         }
+    }
+}
+
+/// The kind of an end, as Python names it.
+pub(super) fn kind_of(reason: &StopReason) -> &'static str {
+    match reason {
+        StopReason::Reached => "reached",
+        StopReason::Event(_) => "event",
+        StopReason::Rest => "rest",
+        StopReason::DeadPoint => "dead point",
+        StopReason::Locked => "locked",
+        StopReason::Lost(_) => "lost",
+        StopReason::NearChangePoint { .. } => "near_change_point",
+        StopReason::ZeroLength(_) => "zero length",
+        StopReason::TableEnds(_) => "table ends",
+        StopReason::MotorTableEnds(_) => "motor table ends",
+        StopReason::StepLimit(_) => "step limit",
+        StopReason::TimeLimit => "time limit",
+        StopReason::Cancelled => "cancelled",
+        _ => "stalled",
     }
 }
 

@@ -152,7 +152,7 @@ class InUnits(Findings):
         per = self.coordinate(u)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", assur.AssurWarning)
-            return machine.run(
+            run: assur.Run = machine.run(
                 self.case.t_end * u.time,
                 None,
                 np.asarray(self.case.speed0) * (per / u.time),
@@ -160,6 +160,7 @@ class InUnits(Findings):
                 max_steps=MAX_STEPS,
                 max_seconds=MAX_SECONDS,
             )
+        return run
 
     def runs(self) -> None:
         """The same steps and bits in units of powers of two; about as many steps in others."""

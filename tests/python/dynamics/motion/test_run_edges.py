@@ -268,7 +268,7 @@ def torn(_t: float, _q: float, speed: float) -> float:
             "the machine has 1 driver,",
         ),
         (lambda: wheel().run(1.0, events=[events.Crossing(ANY)]), "a function of"),
-        (lambda: wheel().run(1.0, q0=[1.0, 2.0]), "q0 has the shape"),
+        (lambda: wheel().run(1.0, q0=[[1.0], [2.0, 3.0]]), "q0"),
         (lambda: wheel().run(math.inf), "t_end is inf"),
         (lambda: assur.Machine(ANY, bodies={}), "None is not an assur.Mechanism"),
         (lambda: assur.Machine(four_bar(), bodies=ANY), "bodies is None"),

@@ -290,8 +290,10 @@ def pushed(t: float, q: float, speed: float) -> Any:
             r"is below q\[0\]",
         ),
         (
-            lambda m: Machine(m.with_dimensions({"crank.length": [1.0, 1.1]}), bodies={}).run(1.0),
-            r"run is for one design, this is a batch \(2,\)",
+            lambda m: Machine(
+                m.with_dimensions({"crank.length": [1.0, 1.1]}), bodies={}
+            ).steady_state(1.0),
+            r"steady_state is for one design, this is a batch \(2,\)",
         ),
         (lambda m: Machine(m, bodies={}, loads=(), motor=ANY), "3 is not a motor"),
         (

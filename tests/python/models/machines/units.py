@@ -189,7 +189,8 @@ class Units:
         if "events" in own:
             own["events"] = self.events(own["events"], float(np.ravel(by)[0]))
         made = self.machine(machine)
-        return made.run(q0=q0 * by, speed0=np.asarray(speed0) * by / self.time, **own)
+        run: Run = made.run(q0=q0 * by, speed0=np.asarray(speed0) * by / self.time, **own)
+        return run
 
     def numbers(self, run: Run) -> dict[str, Any]:
         """Every number of a run in the new units, in the old ones."""

@@ -95,6 +95,11 @@ impl<'m> FrictionMotion<'m> {
         }
     }
 
+    /// Forgets the senses that [`Self::hold`] fixed.
+    pub(crate) fn release(&mut self) {
+        self.held = None;
+    }
+
     /// Fixes the senses in which pairs slide at a position until one reverses: between reversals the
     /// acceleration is a smooth function, ends included.
     pub(crate) fn hold(&mut self, pose: &SolvedPose<'_>) {

@@ -1,6 +1,9 @@
 //! The user's functions in a run, and its cancellation.
 
 use std::convert::Infallible;
+use std::fmt::Display;
+use std::marker::PhantomData;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Functions of time, coordinates and speeds, called on the thread of the run.
 pub trait Callbacks {
@@ -80,5 +83,40 @@ impl Callbacks for NoCallbacks {
 
     fn event(&mut self, _: usize, _: f64, _: &[f64], _: &[f64]) -> Result<f64, Infallible> {
         Ok(f64::NAN)
+    }
+}
+
+/// No functions; a flag cancels the run. `E`: the error of functions, of which there are none.
+#[derive(Debug)]
+pub struct UnlessCancelled<'c, E> {
+    cancel: &'c AtomicBool,
+    error: PhantomData<fn() -> E>,
+}
+
+impl<'c, E> UnlessCancelled<'c, E> {
+    /// Runs are cancelled once this is true.
+    #[must_use]
+    pub fn new(cancel: &'c AtomicBool) -> Self {
+        Self { cancel, error: PhantomData }
+    }
+}
+
+impl<E: Display> Callbacks for UnlessCancelled<'_, E> {
+    type Error = E;
+
+    fn count(&self) -> usize {
+        0
+    }
+
+    fn numbers(&mut self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn event(&mut self, _: usize, _: f64, _: &[f64], _: &[f64]) -> Result<f64, E> {
+        Ok(f64::NAN)
+    }
+
+    fn cancelled(&mut self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
     }
 }

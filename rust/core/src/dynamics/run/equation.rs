@@ -37,7 +37,7 @@ pub(crate) fn just_inside(from: f64, to: f64) -> [f64; 2] {
 
 /// A machine with the values of tables, callbacks and motors at the current state.
 pub(crate) struct Equation<'a, S, O> {
-    pub model: S,
+    pub model: &'a mut S,
     pub callbacks: O,
     pub tables: &'a [Table],
     pub motors: &'a [Motor],
@@ -76,7 +76,7 @@ pub(crate) struct Equation<'a, S, O> {
 
 impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
     pub(crate) fn new(
-        model: S,
+        model: &'a mut S,
         callbacks: O,
         tables: &'a [Table],
         motors: &'a [Motor],
@@ -227,7 +227,7 @@ impl<'a, S: ReducedModel, O: Callbacks> Equation<'a, S, O> {
             return Ok(());
         }
         let unit = self.model.unit(0);
-        let model = &mut self.model;
+        let model = &mut *self.model;
         let [low, high] = self.stations.around(q, up, unit, |range| model.stations(range));
         self.cursor.update_interval(self.tables);
         (self.cursor.low, self.cursor.high) =

@@ -4,62 +4,34 @@ use super::callbacks::Callbacks;
 use super::dead_point::Tail;
 use super::equation::Equation;
 use super::error::{RunError, check_counts};
-use super::model::{MechanismModel, ReducedModel, TabulatedMachine};
+use super::model::ReducedModel;
 use super::options::{EventKind, RunOptions};
 use super::sample::Samples;
 use super::stick_slip::Change;
 use super::system::{Ended, RunSystem};
 use super::table_cursor::{MAX_COORDINATE, MAX_KNOTS, same_within};
+use super::tabulated::TabulatedMachine;
 use super::tolerances::tolerances;
 use super::trajectory::{EventRecord, Run, StopReason, sample_at};
 use super::variable::Variable;
-use crate::description::Driver;
 use crate::description::error::Hint;
-use crate::dynamics::machine::Machine;
 use crate::dynamics::tables::table::Table;
-use crate::math::derivatives::DerivativeTables;
 use crate::math::room::has_room;
+use crate::ode::error::Error as IntegratorError;
 use crate::ode::integrator::Integrator;
 use crate::ode::options::{Options, Output};
 use crate::ode::solution::{End, Solution};
-use crate::ode::system::System;
-use crate::plan::mechanism::Mechanism;
+use crate::ode::system::{Crossing, System};
 use crate::query::evaluator::NearMiss;
 use crate::query::failure::{Failure, Reason};
 use crate::state::status::{Rejection, Status};
-
-impl Machine {
-    /// Integrates the motion of a design of the mechanism.
-    ///
-    /// # Errors
-    ///
-    /// Invalid options or initial state, a reduced inertia that is not positive, or a failed
-    /// callback.
-    pub fn run<O: Callbacks>(
-        &self,
-        mechanism: &Mechanism,
-        dimensions: &[f64],
-        options: &RunOptions<'_>,
-        callbacks: O,
-    ) -> Result<Run, RunError<O::Error>> {
-        let drivers = mechanism.q0().len();
-        options.check(drivers, &self.motors)?;
-        let needed = mechanism.dimensions().len();
-        check_counts(&[("dimensions", needed, dimensions.len())])?;
-        let derivatives = DerivativeTables::new(drivers, 2);
-        let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
-        let sizes = sizes_of(mechanism, dimensions);
-        let equation = Equation::new(model, callbacks, &self.tables, &self.motors, options.q.len());
-        run(equation, options, &sizes)
-    }
-}
 
 impl TabulatedMachine {
     /// Integrates the motion of the tabulated machine.
     ///
     /// # Errors
     ///
-    /// Those of [`Machine::run`].
+    /// Those of [`crate::dynamics::Machine::run`].
     pub fn run<O: Callbacks>(
         &self,
         options: &RunOptions<'_>,
@@ -67,7 +39,8 @@ impl TabulatedMachine {
     ) -> Result<Run, RunError<O::Error>> {
         options.check(1, &self.motors)?;
         self.check()?;
-        run(Equation::new(self, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
+        let mut model = self;
+        run(Equation::new(&mut model, callbacks, &self.tables, &self.motors, 1), options, &[1.0])
     }
 
     /// Checks that there are tables of inertia and moment, the first two.
@@ -77,11 +50,61 @@ impl TabulatedMachine {
 }
 
 /// Integrates the motion; `sizes`: for each driver, the size that its tolerance is relative to.
-pub(crate) fn run<S: ReducedModel, O: Callbacks>(
-    mut equation: Equation<'_, S, O>,
-    options: &RunOptions<'_>,
+pub(crate) fn run<'a, S: ReducedModel, O: Callbacks>(
+    equation: Equation<'a, S, O>,
+    options: &RunOptions<'a>,
     sizes: &[f64],
 ) -> Result<Run, RunError<O::Error>> {
+    let (mut system, prepared) = prepare(equation, options, sizes)?;
+    let mut integrator = Integrator::new(options.method, system.len());
+    let ode_options = prepared.options(options);
+    let [from, to] = prepared.range;
+    let solution = integrator.run(&mut system, from, &prepared.start, to, &ode_options);
+    conclude(system, options, &prepared, solution, |_| Vec::new())
+}
+
+/// What the integrator needs of a run.
+pub(crate) struct Prepared {
+    /// Where it begins, and where it is to end.
+    pub range: [f64; 2],
+    /// Its initial state.
+    pub start: Vec<f64>,
+    /// The table at whose end it ends.
+    clipped: Option<usize>,
+    tolerances: [Vec<f64>; 2],
+    breaks: Vec<f64>,
+    crossings: Vec<Crossing>,
+    max_step: f64,
+    max_change: Vec<f64>,
+}
+
+impl Prepared {
+    /// The options of the integrator.
+    pub(crate) fn options(&self, options: &RunOptions<'_>) -> Options<'_> {
+        let [relative, absolute] = &self.tolerances;
+        Options {
+            relative,
+            absolute,
+            first_step: None,
+            max_step: self.max_step,
+            max_change: &self.max_change,
+            max_steps: options.max_steps,
+            breaks: &self.breaks,
+            events: &self.crossings,
+            output: Output::Dense,
+        }
+    }
+}
+
+/// The system of a run, and what the integrator needs.
+type Set<'a, S, O> = (RunSystem<'a, S, O>, Prepared);
+
+/// Sets up the system of a run.
+pub(crate) fn prepare<'a, S: ReducedModel, O: Callbacks>(
+    mut equation: Equation<'a, S, O>,
+    options: &RunOptions<'a>,
+    sizes: &[f64],
+) -> Result<Set<'a, S, O>, RunError<O::Error>> {
     equation.flywheel = options.flywheel;
     equation.begin(options.q[0], options.speed)?;
     let (from, end) = match options.along {
@@ -96,7 +119,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
     match (options.along, options.q) {
         (Variable::Time, &[q]) => equation.begin_in_time(q, options.speed[0])?,
         (Variable::Coordinate, _) => {
-            stations = stations_between(&mut equation.model, [from, to])?;
+            stations = stations_between(equation.model, [from, to])?;
             if let Some((end, which)) = equation.first_uncovered([from, to], &stations) {
                 (to, clipped) = (end, Some(which));
                 stations.retain(|&station| (station - end) * (to - from).signum() < 0.0);
@@ -117,7 +140,7 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
             breaks_of(system.equation.tables, &knots, [from, to], sizes[0])?
         }
     };
-    let [relative, absolute] = tolerances(&mut system, options, sizes)?;
+    let tolerances = tolerances(&mut system, options, sizes)?;
     let crossings = system.crossings();
     // Wide steps of a smooth motion could skip over an angle's event.
     let has_angle_events =
@@ -134,28 +157,29 @@ pub(crate) fn run<S: ReducedModel, O: Callbacks>(
         // While the machine rests, only these steps find loads that move it.
         max_step = max_step.min((to - from).abs() / STEPS_AT_REST);
     }
-    let ode_options = Options {
-        relative: &relative,
-        absolute: &absolute,
-        first_step: None,
-        max_step,
-        max_change: &max_change,
-        max_steps: options.max_steps,
-        breaks: &breaks,
-        events: &crossings,
-        output: Output::Dense,
-    };
-    let mut integrator = Integrator::new(options.method, system.len());
     let start = RunSystem::<S, O>::initial_state(options);
-    let solution = integrator
-        .run(&mut system, from, &start, to, &ode_options)
-        .map_err(|error| RunError::of_integrator(error, options.along, from))?;
+    let range = [from, to];
+    let prepared =
+        Prepared { range, start, clipped, tolerances, breaks, crossings, max_step, max_change };
+    Ok((system, prepared))
+}
+
+/// The run of a solution; `energies`: those of its samples that are known, and NaN.
+pub(crate) fn conclude<S: ReducedModel, O: Callbacks>(
+    system: RunSystem<'_, S, O>,
+    options: &RunOptions<'_>,
+    prepared: &Prepared,
+    solution: Result<Solution, IntegratorError<RunError<O::Error>>>,
+    energies: impl FnOnce(&Samples) -> Vec<[f64; 2]>,
+) -> Result<Run, RunError<O::Error>> {
+    let [from, _] = prepared.range;
+    let solution = solution.map_err(|error| RunError::of_integrator(error, options.along, from))?;
     // Samples are made from the record, and Python's arrays from the samples.
     let steps = solution.dense.ends().len();
     if !has_room(COPIES * (3 * options.q.len() + 4) * (steps + 2)) {
         return Err(RunError::OutOfMemory { steps });
     }
-    Ok(assemble_run(system, options, from, solution, clipped))
+    Ok(assemble_run(system, options, (from, prepared.clipped), solution, energies))
 }
 
 /// Clips the end of a run along the coordinate to its tables; returns it and the table that ends.
@@ -233,19 +257,6 @@ pub(crate) fn breaks_of<E>(
     Ok(breaks)
 }
 
-/// The unit of the tolerance of each coordinate: 1 for an angle, the greatest length for a slide.
-/// It must not be the unit of length that is a power of 2: the tolerance would depend on the unit in which
-/// lengths are given.
-fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
-    let greatest = mechanism.slots.size(dimensions);
-    let length = if greatest > 0.0 { greatest } else { 1.0 };
-    let size = |driver: &Driver| match driver {
-        Driver::Angle { .. } => 1.0,
-        Driver::Slide(_) => length,
-    };
-    mechanism.linkage().drivers.iter().map(size).collect()
-}
-
 /// Why a motion cannot be continued, and where.
 fn edge_reason<S: ReducedModel, O: Callbacks>(equation: &mut Equation<'_, S, O>) -> StopReason {
     let failure = equation.failure();
@@ -282,9 +293,9 @@ fn is_about_to_rest<S: ReducedModel, O: Callbacks>(
 fn assemble_run<S: ReducedModel, O: Callbacks>(
     mut system: RunSystem<'_, S, O>,
     options: &RunOptions<'_>,
-    from: f64,
+    (from, clipped): (f64, Option<usize>),
     solution: Solution,
-    clipped: Option<usize>,
+    energies: impl FnOnce(&Samples) -> Vec<[f64; 2]>,
 ) -> Run {
     let Solution { end, events, event_states, dense: path, statistics, y: y_end, .. } = solution;
     let (along, sign, len) = (system.along, system.sign, system.len());
@@ -338,7 +349,8 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
         (End::StepLimit { stiff, .. }, _) => StopReason::StepLimit(stiff),
         (End::Stalled { .. }, _) => StopReason::Stalled,
     };
-    let mut samples = Samples::default();
+    // The start, the steps, and a dead point.
+    let mut samples = Samples::with_room(path.ends().len() + 2, system.drivers);
     let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
     if path.at(from, &mut y) && path.slope(from, &mut rates) {
         samples.push_state(along, sign, from, &y, &rates);
@@ -359,9 +371,13 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
         }
         _ => None,
     };
+    let mut energies = energies(&samples);
+    energies.resize(samples.len(), [f64::NAN; 2]);
     // Backward: with several drivers each position is solved from its neighbour.
-    let mut energies = vec![[f64::NAN; 2]; samples.len()];
     for (index, pair) in energies.iter_mut().enumerate().rev() {
+        if !pair.iter().any(|energy| energy.is_nan()) {
+            continue;
+        }
         let (q, speed) = samples.state(index);
         if system.equation.ensure_tables_at(q[0]) && system.equation.set_configuration(q).is_ok() {
             let reduced = &system.equation.reduced;

@@ -1,20 +1,15 @@
 //! Sources of reduced inertia and loads: a mechanism, or tables.
 
 use std::convert::Infallible;
-use std::sync::atomic::AtomicBool;
 
 use crate::dynamics::angle_between::Angle;
-use crate::dynamics::flywheel::cycle::{with_seam, without_jumps};
 use crate::dynamics::followers::{Followers, Held};
 use crate::dynamics::friction::motion::{Drive, FrictionMotion, SlidingState};
 use crate::dynamics::friction::reversals::{Sliding, reversals};
 use crate::dynamics::kinematics::SolvedPose;
-use crate::dynamics::machine::{Machine, ReducedTable};
+use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::Over;
-use crate::dynamics::motor::Motor;
 use crate::dynamics::reduced::Reduced;
-use crate::dynamics::tables::error::TableError;
-use crate::dynamics::tables::spline::EndCondition;
 use crate::dynamics::tables::table::Table;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
@@ -23,7 +18,7 @@ use crate::math::tolerance::{ANALOGUE_PER_CONDITION_SQUARED, NEAR_SINGULAR_CONDI
 use crate::plan::mechanism::Mechanism;
 use crate::query::evaluator::{Evaluator, NearMiss, Queries};
 use crate::query::failure::Failure;
-use crate::state::status::{Rejection, Status};
+use crate::state::status::Rejection;
 
 /// A machine referred to its drivers, at one position after another.
 pub(crate) trait ReducedModel {
@@ -147,7 +142,9 @@ pub(crate) struct MechanismModel<'m> {
     held: Held,
     followers: Followers,
     friction: Option<FrictionMotion<'m>>,
-    /// The pairs with friction, whose reversals are stations.
+    /// The pairs with friction.
+    sliding: Vec<Sliding>,
+    /// Those whose reversals are stations.
     reversing: Vec<Sliding>,
 }
 
@@ -215,9 +212,33 @@ impl<'m> MechanismModel<'m> {
         let unit = evaluator.unit_of_length();
         let friction =
             has_friction.then(|| FrictionMotion::new(machine, mechanism, dimensions, unit));
-        let reversing = if has_friction { Sliding::of(machine, mechanism) } else { Vec::new() };
+        let sliding = if has_friction { Sliding::of(machine, mechanism) } else { Vec::new() };
         let (held, followers) = (Held::default(), Followers::default());
-        Self { machine, derivatives, evaluator, held, followers, friction, reversing }
+        let reversing = sliding.clone();
+        Self { machine, derivatives, evaluator, held, followers, friction, sliding, reversing }
+    }
+
+    pub(crate) fn machine(&self) -> &'m Machine {
+        self.machine
+    }
+
+    pub(crate) fn derivatives(&self) -> &'m DerivativeTables {
+        self.derivatives
+    }
+
+    pub(crate) fn evaluator(&self) -> &Evaluator<'m> {
+        &self.evaluator
+    }
+
+    /// Forgets the motion before, on which the next one must not depend.
+    pub(crate) fn restart(&mut self) {
+        self.evaluator.restart();
+        self.held = Held::default();
+        self.followers = Followers::default();
+        if let Some(friction) = &mut self.friction {
+            friction.release();
+        }
+        self.reversing.clone_from(&self.sliding);
     }
 }
 
@@ -380,8 +401,7 @@ impl ReducedModel for MechanismModel<'_> {
     }
 
     fn inertia_noise(&self) -> f64 {
-        let condition = self.evaluator.total_condition();
-        ANALOGUE_PER_CONDITION_SQUARED * condition * condition
+        inertia_noise(self.evaluator.total_condition())
     }
 
     fn inverse_condition(&mut self, q: &[f64]) -> f64 {
@@ -392,122 +412,7 @@ impl ReducedModel for MechanismModel<'_> {
     }
 }
 
-/// A machine given by tables of its reduced inertia and moment over the driver's coordinate.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TabulatedMachine {
-    /// Inertia and moment, then the tables of motors.
-    pub tables: Vec<Table>,
-    /// Its motors.
-    pub motors: Vec<Motor>,
-}
-
-impl TabulatedMachine {
-    /// The tables of rows of inertia and moment, with jumps of the moment like those of a `Cycle`.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Table::with_jumps`], and an inertia that jumps. Once `cancel` is true the tables have no
-    /// curves.
-    pub fn reduced(
-        phi: &[f64],
-        [inertia, moment]: [&[f64]; 2],
-        ends: EndCondition,
-        periodic: bool,
-        cancel: &AtomicBool,
-    ) -> Result<[Table; 2], TableError> {
-        let rows = periodic.then(|| with_seam(phi, moment, inertia));
-        let [phi, moment, inertia] =
-            rows.as_ref().map_or([phi, moment, inertia], |rows| rows.each_ref().map(Vec::as_slice));
-        let (merged, smooth) = without_jumps(phi, inertia)?;
-        let inertia = Table::new_unless(&merged, &smooth, ends, periodic, cancel)?;
-        Ok([inertia, Table::with_jumps_unless(phi, moment, ends, periodic, cancel)?])
-    }
-
-    /// The machine at coordinates; NaN beyond tables that are not periodic.
-    #[must_use]
-    pub fn reduce(&self, q: &[f64]) -> ReducedTable {
-        let mut rows = ReducedTable::default();
-        for &q in q {
-            let [inertia, moment] = [0, 1].map(|which| {
-                let table = self.tables.get(which);
-                table.and_then(|table| table.value_and_slope(q)).unwrap_or([f64::NAN; 2])
-            });
-            rows.inertia.push(inertia[0] + self.motors.iter().map(Motor::inertia).sum::<f64>());
-            rows.d_inertia.push(inertia[1]);
-            rows.moment.push(moment[0]);
-            let is_covered = inertia[0].is_finite() && moment[0].is_finite();
-            rows.potential.push(if is_covered { 0.0 } else { f64::NAN });
-            rows.status.push(if is_covered { Status::Ok } else { Status::Unreachable });
-        }
-        rows
-    }
-}
-
-impl ReducedModel for &TabulatedMachine {
-    fn set_configuration(
-        &mut self,
-        _: &[f64],
-        numbers: Numbers<'_>,
-        out: &mut Reduced,
-    ) -> Result<(), Rejection> {
-        let [inertia, rate] = numbers.tables[0];
-        out.inertia[0] = inertia + self.motors.iter().map(Motor::inertia).sum::<f64>();
-        out.d_inertia[0] = rate;
-        Ok(())
-    }
-
-    fn failure(&self, _: Rejection, _: &[f64]) -> Option<Failure> {
-        None
-    }
-
-    fn driver_name(&self, _: usize) -> Option<String> {
-        None
-    }
-
-    fn apply_loads(
-        &mut self,
-        _: &[f64],
-        _: &[f64],
-        _: f64,
-        numbers: Numbers<'_>,
-        out: &mut Reduced,
-    ) {
-        out.applied[0] = numbers.tables[1][0];
-    }
-
-    fn angle(&mut self, _: &[f64], _: &Angle) -> f64 {
-        f64::NAN
-    }
-
-    fn unit(&self, _: usize) -> f64 {
-        1.0
-    }
-
-    fn has_dead_points(&self) -> bool {
-        false
-    }
-
-    fn dead_point_ahead(&mut self, _: f64, _: f64) -> Option<f64> {
-        None
-    }
-
-    fn near_miss(&mut self, _: f64) -> Option<NearMiss> {
-        None
-    }
-
-    fn is_near_dead_point(&mut self, _: &[f64], _: f64) -> bool {
-        false
-    }
-
-    fn dead_point_beside(&mut self, _: &[f64]) -> Option<Rejection> {
-        None
-    }
-
-    fn inertia_noise(&self) -> f64 {
-        0.0
-    }
-
-    fn inverse_condition(&mut self, _: &[f64]) -> f64 {
-        1.0
-    }
+/// Relative rounding error of the inertia at a position of this condition.
+pub(crate) fn inertia_noise(condition: f64) -> f64 {
+    ANALOGUE_PER_CONDITION_SQUARED * condition * condition
 }

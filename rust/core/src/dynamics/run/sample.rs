@@ -75,6 +75,22 @@ impl Samples {
         self.get(self.len().checked_sub(1)?)
     }
 
+    /// None yet, with room for a number of them.
+    pub(crate) fn with_room(count: usize, drivers: usize) -> Self {
+        let [t, work] = [0; 2].map(|_| Vec::with_capacity(count));
+        let [q, speed, acceleration] = [0; 3].map(|_| Vec::with_capacity(count * drivers));
+        Self { t, q, speed, acceleration, work }
+    }
+
+    /// Gives back the memory that they do not need.
+    pub(crate) fn shrink(&mut self) {
+        for numbers in
+            [&mut self.t, &mut self.q, &mut self.speed, &mut self.acceleration, &mut self.work]
+        {
+            numbers.shrink_to_fit();
+        }
+    }
+
     /// Appends a sample.
     pub fn push(&mut self, sample: &Sample) {
         self.t.push(sample.t);

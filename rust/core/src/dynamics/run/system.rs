@@ -5,7 +5,8 @@ use std::time::Instant;
 use super::callbacks::Callbacks;
 use super::equation::{Equation, just_inside};
 use super::error::RunError;
-use super::model::ReducedModel;
+use super::lane_equation::Configuration;
+use super::model::{ReducedModel, inertia_noise};
 use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
@@ -40,7 +41,7 @@ pub(crate) struct RunSystem<'a, S, O> {
     /// All changes of the phase, one for each event of friction.
     pub(super) changes: Vec<Change>,
     /// The greatest speed with which it has hit an obstacle.
-    hardest_hit: f64,
+    pub(super) hardest_hit: f64,
     pub(super) drivers: usize,
     /// Whether friction locks it ahead.
     pub(super) locks_ahead: bool,
@@ -55,6 +56,10 @@ pub(crate) struct RunSystem<'a, S, O> {
     /// trial step.
     total: f64,
     trial_total: f64,
+    /// The configuration at the end of the attempted step, if it was found in lanes, and the rounding error
+    /// of its inertia.
+    given: Option<Configuration>,
+    given_noise: Option<f64>,
 }
 
 /// Largest change of the energy over a step, in tolerances: its error is only estimated.
@@ -62,11 +67,6 @@ const MAX_DRIFT: f64 = 3.0;
 /// Multiples of the energies' rounding that do not count as a change.
 const ROUNDINGS: f64 = 64.0;
 
-/// A hit with less than this part of the speed of the hardest one leaves the machine at the obstacle: the
-/// next way there and back would be shorter than steps are.
-const STAYS: f64 = 1.0e-3;
-/// The same for a rebound by less than this many tolerances of the coordinate.
-const LEAST_REBOUND: f64 = 1.0e4;
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
 /// far better.
 const AT_REST: f64 = 1.0e-6;
@@ -101,6 +101,8 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             tolerance: options.relative * size,
             total: f64::NAN,
             trial_total: f64::NAN,
+            given: None,
+            given_noise: None,
         }
     }
 
@@ -119,8 +121,14 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         Ok(())
     }
 
-    /// Kinetic and potential energy less work at the last position, and the tolerance of that sum.
-    fn balance(&self, y: &[f64]) -> (f64, f64) {
+    /// Takes the configuration at the end of the next step.
+    pub(super) fn give(&mut self, configuration: Configuration) {
+        self.given = Some(configuration);
+    }
+
+    /// Kinetic and potential energy less work at the last position, and the tolerance of that sum; `noise`: the
+    /// relative rounding error of the inertia.
+    fn balance(&self, y: &[f64], noise: f64) -> (f64, f64) {
         let n = self.drivers;
         let own_speed = [self.sign * y[0].max(0.0).sqrt()];
         let (speed, work) = match self.along {
@@ -138,7 +146,7 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         let size = kinetic.abs() + reduced.potential.abs() + work.abs();
         let allowed = MAX_DRIFT * self.relative * (2.0 * kinetic + by_coordinates)
             + ROUNDINGS * f64::EPSILON * size
-            + model.inertia_noise() * kinetic;
+            + noise * kinetic;
         (kinetic + reduced.potential - work, allowed)
     }
 
@@ -239,45 +247,6 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         self.equation.rejected = Some((Rejection::DeadPoint { step: None }, y[..n].to_vec()));
         self.ended = Some(Ended::DeadPoint);
         Action::Stop
-    }
-
-    /// Throws the machine back from an obstacle; ends the run where it stays there.
-    fn rebound(
-        &mut self,
-        restitution: f64,
-        t: f64,
-        y: &mut [f64],
-    ) -> Result<Action, RunError<O::Error>> {
-        let before = y[1];
-        if before.abs() <= STAYS * self.hardest_hit {
-            return Ok(Action::Stop);
-        }
-        self.hardest_hit = self.hardest_hit.max(before.abs());
-        let lost = match self.equation.set_configuration(&y[..1]) {
-            Ok(()) => {
-                let reduced = &self.equation.reduced;
-                reduced.kinetic(&[before]) - reduced.kinetic(&[restitution * before])
-            }
-            Err(Fault::OutOfDomain) => 0.0,
-            Err(Fault::Error(error)) => return Err(error),
-        };
-        y[1] = -restitution * before;
-        y[2] -= lost;
-        if restitution == 0.0 {
-            return Ok(Action::Stop);
-        }
-        if self.phase != Phase::Smooth {
-            self.phase = self.equation.first_phase(t, y[0], y[1])?;
-        }
-        let mut rates = [0.0; 3];
-        if let Err(Fault::Error(error)) = self.rates(t, y, &mut rates) {
-            return Err(error);
-        }
-        // The way before it turns back to the obstacle, if it does.
-        let way = y[1] * y[1] / (2.0 * rates[1].abs());
-        let turns_back = rates[1] * y[1] < 0.0;
-        let smallest_way = LEAST_REBOUND * self.tolerance;
-        Ok(if turns_back && way < smallest_way { Action::Stop } else { Action::Restart })
     }
 
     /// Index of the `EventSpec` of an event.
@@ -488,12 +457,28 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         })
     }
 
+    fn place(&mut self, _: f64, y: &[f64]) {
+        let Some(given) = self.given.take() else {
+            // Its rates are known, so it exists.
+            let _ = self.equation.set_configuration(&y[..self.drivers]);
+            return;
+        };
+        let reduced = &mut self.equation.reduced;
+        reduced.inertia[0] = given.inertia;
+        reduced.d_inertia[0] = given.d_inertia;
+        reduced.conservative[0] = given.conservative;
+        reduced.potential = given.potential;
+        self.given_noise = Some(inertia_noise(given.condition));
+    }
+
     fn watch_invariant(&mut self, _: f64, y: &[f64]) {
-        self.total = self.balance(y).0;
+        self.total = self.balance(y, 0.0).0;
     }
 
     fn drift(&mut self, _: f64, y: &[f64]) -> f64 {
-        let (total, allowed) = self.balance(y);
+        let noise = self.given_noise.take();
+        let noise = noise.unwrap_or_else(|| self.equation.model.inertia_noise());
+        let (total, allowed) = self.balance(y, noise);
         self.trial_total = total;
         // Without a finite energy there is nothing to check.
         let drift = (total - self.total).abs() / allowed;

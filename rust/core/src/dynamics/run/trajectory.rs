@@ -101,6 +101,26 @@ impl Run {
     }
 }
 
+impl Run {
+    /// Keeps the last sample and the events alone.
+    pub fn keep_end(&mut self) {
+        let mut end = Samples::default();
+        if let Some(last) = self.samples.last() {
+            end.push(&last);
+        }
+        self.energies.drain(..self.energies.len().saturating_sub(1));
+        (self.samples, self.path, self.tail) = (end, DenseOutput::default(), None);
+        self.shrink();
+    }
+
+    /// Gives back the memory that it does not need.
+    pub fn shrink(&mut self) {
+        self.samples.shrink();
+        self.energies.shrink_to_fit();
+        self.path.shrink();
+    }
+}
+
 /// The sample of a state and its rates.
 pub(crate) fn sample_at(along: Variable, sign: f64, x: f64, y: &[f64], rates: &[f64]) -> Sample {
     let mut samples = Samples::default();

@@ -9,7 +9,8 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::run::callbacks::Callbacks;
 use crate::dynamics::run::equation::Equation;
 use crate::dynamics::run::error::{RunError, check_counts};
-use crate::dynamics::run::model::{MechanismModel, ReducedModel, TabulatedMachine};
+use crate::dynamics::run::model::{MechanismModel, ReducedModel};
+use crate::dynamics::run::tabulated::TabulatedMachine;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::root::illinois;
 use crate::plan::mechanism::Mechanism;
@@ -55,8 +56,8 @@ impl Machine {
             return Err(SteadyError::NotRotary);
         }
         size_flywheel(options, target, |options, guess| {
-            let model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
-            let equation = Equation::new(model, &mut callbacks, &self.tables, &self.motors, 1);
+            let mut model = MechanismModel::new(self, mechanism, dimensions, &derivatives);
+            let equation = Equation::new(&mut model, &mut callbacks, &self.tables, &self.motors, 1);
             solve_period(equation, options, guess)
         })
     }
@@ -76,7 +77,8 @@ impl TabulatedMachine {
     ) -> Result<Steady, SteadyError<O::Error>> {
         self.check().map_err(SteadyError::Run)?;
         size_flywheel(options, target, |options, guess| {
-            let equation = Equation::new(self, &mut callbacks, &self.tables, &self.motors, 1);
+            let mut model = self;
+            let equation = Equation::new(&mut model, &mut callbacks, &self.tables, &self.motors, 1);
             solve_period(equation, options, guess)
         })
     }

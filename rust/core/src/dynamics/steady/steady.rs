@@ -129,8 +129,7 @@ impl<'s, 'a, S: ReducedModel, O: Callbacks> Shooting<'s, 'a, S, O> {
         let SteadyOptions { span, breaks, .. } = self.options;
         let mut breaks: Vec<f64> = breaks.iter().map(|at| at + (q - self.options.q)).collect();
         let range = [q, q + span];
-        let stations =
-            stations_between(&mut self.equation.model, range).map_err(SteadyError::Run)?;
+        let stations = stations_between(self.equation.model, range).map_err(SteadyError::Run)?;
         self.equation.begin_along(range, &stations).map_err(SteadyError::Run)?;
         breaks.extend(stations);
         self.from = q;

@@ -101,6 +101,8 @@ pub(in crate::ode) struct Stages {
     accepted: u32,
     /// Evaluations of the right-hand side.
     pub evaluations: u64,
+    /// Stages of the attempted step, from the first on, whose rates are given.
+    given: usize,
 }
 
 impl Stages {
@@ -117,6 +119,7 @@ impl Stages {
             greatest: 0.0,
             accepted: 0,
             evaluations: 0,
+            given: 0,
         }
     }
 
@@ -130,6 +133,39 @@ impl Stages {
         &self.k[stage * self.blocks..(stage + 1) * self.blocks]
     }
 
+    /// Gives the rates of the stages below `count` of the next step, found together with those of other runs,
+    /// and the state at the last stage before its end. Component by component they have the bits that
+    /// [`Self::evaluate`] would find.
+    pub(in crate::ode) fn give(
+        &mut self,
+        count: usize,
+        rate: impl Fn(usize, usize) -> f64,
+        argument: impl Fn(usize) -> f64,
+    ) {
+        self.given = count;
+        for stage in 1..count {
+            let range = stage * self.blocks..(stage + 1) * self.blocks;
+            let rates = &mut self.k[range].as_flattened_mut()[..self.n];
+            for (component, out) in rates.iter_mut().enumerate() {
+                *out = rate(stage, component);
+            }
+        }
+        let state = &mut self.argument.as_flattened_mut()[..self.n];
+        for (component, out) in state.iter_mut().enumerate() {
+            *out = argument(component);
+        }
+    }
+
+    /// The next step has no stages given.
+    pub(in crate::ode) fn forget_given(&mut self) {
+        self.given = 0;
+    }
+
+    /// Whether the rates of a stage are given.
+    pub(in crate::ode) fn is_given(&self, stage: usize) -> bool {
+        stage < self.given
+    }
+
     /// Evaluates the rates of a stage at a state.
     #[inline]
     pub(in crate::ode) fn evaluate<S: System>(
@@ -140,6 +176,9 @@ impl Stages {
         y: &[Block],
     ) -> Result<(), Refusal<S::Error>> {
         self.evaluations += 1;
+        if self.is_given(stage) {
+            return Ok(());
+        }
         let range = stage * self.blocks..(stage + 1) * self.blocks;
         let rates = &mut self.k[range].as_flattened_mut()[..self.n];
         match system.rates(t, &y.as_flattened()[..self.n], rates) {
@@ -193,6 +232,10 @@ impl Stages {
         y: &[Block],
         h: f64,
     ) -> Result<(), Refusal<S::Error>> {
+        if self.is_given(stage) {
+            self.evaluations += 1;
+            return Ok(());
+        }
         let mut argument = std::mem::take(&mut self.argument);
         combine(self.tableau.a[stage], &self.k, h, y, &mut argument);
         let result = self.evaluate(system, stage, t + self.tableau.c[stage] * h, &argument);
