@@ -150,6 +150,7 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/friction/test_friction_random.py \
 	  tests/python/dynamics/forces/test_reactions_oracle.py \
+	  tests/python/dynamics/equations/test_derivatives.py \
 	  tests/python/kinematics/test_agreement.py tests/python/kinematics/test_invariance.py \
 	  tests/python/kinematics/test_angles_across_gaps.py tests/python/net/test_partial_requests.py \
 	  tests/python/description/test_random_remedies.py tests/python/studio/test_edits.py \
