@@ -1,10 +1,20 @@
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, TypeAlias, TypedDict, final
+from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 from typing_extensions import Self
 
+from assur._records import (
+    Drawing,
+    Ending,
+    EventFields,
+    FlywheelNumbers,
+    GroupFields,
+    JammingRunFields,
+    RemedyFields,
+    SteadyNumbers,
+)
 from assur.description.words import Drive, Slide
 from assur.dynamics.forces.reaction_key import Key
 from assur.dynamics.loads.friction import PairFriction
@@ -73,101 +83,6 @@ _Float: TypeAlias = npt.NDArray[np.float64]
 _Rows: TypeAlias = tuple[_Float, _Float, bool]
 _Three: TypeAlias = tuple[_Float, _Float, _Float]
 
-class _Slide(TypedDict):
-    link: str
-    on: str
-    angle: float
-    origin: str | None
-    length: bool
-
-class _Drawing(TypedDict):
-    joints: list[tuple[str, list[float]]]
-    links: list[tuple[str, list[str]]]
-    slides: list[tuple[str, _Slide]]
-    driver: str | None
-
-class _Group(TypedDict):
-    cls: int
-    order: int
-    kind: str | None
-    artobolevsky_kind: int | None
-    links: list[str]
-    joints: list[str]
-    slides: list[str]
-
-class _Remedy(TypedDict):
-    kind: str
-    names: list[str]
-    text: str
-    detail: str
-    joints: list[tuple[str, float, float]]
-    links: list[tuple[str, list[str]]]
-    slides: list[tuple[str, _Slide]]
-    drivers: list[tuple[str, str | None]]
-    assembly: list[tuple[str, int]]
-
-class _FlywheelNumbers(TypedDict):
-    inertia: _Float
-    speed0: _Float
-    motor_moment: _Float
-    greatest_at: _Float
-    greatest: _Float
-    least_at: _Float
-    least: _Float
-    period: _Float
-
-class _Event(TypedDict):
-    event: int
-    t: float
-    q: list[float]
-    speed: list[float]
-
-class _NearChangePoint(TypedDict):
-    dyad: str
-    miss: float
-    q: float
-
-class _Ending(TypedDict):
-    kind: str
-    event: int | None
-    table: int | None
-    motor: int | None
-    stiff: bool | None
-    why: str | None
-    near_change_point: _NearChangePoint | None
-    slide: str | None
-
-class _Extreme(TypedDict):
-    at: float
-    value: float
-
-class _SteadyNumbers(TypedDict):
-    multiplier: float
-    found_moment: float
-    motor_work: float
-    inertia: float
-    least: _Extreme
-    greatest: _Extreme
-
-class _JammingEvent(TypedDict):
-    kind: Literal["jam", "return", "dead point", "no return"]
-    side: Literal["outer", "inner"]
-    t: float
-    phi1: float
-    l4: float
-    ground: float
-    ground_speed: tuple[float, float]
-    rod_speed: tuple[float, float]
-
-class _JammingRun(TypedDict):
-    t: _Float
-    l4: _Float
-    gamma: _Float
-    sliding: npt.NDArray[np.bool_]
-    b: _Float
-    c: _Float
-    events: list[_JammingEvent]
-
 @final
 class Inverse:
     def __new__(
@@ -218,7 +133,7 @@ class Mechanism:
     @property
     def redundant(self) -> tuple[list[str], list[str]]: ...
     @property
-    def groups(self) -> list[_Group]: ...
+    def groups(self) -> list[GroupFields]: ...
     def dimension(self, name: str) -> int: ...
     def index_of(self, kind: str, name: str) -> int: ...
     def check_coordinate(self, name: str) -> None: ...
@@ -347,7 +262,7 @@ class Flywheels:
         threads: int | None = None,
         corners: list[int] | None = None,
     ) -> Self: ...
-    def numbers(self) -> _FlywheelNumbers: ...
+    def numbers(self) -> FlywheelNumbers: ...
     def problem(self, index: int) -> str | None: ...
     def failure(self, index: int, label: str, design: list[int] | None) -> AssurError: ...
     def curve(self, quantity: str, points: _Float) -> _Float: ...
@@ -359,9 +274,9 @@ class Run:
     def arrays(self) -> list[_Float]: ...
     def at(self, points: _Float) -> list[_Float]: ...
     @property
-    def events(self) -> list[_Event]: ...
+    def events(self) -> list[EventFields]: ...
     @property
-    def ending(self) -> _Ending: ...
+    def ending(self) -> Ending: ...
     @property
     def statistics(self) -> dict[str, Any]: ...
     def imbalance(self) -> tuple[float, float, float, float | None]: ...
@@ -514,7 +429,7 @@ class Machine:
         breaks: list[float],
         flywheel: float,
         fluctuation: float | None,
-    ) -> tuple[Run, _SteadyNumbers]: ...
+    ) -> tuple[Run, SteadyNumbers]: ...
 
 def slider_crank_stroke(phi: _Float, lambda_: _Float) -> _Three: ...
 def slider_crank_fraction(phi: _Float, lambda_: _Float, n: int) -> _Three: ...
@@ -543,7 +458,9 @@ def crank_rocker_exact_least_gamma(
     circles: list[_Float], lengths: list[_Float], is_outer: bool
 ) -> _Float: ...
 def crank_rocker_least_gamma(friction: list[_Float], rocker: _Float) -> _Float: ...
-def crank_rocker_run(case: dict[str, Any], ground: Callable[[float], float]) -> _JammingRun: ...
+def crank_rocker_run(
+    case: dict[str, Any], ground: Callable[[float], float]
+) -> JammingRunFields: ...
 def table_values(table: Table, points: _Float) -> _Float: ...
 def remedies(
     joints: list[tuple[str, float, float]],
@@ -551,10 +468,10 @@ def remedies(
     slides: list[tuple[str, Slide]],
     drivers: list[str | Drive],
     assembly: list[tuple[str, int]],
-) -> list[_Remedy]: ...
+) -> list[RemedyFields]: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
-def four_bar_drawing(mode: Literal["open", "crossed"]) -> _Drawing: ...
-def slider_crank_drawing() -> _Drawing: ...
-def class_iv_drawing(joints: list[tuple[float, float]]) -> _Drawing: ...
+def four_bar_drawing(mode: Literal["open", "crossed"]) -> Drawing: ...
+def slider_crank_drawing() -> Drawing: ...
+def class_iv_drawing(joints: list[tuple[float, float]]) -> Drawing: ...
 def simd_level() -> str: ...
 def version() -> str: ...

@@ -9,6 +9,7 @@ from cases import (
     chains,
     classes,
     construction,
+    control,
     find,
     flywheels,
     forces,
@@ -51,6 +52,7 @@ MAKERS = (
     runs.case,
     many_runs.case,
     steps.case,
+    control.case,
     find.case,
 )
 

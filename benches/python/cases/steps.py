@@ -40,6 +40,14 @@ def slider_crank(environments: int, steps: int) -> Subject:
 
 
 def five_bar(environments: int, steps: int) -> Subject:
+    machine, q0 = five_bar_machine()
+    rng = np.random.default_rng(2)
+    q = q0 + rng.uniform(-0.3, 0.3, (environments, 2))
+    return _subject(machine, q, rng.normal(size=q.shape), steps, [0.0, 0.0])
+
+
+def five_bar_machine() -> tuple[assur.Machine, Any]:
+    """The five-bar of `stepping`, and where its cranks are drawn."""
     ground, left, right, rod, arm = stepping.FIVE
     q0 = np.array([2.0, 1.1])
     b = left * np.array([np.cos(q0[0]), np.sin(q0[0])])
@@ -56,10 +64,7 @@ def five_bar(environments: int, steps: int) -> Subject:
     mass, inertia, at = stepping.BODY
     body = assur.Body(mass=mass, inertia=inertia, at=at)
     bodies = dict.fromkeys(("left", "rod", "arm", "right"), body)
-    machine = assur.Machine(mechanism, bodies=bodies, loads=[assur.Gravity()])
-    rng = np.random.default_rng(2)
-    q = q0 + rng.uniform(-0.3, 0.3, (environments, 2))
-    return _subject(machine, q, rng.normal(size=q.shape), steps, [0.0, 0.0])
+    return assur.Machine(mechanism, bodies=bodies, loads=[assur.Gravity()]), q0
 
 
 def _subject(machine: assur.Machine, q: Any, speed: Any, steps: int, effort: Any) -> Subject:

@@ -78,3 +78,14 @@ def by_numba(two: bool, q: Float, speed: Float, dt: float, count: int) -> tuple[
     """Steps without efforts."""
     found: tuple[Float, Float] = (five_bar if two else slider_crank)(q, speed, dt, count)
     return found
+
+
+@numba.njit(parallel=True, fastmath=True, error_model="numpy")
+def accelerations(q: Float, speed: Float, effort: Float) -> Float:
+    """Of the five-bar; arrays (2, states)."""
+    found = np.empty_like(q)
+    for i in numba.prange(q.shape[1]):
+        found[0, i], found[1, i] = _five_bar(
+            (q[0, i], q[1, i]), (speed[0, i], speed[1, i]), (effort[0, i], effort[1, i])
+        )
+    return found

@@ -1384,7 +1384,7 @@ class Machine(MachineModel):
         >>> fast = assur.events.Speed(10.0)
         >>> runs = machine.run(t_end=1.0, q0=[0.0, 1.5, 3.0, 4.5], events=[fast])
         >>> runs.t_end.round(4), runs.end.tolist()  # s
-        (array([0.2141, 0.2174, 0.2141, 0.2142]), ['event', 'event', 'event', 'event'])
+        (array([0.2225, 0.1875, 0.2065, 0.2041]), ['event', 'event', 'event', 'event'])
         """
         one_of(keep, ("all", "ends"), "keep")
         one_of(on_error, ("raise", "nan"), "on_error")

@@ -769,7 +769,7 @@ class Mechanism(MechanismModel):
         >>> five_bar = assur.examples.five_bar()
         >>> path = five_bar.find("P", [(0.10, 0.47), (0.11, 0.46), (0.12, 0.45)], near=five_bar.q0)
         >>> path.q.round(4).tolist()
-        [[1.8751, 1.3208], [1.8716, 1.3625], [1.8677, 1.4051]]
+        [[1.9224, 1.279], [1.9284, 1.2132], [1.9311, 1.1504]]
         >>> five_bar.solve(path.q, assembly=path.assembly).joint("P").value.round(9).tolist()
         [[0.1, 0.47], [0.11, 0.46], [0.12, 0.45]]
         """

@@ -111,6 +111,7 @@ CALLS: dict[str, Callable[..., Any]] = {
     ).run(t_end=0.1, q0=0.0, speed0=3.0, events=[events.TransmissionAngle("C", 0.5, **f)]),
     "Measures.to_xarray": lambda _, **f: swept().to_xarray(**f),
     "Measures.plot": lambda _, **f: swept().plot("span", **f),
+    "Motion.vjp": lambda _, **f: MOTION.vjp({"C": 1.0}, **f),
     "Motion.to_dataframe": lambda _, **f: MOTION.to_dataframe(**f),
     "Motion.to_excel": lambda at, **f: MOTION.to_excel(at / "m.xlsx", **f),
     "Motion.to_xarray": lambda _, **f: MOTION.to_xarray(**f),

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from assur import _core
+    from assur._records import SteadyNumbers
     from assur.dynamics.motion.run import State
     from assur.kinematics.mechanism import Mechanism
 
@@ -83,7 +84,7 @@ class SteadyState(Tabular):
     def __init__(
         self,
         core: _core.Run,
-        numbers: _core._SteadyNumbers,
+        numbers: SteadyNumbers,
         mechanism: Mechanism | None,
         mean: Literal["extremes", "period"],
     ) -> None:

@@ -128,7 +128,7 @@ class InversePath:
     >>> engine = assur.SliderCrank(1.0, 3.0)
     >>> path = engine.find("bore", np.linspace(3.0, 3.9, 4), near=1.4)
     >>> path.q.round(4)
-    array([1.4033, 1.1307, 0.8411, 0.3884])
+    array([1.4033, 1.1176, 0.8108, 0.3914])
     """
 
     __repr__ = summary
