@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -27,6 +28,8 @@ Term = tuple[str, int]
 # index.
 Direction = tuple[str, int]
 NOTHING = np.empty(0)
+# No acceleration is asked for: a call takes microseconds, of which one would be this.
+NONE = 0.0
 
 
 class State(NamedTuple):
@@ -37,7 +40,7 @@ class State(NamedTuple):
     effort: npt.ArrayLike | None = None
     t: npt.ArrayLike = 0.0
     sense: float | Sequence[float] | None = None
-    acceleration: npt.ArrayLike = 0.0
+    acceleration: npt.ArrayLike = NONE
 
 
 class Terms(NamedTuple):
@@ -85,15 +88,16 @@ def terms_of(
     shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
     full = shape if n == 1 else (*shape, n)
     speed = _rates(state.speed, "speed", full, n, x)
-    acceleration = _rates(state.acceleration, "acceleration", full, n, x)
     # Without efforts the motors act alone.
-    effort = np.zeros(n)
+    effort = acceleration = np.zeros(n)
+    if state.acceleration is not NONE:
+        acceleration = _rates(state.acceleration, "acceleration", full, n, x)
     if state.effort is not None:
         effort = _rates(state.effort, "effort", full, n, x)
     per_design = bool(designs) and x.ndim > (1 if n == 1 else 2)
     if per_design:
         x = np.broadcast_to(x, full)
-    rows = int(np.prod(shape)) if shape else 1
+    rows = math.prod(shape)
     every_q: Float
     every_speed: Float
     functions, follows_ways = machine.core.functions, machine.core.follows[1]
@@ -125,7 +129,10 @@ def terms_of(
 
 def flat(values: Float) -> Float:
     """Return the numbers in a row, where they are if the core can read them there."""
-    return np.require(values, requirements=("C", "A")).reshape(-1)
+    flags = values.flags
+    if not (flags.c_contiguous and flags.aligned):
+        values = np.require(values, requirements=("C", "A"))
+    return values.reshape(-1)
 
 
 def _rates(given: Any, name: str, full: tuple[int, ...], n: int, x: Float) -> Float:
@@ -135,6 +142,8 @@ def _rates(given: Any, name: str, full: tuple[int, ...], n: int, x: Float) -> Fl
     if values.ndim == 0 or (n > 1 and values.shape == (n,)):
         if n > 1 and values.ndim == 0:
             return np.full(n, float(values))
+        return flat(values)
+    if values.shape == full:
         return flat(values)
     try:
         return flat(np.broadcast_to(values, full))
