@@ -114,15 +114,16 @@ class Gradients:
     def _of_mean(self, batch: Mechanism, leaf: Leaf, places: Any) -> Float:
         assert leaf.of is not None
         coordinate = _coordinate(batch, leaf.of)
-        motion = self._solved(batch, self._q[places], leaf.order, [coordinate.name])
-        values = _numbers(motion, coordinate, leaf.order)
-        weights = np.full(values.shape, 1.0 / values.shape[-1])
+        # The same at all positions.
+        weights = np.array(1.0 / len(places))
         if leaf.kind == "rms":
+            motion = self._solved(batch, self._q[places], leaf.order, [coordinate.name])
+            values = _numbers(motion, coordinate, leaf.order)
             root = np.sqrt(np.mean(values * values, axis=-1, keepdims=True))
             with np.errstate(invalid="ignore"):
                 weights = weights * values / root
         of_all = {coordinate.name: _spread(weights, coordinate)}
-        return motion.vjp(of_all, by=self.names, order=leaf.order, total=True)
+        return self._pulled(batch, self._q[places], of_all, leaf.order)
 
     def _of_extreme(self, some: Mechanism, leaf: Leaf, places: Any) -> Float:
         assert leaf.of is not None
@@ -130,7 +131,8 @@ class Gradients:
             return self._of_transmission(some, leaf, places)
         coordinate = _coordinate(some, leaf.of)
         signs = np.broadcast_to([sign for _, sign in EXTREMES[leaf.kind]], places.shape)
-        return self._pulled(some, places, {coordinate.name: _spread(signs, coordinate)}, leaf.order)
+        of_ends = {coordinate.name: _spread(signs, coordinate)}
+        return self._pulled(some, self._q[places], of_ends, leaf.order)
 
     def _of_transmission(self, some: Mechanism, leaf: Leaf, places: Any) -> Float:
         assert leaf.of is not None
@@ -149,17 +151,29 @@ class Gradients:
             for line in pair
         ]
         weights = transmission.derivatives_by_places(pair, directions, complement)
-        found = self._pulled(some, places, weights, 0)
+        found = self._pulled(some, self._q[places], weights, 0)
         guides = transmission.of_guides(some, (pair, directions, complement), self._by)
         return found + guides[:, 0]
 
     def _pulled(
-        self, batch: Mechanism, places: Any, weights: Mapping[str, Float], order: int
+        self, batch: Mechanism, q: Float, weights: Mapping[str, Float], order: int
     ) -> Float:
-        """Return the derivatives of weighted sums at some positions of each design, (n, D)."""
-        q = np.ascontiguousarray(self._q[places])
-        each, rows = places.shape
-        request = SolveRequest(batch, q, (rows,), True, order, batch.signs, True, self._threads)
+        """Return the derivatives of weighted sums over positions, (n, D).
+
+        The positions are (N,) of all designs, or (n, N) of each; the weights are of every
+        position, or the same for all.
+        """
+        shape = q.shape if batch.driver_count == 1 else q.shape[:-1]
+        request = SolveRequest(
+            batch,
+            np.ascontiguousarray(q),
+            shape[-1:],
+            len(shape) > 1,
+            order,
+            batch.signs,
+            True,
+            self._threads,
+        )
         keys: list[ResultKey] = []
         flat: list[Float] = []
         for name, weight in weights.items():
@@ -167,7 +181,7 @@ class Gradients:
             keys.append((kind, batch.core.index_of(kind, name), order))
             flat.append(np.ascontiguousarray(weight).reshape(-1))
         arrays, _ = request.sensitivities(keys, self._by, weights=flat, total=True)
-        return arrays[0].reshape(each, len(self._by))
+        return arrays[0].reshape(batch.shape[0], len(self._by))
 
     def _places(self, batch: Mechanism, leaf: Leaf) -> Any:
         if leaf.over is None:
