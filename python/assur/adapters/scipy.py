@@ -133,6 +133,7 @@ class Residuals:
         Returns
         -------
         Mechanism
+            The other dimensions are as they were.
 
         Raises
         ------
