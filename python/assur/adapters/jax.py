@@ -14,7 +14,7 @@ import numpy as np
 
 from assur._validate import checked_name, whole_number
 from assur.errors import InputError
-from assur.kinematics.derivatives.jacobian import named_dimensions
+from assur.kinematics.derivatives.jacobian import named_dimensions, require_once
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -64,7 +64,7 @@ def place(
     Notes
     -----
     Over q alone, in an array or by ``jax.vmap``, it stays one design; ``jax.vmap`` over x makes a
-    batch of designs. A dimension that no design can have raises.
+    batch of designs. A dimension that no design can have gives NaN.
 
     Examples
     --------
@@ -81,6 +81,7 @@ def place(
     name, n = checked_name(name, "place"), mechanism.driver_count
     known = mechanism.core.dimension_names
     names = [known[index] for index in named_dimensions(mechanism, by)]
+    require_once(names)
     kind = "joint" if name in mechanism.joints else "slide" if name in mechanism.slides else "link"
     mechanism.core.index_of(kind, name)
     components = (2,) if kind == "joint" else ()
@@ -89,7 +90,8 @@ def place(
     def motion(x: Float, q: Float, highest: int) -> Any:
         """Solve for a batch: one design at all q, or a design for each."""
         if math.prod(x.shape[:-1]) == 1:
-            design = mechanism.with_dimensions(dict(zip(names, x.ravel().tolist(), strict=True)))
+            # A batch of one: a dimension that no design can have gives NaN there, too.
+            design = mechanism.with_dimensions(dict(zip(names, x.reshape(1, -1).T, strict=True)))
             places: Float = q.reshape(-1, n)
         else:
             ahead = np.broadcast_shapes(x.shape[:-1], q.shape[:-1])
@@ -215,7 +217,7 @@ def step(
     """
     drivers = _require_equations(machine, "step")
     steps = whole_number(n, "n", 1, 10**6)
-    machine.step(machine.mechanism.q0, 0.0, 0.0, dt)  # type: ignore[union-attr]
+    machine.step(machine.mechanism.q0, 1.0, 0.0, dt)  # type: ignore[union-attr]
 
     def values(q: Float, speed: Float, effort: Float) -> list[Float]:
         state = [_given(each, drivers) for each in (q, speed, effort)]
@@ -352,5 +354,6 @@ def _require_equations(machine: Machine, call: str) -> int:
     """Refuse what has no derivatives; return the number of drivers."""
     _require_one(machine.shape, call)
     q0 = 0.0 if machine.mechanism is None else machine.mechanism.q0
-    machine.linearize(q0, on_error="nan")
+    # Moving: loads with `while_` have no value at rest.
+    machine.linearize(q0, 1.0, on_error="nan")
     return machine.driver_count

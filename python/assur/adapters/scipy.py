@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import Float, counted, finite_array, short
+from assur._arrays import Float, counted, finite_array, real_array, short
 from assur._validate import checked_name
 from assur.errors import InputError
-from assur.kinematics.derivatives.jacobian import named_dimensions
+from assur.kinematics.derivatives.jacobian import named_dimensions, require_once
 from assur.kinematics.solve_arguments import q_or_deg
 
 if TYPE_CHECKING:
@@ -59,8 +59,8 @@ class Residuals:
 
     Notes
     -----
-    A residual is NaN where a position does not exist: SciPy's ``least_squares`` then takes a
-    shorter step.
+    A residual is NaN where a position does not exist, or no design has such a dimension: SciPy's
+    ``least_squares`` then takes a shorter step.
 
     Examples
     --------
@@ -99,10 +99,7 @@ class Residuals:
             raise InputError(message)
         known = mechanism.core.dimension_names
         self._by = [known[index] for index in named_dimensions(mechanism, by)]
-        if len(set(self._by)) < len(self._by):
-            twice = next(name for name in self._by if self._by.count(name) > 1)
-            message = f"by: {twice!r} is named twice"
-            raise InputError(message)
+        require_once(self._by)
         self.names = tuple(self._by)
         self.x0: Float = np.array([float(mechanism.dimensions[name]) for name in self._by])
         self._mechanism = mechanism
@@ -111,7 +108,7 @@ class Residuals:
         motion = self._motion(self.x0)
         self._targets: list[Float] = []
         for name, given in targets.items():
-            place = _values(motion, name)
+            place = _values(motion, name)[0]
             target = finite_array(given, f"targets[{name!r}]")
             if target.shape != place.shape:
                 message = (
@@ -150,11 +147,8 @@ class Residuals:
         >>> missed.mechanism([1.0, 3.2, 2.5]).dimensions["coupler.length"]
         3.2
         """
-        values = finite_array(x, "x")
-        if values.shape != self.x0.shape:
-            message = f"x has the shape {values.shape}: {len(self._by)} values are needed"
-            raise InputError(message)
-        return self._mechanism.with_dimensions(dict(zip(self._by, values.tolist(), strict=True)))
+        values = self._checked(x).tolist()
+        return self._mechanism.with_dimensions(dict(zip(self._by, values, strict=True)))
 
     def fun(self, x: npt.ArrayLike) -> Float:
         """Return the residuals, found less wanted.
@@ -179,7 +173,9 @@ class Residuals:
         """
         motion = self._motion(x)
         pairs = zip(self._outputs, self._targets, strict=True)
-        return np.concatenate([(_values(motion, name) - target).ravel() for name, target in pairs])
+        return np.concatenate(
+            [(_values(motion, name)[0] - target).ravel() for name, target in pairs]
+        )
 
     def jac(self, x: npt.ArrayLike) -> Float:
         """Return the derivatives of the residuals by x.
@@ -206,8 +202,17 @@ class Residuals:
         return np.concatenate([every[name].reshape(-1, len(self._by)) for name in self._outputs])
 
     def _motion(self, x: npt.ArrayLike) -> Motion:
-        mechanism = self.mechanism(x)
+        # A batch of one: of what no design can be the residuals are NaN.
+        values = zip(self._by, self._checked(x)[:, np.newaxis], strict=True)
+        mechanism = self._mechanism.with_dimensions(dict(values))
         return mechanism.solve(self._q, order=0, outputs=self._outputs, on_error="nan")
+
+    def _checked(self, x: npt.ArrayLike) -> Float:
+        values = real_array(x, "x")
+        if values.shape != self.x0.shape:
+            message = f"x has the shape {values.shape}: {len(self._by)} values are needed"
+            raise InputError(message)
+        return values
 
     def __repr__(self) -> str:
         of = counted(len(self._outputs), "output")
@@ -267,7 +272,8 @@ class StateEquations:
         self._effort = None if effort is None else finite_array(effort, "effort")
         q0 = 0.0 if machine.mechanism is None else machine.mechanism.q0
         # Whatever cannot be linearised is refused here, not in the midst of an integration.
-        machine.linearize(q0, 0.0, self._effort, on_error="nan")
+        # Moving: loads with `while_` have no value at rest.
+        machine.linearize(q0, 1.0, self._effort, on_error="nan")
 
     def fun(self, t: float, y: npt.ArrayLike) -> Float:
         """Return the rates of a state.
@@ -328,7 +334,7 @@ class StateEquations:
         return self._machine.linearize(q, speed, self._effort, on_error="nan").A
 
     def _state(self, y: npt.ArrayLike) -> tuple[Any, Any]:
-        state, n = np.asarray(y, dtype=np.float64), self._machine.driver_count
+        state, n = real_array(y, "y", copy=False), self._machine.driver_count
         if state.shape != (2 * n,):
             message = f"y has the shape {state.shape}: {2 * n} numbers are needed, q then speed"
             raise InputError(message)

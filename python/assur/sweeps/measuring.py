@@ -146,7 +146,7 @@ class Measuring:
         for array in (*values.values(), *slopes.values(), status, indices):
             array.flags.writeable = False
         arrays = {name: array.reshape(shape) for name, array in values.items()}
-        gradient = {name: array.reshape(*shape, -1) for name, array in slopes.items()}
+        gradient = {name: array.reshape(*shape, array.shape[-1]) for name, array in slopes.items()}
         return Measures(arrays, status.reshape(shape), indices, designs, self, gradient)
 
     def measure(self, some: Mechanism) -> Block:

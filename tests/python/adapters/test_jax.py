@@ -92,7 +92,7 @@ def test_the_core_is_reached_once_a_batch(monkeypatch: pytest.MonkeyPatch) -> No
     x = jnp.array([1.0, 3.0, 2.5])
     monkeypatch.setattr(assur.Mechanism, "solve", counted)
     jax.block_until_ready(jax.jit(jax.vmap(f, (None, 0)))(x, Q))
-    assert calls == [()]
+    assert calls == [(1,)]
     jax.block_until_ready(
         jax.jit(jax.vmap(jax.vmap(f, (None, 0)), (0, None)))(jnp.tile(x, (5, 1)), Q)
     )
@@ -191,3 +191,23 @@ def test_without_jax_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(builtins, "__import__", missing)
     with pytest.raises(assur.InputError, match=r"pip install assur\[jax\]"):
         ours.place(assur.FourBar(1.0, 3.0, 2.5, 3.0), "C")
+
+
+def test_what_no_design_can_be_is_nan_in_any_company() -> None:
+    f = ours.place(assur.FourBar(1.0, 3.0, 2.5, 3.0), "C", by="*.length")
+    x = jnp.array([1.0, 3.0, 2.5])
+    assert np.isnan(np.asarray(f(-x, 0.5))).all()
+    found = np.asarray(jax.vmap(f, (0, None))(jnp.stack([-x, x]), 0.5))
+    assert np.isnan(found[0]).all()
+    assert (found[1] == np.asarray(f(x, 0.5))).all()
+    with pytest.raises(assur.InputError, match=r"'crank\.length' is named twice"):
+        ours.place(assur.FourBar(1.0, 3.0, 2.5, 3.0), "C", by=["crank.length", "*.length"])
+
+
+def test_a_step_without_a_state_leaves_the_others_alone() -> None:
+    bodies = {"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=1.0)}
+    machine = assur.Machine(assur.FourBar(1.0, 2.0, 1.5, 3.2), bodies=bodies)
+    step = ours.step(machine, 0.01)
+    slopes = jax.jacobian(lambda q: step(q, 1.0, 0.0)[0])(jnp.array([0.5, 3.0]))
+    assert np.isfinite(slopes[0, 0])
+    assert np.isnan(slopes[1, 1])

@@ -141,3 +141,18 @@ def test_refusals(name: str) -> None:
     call, message = REFUSED[name]
     with pytest.raises(assur.InputError, match=message):
         call()
+
+
+def test_what_no_design_can_be_shortens_the_step() -> None:
+    missed = Residuals(FOUR_BAR, {"rocker": FOUR_BAR.solve(Q).link("rocker").value}, Q)
+    assert np.isnan(missed.fun([-1.0, 3.0, 2.5])).all()
+    assert np.isnan(missed.jac([np.nan, 3.0, 2.5])).all()
+    with pytest.raises(assur.DimensionError):
+        missed.mechanism([-1.0, 3.0, 2.5])
+
+
+def test_loads_that_act_on_the_way_are_taken() -> None:
+    pressing = assur.Torque("crank", -1.0, while_="backward", over="bore")
+    bodies = {"piston": assur.Body(mass=2.0), "crank": assur.Body(inertia=0.05)}
+    machine = assur.Machine(assur.SliderCrank(0.1, 0.4), bodies=bodies, loads=[pressing])
+    assert np.isfinite(StateEquations(machine).fun(0.0, [0.3, 2.0])).all()

@@ -77,7 +77,7 @@ def test_designs() -> None:
     designs = [four_bar().with_dimensions({"coupler.length": x}) for x in (3.0, 3.1, 2.9, 2.8)]
     found = batch.find("P.x", 1.4)
     assert found.count.shape == (2, 3)
-    assert len(found) == 2
+    assert len(found) == len(list(found)) == 6
     bad = [Status.BAD_DIMENSION] * 2
     assert found.status.ravel().tolist() == [Status.OK] * 4 + bad
     singles = [one.find("P.x", 1.4) for one in designs]

@@ -176,7 +176,8 @@ def test_designs_and_sliding_drivers() -> None:
     np.testing.assert_array_equal(each.q[[0, 2]], path.q[[0, 2]])
     np.testing.assert_allclose(each.q[1], -path.q[1], rtol=0.0, atol=1e-12)
     assert path[2, 1].q == path.q[2, 1]
-    assert len(path) == 3
+    assert len(path) == 6
+    assert [one.q for one in path] == path.q.ravel().tolist()
     press: Any = assur.SliderCrank(1.0, 3.0).with_driver("bore", q=3.0)
     angle = math.acos(1.0 / 6.0)
     turned = press.find("crank", [angle, angle + 0.2, angle - 0.3], near=3.0).q

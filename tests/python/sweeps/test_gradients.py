@@ -163,3 +163,14 @@ def test_redundant_links_are_refused() -> None:
     )
     with pytest.raises(assur.InputError, match="redundant"):
         assur.sweep(redundant, {}, Q, metrics={"a": metric.span("C.x")}, gradient="*.length")
+
+
+def test_no_designs() -> None:
+    found = assur.sweep(
+        assur.FourBar(1.0, 3.0, 2.5, 3.0),
+        {"coupler.length": np.zeros(0)},
+        Q,
+        metrics={"a": metric.max("C.x"), "b": metric.mean("C.x")},
+        gradient="*.length",
+    )
+    assert found.gradient["a"].shape == found.gradient["b"].shape == (0, 3)

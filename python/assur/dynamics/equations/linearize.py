@@ -9,7 +9,7 @@ import numpy as np
 from assur._arrays import real_array, real_number
 from assur._summary import summary
 from assur._validate import whole_number
-from assur.description.words import has_analogues
+from assur.description.words import Status, has_analogues
 from assur.dynamics.equations.derivatives import refuse_functions
 from assur.dynamics.equations.step import MOST_STEPS
 from assur.dynamics.equations.terms import Direction, State, require_equations, terms_of
@@ -103,6 +103,7 @@ def linearize(
         message = f"linearize: state {row} has no acceleration, or none that is differentiable"
         raise InputError(message)
     a[missing], b[missing] = np.nan, np.nan
+    status = np.where(missing & has_analogues(status), np.uint8(Status.NO_VALUE), status)
     return Linearized(
         a.reshape(*asked.shape, 2 * n, 2 * n),
         b.reshape(*asked.shape, 2 * n, n),
@@ -161,9 +162,13 @@ def _of_steps(
         by_x, by_u = np.tile(np.eye(2 * n), (rows, 1, 1)), np.zeros(whole_b.shape)
         # Way to the next stage, and the weight of this one (W. Kutta 1901).
         for way, weight in ((0.5, 1.0), (0.5, 2.0), (1.0, 2.0), (0.0, 1.0)):
-            at = state._replace(q=here[:, :n].reshape(full), speed=here[:, n:].reshape(full))
+            # A state that has no next stage is not finite: it has no derivatives, the others go on.
+            at = state._replace(
+                q=here[:, :n].reshape(full), speed=here[:, n:].reshape(full), is_checked=False
+            )
             slope = _slope(machine, at, threads)
-            worst = np.maximum(worst, slope.status)
+            # Of failures the first, which causes the others.
+            worst = np.where(has_analogues(worst), np.maximum(worst, slope.status), worst)
             a, b = _first_order(slope, n)
             rates = np.concatenate([here[:, n:], slope.acceleration], axis=1)
             d_x, d_u = _product(a, by_x), _product(a, by_u) + b

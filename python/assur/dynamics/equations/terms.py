@@ -40,6 +40,8 @@ class State(NamedTuple):
     effort: npt.ArrayLike | None = None
     t: npt.ArrayLike = 0.0
     sense: float | Sequence[float] | None = None
+    # Whether all numbers are finite; those of later stages of a step need not be.
+    is_checked: bool = True
     acceleration: npt.ArrayLike = NONE
 
 
@@ -87,7 +89,7 @@ def terms_of(
         raise InputError(message)
     shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
     full = shape if n == 1 else (*shape, n)
-    speed = _rates(state.speed, "speed", full, n, x)
+    speed = _rates(state.speed, "speed", full, n, x, state.is_checked)
     # Without efforts the motors act alone.
     effort = acceleration = np.zeros(n)
     if state.acceleration is not NONE:
@@ -135,10 +137,13 @@ def flat(values: Float) -> Float:
     return values.reshape(-1)
 
 
-def _rates(given: Any, name: str, full: tuple[int, ...], n: int, x: Float) -> Float:
+def _rates(
+    given: Any, name: str, full: tuple[int, ...], n: int, x: Float, is_checked: bool = True
+) -> Float:
     """Return numbers of the drivers, flat: n for all rows, or n for each row."""
     values = real_array(given, name, copy=False)
-    require_finite(values, name)
+    if is_checked:
+        require_finite(values, name)
     if values.ndim == 0 or (n > 1 and values.shape == (n,)):
         if n > 1 and values.ndim == 0:
             return np.full(n, float(values))

@@ -105,6 +105,14 @@ def named_dimensions(mechanism: MechanismModel, by: Any) -> list[int]:
     return indices
 
 
+def require_once(names: list[str]) -> None:
+    """Refuse a dimension that is given twice: only one of its values could count."""
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        message = f"by: {twice!r} is named twice"
+        raise InputError(message)
+
+
 def _by_drivers(motion: MotionModel, name: str, order: int) -> Float:
     """Return the derivatives by the drivers' coordinates: one driver has an axis, too."""
     kind = _kind(motion, checked_name(name, "jacobian"), "jacobian")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -13,7 +14,7 @@ from assur._validate import checked_index
 from assur.kinematics.model import with_values
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import numpy.typing as npt
 
@@ -53,8 +54,8 @@ class InverseSolution(NamedTuple):
 class InverseSolutions:
     """Every position for each of many values, or designs, by `Mechanism.find`.
 
-    ``found[i]`` is the list of the i-th value, as `Mechanism.find` has it for one: each entry with
-    ``.q`` and ``.assembly``.
+    ``found[i]`` is the list of the i-th value, those of designs in a row, as `Mechanism.find` has
+    it for one: each entry with ``.q`` and ``.assembly``.
 
     Attributes
     ----------
@@ -90,13 +91,16 @@ class InverseSolutions:
     _find_one: Callable[[MechanismModel, Float], list[InverseSolution]] = field(repr=False)
 
     def __len__(self) -> int:
-        """Return the length of the first axis: of designs, or of values."""
-        return len(self.count)
+        """Return the number of values, of all designs."""
+        return self.count.size
+
+    def __iter__(self) -> Iterator[list[InverseSolution]]:
+        """Yield the positions for each value, those of designs one after another."""
+        return (self[index] for index in np.ndindex(self.count.shape))
 
     def __getitem__(self, index: int | tuple[int, ...]) -> list[InverseSolution]:
         """Return the positions for one value."""
-        entry = index if isinstance(index, tuple) else (index,)
-        entry = checked_index(entry, self.count.shape, "find")
+        entry = _entry(index, self.count.shape)
         design = self._of
         if design.shape:
             flat = design.values.reshape(len(design.values), -1)
@@ -109,7 +113,7 @@ class InverseSolutions:
 class InversePath:
     """Positions followed along values, in one assembly, by ``Mechanism.find(near=…)``.
 
-    ``path[i]`` is the i-th one, with ``.q`` and ``.assembly``.
+    ``path[i]`` is the i-th one, those of designs in a row, with ``.q`` and ``.assembly``.
 
     Attributes
     ----------
@@ -138,12 +142,23 @@ class InversePath:
     assembly: Assembly
 
     def __len__(self) -> int:
-        """Return the length of the first axis: of designs, or of values."""
-        return len(self.status)
+        """Return the number of values, of all designs."""
+        return self.status.size
+
+    def __iter__(self) -> Iterator[InverseSolution]:
+        """Yield the position for each value, those of designs one after another."""
+        return (self[index] for index in np.ndindex(self.status.shape))
 
     def __getitem__(self, index: int | tuple[int, ...]) -> InverseSolution:
         """Return the position for one value."""
-        entry = index if isinstance(index, tuple) else (index,)
-        entry = checked_index(entry, self.status.shape, "find")
+        entry = _entry(index, self.status.shape)
         q = self.q[entry]
         return InverseSolution(as_number(q if np.ndim(q) else float(q)), self.assembly)
+
+
+def _entry(index: int | tuple[int, ...], shape: tuple[int, ...]) -> tuple[int, ...]:
+    """Return an index by axes: one number counts all values in a row."""
+    if isinstance(index, tuple):
+        return checked_index(index, shape, "find")
+    (flat,) = checked_index((index,), (math.prod(shape),), "find")
+    return tuple(int(i) for i in np.unravel_index(flat, shape))

@@ -83,12 +83,20 @@ impl Machine {
     ) -> ReducedTable {
         let DrivenPositions { q, speed, sense, external } = positions;
         let drivers = mechanism.q0().len();
+        let mut rows = ReducedTable::default();
+        if let Some(fault) = mechanism.dimensions().first_fault(dimensions) {
+            for q in q.chunks_exact(drivers) {
+                rows.push(None, drivers, Status::BadDimension);
+                let failure = || (0, Failure::of_dimension(fault.clone(), q));
+                rows.failure.get_or_insert_with(failure);
+            }
+            return rows;
+        }
         let derivatives = DerivativeTables::new(drivers, 2);
         let queries = Queries::Listed(q);
         let mut evaluator =
             Evaluator::new(mechanism, dimensions, &derivatives, queries, self.needs_angles());
         let per_position = external.len().checked_div(q.len() / drivers).unwrap_or(0);
-        let mut rows = ReducedTable::default();
         let mut reduced = Reduced::new(drivers);
         let (mut tables, mut numbers) = (Vec::new(), Vec::new());
         let mut followers = Followers::default();

@@ -275,3 +275,41 @@ def test_functions_and_singular_masses_are_refused() -> None:
     with pytest.raises(assur.InputError, match="no acceleration"):
         bare.linearize(0.5)
     assert np.isnan(bare.linearize(0.5, on_error="nan").A).all()
+
+
+def test_a_step_that_cannot_be_made_leaves_the_others_alone() -> None:
+    bodies = {"crank": assur.Body(inertia=1.0), "rocker": assur.Body(inertia=1.0)}
+    machine = assur.Machine(assur.FourBar(1.0, 2.0, 1.5, 3.2), bodies=bodies)
+    found = machine.linearize([0.5, 3.0], 1.0, 0.0, dt=0.01, on_error="nan")
+    assert found.status.tolist() == [0, 3]
+    assert (found.A[0] == machine.linearize(0.5, 1.0, 0.0, dt=0.01).A).all()
+    assert np.isnan(found.A[1]).all()
+    # The second is lost on the way.
+    far = machine.linearize([0.5, 1.0], [1.0, 100.0], 0.0, dt=0.01, n=100, on_error="nan")
+    assert np.isnan(far.A[1]).all()
+    assert far.status[1] > 1
+
+
+def test_no_inertia_is_no_value() -> None:
+    piston = assur.Machine(assur.SliderCrank(0.1, 0.4), bodies={"piston": assur.Body(mass=2.0)})
+    found = piston.linearize([0.0, 0.5], 1.0, 0.0, on_error="nan")
+    assert found.status.tolist() == [assur.Status.NO_VALUE, assur.Status.OK]
+
+
+def test_invalid_designs_have_no_numbers() -> None:
+    lengths = [1.0, -1.0, np.nan, 0.0]
+    batch = assur.FourBar(1.0, 3.0, 2.5, 3.0).with_dimensions({"crank.length": lengths})
+    bodies = {"crank": assur.Body(inertia=0.05), "rocker": assur.Body(inertia=1.0)}
+    machine = assur.Machine(batch, bodies=bodies, loads=[assur.Gravity()])
+    runs = machine.run(t_end=0.1, q0=[0.5], speed0=1.0, on_error="nan")
+    assert runs.status.ravel().tolist() == [0, 6, 6, 6]
+    assert np.isnan(runs.q_end[1:]).all()
+    many = machine.run(t_end=0.01, q0=np.full(40, 0.5), speed0=1.0, on_error="nan")
+    assert many.status.tolist() == [[0] * 40, *[[6] * 40] * 3]
+    for numbers in (
+        machine.effort(0.5, 1.0, on_error="nan"),
+        machine.reduced_inertia(0.5, on_error="nan").value,
+        machine.reduced_moment(0.5, on_error="nan"),
+    ):
+        assert np.isfinite(numbers[0])
+        assert np.isnan(numbers[1:]).all()

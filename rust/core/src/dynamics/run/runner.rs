@@ -11,6 +11,7 @@ use crate::description::Driver;
 use crate::dynamics::machine::Machine;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
+use crate::query::failure::Failure;
 
 /// Index tables that the runs of a mechanism need.
 #[derive(Debug)]
@@ -39,7 +40,7 @@ impl<'m> Runner<'m> {
     ///
     /// # Errors
     ///
-    /// A wrong number of dimensions.
+    /// A wrong number of dimensions, or one that no design has.
     pub fn new<E>(
         machine: &'m Machine,
         mechanism: &'m Mechanism,
@@ -48,6 +49,10 @@ impl<'m> Runner<'m> {
     ) -> Result<Self, RunError<E>> {
         let needed = mechanism.dimensions().len();
         check_counts(&[("dimensions", needed, dimensions.len())])?;
+        if let Some(fault) = mechanism.dimensions().first_fault(dimensions) {
+            let failure = Failure::of_dimension(fault, mechanism.q0());
+            return Err(RunError::NoInitialPosition(failure));
+        }
         Ok(Self {
             machine,
             model: MechanismModel::new(machine, mechanism, dimensions, &tables.0),

@@ -58,7 +58,8 @@ impl Machine {
                 && batch.limit.is_none()
                 && batch.options.along == Variable::Time
                 && mechanism.q0().len() == 1
-                && dimensions.len() == mechanism.dimensions().len();
+                && dimensions.len() == mechanism.dimensions().len()
+                && mechanism.dimensions().first_fault(&dimensions).is_none();
             let model = || MechanismModel::new(self, mechanism, &dimensions, &tables.0);
             let reference = fits.then(model);
             let work = SideBySide {
