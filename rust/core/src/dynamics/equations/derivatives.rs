@@ -245,9 +245,9 @@ impl<'b> DerivativeBatch<'b> {
                 scene.points[point] = Moving { at: Vector::new(x, y), ..scene.points[point] };
             }
         }
-        scene.read(plan, batch.sources, &positions.guides, &solved, rows);
+        scene.read(plan, batch.sources, positions.guides, &solved, rows);
         if let Direction::Dimension(index) = direction {
-            self.turn_guides(scene, &positions.guides, index);
+            self.turn_guides(scene, positions.guides, index);
         }
         let external: Vec<f64> = {
             let callbacks = positions.values.callbacks;

@@ -53,7 +53,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
         self.scene.place_known(self.design.known);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            self.scene.read(plan, sources, &self.design.guides, &self.design.solved, rows);
+            self.scene.read(plan, sources, self.design.guides, &self.design.solved, rows);
             self.scene.apply(plan, machine, self.design.values, rows);
             let solved = &{ self.design.solved };
             let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };

@@ -143,7 +143,7 @@ impl<R: Real> Task<R> for Stage<'_, R> {
             let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
             self.equation.read_bodies(self.batch, partials, self.speed);
             if !plan.load_actions.is_empty() {
-                self.scene.read(plan, sources, &self.design.guides, solved, rows);
+                self.scene.read(plan, sources, self.design.guides, solved, rows);
                 self.scene.clear_forces();
                 self.scene.apply_loads(plan, machine, self.design.values, rows);
                 self.equation.add_forces(self.scene, partials);
