@@ -46,8 +46,9 @@ pub(crate) struct Machine {
     /// Python functions: those of loads, then those of motors.
     functions: Vec<Py<PyAny>>,
     load_functions: usize,
-    /// Its compiled equations of motion: without Jacobians of joints, with all of them, for derivatives.
-    plans: [OnceLock<EquationPlan>; 3],
+    /// Its compiled equations of motion: without Jacobians of joints, with all of them, for derivatives, for
+    /// steps.
+    plans: [OnceLock<EquationPlan>; 4],
 }
 
 #[pymethods]
@@ -362,7 +363,7 @@ impl Machine {
         let (q, speed, effort) = state;
         let environments =
             equations::Environments { dimensions, q, speed, effort, has_motors, holds, rows };
-        let plan = self.plans[0].get_or_init(|| EquationPlan::new(mechanism, machine, Vec::new()));
+        let plan = self.plans[3].get_or_init(|| EquationPlan::for_steps(mechanism, machine));
         equations::step(py, (mechanism, machine, plan), &environments, steps, threads)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::branch::design::Design;
 use crate::math::angle::MAX_TURNED;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::plan::plan::Plan;
 use crate::state::state::State;
@@ -89,9 +89,11 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
         if self.is_angle[..] == [true] {
             self.loaded.extend_from_slice(q);
         }
-        self.is_far = q.iter().any(|q| q.abs() > MAX_TURNED);
-        let units = design.units.coordinate.iter().cycle();
-        self.are_finite = q.iter().zip(units).all(|(q, unit)| (q * unit).is_finite());
+        (self.is_far, self.are_finite) = (false, true);
+        // No search that stops at the first: this reads them by vectors.
+        for q in q {
+            self.is_far |= q.abs() > MAX_TURNED;
+        }
         let drivers = self.is_angle.len();
         let positions = q.len() / drivers;
         self.registers = positions.div_ceil(R::LANES);
@@ -102,28 +104,24 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
         for (block, chunk) in self.blocks.iter_mut().zip(q.chunks(self.block * R::LANES * drivers))
         {
             let positions = chunk.len() / drivers;
+            block.by_position = false;
             for (driver, &is_angle) in self.is_angle.iter().enumerate() {
-                let scale = design.units.coordinate[driver];
-                // Lanes past the last position repeat it.
-                let at = |lane: usize| chunk[lane.min(positions - 1) * drivers + driver] * scale;
+                let scale = R::splat(design.units.coordinate[driver]);
                 let columns = block.q[driver].iter_mut().zip(&mut block.unit[driver]);
                 // A kernel may take two registers at once.
                 let used = positions.div_ceil(R::LANES) + 1;
                 for (g, (q, unit)) in columns.enumerate().take(used) {
-                    let first = g * R::LANES;
-                    *q = if drivers == 1 && first + R::LANES <= positions {
-                        let values = &chunk[first..][..R::LANES];
-                        R::from_lanes(|lane| values[lane]) * R::splat(scale)
-                    } else {
-                        R::from_lanes(|lane| at(first + lane))
-                    };
-                    if is_angle && g * R::LANES < positions {
+                    *q = read::<R>(chunk, drivers, driver, g * R::LANES) * scale;
+                    if g * R::LANES >= positions {
+                        continue;
+                    }
+                    self.are_finite &= q.finite().all();
+                    block.by_position |= drivers > 1 && design.cannot_follow(driver, *q);
+                    if is_angle {
                         *unit = Vector::at_angle(*q);
                     }
                 }
             }
-            let mut each = chunk.chunks_exact(drivers);
-            block.by_position = drivers > 1 && each.any(|q| design.cannot_follow(q));
         }
         true
     }
@@ -151,5 +149,19 @@ impl<R: Real, const G: usize> CoordinateRegisters<R, G> {
     #[inline(always)]
     pub(super) fn unit(&self, driver: usize, register: usize) -> Vector<R> {
         self.blocks[register / self.block].unit[driver][register % self.block]
+    }
+}
+
+/// The numbers of a driver at the positions from `first` on; lanes past the last position repeat it.
+#[inline(always)]
+fn read<R: Real>(chunk: &[f64], drivers: usize, driver: usize, first: usize) -> R {
+    // Widths known to the compiler are read by few instructions.
+    match (chunk.get(first * drivers..(first + R::LANES) * drivers), drivers) {
+        (Some(all), 1) => R::read(all),
+        (Some(all), 2) => R::from_lanes(|lane| all[2 * lane + driver]),
+        _ => {
+            let last = chunk.len() / drivers - 1;
+            R::from_lanes(|lane| chunk[(first + lane).min(last) * drivers + driver])
+        }
     }
 }

@@ -44,7 +44,34 @@ impl RowRange {
     }
 }
 
+/// A column with [`Layout::Blocks`], to be written from a row on.
+pub(super) struct BlockColumn<'r> {
+    numbers: &'r mut [MaybeUninit<f64>],
+    first: usize,
+    width: usize,
+}
+
+impl BlockColumn<'_> {
+    /// Writes number `index` of each row in a register, which is number `g` from the first row on.
+    #[inline(always)]
+    pub(super) fn put<R: Real>(&mut self, g: usize, index: usize, x: R) {
+        let at = place_in_blocks(self.first + g * R::LANES, self.width, index);
+        x.write(&mut self.numbers[at..at + R::LANES]);
+    }
+}
+
 impl RowSlices<'_> {
+    /// A column of some width, with [`Layout::Blocks`].
+    #[inline(always)]
+    pub(super) fn blocks(
+        &mut self,
+        column: usize,
+        width: usize,
+        range: RowRange,
+    ) -> BlockColumn<'_> {
+        BlockColumn { numbers: &mut *self.columns[column], first: range.first, width }
+    }
+
     /// Prefetches rows that will be written through the caches.
     #[inline(always)]
     pub(crate) fn prefetch<R: Real>(&self, columns: &[Column], range: RowRange) {

@@ -11,7 +11,7 @@ use super::rows::{
 use crate::branch::design::Units;
 use crate::math::angle::Reference;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::{Real, place_in_blocks};
+use crate::math::lanes::Real;
 use crate::math::stride::Stride;
 use crate::math::vector::Vector;
 use crate::plan::constants::DesignConstants;
@@ -192,9 +192,10 @@ impl Writer {
             let offset = R::splat(entry.offset(constants));
             let (lifted, turns, entry) = (&lifted[entry.class], &entry.turns, &entry.row);
             if rows.layout == Layout::Blocks {
+                let mut column = rows.blocks(entry.column, entry.width, range);
                 for g in 0..range.count.div_ceil(R::LANES) {
                     let angle = of_link::<R, R, G>(lifted[g], turns, &state.pose.q, g) + offset;
-                    rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, angle));
+                    column.put(g, entry.index, or_nan::<R, R, G>(failed, g, angle));
                 }
                 continue;
             }
@@ -224,10 +225,11 @@ impl Writer {
             let (turns, entry) = (&entry.turns, &entry.row);
             if rows.layout == Layout::Blocks {
                 let offset = R::splat(entry_offset);
+                let mut column = rows.blocks(entry.column, entry.width, range);
                 for g in 0..range.count.div_ceil(R::LANES) {
                     let angle = reference.lift(units[g].unit_angle(), state.pose.q[0][g]);
                     let angle = of_link::<R, R, G>(angle, turns, &state.pose.q, g) + offset;
-                    rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, angle));
+                    column.put(g, entry.index, or_nan::<R, R, G>(failed, g, angle));
                 }
                 continue;
             }
@@ -254,7 +256,11 @@ impl Writer {
         failed: Option<&[R::Mask; G]>,
     ) {
         if rows.layout == Layout::Blocks {
-            self.write_jets_in_blocks(rows, range, (constants, unit), state, failed);
+            // A copy without failed lanes: its loops have no condition.
+            match failed {
+                None => self.write_jets_in_blocks(rows, range, (constants, unit), state, None),
+                _ => self.write_jets_in_blocks(rows, range, (constants, unit), state, failed),
+            }
             return;
         }
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
@@ -331,35 +337,39 @@ impl Writer {
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         let groups = range.count.div_ceil(R::LANES);
         for entry in &self.points {
+            let mut column = rows.blocks(entry.column, entry.width, range);
             let scale = R::splat(unit.length[entry.k]);
             let shift = if entry.k == 0 { Some(origin) } else { None };
             for g in 0..groups {
                 let p = scaled(state.pose.points[entry.source][g], scale, shift);
-                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, p.x));
-                rows.put(entry, range, g, entry.index + entry.y, or_nan::<R, R, G>(failed, g, p.y));
+                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, p.x));
+                column.put(g, entry.index + entry.y, or_nan::<R, R, G>(failed, g, p.y));
             }
         }
         for entry in &self.slides {
+            let mut column = rows.blocks(entry.column, entry.width, range);
             let scale = R::splat(unit.length[entry.k]);
             for g in 0..groups {
                 let value = state.pose.slides[entry.source][g] * scale;
-                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, value));
+                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, value));
             }
         }
         for DirectionEntry { row: entry, class, driven } in &self.directions {
+            let mut column = rows.blocks(entry.column, entry.width, range);
             let turn = Vector::splat(constants.turn[entry.source]);
             for g in 0..groups {
                 let unit = direction(state, *class, *driven, turn, g);
-                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, unit.x));
+                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, unit.x));
                 let y = or_nan::<R, R, G>(failed, g, unit.y);
-                rows.put(entry, range, g, entry.index + entry.y, y);
+                column.put(g, entry.index + entry.y, y);
             }
         }
         for entry in &self.rates {
+            let mut column = rows.blocks(entry.column, entry.width, range);
             for g in 0..groups {
                 let rate = state.pose.theta[entry.source][g] + R::splat(entry.driven);
                 let rate = entry.scaled_rate(rate, unit);
-                rows.put(entry, range, g, entry.index, or_nan::<R, R, G>(failed, g, rate));
+                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, rate));
             }
         }
     }
@@ -458,13 +468,6 @@ impl RowEntry {
 }
 
 impl RowSlices<'_> {
-    /// Writes a register of rows, number `g` of a range, with [`Layout::Blocks`].
-    #[inline(always)]
-    fn put<R: Real>(&mut self, entry: &RowEntry, range: RowRange, g: usize, index: usize, x: R) {
-        let at = place_in_blocks(range.first + g * R::LANES, entry.width, index);
-        x.write(&mut self.columns[entry.column][at..at + R::LANES]);
-    }
-
     /// The rows of an entry's column.
     #[inline(always)]
     fn of(&mut self, entry: &RowEntry, range: RowRange) -> &mut [MaybeUninit<f64>] {

@@ -9,7 +9,7 @@ use super::design::Design;
 use super::knot::{ChangePoint, InitialGuess};
 use super::location::BranchLocation;
 use crate::math::derivatives::DerivativeTables;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::{CHANGE_WIDTH, SMOOTH_CLOSURE};
 use crate::math::vector::Vector;
 use crate::plan::dyad::Unknown;
@@ -100,11 +100,11 @@ impl Design<'_> {
         q.iter().zip(&self.q0).any(|(a, b)| (a - b).abs() > MAX_DISTANCE)
     }
 
-    /// Whether one of several drivers is too far from the drawing to be followed, or not finite;
-    /// `q`: one position, rad or m.
-    pub(crate) fn cannot_follow(&self, q: &[f64]) -> bool {
-        let scaled = q.iter().zip(&self.units.coordinate).map(|(q, unit)| q * unit);
-        !scaled.zip(&self.q0).all(|(a, b)| (a - b).abs() <= MAX_DISTANCE)
+    /// Whether one of several drivers is somewhere too far from the drawing to be followed, or not finite;
+    /// `q`: its coordinates, scaled.
+    #[inline(always)]
+    pub(crate) fn cannot_follow<R: Real>(&self, driver: usize, q: R) -> bool {
+        !(q - R::splat(self.q0[driver])).abs().le(R::splat(MAX_DISTANCE)).all()
     }
 
     /// The branch to one position (scaled coordinates); `None` if a coordinate is not finite or too

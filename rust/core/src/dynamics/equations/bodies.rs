@@ -16,6 +16,8 @@ pub(super) struct Partials<'p> {
     pub sources: &'p Sources,
     pub solved: &'p Solved<'p>,
     pub rows: Rows,
+    /// The number of drivers, which the compiler may know.
+    pub drivers: usize,
 }
 
 impl Partials<'_> {
@@ -23,7 +25,7 @@ impl Partials<'_> {
     #[inline(always)]
     pub(super) fn point<R: Real>(self, point: usize, a: usize) -> Vector<R> {
         match self.sources.points[point] {
-            Some(column) => self.rows.pairs(self.solved.columns[column + 1], self.plan.drivers, a),
+            Some(column) => self.rows.pairs(self.solved.columns[column + 1], self.drivers, a),
             None => Vector::ZERO,
         }
     }
@@ -33,26 +35,40 @@ impl Partials<'_> {
     pub(super) fn angle<R: Real>(self, link: usize, a: usize) -> R {
         match (self.sources.rates[link], &self.plan.turns[link]) {
             (_, Some(turns)) => R::splat(turns[a]),
-            (Some(column), None) => {
-                self.rows.solved(self.solved.columns[column], self.plan.drivers, a)
-            }
+            (Some(column), None) => self.rows.solved(self.solved.columns[column], self.drivers, a),
             (None, None) => R::ZERO,
+        }
+    }
+
+    /// Whether the drivers alone turn a link, so that its second derivatives vanish.
+    #[inline(always)]
+    pub(super) fn turns_by_drivers_alone(self, link: usize) -> bool {
+        self.sources.rates[link].is_none() || self.plan.turns[link].is_some()
+    }
+
+    /// Direction of a link's x axis, which is solved.
+    #[inline(always)]
+    pub(super) fn direction<R: Real>(self, link: usize) -> Vector<R> {
+        match self.sources.directions[link] {
+            Some(column) => self.rows.pairs(self.solved.columns[column], 1, 0),
+            None => Vector::ONE,
         }
     }
 
     /// Derivative of a point of the closure by drivers `a` and `b`.
     #[inline(always)]
-    fn second_point<R: Real>(self, point: usize, [a, b]: [usize; 2]) -> Vector<R> {
-        let n = self.plan.drivers;
+    pub(super) fn second_point<R: Real>(self, point: usize, [a, b]: [usize; 2]) -> Vector<R> {
+        let n = self.drivers;
         match self.sources.points[point] {
             Some(column) => self.rows.pairs(self.solved.columns[column + 2], n * n, a * n + b),
             None => Vector::ZERO,
         }
     }
 
+    /// Derivative of a link's angle by drivers `a` and `b`.
     #[inline(always)]
-    fn second_angle<R: Real>(self, link: usize, [a, b]: [usize; 2]) -> R {
-        let n = self.plan.drivers;
+    pub(super) fn second_angle<R: Real>(self, link: usize, [a, b]: [usize; 2]) -> R {
+        let n = self.drivers;
         match (self.sources.rates[link], &self.plan.turns[link]) {
             (Some(column), None) => {
                 self.rows.solved(self.solved.columns[column + 1], n * n, a * n + b)
@@ -115,7 +131,7 @@ impl Partials<'_> {
     /// Adds a body to the mass matrix, the lower half of which is kept, row by row.
     #[inline(always)]
     pub(super) fn add_mass<R: Real>(self, scene: &Scene<R>, body: &Body, mass: &mut [R]) {
-        let n = self.plan.drivers;
+        let n = self.drivers;
         let (m, inertia) = (R::splat(body.mass), R::splat(body.inertia));
         for a in 0..n {
             let (first, turning) = (self.place(scene, body.at, a), self.turning::<R>(body, a));
@@ -133,7 +149,7 @@ impl Partials<'_> {
     /// Adds a body to the derivatives of the mass matrix, n × n × n with the coordinate's axis last.
     #[inline(always)]
     pub(super) fn add_mass_rates<R: Real>(self, scene: &Scene<R>, body: &Body, rates: &mut [R]) {
-        let n = self.plan.drivers;
+        let n = self.drivers;
         let (m, inertia) = (R::splat(body.mass), R::splat(body.inertia));
         for a in 0..n {
             let (place_a, angle_a) = (self.place(scene, body.at, a), self.turning::<R>(body, a));

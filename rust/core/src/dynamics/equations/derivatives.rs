@@ -245,9 +245,9 @@ impl<'b> DerivativeBatch<'b> {
                 scene.points[point] = Moving { at: Vector::new(x, y), ..scene.points[point] };
             }
         }
-        scene.read(plan, batch.sources, &positions.guides, &solved, rows);
+        scene.read(plan, batch.sources, positions.guides, &solved, rows);
         if let Direction::Dimension(index) = direction {
-            self.turn_guides(scene, &positions.guides, index);
+            self.turn_guides(scene, positions.guides, index);
         }
         let external: Vec<f64> = {
             let callbacks = positions.values.callbacks;
@@ -262,7 +262,8 @@ impl<'b> DerivativeBatch<'b> {
             callbacks: positions.values.callbacks,
         };
         scene.apply(plan, batch.machine, values, rows);
-        let partials = Partials { plan, sources: batch.sources, solved: &solved, rows };
+        let drivers = plan.drivers;
+        let partials = Partials { plan, sources: batch.sources, solved: &solved, rows, drivers };
         equation.read(&self.equations, scene, partials);
         if self.equations.request.terms.contains(&Term::Acceleration) {
             equation.accelerate(effort, rows);
@@ -337,8 +338,13 @@ impl<'b> DerivativeBatch<'b> {
         let columns: Vec<&[f64]> = space.row.columns.iter().map(Vec::as_slice).collect();
         let solved = Solved { columns: &columns, speed: &[], acceleration: &[], positions: 1 };
         let (plan, sources) = (self.dual.forces, self.dual.sources);
-        let partials =
-            Partials { plan, sources, solved: &solved, rows: Rows { first: 0, last: 0 } };
+        let partials = Partials {
+            plan,
+            sources,
+            solved: &solved,
+            rows: Rows { first: 0, last: 0 },
+            drivers: n,
+        };
         for (out, &term) in results.columns.iter_mut().zip(self.equations.request.terms) {
             let width = term.width(n);
             for entry in 0..width {

@@ -3,6 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::bodies::Partials;
+use super::direct::Direct;
 use super::equation_batch::EquationBatch;
 use super::request::Term;
 use super::solve::solve_positive;
@@ -20,13 +21,14 @@ use crate::structure::closure::point_of_joint;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Equation<R> {
     /// Lower half of the mass matrix, row by row.
-    mass: Vec<R>,
+    pub(super) mass: Vec<R>,
     rates: Vec<R>,
-    bias: Vec<R>,
+    pub(super) bias: Vec<R>,
     gravity: Vec<R>,
     /// Matrix and right side while accelerations are solved for.
     factor: Vec<R>,
     right: Vec<R>,
+    pub(super) direct: Direct<R>,
 }
 
 /// The equations of one design at some positions.
@@ -51,10 +53,10 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
         self.scene.place_known(self.design.known);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            self.scene.read(plan, sources, &self.design.guides, &self.design.solved, rows);
+            self.scene.read(plan, sources, self.design.guides, &self.design.solved, rows);
             self.scene.apply(plan, machine, self.design.values, rows);
             let solved = &{ self.design.solved };
-            let partials = Partials { plan, sources, solved, rows };
+            let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
             self.equation.read(self.batch, self.scene, partials);
             self.write(partials, first, R::LANES.min(count - first));
         }
@@ -104,15 +106,7 @@ impl<R: Real> Equation<R> {
         if needs(&[Term::Bias, Term::Effort, Term::Acceleration]) {
             self.bias.clear();
             for a in 0..n {
-                let mut power = R::ZERO;
-                for link in 0..plan.reference.len() {
-                    if link != plan.ground {
-                        let rate: Vector<R> = partials.point(plan.reference[link], a);
-                        power += scene.link_force[link].dot(rate)
-                            + scene.link_moment[link] * partials.angle(link, a);
-                    }
-                }
-                self.bias.push(-power);
+                self.bias.push(-power(scene, partials, a));
             }
         }
         if needs(&[Term::Gravity]) {
@@ -126,6 +120,14 @@ impl<R: Real> Equation<R> {
                 }
                 self.gravity.push(-power);
             }
+        }
+    }
+
+    /// Adds the forces on links to the bias.
+    #[inline(always)]
+    pub(super) fn add_forces(&mut self, scene: &Scene<R>, partials: Partials<'_>) {
+        for (a, bias) in self.bias.iter_mut().enumerate() {
+            *bias = *bias - power(scene, partials, a);
         }
     }
 
@@ -228,4 +230,19 @@ impl<R: Real> Evaluate<'_, '_, R> {
             column[row * width..(row + 1) * width].fill(MaybeUninit::new(f64::NAN));
         }
     }
+}
+
+/// The power of the forces on all links at a unit speed of driver `a`.
+#[inline(always)]
+fn power<R: Real>(scene: &Scene<R>, partials: Partials<'_>, a: usize) -> R {
+    let plan = partials.plan;
+    let mut power = R::ZERO;
+    for link in 0..plan.reference.len() {
+        if link != plan.ground {
+            let rate: Vector<R> = partials.point(plan.reference[link], a);
+            power += scene.link_force[link].dot(rate)
+                + scene.link_moment[link] * partials.angle(link, a);
+        }
+    }
+    power
 }

@@ -9,6 +9,7 @@
 mod batch;
 mod bodies;
 mod derivatives;
+mod direct;
 mod dual_row;
 mod equation_batch;
 mod evaluate;

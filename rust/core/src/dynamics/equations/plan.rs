@@ -32,33 +32,41 @@ impl EquationPlan {
     /// Compiles a machine; `joints`: those whose Jacobians may be requested.
     #[must_use]
     pub fn new(mechanism: &Mechanism, machine: &Machine, joints: Vec<usize>) -> Self {
-        Self::compiled(mechanism, machine, joints, false)
+        let mut forces = ForcePlan::for_equations(mechanism, machine, order(machine));
+        for &joint in &joints {
+            forces.need_joint(joint);
+        }
+        let mut compiled = Self::compiled(mechanism, machine, forces, false);
+        compiled.joints = joints;
+        compiled
+    }
+
+    /// Compiles a machine for steps in time, which read its bodies and loaded links alone.
+    #[must_use]
+    pub fn for_steps(mechanism: &Mechanism, machine: &Machine) -> Self {
+        let forces = ForcePlan::for_steps(mechanism, machine, order(machine));
+        Self::compiled(mechanism, machine, forces, false)
     }
 
     /// Compiles a machine whose terms are to be differentiated: it is solved to one order more, with what
     /// derivatives by dimensions need.
     #[must_use]
     pub fn for_derivatives(mechanism: &Mechanism, machine: &Machine) -> Self {
-        Self::compiled(mechanism, machine, Vec::new(), true)
+        let forces = ForcePlan::for_equations(mechanism, machine, order(machine));
+        Self::compiled(mechanism, machine, forces, true)
     }
 
     fn compiled(
         mechanism: &Mechanism,
         machine: &Machine,
-        joints: Vec<usize>,
+        mut forces: ForcePlan,
         differentiates: bool,
     ) -> Self {
-        let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
-        let order = if has_inertia { 2 } else { 1 };
-        let mut forces = ForcePlan::for_equations(mechanism, machine, order);
-        for &joint in &joints {
-            forces.need_joint(joint);
-        }
         let solved_order = if differentiates {
             add_outputs(&mut forces.outputs, &SensitivityPlan::new(mechanism, &[]).outputs);
-            order + 1
+            forces.order + 1
         } else {
-            order
+            forces.order
         };
         let derivatives = DerivativeTables::new(forces.drivers, solved_order);
         let request = Request {
@@ -74,7 +82,7 @@ impl EquationPlan {
         for motor in &machine.motors {
             rotors[motor.driver] += motor.inertia();
         }
-        Self { forces, solved_order, derivatives, writer, sources, rotors, joints }
+        Self { forces, solved_order, derivatives, writer, sources, rotors, joints: Vec::new() }
     }
 
     /// About how many times as long as a slider-crank a position takes: groups above class II are solved by
@@ -100,6 +108,12 @@ impl EquationPlan {
         }
         Ok(())
     }
+}
+
+/// Order of the derivatives that the equations of a machine read.
+fn order(machine: &Machine) -> usize {
+    let has_inertia = machine.bodies.iter().any(|b| b.mass != 0.0 || b.inertia != 0.0);
+    if has_inertia { 2 } else { 1 }
 }
 
 /// Adds what derivatives by dimensions read, and the turning of every link whose direction is read.

@@ -74,9 +74,14 @@ impl StageArrays {
 
     /// Keeps the states of the environments that have not failed.
     pub(super) fn keep_good(&mut self, q: &[f64], speed: &[f64], status: &[u8]) {
+        if !some_failed(status) {
+            self.good_q.copy_from_slice(q);
+            self.good_speed.copy_from_slice(speed);
+            return;
+        }
         let n = q.len() / status.len().max(1);
         for (row, &status) in status.iter().enumerate() {
-            if status <= Status::NearSingular as u8 {
+            if !has_failed(status) {
                 let range = row * n..(row + 1) * n;
                 self.good_q[range.clone()].copy_from_slice(&q[range.clone()]);
                 self.good_speed[range.clone()].copy_from_slice(&speed[range]);
@@ -92,9 +97,14 @@ impl StageArrays {
     /// Begins the next step where the last stage ended; environments that have failed stay where they
     /// were.
     pub(super) fn finish_step(&mut self, status: &[u8], n: usize) {
+        if !some_failed(status) {
+            self.q.copy_from_slice(&self.stage_q);
+            self.speed.copy_from_slice(&self.stage_speed);
+            return;
+        }
         for (row, &status) in status.iter().enumerate() {
             let range = row * n..(row + 1) * n;
-            if status > Status::NearSingular as u8 {
+            if has_failed(status) {
                 self.stage_q[range.clone()].copy_from_slice(&self.good_q[range.clone()]);
                 self.stage_speed[range].fill(0.0);
             } else {
@@ -130,10 +140,14 @@ impl<R: Real> Task<R> for Stage<'_, R> {
         self.scene.place_known(self.design.known);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            self.scene.read(plan, sources, &self.design.guides, solved, rows);
-            self.scene.apply(plan, machine, self.design.values, rows);
-            let partials = Partials { plan, sources, solved, rows };
-            self.equation.read(self.batch, self.scene, partials);
+            let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
+            self.equation.read_bodies(self.batch, partials, self.speed);
+            if !plan.load_actions.is_empty() {
+                self.scene.read(plan, sources, self.design.guides, solved, rows);
+                self.scene.clear_forces();
+                self.scene.apply_loads(plan, machine, self.design.values, rows);
+                self.equation.add_forces(self.scene, partials);
+            }
             self.equation.accelerate(self.effort, rows);
             self.advance(rows, R::LANES.min(count - first));
         }
@@ -164,23 +178,26 @@ impl<R: Real> Stage<'_, R> {
             }
             let last = self.number == 3;
             let toward = if last { (slope_q, slope_speed) } else { (speed, acceleration) };
-            let next_q = read(&self.arrays.q) + way * toward.0;
+            let start_q = read(&self.arrays.q);
+            let next_q = start_q + way * toward.0;
             let next_speed = read(&self.arrays.speed) + way * toward.1;
             let longest = match self.batch.positions.plan.driven_links[driver] {
                 Some(_) => LONGEST,
                 None => LONGEST * self.design.size,
             };
-            let gone = (next_q - read(&self.arrays.q)).abs();
+            let gone = (next_q - start_q).abs();
             let is_fine = gone.le(R::splat(longest)).and(next_speed.finite());
             if !is_fine.all() {
                 self.note_failures(rows.first, lanes, next_speed, is_fine);
             }
-            for lane in 0..lanes {
-                let at = (rows.first + lane) * n + driver;
-                self.arrays.sum_q[at] = slope_q.lane(lane);
-                self.arrays.sum_speed[at] = slope_speed.lane(lane);
-                self.arrays.next_q[at] = next_q.lane(lane);
-                self.arrays.next_speed[at] = next_speed.lane(lane);
+            let now = rows.first * n..(rows.first + lanes) * n;
+            for (values, number) in [
+                (&mut self.arrays.sum_q, slope_q),
+                (&mut self.arrays.sum_speed, slope_speed),
+                (&mut self.arrays.next_q, next_q),
+                (&mut self.arrays.next_speed, next_speed),
+            ] {
+                write_driver(&mut values[now.clone()], n, driver, number);
             }
         }
     }
@@ -200,6 +217,35 @@ impl<R: Real> Stage<'_, R> {
             note(&mut self.status[row], now);
         }
     }
+}
+
+/// Writes the number of a driver at each position, drivers fastest.
+#[inline(always)]
+fn write_driver<R: Real>(values: &mut [f64], n: usize, driver: usize, number: R) {
+    // Widths known to the compiler are written by few instructions.
+    if n == 1 && values.len() == R::LANES {
+        for lane in 0..R::LANES {
+            values[lane] = number.lane(lane);
+        }
+    } else if n == 2 && values.len() == 2 * R::LANES {
+        for lane in 0..R::LANES {
+            values[2 * lane + driver] = number.lane(lane);
+        }
+    } else {
+        for (lane, values) in values.chunks_exact_mut(n).enumerate() {
+            values[driver] = number.lane(lane);
+        }
+    }
+}
+
+fn has_failed(status: u8) -> bool {
+    status > Status::NearSingular as u8
+}
+
+/// Whether an environment has failed.
+fn some_failed(status: &[u8]) -> bool {
+    // No search that stops at the first: this reads them by vectors.
+    status.iter().fold(false, |failed, &status| failed | has_failed(status))
 }
 
 /// Keeps the worst status; of failures the first, which causes the others.

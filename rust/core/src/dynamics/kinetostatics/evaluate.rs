@@ -50,7 +50,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
         self.squares.resize(request.reactions.len(), Squares::NONE);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            self.scene.read(plan, sources, &self.design.guides, &self.design.solved, rows);
+            self.scene.read(plan, sources, self.design.guides, &self.design.solved, rows);
             self.scene.apply(plan, machine, self.design.values, rows);
             if !friction.is_empty() {
                 self.apply_friction(rows);

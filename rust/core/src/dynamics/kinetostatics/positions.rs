@@ -45,6 +45,7 @@ pub(crate) struct Positions<'b, R: Real, const G: usize> {
     tables: Vec<Vec<f64>>,
     followed: Followed,
     known: Vec<(usize, Vector)>,
+    guides: Vec<Vector>,
 }
 
 /// The solved positions of one design of a chunk.
@@ -55,7 +56,7 @@ pub(crate) struct DesignPositions<'d> {
     pub rows: Range<usize>,
     /// The size of the design, m.
     pub size: f64,
-    pub guides: Vec<Vector>,
+    pub guides: &'d [Vector],
     /// Points of the ground that are known for the design.
     pub known: &'d [(usize, Vector)],
     /// The bound design, unless it has invalid dimensions, and its dimensions.
@@ -100,6 +101,7 @@ impl<'b> MachineBatch<'b> {
             tables: vec![Vec::new(); self.machine.tables.len()],
             followed: Followed::default(),
             known: Vec::new(),
+            guides: Vec::new(),
         }
     }
 
@@ -130,13 +132,16 @@ impl<'b> MachineBatch<'b> {
         each: &mut impl FnMut(DesignPositions<'_>),
     ) -> bool {
         let drivers = self.motion.shape.drivers;
-        let Positions { motion, tables, followed, known } = state;
+        let Positions { motion, tables, followed, known, guides } = state;
         let mut is_valid = true;
         self.motion.solve::<L, G>(motion, asked, |design| {
             is_valid = design.is_valid;
-            known.clear();
-            let points = (0..self.plan.points.len()).filter(|&point| self.plan.is_known[point]);
-            known.extend(points.map(|point| (point, design.design.fixed_point(point))));
+            if asked.binds {
+                known.clear();
+                let points = (0..self.plan.points.len()).filter(|&point| self.plan.is_known[point]);
+                known.extend(points.map(|point| (point, design.design.fixed_point(point))));
+                *guides = guide_directions(self.motion.mechanism, design.dimensions);
+            }
             let size = design.design.constants.scale;
             for (table, values) in self.machine.tables.iter().zip(tables.iter_mut()) {
                 values.clear();
@@ -160,7 +165,7 @@ impl<'b> MachineBatch<'b> {
                 index: design.index,
                 rows,
                 size,
-                guides: guide_directions(self.motion.mechanism, design.dimensions),
+                guides,
                 known,
                 design: is_valid.then_some(design.design),
                 dimensions: design.dimensions,

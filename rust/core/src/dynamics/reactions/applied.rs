@@ -64,6 +64,25 @@ impl<R: Real> Scene<R> {
         rows: Rows,
     ) {
         self.apply_bodies(plan, machine);
+        self.apply_loads(plan, machine, values, rows);
+    }
+
+    /// Begins the sums of forces on links.
+    #[inline(always)]
+    pub(crate) fn clear_forces(&mut self) {
+        self.link_force.fill(Vector::ZERO);
+        self.link_moment.fill(R::ZERO);
+    }
+
+    /// Adds the loads to these sums.
+    #[inline(always)]
+    pub(crate) fn apply_loads(
+        &mut self,
+        plan: &ForcePlan,
+        machine: &Machine,
+        values: Values<'_>,
+        rows: Rows,
+    ) {
         for (index, load) in machine.loads.iter().enumerate() {
             self.loads[index] = self.strength(plan, load, values, rows);
         }
@@ -86,8 +105,7 @@ impl<R: Real> Scene<R> {
     /// Sums weights and inertia forces on every link.
     #[inline(always)]
     pub(crate) fn apply_bodies(&mut self, plan: &ForcePlan, machine: &Machine) {
-        self.link_force.fill(Vector::ZERO);
-        self.link_moment.fill(R::ZERO);
+        self.clear_forces();
         self.shaking_force = Vector::ZERO;
         self.shaking_moment = R::ZERO;
         let gravity = Vector::new(R::splat(machine.gravity[0]), R::splat(machine.gravity[1]));

@@ -107,6 +107,31 @@ impl ForcePlan {
     /// Compiles a machine for its equations of motion: the derivatives of all links by the drivers, to an
     /// order, and of the angles no more than loads read.
     pub(crate) fn for_equations(mechanism: &Mechanism, machine: &Machine, order: usize) -> Self {
+        let mut compiled = Self::by_drivers(mechanism, machine, order);
+        compiled.find_needs(mechanism, machine);
+        for link in 0..compiled.reference.len() {
+            compiled.need_rate(link);
+        }
+        compiled.leave_out_unread(machine);
+        compiled
+    }
+
+    /// The same of the bodies and the loaded links alone.
+    pub(crate) fn for_steps(mechanism: &Mechanism, machine: &Machine, order: usize) -> Self {
+        let mut compiled = Self::by_drivers(mechanism, machine, order);
+        compiled.find_needs_of_parts(mechanism, machine);
+        for link in machine.load_actions(mechanism).iter().map(|action| action.link) {
+            if link != compiled.ground {
+                compiled.need_point(compiled.reference[link]);
+                compiled.need_rate(link);
+            }
+        }
+        compiled.leave_out_unread(machine);
+        compiled
+    }
+
+    /// A plan without needs, whose links turn as the drivers tell, and whose directions are solved.
+    fn by_drivers(mechanism: &Mechanism, machine: &Machine, order: usize) -> Self {
         let mut compiled = Self::without_needs(mechanism, machine);
         compiled.spares_angles = true;
         compiled.order = order;
@@ -123,18 +148,18 @@ impl ForcePlan {
                 *direction = Direction::Solved;
             }
         }
-        compiled.find_needs(mechanism, machine);
-        for link in 0..compiled.reference.len() {
-            compiled.need_rate(link);
-        }
-        let outputs = &mut compiled.outputs;
+        compiled
+    }
+
+    /// Leaves out rates that come with angles, and slides that nothing follows.
+    fn leave_out_unread(&mut self, machine: &Machine) {
+        let outputs = &mut self.outputs;
         outputs.rates.retain(|link| !outputs.links.contains(link));
         let follows_slides = |measure: &Measure| matches!(measure, Measure::Slide(_));
         let mut measures = machine.over.iter().map(|over| &over.measure).chain(&machine.ways);
         if !measures.any(follows_slides) {
             outputs.slides.clear();
         }
-        compiled
     }
 
     fn without_needs(mechanism: &Mechanism, machine: &Machine) -> Self {
@@ -223,6 +248,12 @@ impl ForcePlan {
                 }
             }
         }
+        self.find_needs_of_parts(mechanism, machine);
+    }
+
+    /// Finds the quantities that bodies, loads and friction read.
+    fn find_needs_of_parts(&mut self, mechanism: &Mechanism, machine: &Machine) {
+        let linkage = mechanism.linkage();
         for friction in &machine.friction {
             if let &Friction::Joint { joint, .. } = friction {
                 linkage.links_at(joint).for_each(|link| self.need_rate(link));
