@@ -19,6 +19,7 @@ use crate::convert::friction::PairFriction;
 use crate::convert::load::loads;
 use crate::convert::motor::motors;
 use crate::convert::value::{FEW_ROWS, Values};
+use crate::convert::varied::{Varied, VariedKey};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::equations::{self, DirectionKey, TermKey};
@@ -48,12 +49,16 @@ pub(crate) struct Machine {
     load_functions: usize,
     /// Its compiled equations of motion: without Jacobians of joints, with all of them, for derivatives.
     plans: [OnceLock<EquationPlan>; 3],
+    /// The numbers that differ from machine to machine of a batch.
+    varied: Varied,
 }
 
 #[pymethods]
 impl Machine {
-    /// Reads the dataclasses of loads, bodies by link, motors by driver, and friction by pair.
+    /// Reads the dataclasses of loads, bodies by link, motors by driver, and friction by pair, and the numbers
+    /// that vary from machine to machine.
     #[new]
+    #[pyo3(signature = (mechanism, bodies, loads, motors, friction, varied = Vec::new()))]
     fn new(
         py: Python<'_>,
         mechanism: Py<Mechanism>,
@@ -61,6 +66,7 @@ impl Machine {
         loads: Vec<Bound<'_, PyAny>>,
         motors: Vec<Option<Bound<'_, PyAny>>>,
         friction: Vec<(String, PairFriction)>,
+        varied: Vec<VariedKey<'_>>,
     ) -> PyResult<Self> {
         let core = &mechanism.bind(py).get().inner;
         catch_panic(|| {
@@ -84,13 +90,15 @@ impl Machine {
                 motors,
                 friction,
             };
-            Ok((machine, functions, load_functions))
+            let varied = Varied::new(&machine, &varied)?;
+            Ok((machine, functions, load_functions, varied))
         })
-        .map(|(machine, functions, load_functions)| Self {
+        .map(|(machine, functions, load_functions, varied)| Self {
             inner: Inner::Mechanism(mechanism, machine),
             functions,
             load_functions,
             plans: Default::default(),
+            varied,
         })
     }
 
@@ -115,7 +123,13 @@ impl Machine {
             let motors = motors(&[motor], &mut values)?;
             let Values { tables, functions, .. } = values;
             let inner = Inner::Tables(TabulatedMachine { tables, motors });
-            Ok(Self { inner, functions, load_functions: 0, plans: Default::default() })
+            Ok(Self {
+                inner,
+                functions,
+                load_functions: 0,
+                plans: Default::default(),
+                varied: Varied::default(),
+            })
         })
     }
 
@@ -161,6 +175,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
+        self.varied.refuse()?;
         self.of_mechanism(py, |core, machine| machine.stations(core, &dimensions, [start, end]))
     }
 
@@ -172,6 +187,7 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
+        self.varied.refuse()?;
         self.of_mechanism(py, |core, machine| machine.reversals(core, &dimensions, [start, end]))
     }
 
@@ -183,6 +199,7 @@ impl Machine {
         dimensions: Vec<f64>,
         q: Vec<f64>,
     ) -> PyResult<Option<(f64, f64, f64)>> {
+        self.varied.refuse()?;
         let uncovered =
             self.of_mechanism(py, |core, machine| machine.uncovered(core, &dimensions, &q))?;
         Ok(uncovered.map(|([from, to], at)| (from, to, at)))
@@ -247,7 +264,9 @@ impl Machine {
         };
         let mechanism = &mechanism.get().inner;
         let inputs = [&dimensions, &q, &speed, &function_values];
-        reduce::reduce(py, (mechanism, machine), inputs, &sense, threads, &report)
+        let variations = self.varied.variations();
+        let of = (mechanism, machine, &variations[..]);
+        reduce::reduce(py, of, inputs, &sense, threads, &report)
     }
 
     /// The requested `reactions` of designs at positions; the other arguments are those of `reduce`.
@@ -270,6 +289,7 @@ impl Machine {
         threads: Option<NonZeroUsize>,
         report: Vec<usize>,
     ) -> PyResult<reactions::Found<'py>> {
+        self.varied.refuse()?;
         let Inner::Mechanism(mechanism, machine) = &self.inner else {
             return Err(error::input("a machine of a table has no joints", None));
         };
@@ -338,7 +358,8 @@ impl Machine {
                 EquationPlan::new(mechanism, machine, (0..all).collect())
             })
         };
-        let of = (mechanism, machine, plan);
+        let variations = self.varied.variations();
+        let of = (mechanism, machine, plan, &variations[..]);
         equations::equations(py, of, &inputs, (&terms, by.as_deref()), threads, &report)
     }
 
@@ -363,7 +384,9 @@ impl Machine {
         let environments =
             equations::Environments { dimensions, q, speed, effort, has_motors, holds, rows };
         let plan = self.plans[0].get_or_init(|| EquationPlan::new(mechanism, machine, Vec::new()));
-        equations::step(py, (mechanism, machine, plan), &environments, steps, threads)
+        let variations = self.varied.variations();
+        let of = (mechanism, machine, plan, &variations[..]);
+        equations::step(py, of, &environments, steps, threads)
     }
 
     /// Positions of rest of one design.
@@ -375,6 +398,7 @@ impl Machine {
         is_turn: bool,
         intervals: u32,
     ) -> PyResult<equilibria::Found<'py>> {
+        self.varied.refuse()?;
         let range = EquilibriumRange { ends, is_turn, intervals };
         let dimensions = dimensions.as_slice()?;
         let equilibria = detach::run(py, false, |cancel| match &self.inner {
@@ -401,6 +425,7 @@ impl Machine {
         breaks: Vec<f64>,
         events: Vec<Bound<'_, PyAny>>,
     ) -> PyResult<Run> {
+        self.varied.refuse()?;
         let core = match &self.inner {
             Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
             Inner::Tables(_) => None,
@@ -466,7 +491,9 @@ impl Machine {
         let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let (q, speed, ends, events) = (&q, &speed, &ends, &events);
         let dimensions = &dimensions;
-        let runs = RunBatch { dimensions, designs, q, speed, ends, events, limit, options };
+        let variations = &self.varied.variations();
+        let runs =
+            RunBatch { dimensions, designs, q, speed, ends, events, variations, limit, options };
         if self.functions.is_empty() && functions.is_empty() {
             return batch::in_threads(py, source, &runs, only_ends, threads);
         }
@@ -494,6 +521,7 @@ impl Machine {
         flywheel: f64,
         fluctuation: Option<f64>,
     ) -> PyResult<(Run, SteadyNumbers)> {
+        self.varied.refuse()?;
         let Word(mean) = mean;
         let options = SteadyOptions {
             q,

@@ -9,11 +9,20 @@ import math
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, TypeAlias
 
-from assur._arrays import not_negative, real_number, short
+import numpy as np
+
+from assur._arrays import real_number, short
 from assur._summary import typed
 from assur._units import rpm as speed_of
 from assur._validate import whole_number
 from assur.dynamics.loads.load_values import Value, checked_value
+from assur.dynamics.loads.numbers import (
+    Numbers,
+    OfMachines,
+    not_negative_numbers,
+    numbers,
+    require_each,
+)
 from assur.dynamics.loads.table import Table, checked_ratio, replace_fields
 from assur.errors import InputError
 
@@ -23,19 +32,20 @@ MOST_POLES = 1000
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
 
-@dataclass(frozen=True)
-class ConstantTorque:
+@dataclass(frozen=True, eq=False)
+class ConstantTorque(OfMachines):
     """A motor whose torque does not depend on its speed.
 
     Parameters
     ----------
-    torque : float, Table or callable
-        Torque of the motor, N·m (driven slide: N); also a `Table` over q or a function of
+    torque : float, array_like, Table or callable
+        Torque of the motor, N·m (driven slide: N). Numbers of motors may be arrays, one for each
+        machine of a batch: see `Body`. Also a `Table` over q or a function of
         (t, q, speed), with the driver's coordinate and speed.
-    ratio : float
+    ratio : float or array_like
         Speed of the motor divided by that of the driver; negative if they turn in opposite
         directions.
-    rotor_inertia : float
+    rotor_inertia : float or array_like
         Moment of inertia of the rotor, kg·m²; referred to the driver, times ratio².
 
     Examples
@@ -48,27 +58,27 @@ class ConstantTorque:
 
     torque: Value
     _: KW_ONLY
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
+    ratio: Numbers = 1.0
+    rotor_inertia: Numbers = 0.0
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         replace_fields(self, torque=checked_value(self.torque, "ConstantTorque torque"))
 
 
-@dataclass(frozen=True)
-class LinearMotor:
+@dataclass(frozen=True, eq=False)
+class LinearMotor(OfMachines):
     """A motor whose torque falls linearly from `stall` at rest to 0 at `no_load`.
 
     For example a direct-current motor at constant voltage: torque = stall · (1 − speed / no_load).
 
     Parameters
     ----------
-    stall : float
+    stall : float or array_like
         Torque at rest, N·m.
-    no_load : float
+    no_load : float or array_like
         Speed at which the torque is 0, rad/s.
-    ratio, rotor_inertia : float
+    ratio, rotor_inertia : float or array_like
         See `ConstantTorque`.
 
     Examples
@@ -77,30 +87,32 @@ class LinearMotor:
     >>> motor = assur.LinearMotor(stall=40.0, no_load=150.0, ratio=10.0)
     """
 
-    stall: float
-    no_load: float
+    __repr__ = typed
+
+    stall: Numbers
+    no_load: Numbers
     _: KW_ONLY
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
+    ratio: Numbers = 1.0
+    rotor_inertia: Numbers = 0.0
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         _check_positive(self, "stall", "no_load")
 
 
-@dataclass(frozen=True)
-class InductionMotor:
+@dataclass(frozen=True, eq=False)
+class InductionMotor(OfMachines):
     """An induction motor: torque = 2 · breakdown / (s/slip + slip/s), s = 1 − speed/synchronous.
 
     Parameters
     ----------
-    breakdown : float
+    breakdown : float or array_like
         Greatest torque, N·m.
-    slip : float
+    slip : float or array_like
         Slip at that torque, as a fraction of the synchronous speed: above 0, at most 1.
-    synchronous : float
+    synchronous : float or array_like
         Speed of the rotating field, rad/s.
-    ratio, rotor_inertia : float
+    ratio, rotor_inertia : float or array_like
         See `ConstantTorque`.
 
     References
@@ -113,17 +125,22 @@ class InductionMotor:
     >>> motor = assur.InductionMotor(breakdown=60.0, slip=0.15, synchronous=157.1, ratio=10.0)
     """
 
-    breakdown: float
-    slip: float
-    synchronous: float
+    __repr__ = typed
+
+    breakdown: Numbers
+    slip: Numbers
+    synchronous: Numbers
     _: KW_ONLY
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
+    ratio: Numbers = 1.0
+    rotor_inertia: Numbers = 0.0
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         _check_positive(self, "breakdown", "slip", "synchronous")
-        if self.slip > 1.0:
+        if isinstance(self.slip, np.ndarray):
+            needed = "a fraction of the synchronous speed is needed, at most 1"
+            require_each(self.slip, self.slip <= 1.0, "InductionMotor slip", needed)
+        elif self.slip > 1.0:
             message = (
                 f"InductionMotor: slip is {self.slip:g}: a fraction of the synchronous speed is "
                 f"needed, at most 1 (15 % is 0.15)"
@@ -244,16 +261,27 @@ def _check_shaft(motor: Any) -> None:
     name = type(motor).__name__
     replace_fields(
         motor,
-        ratio=checked_ratio(motor.ratio, f"{name}: ratio"),
-        rotor_inertia=not_negative(motor.rotor_inertia, f"{name}: rotor_inertia"),
+        ratio=_checked_ratios(motor.ratio, f"{name}: ratio"),
+        rotor_inertia=not_negative_numbers(motor.rotor_inertia, f"{name}: rotor_inertia"),
     )
+
+
+def _checked_ratios(value: Any, what: str) -> Numbers:
+    ratios = numbers(value, what)
+    if isinstance(ratios, np.ndarray):
+        require_each(ratios, ratios != 0.0, what, "the motor would not turn")
+        return ratios
+    return checked_ratio(value, what)
 
 
 def _check_positive(motor: Any, *names: str) -> None:
     kind = type(motor).__name__
     for name in names:
-        value = real_number(getattr(motor, name), f"{kind} {name}")
-        if value <= 0.0:
+        value = numbers(getattr(motor, name), f"{kind} {name}")
+        if isinstance(value, np.ndarray):
+            needed = "it must be positive (a negative ratio turns the driver the other way)"
+            require_each(value, value > 0.0, f"{kind} {name}", needed)
+        elif value <= 0.0:
             message = (
                 f"{kind}: {name} is {value:g}, it must be positive (a negative ratio turns the "
                 "driver the other way)"

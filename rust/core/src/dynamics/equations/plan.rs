@@ -22,8 +22,6 @@ pub struct EquationPlan {
     pub(super) derivatives: DerivativeTables,
     pub(super) writer: Arc<Writer>,
     pub(super) sources: Sources,
-    /// Inertia of the rotors, driver by driver.
-    pub(super) rotors: Vec<f64>,
     /// Joints whose Jacobians may be requested.
     joints: Vec<usize>,
 }
@@ -70,11 +68,7 @@ impl EquationPlan {
         };
         let writer = Writer::of(mechanism, &derivatives, &request);
         let sources = Sources::new(&forces, &writer.columns);
-        let mut rotors = vec![0.0; forces.drivers];
-        for motor in &machine.motors {
-            rotors[motor.driver] += motor.inertia();
-        }
-        Self { forces, solved_order, derivatives, writer, sources, rotors, joints }
+        Self { forces, solved_order, derivatives, writer, sources, joints }
     }
 
     /// About how many times as long as a slider-crank a position takes: groups above class II are solved by
