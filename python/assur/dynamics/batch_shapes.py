@@ -35,7 +35,10 @@ def batch_shape(designs: tuple[int, ...], varied: Sequence[Varied]) -> tuple[int
 
 
 def shape_of_results(machine: MachineModel, positions: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the shape of results: q is a number, (N,) or S + (N,); of machines with arrays S, too."""
+    """Return the shape of results.
+
+    q is a number, (N,) or S + (N,); of machines with arrays a number, S or S + (N,).
+    """
     shape = machine.shape
     if not machine.varies:
         return _with_designs(positions, shape)

@@ -97,9 +97,9 @@ class Machine(MachineModel):
     -----
     Numbers of bodies, loads and motors may be arrays: then it is a batch of machines, each with its
     own numbers. Arrays go together with each other and with designs by NumPy's rules, to `shape`.
-    `dynamics`, `acceleration`, `d_effort`, `d_acceleration`, `linearize` and `step` take such
-    batches; q is there a number, of that shape S (one for each machine) or S + (N,). Other calls
-    take one machine, `design(i)`.
+    `dynamics`, `acceleration`, `d_effort`, `d_acceleration`, `linearize`, `step`, `run`, `effort`,
+    `reduced_inertia`, `reduced_moment` and `potential` take such batches; q is there a number, of
+    that shape S (one for each machine) or S + (N,). Other calls take one machine, `design(i)`.
 
     Raises
     ------

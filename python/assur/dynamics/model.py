@@ -315,8 +315,11 @@ class MachineModel:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the batch: of the designs and of the arrays in bodies, loads and motors, which go
-        together by NumPy's rules; () for one machine."""
+        """Shape of the batch; () for one machine.
+
+        It is that of the designs and of the arrays in bodies, loads and motors, which go together
+        by NumPy's rules.
+        """
         return self._shape
 
     def design(self, index: int | tuple[int, ...]) -> Self:

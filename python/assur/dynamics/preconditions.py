@@ -32,7 +32,7 @@ def without_arrays(machine: MachineModel, what: str) -> None:
     """Raise InputError for a machine whose bodies, loads or motors have arrays."""
     if machine.varies:
         message = (
-            f"{what} holds no arrays, and {machine.varies[0]} is one: take one machine with "
+            f"{what} takes no arrays, and {machine.varies[0]} is one: take one machine with "
             "design(i)"
         )
         raise InputError(message)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from assur._arrays import Float
 from assur.dynamics.loads.loads import Force, Gravity
 from assur.dynamics.loads.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from assur._arrays import Float
     from assur.dynamics.loads.loads import Body, Load
     from assur.dynamics.loads.motors import Motor
 
@@ -27,7 +27,7 @@ class Varied(NamedTuple):
 
     # "body", "load" or "motor", and its index there.
     part: str
-    index: int
+    place: int
     field: str
     # What messages call it.
     name: str
@@ -90,7 +90,7 @@ def for_core(
     return [
         (
             of.part,
-            of.index,
+            of.place,
             of.field,
             np.ascontiguousarray(np.broadcast_to(of.values, shape)).reshape(-1),
             f"{of.name}: {of.field}",

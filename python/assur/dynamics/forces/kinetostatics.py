@@ -17,9 +17,10 @@ from assur.dynamics.forces.reaction_key import RESIDUAL, SOLUTIONS, Key
 from assur.dynamics.forces.reactions import Reactions
 from assur.dynamics.loads.friction import SlideFriction
 from assur.dynamics.loads.load_values import function_values
-from assur.dynamics.motion.motion_input import times
-from assur.dynamics.reduction.reduce import reduce, single
 from assur.dynamics.loads.motors import ConstantTorque
+from assur.dynamics.motion.motion_input import times
+from assur.dynamics.preconditions import without_arrays
+from assur.dynamics.reduction.reduce import reduce, single
 from assur.dynamics.reduction.reduced import checked_senses
 from assur.dynamics.reduction.undefined_load import Moment, without_value
 from assur.errors import InputError
@@ -102,6 +103,7 @@ def reactions(
 
     Some of them, if `keys` are given, without errors.
     """
+    without_arrays(machine, "reactions")
     mechanism = machine.mechanism
     if mechanism is None:
         message = "a machine of a table has no joints: reactions need a mechanism"
@@ -214,6 +216,7 @@ def reaction_squares(
 
     NaN where a position of a design has no value. Positions are not kept.
     """
+    without_arrays(machine, "a metric of reactions")
     moving = broadcast_motion(machine, motion)
     arrays, _, _ = _solved(machine, moving, motion.t, threads, keys, squares=True)
     return {key: array.reshape(-1, 2) for key, array in zip(keys, arrays, strict=True)}

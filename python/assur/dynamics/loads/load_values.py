@@ -13,7 +13,8 @@ from assur.errors import InputError
 
 __all__ = ["Function", "Value", "checked_value", "function_values"]
 
-# A number (or one for each machine of a batch), a table over q or another coordinate, or a function of (t, q, speed).
+# A number (or one for each machine of a batch), a table over q or another coordinate, or a
+# function of (t, q, speed).
 Value: TypeAlias = float | Float | Table | Function
 
 

@@ -6,7 +6,7 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -14,11 +14,21 @@ from assur._arrays import real_array, short, two_numbers
 from assur._summary import typed
 from assur._validate import checked_name
 from assur.dynamics.loads.load_values import Value, checked_value
-from assur.dynamics.loads.numbers import Numbers, OfMachines, not_negative_numbers, numbers
+from assur.dynamics.loads.numbers import (
+    ZERO,
+    OfMachines,
+    not_negative_numbers,
+    numbers,
+)
 from assur.dynamics.loads.one_way import Way, check_way
 from assur.dynamics.loads.pressure import Gas, Pressure
 from assur.dynamics.loads.table import Table, replace_fields
 from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Number
 
 __all__ = [
     "Body",
@@ -72,13 +82,24 @@ class Body(OfMachines):
     """
 
     _: KW_ONLY
-    mass: Numbers = 0.0
-    inertia: Numbers = 0.0
+    mass: float | Number = ZERO
+    inertia: float | Number = ZERO
     at: str | tuple[float, float] | None = None
     drawn: tuple[float, float] | None = field(default=None, kw_only=True)
 
     def __repr__(self) -> str:
         return typed(self).replace(", drawn=None", "")
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            mass: npt.ArrayLike = 0.0,
+            inertia: npt.ArrayLike = 0.0,
+            at: str | tuple[float, float] | None = None,
+            drawn: tuple[float, float] | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         if self.drawn is not None:
@@ -203,7 +224,8 @@ class Torque(OfMachines):
     link : str
         The link on which it acts.
     torque : float, array_like, Table or callable
-        N·m: a number (or an array of them: see `Body`), a `Table` over q or another coordinate, or a function of (t, q, speed).
+        N·m: a number (or an array of them: see `Body`), a `Table` over q or another coordinate, or
+        a function of (t, q, speed).
     on : str
         The link on which the reaction acts.
     while_, over
@@ -262,10 +284,22 @@ class Spring(OfMachines):
 
     first: PointLike
     second: PointLike
-    stiffness: Numbers
-    length: Numbers
+    stiffness: float | Number
+    length: float | Number
     _: KW_ONLY
-    preload: Numbers = 0.0
+    preload: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            first: PointLike,
+            second: PointLike,
+            stiffness: npt.ArrayLike,
+            length: npt.ArrayLike,
+            *,
+            preload: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_ends(self)
@@ -301,11 +335,23 @@ class TorsionSpring(OfMachines):
     __repr__ = typed
 
     link: str
-    stiffness: Numbers
+    stiffness: float | Number
     _: KW_ONLY
-    angle: Numbers = 0.0
+    angle: float | Number = ZERO
     on: str = "ground"
-    preload: Numbers = 0.0
+    preload: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            link: str,
+            stiffness: npt.ArrayLike,
+            *,
+            angle: npt.ArrayLike = 0.0,
+            on: str = "ground",
+            preload: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_links(self)
@@ -336,7 +382,16 @@ class Damper(OfMachines):
 
     first: PointLike
     second: PointLike
-    damping: Numbers
+    damping: float | Number
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            first: PointLike,
+            second: PointLike,
+            damping: npt.ArrayLike,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_ends(self)
@@ -368,9 +423,19 @@ class TorsionDamper(OfMachines):
     __repr__ = typed
 
     link: str
-    damping: Numbers
+    damping: float | Number
     _: KW_ONLY
     on: str = "ground"
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            link: str,
+            damping: npt.ArrayLike,
+            *,
+            on: str = "ground",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_links(self)

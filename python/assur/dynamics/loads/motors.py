@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from assur._arrays import real_number, short
+from assur._arrays import Float, real_number, short
 from assur._summary import typed
 from assur._units import rpm as speed_of
 from assur._validate import whole_number
 from assur.dynamics.loads.load_values import Value, checked_value
 from assur.dynamics.loads.numbers import (
-    Numbers,
+    ZERO,
     OfMachines,
     not_negative_numbers,
     numbers,
@@ -26,6 +26,15 @@ from assur.dynamics.loads.numbers import (
 from assur.dynamics.loads.table import Table, checked_ratio, replace_fields
 from assur.errors import InputError
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Number
+
+# The default of such a field, see `ZERO`.
+ONE: Any = 1.0
 # No motor has more.
 MOST_POLES = 1000
 
@@ -58,8 +67,18 @@ class ConstantTorque(OfMachines):
 
     torque: Value
     _: KW_ONLY
-    ratio: Numbers = 1.0
-    rotor_inertia: Numbers = 0.0
+    ratio: float | Number = ONE
+    rotor_inertia: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            torque: Value | Sequence[float],
+            *,
+            ratio: npt.ArrayLike = 1.0,
+            rotor_inertia: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_shaft(self)
@@ -89,11 +108,22 @@ class LinearMotor(OfMachines):
 
     __repr__ = typed
 
-    stall: Numbers
-    no_load: Numbers
+    stall: float | Number
+    no_load: float | Number
     _: KW_ONLY
-    ratio: Numbers = 1.0
-    rotor_inertia: Numbers = 0.0
+    ratio: float | Number = ONE
+    rotor_inertia: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            stall: npt.ArrayLike,
+            no_load: npt.ArrayLike,
+            *,
+            ratio: npt.ArrayLike = 1.0,
+            rotor_inertia: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_shaft(self)
@@ -127,25 +157,38 @@ class InductionMotor(OfMachines):
 
     __repr__ = typed
 
-    breakdown: Numbers
-    slip: Numbers
-    synchronous: Numbers
+    breakdown: float | Number
+    slip: float | Number
+    synchronous: float | Number
     _: KW_ONLY
-    ratio: Numbers = 1.0
-    rotor_inertia: Numbers = 0.0
+    ratio: float | Number = ONE
+    rotor_inertia: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            breakdown: npt.ArrayLike,
+            slip: npt.ArrayLike,
+            synchronous: npt.ArrayLike,
+            *,
+            ratio: npt.ArrayLike = 1.0,
+            rotor_inertia: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         _check_positive(self, "breakdown", "slip", "synchronous")
-        if isinstance(self.slip, np.ndarray):
+        slip: float | Float = self.slip
+        if isinstance(slip, np.ndarray):
             needed = "a fraction of the synchronous speed is needed, at most 1"
-            require_each(self.slip, self.slip <= 1.0, "InductionMotor slip", needed)
-        elif self.slip > 1.0:
+            require_each(slip, slip <= 1.0, "InductionMotor slip", needed)
+        elif slip > 1.0:
             message = (
-                f"InductionMotor: slip is {self.slip:g}: a fraction of the synchronous speed is "
+                f"InductionMotor: slip is {slip:g}: a fraction of the synchronous speed is "
                 f"needed, at most 1 (15 % is 0.15)"
             )
-            raise InputError(message, value=self.slip)
+            raise InputError(message, value=slip)
 
     @classmethod
     def from_plate(
@@ -266,7 +309,7 @@ def _check_shaft(motor: Any) -> None:
     )
 
 
-def _checked_ratios(value: Any, what: str) -> Numbers:
+def _checked_ratios(value: Any, what: str) -> float | Float:
     ratios = numbers(value, what)
     if isinstance(ratios, np.ndarray):
         require_each(ratios, ratios != 0.0, what, "the motor would not turn")

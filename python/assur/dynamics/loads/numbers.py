@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -11,9 +11,10 @@ from assur._arrays import Float, not_negative, real_array, real_number
 from assur._by_value import ByValue
 from assur.errors import InputError
 
-__all__ = ["Numbers", "OfMachines", "not_negative_numbers", "numbers", "require_each"]
+__all__ = ["ZERO", "OfMachines", "not_negative_numbers", "numbers", "require_each"]
 
-Numbers: TypeAlias = float | Float
+# The default of a field that is read as a number or as an array: `assur._arrays.Number`.
+ZERO: Any = 0.0
 
 
 class OfMachines(ByValue):
@@ -30,7 +31,7 @@ class OfMachines(ByValue):
             object.__setattr__(self, name, value)
 
 
-def numbers(value: Any, what: str) -> Numbers:
+def numbers(value: Any, what: str) -> float | Float:
     """Return a finite number, or a read-only copy of an array of them."""
     if isinstance(value, float) and math.isfinite(value):
         return float(value)
@@ -42,7 +43,7 @@ def numbers(value: Any, what: str) -> Numbers:
     return array
 
 
-def not_negative_numbers(value: Any, what: str) -> Numbers:
+def not_negative_numbers(value: Any, what: str) -> float | Float:
     """Return a finite number that is 0 or more, or a read-only copy of an array of them."""
     checked = numbers(value, what)
     if isinstance(checked, float):

@@ -8,11 +8,11 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
-from assur._arrays import not_negative, real_number
+from assur._arrays import Float, not_negative, real_number
 from assur._summary import typed
 from assur._validate import checked_name, one_of
 from assur.dynamics.loads.load_values import Value, checked_value
-from assur.dynamics.loads.numbers import Numbers, OfMachines, not_negative_numbers
+from assur.dynamics.loads.numbers import OfMachines, not_negative_numbers
 from assur.dynamics.loads.one_way import DIRECTIONS, Way, check_way
 from assur.dynamics.loads.table import replace_fields
 from assur.errors import InputError
@@ -20,7 +20,7 @@ from assur.errors import InputError
 __all__ = ["ATMOSPHERE", "Gas", "Pressure"]
 
 # The standard atmosphere, Pa (ISO 2533).
-ATMOSPHERE = 101325.0
+ATMOSPHERE: Any = 101325.0
 
 
 @dataclass(frozen=True)
@@ -83,10 +83,10 @@ class Pressure(OfMachines):
     area : float
         Area of the piston, m².
     pressure : Gas, float, array_like, Table or callable
-        Absolute pressure, Pa: a closed `Gas`, a number (an array: see `Body`), a `Table` over q or (``over=``) over the
-        value of a slide, or a function of (t, q, speed). A four-stroke engine has a table over q
-        with the period 4π; a compressor, whose lines of compression and expansion differ, has two
-        pressures over its slide, each with its ``while_``.
+        Absolute pressure, Pa: a closed `Gas`, a number (an array: see `Body`), a `Table` over q or
+        (``over=``) over the value of a slide, or a function of (t, q, speed). A four-stroke engine
+        has a table over q with the period 4π; a compressor, whose lines of compression and
+        expansion differ, has two pressures over its slide, each with its ``while_``.
     expands : {"forward", "backward"}
         The direction of the slide in which the volume grows: the pressure drives it there.
     ambient : float or array_like
@@ -118,7 +118,7 @@ class Pressure(OfMachines):
     pressure: Gas | Value
     expands: Way
     _: KW_ONLY
-    ambient: Numbers = ATMOSPHERE
+    ambient: float | Float = ATMOSPHERE
     while_: Way | None = None
     over: str | None = None
 
