@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use assur::dynamics::{
     EndCondition, EquationPlan, EquilibriumRange, FluctuationTarget, LoadAction, Mean, Point,
@@ -25,11 +25,12 @@ use crate::detach::{self, catch_panic};
 use crate::equations::{self, DirectionKey, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
+use crate::run::Run;
 use crate::run::batch::{self, Source};
-use crate::run::options::{Tolerances, options};
+use crate::run::calls::with_callbacks;
+use crate::run::options::{Tolerances, deadline, options};
 use crate::run::outcomes::Runs;
 use crate::run::steady_numbers::SteadyNumbers;
-use crate::run::{PythonCallbacks, Run};
 use crate::{equilibria, error, error_map, reduce, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
@@ -175,7 +176,6 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        self.varied.refuse()?;
         self.of_mechanism(py, |core, machine| machine.stations(core, &dimensions, [start, end]))
     }
 
@@ -187,7 +187,6 @@ impl Machine {
         start: f64,
         end: f64,
     ) -> PyResult<Vec<f64>> {
-        self.varied.refuse()?;
         self.of_mechanism(py, |core, machine| machine.reversals(core, &dimensions, [start, end]))
     }
 
@@ -199,7 +198,6 @@ impl Machine {
         dimensions: Vec<f64>,
         q: Vec<f64>,
     ) -> PyResult<Option<(f64, f64, f64)>> {
-        self.varied.refuse()?;
         let uncovered =
             self.of_mechanism(py, |core, machine| machine.uncovered(core, &dimensions, &q))?;
         Ok(uncovered.map(|([from, to], at)| (from, to, at)))
@@ -445,12 +443,13 @@ impl Machine {
             deadline: deadline(seconds),
             ..options(along_q, t, method.0, tolerances, (max_step, max_steps), &breaks)
         };
-        let run = self.with_callbacks(py, event_functions, |calls| match &self.inner {
-            Inner::Mechanism(mechanism, machine) => {
-                machine.run(&mechanism.get().inner, &dimensions, &options, calls)
-            }
-            Inner::Tables(tabulated) => tabulated.run(&options, calls),
-        })?;
+        let run =
+            with_callbacks(py, &self.functions, event_functions, |calls| match &self.inner {
+                Inner::Mechanism(mechanism, machine) => {
+                    machine.run(&mechanism.get().inner, &dimensions, &options, calls)
+                }
+                Inner::Tables(tabulated) => tabulated.run(&options, calls),
+            })?;
         run.map(Run::new).map_err(error_map::run)
     }
 
@@ -489,15 +488,14 @@ impl Machine {
         let steps = (max_step, max_steps);
         let options = options(along_q, t, method.0.0, method.1, steps, &breaks);
         let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-        let (q, speed, ends, events) = (&q, &speed, &ends, &events);
-        let dimensions = &dimensions;
+        let (dimensions, q, speed, ends, events) = (&dimensions, &q, &speed, &ends, &events);
         let variations = &self.varied.variations();
         let runs =
             RunBatch { dimensions, designs, q, speed, ends, events, variations, limit, options };
         if self.functions.is_empty() && functions.is_empty() {
             return batch::in_threads(py, source, &runs, only_ends, threads);
         }
-        let kept = self.with_callbacks(py, functions, |calls| {
+        let kept = with_callbacks(py, &self.functions, functions, |calls| {
             batch::one_by_one(source, &runs, only_ends, calls)
         })??;
         Runs::new(py, kept)
@@ -522,12 +520,11 @@ impl Machine {
         fluctuation: Option<f64>,
     ) -> PyResult<(Run, SteadyNumbers)> {
         self.varied.refuse()?;
-        let Word(mean) = mean;
         let options = SteadyOptions {
             q,
             span,
             speed,
-            mean,
+            mean: mean.0,
             method: method.0,
             relative,
             max_steps: limits.0,
@@ -535,8 +532,8 @@ impl Machine {
             breaks: &breaks,
             flywheel,
         };
-        let target = fluctuation.map(|fluctuation| FluctuationTarget { fluctuation, mean });
-        let steady = self.with_callbacks(py, Vec::new(), |calls| match &self.inner {
+        let target = fluctuation.map(|fluctuation| FluctuationTarget { fluctuation, mean: mean.0 });
+        let steady = with_callbacks(py, &self.functions, Vec::new(), |calls| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 machine.steady(&mechanism.get().inner, &dimensions, &options, target, calls)
             }
@@ -555,6 +552,7 @@ impl Machine {
         py: Python<'_>,
         work: impl Fn(&assur::Mechanism, &assur::dynamics::Machine) -> T + Sync,
     ) -> PyResult<T> {
+        self.varied.refuse()?;
         match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 let core = &mechanism.get().inner;
@@ -571,30 +569,4 @@ impl Machine {
             Inner::Tables(machine) => &machine.tables,
         }
     }
-
-    /// Runs work that may call the Python functions of the machine and of events. With such functions
-    /// it holds the GIL throughout. Raises the exception of a signal handler, if any.
-    fn with_callbacks<T: Send>(
-        &self,
-        py: Python<'_>,
-        event_functions: Vec<Py<PyAny>>,
-        work: impl FnOnce(&mut PythonCallbacks) -> T + Send,
-    ) -> PyResult<T> {
-        let functions = self.functions.iter().map(|function| function.clone_ref(py)).collect();
-        reserve::ensure(py)?;
-        let mut callbacks = PythonCallbacks::new(functions, event_functions);
-        let result = catch_panic(|| {
-            Ok(if callbacks.need_gil() {
-                work(&mut callbacks)
-            } else {
-                py.detach(|| work(&mut callbacks))
-            })
-        })?;
-        callbacks.signal.map_or(Ok(result), Err)
-    }
-}
-
-fn deadline(seconds: Option<f64>) -> Option<Instant> {
-    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
-    Instant::now().checked_add(duration)
 }
