@@ -93,14 +93,6 @@ class Machine(MachineModel):
         from them, and in `run` with one driver; `steady_state`, `flywheel` and `equilibria` refuse
         it.
 
-    Notes
-    -----
-    Numbers of bodies, loads and motors may be arrays: then it is a batch of machines, each with its
-    own numbers. Arrays go together with each other and with designs by NumPy's rules, to `shape`.
-    `dynamics`, `acceleration`, `d_effort`, `d_acceleration`, `linearize`, `step`, `run`, `effort`,
-    `reduced_inertia`, `reduced_moment` and `potential` take such batches; q is there a number, of
-    that shape S (one for each machine) or S + (N,). Other calls take one machine, `design(i)`.
-
     Raises
     ------
     InputError
@@ -111,6 +103,14 @@ class Machine(MachineModel):
     -----
     AssurWarning
         A load at a joint with friction names no link, and the default is a guess: see `Force`.
+
+    Notes
+    -----
+    Numbers of bodies, loads and motors may be arrays: then it is a batch of machines, each with its
+    own numbers. Arrays go together with each other and with designs by NumPy's rules, to `shape`.
+    `dynamics`, `acceleration`, `d_effort`, `d_acceleration`, `linearize`, `step`, `run`, `effort`,
+    `reduced_inertia`, `reduced_moment` and `potential` take such batches; q is there a number, of
+    that shape S (one for each machine) or S + (N,). Other calls take one machine, `design(i)`.
 
     Examples
     --------
