@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use super::load::Load;
 use super::machine::Machine;
 use super::motor::Motor;
-use super::value::Value;
 use crate::description::error::SolveError;
 
 /// A number of a machine.
@@ -151,34 +150,21 @@ impl Load {
 
     /// The number of an index among [these](Self::number_names), unless it is no constant.
     fn number(&mut self, index: usize) -> Option<&mut f64> {
-        match (index, self) {
-            (0, Self::Force { force: [value, _], .. })
-            | (1, Self::Force { force: [_, value], .. })
-            | (0, Self::Torque { torque: value, .. } | Self::Pressure { pressure: value, .. }) => {
-                match value {
-                    Value::Number(number) => Some(number),
-                    Value::Table(_) | Value::Over(_) | Value::External(_) => None,
-                }
+        match self {
+            Self::Force { force, .. } => force.get_mut(index)?.number(),
+            Self::Torque { torque, .. } if index == 0 => torque.number(),
+            Self::Pressure { pressure, .. } if index == 0 => pressure.number(),
+            Self::Pressure { ambient, .. } if index == 1 => Some(ambient),
+            Self::Torque { .. } | Self::Pressure { .. } => None,
+            Self::Spring { stiffness, length, preload, .. } => {
+                [stiffness, length, preload].into_iter().nth(index)
             }
-            (
-                0,
-                Self::Spring { stiffness: number, .. }
-                | Self::TorsionSpring { stiffness: number, .. },
-            )
-            | (
-                1,
-                Self::Spring { length: number, .. } | Self::TorsionSpring { angle: number, .. },
-            )
-            | (
-                2,
-                Self::Spring { preload: number, .. } | Self::TorsionSpring { preload: number, .. },
-            )
-            | (1, Self::Pressure { ambient: number, .. })
-            | (
-                0,
-                Self::Damper { damping: number, .. } | Self::TorsionDamper { damping: number, .. },
-            ) => Some(number),
-            _ => None,
+            Self::TorsionSpring { stiffness, angle, preload, .. } => {
+                [stiffness, angle, preload].into_iter().nth(index)
+            }
+            Self::Damper { damping, .. } | Self::TorsionDamper { damping, .. } => {
+                (index == 0).then_some(damping)
+            }
         }
     }
 }
