@@ -11,10 +11,12 @@ __all__ = ["ByValue", "key_of"]
 
 
 def key_of(value: Any) -> Any:
-    """Return the key by which a value is compared: for an array its shape and numbers."""
+    """Return the key by which a value is compared: for arrays their shapes and numbers."""
     if isinstance(value, np.ndarray):
         # Added to 0, −0 is 0: as numbers they are equal.
         return value.shape, (value + 0.0).tobytes()
+    if type(value) is tuple:
+        return tuple(map(key_of, value))
     # A number of NumPy would compare itself with the key of an array.
     return value.item() if isinstance(value, np.generic) else value
 

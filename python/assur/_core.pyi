@@ -301,6 +301,7 @@ class Machine:
         loads: list[Load],
         motors: list[Motor | None],
         friction: list[tuple[str, PairFriction]],
+        varied: list[tuple[str, int, str, _Float, str]] = ...,
     ) -> Self: ...
     @staticmethod
     def from_table(

@@ -104,6 +104,14 @@ class Machine(MachineModel):
     AssurWarning
         A load at a joint with friction names no link, and the default is a guess: see `Force`.
 
+    Notes
+    -----
+    Numbers of bodies, loads and motors may be arrays: then it is a batch of machines, each with its
+    own numbers. Arrays go together with each other and with designs by NumPy's rules, to `shape`.
+    `dynamics`, `acceleration`, `d_effort`, `d_acceleration`, `linearize`, `step`, `run`, `effort`,
+    `reduced_inertia`, `reduced_moment` and `potential` take such batches; q is there a number, of
+    that shape S (one for each machine) or S + (N,). Other calls take one machine, `design(i)`.
+
     Examples
     --------
     A crank press: at 90° the piston is as fast as the crank's pin.
@@ -120,6 +128,12 @@ class Machine(MachineModel):
     np.float64(0.7)
     >>> machine.reduced_moment(np.pi / 2).round(6)
     np.float64(100.0)
+
+    Three presses with pistons of their own:
+
+    >>> presses = assur.Machine(press, bodies={"piston": assur.Body(mass=[15.0, 20.0, 25.0])})
+    >>> presses.shape, presses.dynamics(np.pi / 2).mass_matrix.ravel().round(3)  # kg·m²
+    ((3,), array([0.15, 0.2 , 0.25]))
     """
 
     def reduced_inertia(

@@ -14,13 +14,15 @@ from assur._by_value import key_of
 from assur._later import explorer, save
 from assur._other_names import renamed
 from assur._summary import FORMULA, shortened
-from assur._validate import one_of
+from assur._validate import checked_index, one_of
 from assur.dynamics import components
+from assur.dynamics.batch_shapes import batch_shape, design_index
 from assur.dynamics.loads.friction import checked_friction
 from assur.dynamics.loads.load_coordinate import check_over
 from assur.dynamics.loads.load_functions import check_functions
 from assur.dynamics.loads.loaded_link import warn_of_ambiguous_loads
 from assur.dynamics.loads.loads import checked_load
+from assur.dynamics.varied import Parts, for_core
 from assur.errors import InputError
 from assur.flywheel import SPLINES
 from assur.flywheel.sizing import warn_if_degrees
@@ -48,6 +50,8 @@ class MachineModel:
     """What a machine consists of."""
 
     mechanism: Mechanism | None
+    varies: tuple[str, ...]
+    _shape: tuple[int, ...]
 
     @renamed(masses="bodies", forces="loads", motors="motor")
     def __init__(
@@ -90,12 +94,23 @@ class MachineModel:
             (mechanism, dict(self.bodies), self.loads, self.motor, dict(self.friction)),
         )
         motors = components.motors(self.motor, self.driver_count)
+        self._parts = Parts(
+            self.bodies,
+            [components.load(mechanism, checked_load(load)) for load in self.loads],
+            motors,
+        )
+        varied = self._parts.varied()
+        self._shape = batch_shape(mechanism.shape, varied)
+        # What messages call the arrays among the numbers.
+        self.varies = tuple(f"{of.name}: {of.field}" for of in varied)
+        one = self._parts.single() if varied else self._parts
         self.core = _core.Machine(
             mechanism.core,
-            loads=[components.load(mechanism, checked_load(load)) for load in self.loads],
-            bodies=list(self.bodies.items()),
-            motors=motors,
+            loads=list(one.loads),
+            bodies=list(one.bodies.items()),
+            motors=list(one.motors),
             friction=list(self.friction.items()),
+            varied=for_core(varied, self._shape),
         )
         check_over(mechanism, self.loads)
         check_functions(self.loads, motors, np.ravel(mechanism.q0).tolist())
@@ -181,6 +196,7 @@ class MachineModel:
         self.mechanism, self.loads, self.motor = None, (), motor
         self.bodies, self.friction = MappingProxyType({}), MappingProxyType({})
         self.driver_count = 1
+        self._shape, self.varies = (), ()
         x, columns = components.columns(phi, moment, inertia)
         one_of(spline, SPLINES, "spline")
         periodic = flag(periodic, "periodic")
@@ -299,8 +315,12 @@ class MachineModel:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the batch of designs; () for one design."""
-        return () if self.mechanism is None else self.mechanism.shape
+        """Shape of the batch; () for one machine.
+
+        It is that of the designs and of the arrays in bodies, loads and motors, which go together
+        by NumPy's rules.
+        """
+        return self._shape
 
     def design(self, index: int | tuple[int, ...]) -> Self:
         """Return one design of a batch as a single machine.
@@ -326,4 +346,11 @@ class MachineModel:
         if self.mechanism is None:
             message = "this machine is a single table, not a batch"
             raise InputError(message)
-        return self.of(self.mechanism.design(index))
+        if not self.varies:
+            return self.of(self.mechanism.design(index))
+        entry = checked_index(index, self.shape, "design")
+        bodies, loads, motors = self._parts.at(entry, self.shape)
+        mechanism = self.mechanism
+        if mechanism.shape:
+            mechanism = mechanism.design(design_index(mechanism.shape, self.shape, entry))
+        return self._made(mechanism, bodies, loads, motors, self.friction)

@@ -28,6 +28,16 @@ def one_design(machine: MachineModel, what: str) -> None:
         raise InputError(message)
 
 
+def without_arrays(machine: MachineModel, what: str) -> None:
+    """Raise InputError for a machine whose bodies, loads or motors have arrays."""
+    if machine.varies:
+        message = (
+            f"{what} takes no arrays, and {machine.varies[0]} is one: take one machine with "
+            "design(i)"
+        )
+        raise InputError(message)
+
+
 def without_friction(machine: MachineModel, what: str) -> None:
     """Raise InputError for a machine with friction."""
     if machine.friction:

@@ -10,6 +10,7 @@ import numpy as np
 from assur._arrays import finite_array
 from assur.dynamics.loads.pressure import Gas
 from assur.dynamics.loads.table import Table
+from assur.dynamics.preconditions import without_arrays
 from assur.errors import InputError
 from assur.files.limits import MOST_ITEMS
 from assur.files.parts import PARTS, ROWS
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 def machine_tree(machine: MachineModel) -> dict[str, Any]:
     """Return the tables of a machine."""
+    without_arrays(machine, "a file")
     bodies = {link: part(body, f"bodies[{link!r}]") for link, body in machine.bodies.items()}
     tree: dict[str, Any] = {"bodies": bodies}
     if len(machine.loads) > MOST_ITEMS:

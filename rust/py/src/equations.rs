@@ -2,7 +2,9 @@
 
 use std::num::NonZeroUsize;
 
-use assur::dynamics::{Direction, EquationPlan, EquationRequest, Machine, StepRequest, Term};
+use assur::dynamics::{
+    Direction, EquationPlan, EquationRequest, Machine, StepRequest, Term, Variation,
+};
 use assur::{Arrays, Control, Coordinates, Mechanism};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -120,10 +122,13 @@ impl DirectionKey {
     }
 }
 
+/// A machine on its mechanism with its compiled equations, and the numbers that vary.
+type Planned<'a> = (&'a Mechanism, &'a Machine, &'a EquationPlan, &'a [Variation<'a>]);
+
 /// See `assur.Machine.dynamics` and `acceleration`; with directions, the terms' derivatives in them.
 pub(crate) fn equations<'py>(
     py: Python<'py>,
-    (mechanism, machine, plan): (&Mechanism, &Machine, &EquationPlan),
+    (mechanism, machine, plan, variations): Planned<'_>,
     inputs: &Inputs<'py>,
     (keys, by): (&[TermKey], Option<&[DirectionKey]>),
     threads: Option<NonZeroUsize>,
@@ -147,6 +152,7 @@ pub(crate) fn equations<'py>(
         has_motors: inputs.has_motors,
         external: inputs.function_values.as_slice()?,
         sense: &inputs.sense,
+        variations,
         terms: &terms,
     };
     let (rows, drivers) = (inputs.rows, mechanism.q0().len());
@@ -187,7 +193,7 @@ pub(crate) struct Environments<'py> {
 /// See `assur.Machine.step`.
 pub(crate) fn step<'py>(
     py: Python<'py>,
-    (mechanism, machine, plan): (&Mechanism, &Machine, &EquationPlan),
+    (mechanism, machine, plan, variations): Planned<'_>,
     environments: &Environments<'py>,
     (dt, steps): (f64, u64),
     threads: Option<NonZeroUsize>,
@@ -199,6 +205,7 @@ pub(crate) fn step<'py>(
         speed: environments.speed.as_slice()?,
         effort: environments.effort.as_slice()?,
         has_motors: environments.has_motors,
+        variations,
         dt,
         steps,
         holds: environments.holds,

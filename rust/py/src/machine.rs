@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use assur::dynamics::{
     EndCondition, EquationPlan, EquilibriumRange, FluctuationTarget, LoadAction, Mean, Point,
@@ -19,16 +19,18 @@ use crate::convert::friction::PairFriction;
 use crate::convert::load::loads;
 use crate::convert::motor::motors;
 use crate::convert::value::{FEW_ROWS, Values};
+use crate::convert::varied::{Varied, VariedKey};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
 use crate::equations::{self, DirectionKey, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
+use crate::run::Run;
 use crate::run::batch::{self, Source};
-use crate::run::options::{Tolerances, options};
+use crate::run::calls::with_callbacks;
+use crate::run::options::{Tolerances, deadline, options};
 use crate::run::outcomes::Runs;
 use crate::run::steady_numbers::SteadyNumbers;
-use crate::run::{PythonCallbacks, Run};
 use crate::{equilibria, error, error_map, reduce, reserve};
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
@@ -49,12 +51,16 @@ pub(crate) struct Machine {
     /// Its compiled equations of motion: without Jacobians of joints, with all of them, for derivatives, for
     /// steps.
     plans: [OnceLock<EquationPlan>; 4],
+    /// The numbers that differ from machine to machine of a batch.
+    varied: Varied,
 }
 
 #[pymethods]
 impl Machine {
-    /// Reads the dataclasses of loads, bodies by link, motors by driver, and friction by pair.
+    /// Reads the dataclasses of loads, bodies by link, motors by driver, and friction by pair, and the numbers
+    /// that vary from machine to machine.
     #[new]
+    #[pyo3(signature = (mechanism, bodies, loads, motors, friction, varied = Vec::new()))]
     fn new(
         py: Python<'_>,
         mechanism: Py<Mechanism>,
@@ -62,6 +68,7 @@ impl Machine {
         loads: Vec<Bound<'_, PyAny>>,
         motors: Vec<Option<Bound<'_, PyAny>>>,
         friction: Vec<(String, PairFriction)>,
+        varied: Vec<VariedKey<'_>>,
     ) -> PyResult<Self> {
         let core = &mechanism.bind(py).get().inner;
         catch_panic(|| {
@@ -85,13 +92,15 @@ impl Machine {
                 motors,
                 friction,
             };
-            Ok((machine, functions, load_functions))
+            let varied = Varied::new(&machine, &varied)?;
+            Ok((machine, functions, load_functions, varied))
         })
-        .map(|(machine, functions, load_functions)| Self {
+        .map(|(machine, functions, load_functions, varied)| Self {
             inner: Inner::Mechanism(mechanism, machine),
             functions,
             load_functions,
             plans: Default::default(),
+            varied,
         })
     }
 
@@ -116,7 +125,13 @@ impl Machine {
             let motors = motors(&[motor], &mut values)?;
             let Values { tables, functions, .. } = values;
             let inner = Inner::Tables(TabulatedMachine { tables, motors });
-            Ok(Self { inner, functions, load_functions: 0, plans: Default::default() })
+            Ok(Self {
+                inner,
+                functions,
+                load_functions: 0,
+                plans: Default::default(),
+                varied: Varied::default(),
+            })
         })
     }
 
@@ -248,7 +263,9 @@ impl Machine {
         };
         let mechanism = &mechanism.get().inner;
         let inputs = [&dimensions, &q, &speed, &function_values];
-        reduce::reduce(py, (mechanism, machine), inputs, &sense, threads, &report)
+        let variations = self.varied.variations();
+        let of = (mechanism, machine, &variations[..]);
+        reduce::reduce(py, of, inputs, &sense, threads, &report)
     }
 
     /// The requested `reactions` of designs at positions; the other arguments are those of `reduce`.
@@ -271,6 +288,7 @@ impl Machine {
         threads: Option<NonZeroUsize>,
         report: Vec<usize>,
     ) -> PyResult<reactions::Found<'py>> {
+        self.varied.refuse()?;
         let Inner::Mechanism(mechanism, machine) = &self.inner else {
             return Err(error::input("a machine of a table has no joints", None));
         };
@@ -339,7 +357,8 @@ impl Machine {
                 EquationPlan::new(mechanism, machine, (0..all).collect())
             })
         };
-        let of = (mechanism, machine, plan);
+        let variations = self.varied.variations();
+        let of = (mechanism, machine, plan, &variations[..]);
         equations::equations(py, of, &inputs, (&terms, by.as_deref()), threads, &report)
     }
 
@@ -364,7 +383,9 @@ impl Machine {
         let environments =
             equations::Environments { dimensions, q, speed, effort, has_motors, holds, rows };
         let plan = self.plans[3].get_or_init(|| EquationPlan::for_steps(mechanism, machine));
-        equations::step(py, (mechanism, machine, plan), &environments, steps, threads)
+        let variations = self.varied.variations();
+        let of = (mechanism, machine, plan, &variations[..]);
+        equations::step(py, of, &environments, steps, threads)
     }
 
     /// Positions of rest of one design.
@@ -376,6 +397,7 @@ impl Machine {
         is_turn: bool,
         intervals: u32,
     ) -> PyResult<equilibria::Found<'py>> {
+        self.varied.refuse()?;
         let range = EquilibriumRange { ends, is_turn, intervals };
         let dimensions = dimensions.as_slice()?;
         let equilibria = detach::run(py, false, |cancel| match &self.inner {
@@ -402,6 +424,7 @@ impl Machine {
         breaks: Vec<f64>,
         events: Vec<Bound<'_, PyAny>>,
     ) -> PyResult<Run> {
+        self.varied.refuse()?;
         let core = match &self.inner {
             Inner::Mechanism(mechanism, _) => Some(&mechanism.get().inner),
             Inner::Tables(_) => None,
@@ -421,12 +444,13 @@ impl Machine {
             deadline: deadline(seconds),
             ..options(along_q, t, method.0, tolerances, (max_step, max_steps), &breaks)
         };
-        let run = self.with_callbacks(py, event_functions, |calls| match &self.inner {
-            Inner::Mechanism(mechanism, machine) => {
-                machine.run(&mechanism.get().inner, &dimensions, &options, calls)
-            }
-            Inner::Tables(tabulated) => tabulated.run(&options, calls),
-        })?;
+        let run =
+            with_callbacks(py, &self.functions, event_functions, |calls| match &self.inner {
+                Inner::Mechanism(mechanism, machine) => {
+                    machine.run(&mechanism.get().inner, &dimensions, &options, calls)
+                }
+                Inner::Tables(tabulated) => tabulated.run(&options, calls),
+            })?;
         run.map(Run::new).map_err(error_map::run)
     }
 
@@ -465,13 +489,14 @@ impl Machine {
         let steps = (max_step, max_steps);
         let options = options(along_q, t, method.0.0, method.1, steps, &breaks);
         let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-        let (q, speed, ends, events) = (&q, &speed, &ends, &events);
-        let dimensions = &dimensions;
-        let runs = RunBatch { dimensions, designs, q, speed, ends, events, limit, options };
+        let (dimensions, q, speed, ends, events) = (&dimensions, &q, &speed, &ends, &events);
+        let variations = &self.varied.variations();
+        let runs =
+            RunBatch { dimensions, designs, q, speed, ends, events, variations, limit, options };
         if self.functions.is_empty() && functions.is_empty() {
             return batch::in_threads(py, source, &runs, only_ends, threads);
         }
-        let kept = self.with_callbacks(py, functions, |calls| {
+        let kept = with_callbacks(py, &self.functions, functions, |calls| {
             batch::one_by_one(source, &runs, only_ends, calls)
         })??;
         Runs::new(py, kept)
@@ -495,12 +520,12 @@ impl Machine {
         flywheel: f64,
         fluctuation: Option<f64>,
     ) -> PyResult<(Run, SteadyNumbers)> {
-        let Word(mean) = mean;
+        self.varied.refuse()?;
         let options = SteadyOptions {
             q,
             span,
             speed,
-            mean,
+            mean: mean.0,
             method: method.0,
             relative,
             max_steps: limits.0,
@@ -508,8 +533,8 @@ impl Machine {
             breaks: &breaks,
             flywheel,
         };
-        let target = fluctuation.map(|fluctuation| FluctuationTarget { fluctuation, mean });
-        let steady = self.with_callbacks(py, Vec::new(), |calls| match &self.inner {
+        let target = fluctuation.map(|fluctuation| FluctuationTarget { fluctuation, mean: mean.0 });
+        let steady = with_callbacks(py, &self.functions, Vec::new(), |calls| match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 machine.steady(&mechanism.get().inner, &dimensions, &options, target, calls)
             }
@@ -528,6 +553,7 @@ impl Machine {
         py: Python<'_>,
         work: impl Fn(&assur::Mechanism, &assur::dynamics::Machine) -> T + Sync,
     ) -> PyResult<T> {
+        self.varied.refuse()?;
         match &self.inner {
             Inner::Mechanism(mechanism, machine) => {
                 let core = &mechanism.get().inner;
@@ -544,30 +570,4 @@ impl Machine {
             Inner::Tables(machine) => &machine.tables,
         }
     }
-
-    /// Runs work that may call the Python functions of the machine and of events. With such functions
-    /// it holds the GIL throughout. Raises the exception of a signal handler, if any.
-    fn with_callbacks<T: Send>(
-        &self,
-        py: Python<'_>,
-        event_functions: Vec<Py<PyAny>>,
-        work: impl FnOnce(&mut PythonCallbacks) -> T + Send,
-    ) -> PyResult<T> {
-        let functions = self.functions.iter().map(|function| function.clone_ref(py)).collect();
-        reserve::ensure(py)?;
-        let mut callbacks = PythonCallbacks::new(functions, event_functions);
-        let result = catch_panic(|| {
-            Ok(if callbacks.need_gil() {
-                work(&mut callbacks)
-            } else {
-                py.detach(|| work(&mut callbacks))
-            })
-        })?;
-        callbacks.signal.map_or(Ok(result), Err)
-    }
-}
-
-fn deadline(seconds: Option<f64>) -> Option<Instant> {
-    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
-    Instant::now().checked_add(duration)
 }

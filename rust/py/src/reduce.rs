@@ -1,6 +1,6 @@
 //! The machine referred to its drivers, for Python.
 
-use assur::dynamics::{DrivenPositions, Machine, ReducedTable};
+use assur::dynamics::{DrivenPositions, Machine, ReducedTable, Variation};
 use assur::{FirstFailure, Mechanism, SolveError, Status};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyBaseException;
@@ -28,7 +28,7 @@ const FEW_POSITIONS: usize = 20_000;
 /// See `Machine.reduce`; the inputs are dimensions, coordinates, speeds and values of functions.
 pub(crate) fn reduce<'py>(
     py: Python<'py>,
-    (mechanism, machine): (&Mechanism, &Machine),
+    (mechanism, machine, variations): (&Mechanism, &Machine, &[Variation<'_>]),
     inputs: [&Flat<'py>; 4],
     sense: &[f64],
     threads: Option<usize>,
@@ -63,7 +63,7 @@ pub(crate) fn reduce<'py>(
                 (0..size).map(|index| dimensions[index * designs + design]).collect();
             let positions =
                 DrivenPositions { q: &q, speed: &speed, sense, external: &callback_values };
-            machine.reduce(mechanism, &values, positions, cancel)
+            machine.of(variations, design).reduce(mechanism, &values, positions, cancel)
         };
         parallel_map(designs, 1, threads, cancel, &reduce_design)
     })?;

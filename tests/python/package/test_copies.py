@@ -65,7 +65,7 @@ def loaded() -> tuple[Machine, list[Any]]:
         Force(("coupler", place), force),  # type: ignore[arg-type]
         Spring("C", ends, np.array(30.0), 0.5),  # type: ignore[arg-type]
     ]
-    motor = assur.LinearMotor(torque, 20.0)  # type: ignore[arg-type]
+    motor = assur.LinearMotor(torque, 20.0)
     machine = Machine(assur.FourBar(1.0, 3.0, 2.5, 3.0), bodies=bodies, loads=loads, motor=motor)
     given = [q, value, at, force, place, gravity, mass, torque, ends, bodies]
     return machine, given

@@ -70,6 +70,7 @@ fn check(machine: &Machine, mechanism: &Mechanism, method: Method) {
     let events = [vec![speed_event(2.0, false), speed_event(5.0, true)]];
     let options = options(method);
     let batch = RunBatch {
+        variations: &[],
         dimensions,
         designs: 1,
         q: &q,
@@ -138,6 +139,7 @@ fn a_batch_ends_where_it_is_told_to() {
     let mechanism = Mechanism::new(&crank_rocker()).expect("a mechanism");
     let machine = machine(&mechanism, Vec::new());
     let batch = RunBatch {
+        variations: &[],
         dimensions: mechanism.drawing(),
         designs: 1,
         q: &[0.0; 40],

@@ -93,7 +93,9 @@ def _part(
             if link != name and link in mechanism.links:
                 body = machine.bodies.get(link)
                 at = None if body is None else body.at
-                return link, Body(mass=mass, inertia=inertia, at=at)
+                # As many machines as there are.
+                each = np.ones(machine.shape) if machine.varies else 1.0
+                return link, Body(mass=mass * each, inertia=inertia * each, at=at)
     name = checked_name(name, call)
     try:
         return [("dimension", index) for index in named_dimensions(mechanism, name)]

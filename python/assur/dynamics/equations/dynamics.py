@@ -167,6 +167,10 @@ def require_values(
         for rates in (state.q, state.speed)
     )
     time = float(np.broadcast_to(np.asarray(state.t), status.size).ravel()[row])
+    if machine.varies:
+        each = status.size // int(np.prod(machine.shape))
+        at = np.unravel_index(row // each, machine.shape)
+        machine = machine.design(tuple(int(i) for i in at))
     raise without_value(machine, Moment(q[row], speed[row], time, state.sense), what)
 
 

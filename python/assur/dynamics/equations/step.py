@@ -9,8 +9,8 @@ import numpy as np
 from assur._arrays import Float, as_number, real_array, real_number, short
 from assur._validate import checked_threads, whole_number
 from assur.description.words import Status, has_analogues
+from assur.dynamics.batch_shapes import dimensions, shape_of_results
 from assur.dynamics.equations.terms import flat
-from assur.dynamics.reduction.reduced import with_designs
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def step(
     mechanism = machine.mechanism
     assert mechanism is not None
     _refuse_functions(machine)
-    drivers, designs = machine.driver_count, machine.shape
+    drivers = machine.driver_count
     seconds = real_number(dt, "dt")
     if seconds == 0.0:
         message = "dt is 0: a time is needed, s"
@@ -85,7 +85,8 @@ def step(
             f"q has the shape {q.shape}: with {drivers} drivers its last axis must be {drivers}"
         )
         raise InputError(message)
-    shape = with_designs(q.shape if drivers == 1 else q.shape[:-1], designs)
+    positions = q.shape if drivers == 1 else q.shape[:-1]
+    shape = shape_of_results(machine, positions)
     full = shape if drivers == 1 else (*shape, drivers)
     states = [_in_shape(values, name, full, q) for values, name in ((q, "q"), (speed, "speed"))]
     if environments.effort is None:
@@ -99,7 +100,7 @@ def step(
             effort = _in_shape(effort, "effort", full, q)
     rows = int(np.prod(shape)) if shape else 1
     (after_q, after_speed), status = machine.core.step(
-        mechanism.values.reshape(-1),
+        dimensions(machine),
         (states[0], states[1], flat(effort)),
         environments.effort is None,
         rows,

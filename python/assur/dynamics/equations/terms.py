@@ -9,8 +9,9 @@ import numpy as np
 
 from assur._arrays import Float, finite_array, real_array, require_finite
 from assur._validate import checked_threads
+from assur.dynamics.batch_shapes import dimensions, shape_of_results
 from assur.dynamics.loads.load_values import function_values
-from assur.dynamics.reduction.reduced import checked_senses, with_designs
+from assur.dynamics.reduction.reduced import checked_senses
 from assur.errors import InputError
 from assur.kinematics.solve_arguments import warn_if_degrees
 
@@ -87,7 +88,9 @@ def terms_of(
     if n > 1 and (x.ndim == 0 or x.shape[-1] != n):
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
-    shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
+    positions = x.shape if n == 1 else x.shape[:-1]
+    varies = bool(machine.varies)
+    shape = shape_of_results(machine, positions)
     full = shape if n == 1 else (*shape, n)
     speed = _rates(state.speed, "speed", full, n, x, state.is_checked)
     # Without efforts the motors act alone.
@@ -96,7 +99,7 @@ def terms_of(
         acceleration = _rates(state.acceleration, "acceleration", full, n, x)
     if state.effort is not None:
         effort = _rates(state.effort, "effort", full, n, x)
-    per_design = bool(designs) and x.ndim > (1 if n == 1 else 2)
+    per_design = varies or (bool(designs) and x.ndim > (1 if n == 1 else 2))
     if per_design:
         x = np.broadcast_to(x, full)
     rows = math.prod(shape)
@@ -113,7 +116,7 @@ def terms_of(
         at = np.broadcast_to(t, shape).ravel()
         values = function_values(functions, every_q, every_speed, at)
     arrays, status, failure = machine.core.equations(
-        mechanism.values.reshape(-1),
+        dimensions(machine),
         flat(x),
         per_design,
         (speed, acceleration, effort),
@@ -123,7 +126,7 @@ def terms_of(
         rows,
         senses,
         checked_threads(threads),
-        list(designs),
+        list(designs if mechanism.shape else ()),
         by,
     )
     return Terms(arrays, shape, status, failure, x, speed)

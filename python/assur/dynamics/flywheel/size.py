@@ -22,6 +22,7 @@ from assur.dynamics.preconditions import (
     require_rotary_driver,
     require_whole_periods,
     turn_count,
+    without_arrays,
     without_friction,
 )
 from assur.dynamics.reduction.reduce import reduce
@@ -61,6 +62,7 @@ def flywheel(
     machine: MachineModel, fluctuation: Any, mean_speed: Any, mean: Any, turns: Any, on_error: str
 ) -> Flywheel:
     """See `Machine.flywheel`."""
+    without_arrays(machine, "flywheel")
     turns = turn_count(turns)
     without_friction(machine, "flywheel")
     require_rotary_driver(machine, "a flywheel")

@@ -17,6 +17,7 @@ from assur.dynamics.forces import kinetostatics
 from assur.dynamics.forces.piecewise_cubic import Pieces
 from assur.dynamics.motion.discontinuities import BESIDE_REVERSAL, jumps_between
 from assur.dynamics.motion.motion_input import DrivenMotion, times
+from assur.dynamics.preconditions import without_arrays
 from assur.errors import AssurWarning, InputError, MotionError
 
 if TYPE_CHECKING:
@@ -114,6 +115,7 @@ def duty(
     on_error: OnError,
 ) -> Duty:
     """Return the duty of a drive; see `Machine.duty`."""
+    without_arrays(machine, "duty")
     if machine.driver_count > 1:
         message = (
             f"the machine has {machine.driver_count} drivers: a duty is that of one, whose "

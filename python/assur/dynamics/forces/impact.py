@@ -12,6 +12,7 @@ from assur._summary import summary
 from assur.dynamics.forces.kinetostatics import broadcast_motion, reactions
 from assur.dynamics.loads.loads import Force, Torque
 from assur.dynamics.motion.motion_input import DrivenMotion
+from assur.dynamics.preconditions import without_arrays
 from assur.dynamics.reduction.reduce import reduced_inertia, reduced_moment
 from assur.errors import InputError
 
@@ -71,6 +72,7 @@ def impact(
     on_error: OnError,
 ) -> Impact:
     """Return what an impact does; see `Machine.impact`."""
+    without_arrays(machine, "impact")
     mechanism = machine.mechanism
     if mechanism is None:
         message = "a machine of a table has no links: an impact needs a mechanism"

@@ -11,14 +11,17 @@ import numpy as np
 from assur._arrays import real_array, short
 from assur._validate import checked_threads, one_of
 from assur.description.words import Status, has_analogues
+from assur.dynamics.batch_shapes import shape_of_results
 from assur.dynamics.forces.joint_places import links_at
 from assur.dynamics.forces.reaction_key import RESIDUAL, SOLUTIONS, Key
 from assur.dynamics.forces.reactions import Reactions
 from assur.dynamics.loads.friction import SlideFriction
 from assur.dynamics.loads.load_values import function_values
+from assur.dynamics.loads.motors import ConstantTorque
 from assur.dynamics.motion.motion_input import times
+from assur.dynamics.preconditions import without_arrays
 from assur.dynamics.reduction.reduce import reduce, single
-from assur.dynamics.reduction.reduced import checked_senses, with_designs
+from assur.dynamics.reduction.reduced import checked_senses
 from assur.dynamics.reduction.undefined_load import Moment, without_value
 from assur.errors import InputError
 from assur.kinematics.solve_arguments import warn_if_degrees
@@ -100,6 +103,7 @@ def reactions(
 
     Some of them, if `keys` are given, without errors.
     """
+    without_arrays(machine, "reactions")
     mechanism = machine.mechanism
     if mechanism is None:
         message = "a machine of a table has no joints: reactions need a mechanism"
@@ -212,6 +216,7 @@ def reaction_squares(
 
     NaN where a position of a design has no value. Positions are not kept.
     """
+    without_arrays(machine, "a metric of reactions")
     moving = broadcast_motion(machine, motion)
     arrays, _, _ = _solved(machine, moving, motion.t, threads, keys, squares=True)
     return {key: array.reshape(-1, 2) for key, array in zip(keys, arrays, strict=True)}
@@ -302,7 +307,7 @@ def broadcast_motion(
     machine: MachineModel, motion: DrivenMotion
 ) -> tuple[Float, Float, Float, tuple[int, ...]]:
     """Return coordinates, speeds, accelerations, and the shape of the positions of all designs."""
-    n, designs = machine.driver_count, machine.shape
+    n = machine.driver_count
     q, speed, acceleration = motion[:3]
     x = real_array(q, "q")
     if machine.mechanism is not None:
@@ -315,7 +320,7 @@ def broadcast_motion(
         if not np.isfinite(values).all():
             message = f"{name} is {short(given)}: finite numbers are needed"
             raise InputError(message)
-    shape = with_designs(x.shape if n == 1 else x.shape[:-1], designs)
+    shape = shape_of_results(machine, x.shape if n == 1 else x.shape[:-1])
     full = shape if n == 1 else (*shape, n)
     for name, values in (("speed", v), ("acceleration", a)):
         if not _broadcasts(values, full):
@@ -348,7 +353,12 @@ def effort(
     # A motor's rotor belongs to the drive.
     bare = machine
     if machine.motor is not None and machine.mechanism is not None:
-        bare = type(machine)(machine.mechanism, bodies=machine.bodies, loads=machine.loads)
+        # Of as many machines, if they differ by their motors.
+        idle = [ConstantTorque(np.zeros(machine.shape)), *[None] * (n - 1)]
+        motor = idle if machine.varies else None
+        bare = type(machine)(
+            machine.mechanism, bodies=machine.bodies, loads=machine.loads, motor=motor
+        )
     senses = _senses_needed(machine, motion, sense, shape)
     rests, going = np.zeros(shape, np.bool_), v
     if senses is not None:

@@ -6,18 +6,20 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from assur._arrays import Float, Function, real_array, real_number, short
+from assur._arrays import Float, Function, real_array, short
+from assur.dynamics.loads.numbers import numbers
 from assur.dynamics.loads.table import Table
 from assur.errors import InputError
 
 __all__ = ["Function", "Value", "checked_value", "function_values"]
 
-# A number, a table over q or another coordinate, or a function of (t, q, speed).
-Value: TypeAlias = float | Table | Function
+# A number (or one for each machine of a batch), a table over q or another coordinate, or a
+# function of (t, q, speed).
+Value: TypeAlias = float | Float | Table | Function
 
 
 def checked_value(value: Any, what: str) -> Value:
-    """Check a value: a table, a function, or a number, returned as float."""
+    """Check a value: a table, a function, or numbers, returned as float or array."""
     if isinstance(value, Table):
         if value.ratio != 1.0 or value.rotor_inertia != 0.0:
             message = "Table: ratio and rotor_inertia are for a table that is a motor"
@@ -26,7 +28,7 @@ def checked_value(value: Any, what: str) -> Value:
     if callable(value):
         function: Function = value
         return function
-    return real_number(value, what)
+    return numbers(value, what)
 
 
 def function_values(functions: list[Function], q: Float, speed: Float, t: Float) -> Float:

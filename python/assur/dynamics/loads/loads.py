@@ -6,18 +6,29 @@ The core reads the fields of these classes by name (rust/py/src/convert).
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from assur._arrays import not_negative, real_array, real_number, short, two_numbers
+from assur._arrays import real_array, short, two_numbers
 from assur._summary import typed
 from assur._validate import checked_name
 from assur.dynamics.loads.load_values import Value, checked_value
+from assur.dynamics.loads.numbers import (
+    ZERO,
+    OfMachines,
+    not_negative_numbers,
+    numbers,
+)
 from assur.dynamics.loads.one_way import Way, check_way
 from assur.dynamics.loads.pressure import Gas, Pressure
 from assur.dynamics.loads.table import Table, replace_fields
 from assur.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from assur._arrays import Number
 
 __all__ = [
     "Body",
@@ -36,16 +47,16 @@ __all__ = [
 PointLike: TypeAlias = str | tuple[str, tuple[float, float]]
 
 
-@dataclass(frozen=True)
-class Body:
+@dataclass(frozen=True, eq=False)
+class Body(OfMachines):
     """Mass and moment of inertia of a link.
 
     Parameters
     ----------
-    mass : float
-        kg, not negative.
-    inertia : float
-        Moment of inertia about the centre of mass, kg·m², not negative.
+    mass : float or array_like
+        kg, not negative; of an array one for each machine of a batch (see `Machine`).
+    inertia : float or array_like
+        Moment of inertia about the centre of mass, kg·m², not negative; also an array.
     at : str or (x, y), optional
         Centre of mass: a joint, or coordinates in the link's frame (origin at its first joint, x
         toward its second), m. The link's first joint by default.
@@ -71,14 +82,24 @@ class Body:
     """
 
     _: KW_ONLY
-    mass: float = 0.0
-    inertia: float = 0.0
+    mass: float | Number = ZERO
+    inertia: float | Number = ZERO
     at: str | tuple[float, float] | None = None
     drawn: tuple[float, float] | None = field(default=None, kw_only=True)
 
     def __repr__(self) -> str:
-        drawn = "" if self.drawn is None else f", drawn={self.drawn!r}"
-        return f"Body(mass={self.mass!r}, inertia={self.inertia!r}, at={self.at!r}{drawn})"
+        return typed(self).replace(", drawn=None", "")
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            *,
+            mass: npt.ArrayLike = 0.0,
+            inertia: npt.ArrayLike = 0.0,
+            at: str | tuple[float, float] | None = None,
+            drawn: tuple[float, float] | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         if self.drawn is not None:
@@ -92,8 +113,8 @@ class Body:
             at = checked_name(at, "Body at") if is_name else two_numbers(at, "Body at")
         replace_fields(
             self,
-            mass=not_negative(self.mass, "Body: mass"),
-            inertia=not_negative(self.inertia, "Body: inertia"),
+            mass=not_negative_numbers(self.mass, "Body: mass"),
+            inertia=not_negative_numbers(self.inertia, "Body: inertia"),
             at=at,
         )
 
@@ -122,8 +143,8 @@ class Gravity:
         replace_fields(self, acceleration=two_numbers(self.acceleration, "Gravity"))
 
 
-@dataclass(frozen=True)
-class Force:
+@dataclass(frozen=True, eq=False)
+class Force(OfMachines):
     """A force at a point.
 
     Parameters
@@ -131,7 +152,8 @@ class Force:
     at : str or (link, (x, y))
         A joint, or a point in a link's frame, m.
     force : (fx, fy)
-        N; each a number, a `Table` over q or another coordinate, or a function of (t, q, speed).
+        N; each a number (or an array of them: see `Body`), a `Table` over q or another coordinate,
+        or a function of (t, q, speed).
     axes : str, optional
         The link whose frame gives the directions of fx and fy, and turns with it; the drawing's
         axes by default.
@@ -193,16 +215,17 @@ class Force:
         )
 
 
-@dataclass(frozen=True)
-class Torque:
+@dataclass(frozen=True, eq=False)
+class Torque(OfMachines):
     """A torque on a link, N·m, counter-clockwise; its reaction acts on another (the frame).
 
     Parameters
     ----------
     link : str
         The link on which it acts.
-    torque : float, Table or callable
-        N·m: a number, a `Table` over q or another coordinate, or a function of (t, q, speed).
+    torque : float, array_like, Table or callable
+        N·m: a number (or an array of them: see `Body`), a `Table` over q or another coordinate, or
+        a function of (t, q, speed).
     on : str
         The link on which the reaction acts.
     while_, over
@@ -232,8 +255,8 @@ class Torque:
         replace_fields(self, torque=checked_value(self.torque, f"Torque on {self.link!r}: torque"))
 
 
-@dataclass(frozen=True)
-class Spring:
+@dataclass(frozen=True, eq=False)
+class Spring(OfMachines):
     """A spring between two points.
 
     Parameters
@@ -241,11 +264,11 @@ class Spring:
     first, second : str or (link, (x, y))
         Its ends: joints, or points in links' frames, m. At a joint of several links the same one
         takes the pull as for a `Force` without ``on``; a point in a link's frame names its link.
-    stiffness : float
-        N/m.
-    length : float
+    stiffness : float or array_like
+        N/m. This and the following may be arrays, see `Body`.
+    length : float or array_like
         Free length, m.
-    preload : float
+    preload : float or array_like
         Tension at the free length, N.
 
     Examples
@@ -257,33 +280,47 @@ class Spring:
     np.float64(50.0)
     """
 
+    __repr__ = typed
+
     first: PointLike
     second: PointLike
-    stiffness: float
-    length: float
+    stiffness: float | Number
+    length: float | Number
     _: KW_ONLY
-    preload: float = 0.0
+    preload: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            first: PointLike,
+            second: PointLike,
+            stiffness: npt.ArrayLike,
+            length: npt.ArrayLike,
+            *,
+            preload: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_ends(self)
         _check_numbers(self, "stiffness", "length", "preload")
 
 
-@dataclass(frozen=True)
-class TorsionSpring:
+@dataclass(frozen=True, eq=False)
+class TorsionSpring(OfMachines):
     """A torsion spring between two links.
 
     Parameters
     ----------
     link : str
         The link on which its torque acts.
-    stiffness : float
-        N·m/rad.
-    angle : float
+    stiffness : float or array_like
+        N·m/rad. This, `angle` and `preload` may be arrays, see `Body`.
+    angle : float or array_like
         Difference of the two links' angles at which the torque is `preload`, rad.
     on : str
         The other link.
-    preload : float
+    preload : float or array_like
         Restoring torque at that angle, N·m.
 
     Examples
@@ -295,28 +332,42 @@ class TorsionSpring:
     array([  0., -10.])
     """
 
+    __repr__ = typed
+
     link: str
-    stiffness: float
+    stiffness: float | Number
     _: KW_ONLY
-    angle: float = 0.0
+    angle: float | Number = ZERO
     on: str = "ground"
-    preload: float = 0.0
+    preload: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            link: str,
+            stiffness: npt.ArrayLike,
+            *,
+            angle: npt.ArrayLike = 0.0,
+            on: str = "ground",
+            preload: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_links(self)
         _check_numbers(self, "stiffness", "angle", "preload")
 
 
-@dataclass(frozen=True)
-class Damper:
+@dataclass(frozen=True, eq=False)
+class Damper(OfMachines):
     """A damper between two points, N·s/m.
 
     Parameters
     ----------
     first, second : str or (link, (x, y))
         Its ends, as for a `Spring`.
-    damping : float
-        N·s/m.
+    damping : float or array_like
+        N·s/m; of an array one for each machine of a batch, see `Body`.
 
     Examples
     --------
@@ -327,25 +378,36 @@ class Damper:
     np.float64(-5.0)
     """
 
+    __repr__ = typed
+
     first: PointLike
     second: PointLike
-    damping: float
+    damping: float | Number
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            first: PointLike,
+            second: PointLike,
+            damping: npt.ArrayLike,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_ends(self)
         _check_numbers(self, "damping")
 
 
-@dataclass(frozen=True)
-class TorsionDamper:
+@dataclass(frozen=True, eq=False)
+class TorsionDamper(OfMachines):
     """A torsion damper between two links, N·m·s/rad.
 
     Parameters
     ----------
     link : str
         The link on which its torque acts.
-    damping : float
-        N·m·s/rad.
+    damping : float or array_like
+        N·m·s/rad; of an array one for each machine of a batch, see `Body`.
     on : str
         The other link.
 
@@ -358,10 +420,22 @@ class TorsionDamper:
     np.float64(-5.0)
     """
 
+    __repr__ = typed
+
     link: str
-    damping: float
+    damping: float | Number
     _: KW_ONLY
     on: str = "ground"
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            link: str,
+            damping: npt.ArrayLike,
+            *,
+            on: str = "ground",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_links(self)
@@ -400,7 +474,7 @@ def named_values(load: Load) -> dict[str, Value | Gas]:
 
 def _check_numbers(load: Any, *names: str) -> None:
     kind = type(load).__name__
-    replace_fields(load, **{n: real_number(getattr(load, n), f"{kind} {n}") for n in names})
+    replace_fields(load, **{n: numbers(getattr(load, n), f"{kind} {n}") for n in names})
 
 
 def _link(name: Any, what: str) -> str:

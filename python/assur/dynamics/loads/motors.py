@@ -7,35 +7,54 @@ from __future__ import annotations
 
 import math
 from dataclasses import KW_ONLY, dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from assur._arrays import not_negative, real_number, short
+import numpy as np
+
+from assur._arrays import Float, real_number, short
 from assur._summary import typed
 from assur._units import rpm as speed_of
 from assur._validate import whole_number
 from assur.dynamics.loads.load_values import Value, checked_value
+from assur.dynamics.loads.numbers import (
+    ZERO,
+    OfMachines,
+    not_negative_numbers,
+    numbers,
+    require_each,
+)
 from assur.dynamics.loads.table import Table, checked_ratio, replace_fields
 from assur.errors import InputError
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from assur._arrays import Number
+
+# The default of such a field, see `ZERO`.
+ONE: Any = 1.0
 # No motor has more.
 MOST_POLES = 1000
 
 __all__ = ["ConstantTorque", "InductionMotor", "LinearMotor"]
 
 
-@dataclass(frozen=True)
-class ConstantTorque:
+@dataclass(frozen=True, eq=False)
+class ConstantTorque(OfMachines):
     """A motor whose torque does not depend on its speed.
 
     Parameters
     ----------
-    torque : float, Table or callable
-        Torque of the motor, N·m (driven slide: N); also a `Table` over q or a function of
+    torque : float, array_like, Table or callable
+        Torque of the motor, N·m (driven slide: N). Numbers of motors may be arrays, one for each
+        machine of a batch: see `Body`. Also a `Table` over q or a function of
         (t, q, speed), with the driver's coordinate and speed.
-    ratio : float
+    ratio : float or array_like
         Speed of the motor divided by that of the driver; negative if they turn in opposite
         directions.
-    rotor_inertia : float
+    rotor_inertia : float or array_like
         Moment of inertia of the rotor, kg·m²; referred to the driver, times ratio².
 
     Examples
@@ -48,27 +67,37 @@ class ConstantTorque:
 
     torque: Value
     _: KW_ONLY
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
+    ratio: float | Number = ONE
+    rotor_inertia: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            torque: Value | Sequence[float],
+            *,
+            ratio: npt.ArrayLike = 1.0,
+            rotor_inertia: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         replace_fields(self, torque=checked_value(self.torque, "ConstantTorque torque"))
 
 
-@dataclass(frozen=True)
-class LinearMotor:
+@dataclass(frozen=True, eq=False)
+class LinearMotor(OfMachines):
     """A motor whose torque falls linearly from `stall` at rest to 0 at `no_load`.
 
     For example a direct-current motor at constant voltage: torque = stall · (1 − speed / no_load).
 
     Parameters
     ----------
-    stall : float
+    stall : float or array_like
         Torque at rest, N·m.
-    no_load : float
+    no_load : float or array_like
         Speed at which the torque is 0, rad/s.
-    ratio, rotor_inertia : float
+    ratio, rotor_inertia : float or array_like
         See `ConstantTorque`.
 
     Examples
@@ -77,30 +106,43 @@ class LinearMotor:
     >>> motor = assur.LinearMotor(stall=40.0, no_load=150.0, ratio=10.0)
     """
 
-    stall: float
-    no_load: float
+    __repr__ = typed
+
+    stall: float | Number
+    no_load: float | Number
     _: KW_ONLY
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
+    ratio: float | Number = ONE
+    rotor_inertia: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            stall: npt.ArrayLike,
+            no_load: npt.ArrayLike,
+            *,
+            ratio: npt.ArrayLike = 1.0,
+            rotor_inertia: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         _check_positive(self, "stall", "no_load")
 
 
-@dataclass(frozen=True)
-class InductionMotor:
+@dataclass(frozen=True, eq=False)
+class InductionMotor(OfMachines):
     """An induction motor: torque = 2 · breakdown / (s/slip + slip/s), s = 1 − speed/synchronous.
 
     Parameters
     ----------
-    breakdown : float
+    breakdown : float or array_like
         Greatest torque, N·m.
-    slip : float
+    slip : float or array_like
         Slip at that torque, as a fraction of the synchronous speed: above 0, at most 1.
-    synchronous : float
+    synchronous : float or array_like
         Speed of the rotating field, rad/s.
-    ratio, rotor_inertia : float
+    ratio, rotor_inertia : float or array_like
         See `ConstantTorque`.
 
     References
@@ -113,22 +155,40 @@ class InductionMotor:
     >>> motor = assur.InductionMotor(breakdown=60.0, slip=0.15, synchronous=157.1, ratio=10.0)
     """
 
-    breakdown: float
-    slip: float
-    synchronous: float
+    __repr__ = typed
+
+    breakdown: float | Number
+    slip: float | Number
+    synchronous: float | Number
     _: KW_ONLY
-    ratio: float = 1.0
-    rotor_inertia: float = 0.0
+    ratio: float | Number = ONE
+    rotor_inertia: float | Number = ZERO
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            breakdown: npt.ArrayLike,
+            slip: npt.ArrayLike,
+            synchronous: npt.ArrayLike,
+            *,
+            ratio: npt.ArrayLike = 1.0,
+            rotor_inertia: npt.ArrayLike = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         _check_shaft(self)
         _check_positive(self, "breakdown", "slip", "synchronous")
-        if self.slip > 1.0:
+        slip: float | Float = self.slip
+        if isinstance(slip, np.ndarray):
+            needed = "a fraction of the synchronous speed is needed, at most 1"
+            require_each(slip, slip <= 1.0, "InductionMotor slip", needed)
+        elif slip > 1.0:
             message = (
-                f"InductionMotor: slip is {self.slip:g}: a fraction of the synchronous speed is "
+                f"InductionMotor: slip is {slip:g}: a fraction of the synchronous speed is "
                 f"needed, at most 1 (15 % is 0.15)"
             )
-            raise InputError(message, value=self.slip)
+            raise InputError(message, value=slip)
 
     @classmethod
     def from_plate(
@@ -244,16 +304,27 @@ def _check_shaft(motor: Any) -> None:
     name = type(motor).__name__
     replace_fields(
         motor,
-        ratio=checked_ratio(motor.ratio, f"{name}: ratio"),
-        rotor_inertia=not_negative(motor.rotor_inertia, f"{name}: rotor_inertia"),
+        ratio=_checked_ratios(motor.ratio, f"{name}: ratio"),
+        rotor_inertia=not_negative_numbers(motor.rotor_inertia, f"{name}: rotor_inertia"),
     )
+
+
+def _checked_ratios(value: Any, what: str) -> float | Float:
+    ratios = numbers(value, what)
+    if isinstance(ratios, np.ndarray):
+        require_each(ratios, ratios != 0.0, what, "the motor would not turn")
+        return ratios
+    return checked_ratio(value, what)
 
 
 def _check_positive(motor: Any, *names: str) -> None:
     kind = type(motor).__name__
     for name in names:
-        value = real_number(getattr(motor, name), f"{kind} {name}")
-        if value <= 0.0:
+        value = numbers(getattr(motor, name), f"{kind} {name}")
+        if isinstance(value, np.ndarray):
+            needed = "it must be positive (a negative ratio turns the driver the other way)"
+            require_each(value, value > 0.0, f"{kind} {name}", needed)
+        elif value <= 0.0:
             message = (
                 f"{kind}: {name} is {value:g}, it must be positive (a negative ratio turns the "
                 "driver the other way)"

@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
-from assur._arrays import not_negative, real_number
+from assur._arrays import Float, not_negative, real_number
 from assur._summary import typed
 from assur._validate import checked_name, one_of
 from assur.dynamics.loads.load_values import Value, checked_value
+from assur.dynamics.loads.numbers import OfMachines, not_negative_numbers
 from assur.dynamics.loads.one_way import DIRECTIONS, Way, check_way
 from assur.dynamics.loads.table import replace_fields
 from assur.errors import InputError
@@ -19,7 +20,7 @@ from assur.errors import InputError
 __all__ = ["ATMOSPHERE", "Gas", "Pressure"]
 
 # The standard atmosphere, Pa (ISO 2533).
-ATMOSPHERE = 101325.0
+ATMOSPHERE: Any = 101325.0
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,8 @@ class Gas:
         replace_fields(self, **numbers)
 
 
-@dataclass(frozen=True)
-class Pressure:
+@dataclass(frozen=True, eq=False)
+class Pressure(OfMachines):
     """A pressure in the cylinder of a slide.
 
     A force area × (pressure − ambient) along the guide on the sliding link, at its sliding point;
@@ -81,14 +82,14 @@ class Pressure:
         The slide.
     area : float
         Area of the piston, m².
-    pressure : Gas, float, Table or callable
-        Absolute pressure, Pa: a closed `Gas`, a number, a `Table` over q or (``over=``) over the
-        value of a slide, or a function of (t, q, speed). A four-stroke engine has a table over q
-        with the period 4π; a compressor, whose lines of compression and expansion differ, has two
-        pressures over its slide, each with its ``while_``.
+    pressure : Gas, float, array_like, Table or callable
+        Absolute pressure, Pa: a closed `Gas`, a number (an array: see `Body`), a `Table` over q or
+        (``over=``) over the value of a slide, or a function of (t, q, speed). A four-stroke engine
+        has a table over q with the period 4π; a compressor, whose lines of compression and
+        expansion differ, has two pressures over its slide, each with its ``while_``.
     expands : {"forward", "backward"}
         The direction of the slide in which the volume grows: the pressure drives it there.
-    ambient : float
+    ambient : float or array_like
         Pressure on the other side of the piston, Pa: the atmosphere's by default, 0 for a vacuum or
         a `pressure` that is already a difference.
     while_ : {"forward", "backward"}, optional
@@ -117,7 +118,7 @@ class Pressure:
     pressure: Gas | Value
     expands: Way
     _: KW_ONLY
-    ambient: float = ATMOSPHERE
+    ambient: float | Float = ATMOSPHERE
     while_: Way | None = None
     over: str | None = None
 
@@ -135,5 +136,5 @@ class Pressure:
             slide=checked_name(self.slide, "Pressure slide"),
             area=area,
             pressure=pressure if is_gas else checked_value(pressure, "Pressure pressure"),
-            ambient=not_negative(self.ambient, "Pressure: ambient"),
+            ambient=not_negative_numbers(self.ambient, "Pressure: ambient"),
         )

@@ -14,6 +14,7 @@ from assur import flywheel as flywheels
 from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics import components
+from assur.dynamics.batch_shapes import dimensions, shape_of_results
 from assur.dynamics.components import as_list
 from assur.dynamics.loads.table import Table
 from assur.dynamics.motion.run import Run, energies_are_infinite
@@ -33,7 +34,6 @@ from assur.dynamics.preconditions import (
     without_followers,
     without_friction,
 )
-from assur.dynamics.reduction.reduced import with_designs
 from assur.dynamics.reduction.undefined_load import not_covered, table_names
 from assur.errors import AssurError, AssurWarning, InputError
 from assur.kinematics.solve_arguments import warn_if_degrees
@@ -196,15 +196,14 @@ def _many(
     states: tuple[Float, Float, Float],
     many: tuple[str, str, int | None],
 ) -> Runs:
-    n, designs, (keep, on_error, threads) = machine.driver_count, machine.shape, many
-    shape, (q, speed, end) = _broadcast(states, n, designs)
+    n, (keep, on_error, threads) = machine.driver_count, many
+    shape, (q, speed, end) = _broadcast(states, n, machine)
     if inputs.along_q:
         for flat, state in enumerate(zip(q.tolist(), speed.tolist(), end.tolist(), strict=True)):
             if (refused := _refused_end(*state)) is not None:
                 raise _of_run(refused, flat, shape, 0)
-    dimensions = np.empty(0) if machine.mechanism is None else machine.mechanism.values
     core = machine.core.runs(
-        (dimensions.reshape(-1), math.prod(designs)),
+        (dimensions(machine, each=True), math.prod(machine.shape)),
         inputs.along_q,
         (inputs.t0, q, speed, end),
         (inputs.method, inputs.tolerances),
@@ -238,7 +237,7 @@ def _many(
 
 
 def _broadcast(
-    states: tuple[Float, Float, Float], n: int, designs: tuple[int, ...]
+    states: tuple[Float, Float, Float], n: int, machine: MachineModel
 ) -> tuple[tuple[int, ...], tuple[Float, Float, Float]]:
     """Return the shape of the runs, and states and ends of all of them, flat."""
     tail = 0 if n == 1 else 1
@@ -250,7 +249,7 @@ def _broadcast(
     }
     try:
         shape = np.broadcast_shapes(*shapes.values())
-        shape = with_designs(shape, designs)
+        shape = shape_of_results(machine, shape)
         full = [(*shape, *(() if n == 1 else (n,)))] * 2 + [shape]
         flat = [
             np.ascontiguousarray(np.broadcast_to(values, to)).reshape(-1)
@@ -258,7 +257,7 @@ def _broadcast(
         ]
     except ValueError as error:
         told = ", ".join(f"{name} {size}" for name, size in shapes.items())
-        message = f"the shapes of the runs do not fit: {told}, designs {designs}"
+        message = f"the shapes of the runs do not fit: {told}, designs {machine.shape}"
         raise InputError(message) from error
     return shape, (flat[0], flat[1], flat[2])
 

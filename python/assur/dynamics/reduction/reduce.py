@@ -132,6 +132,8 @@ def single(machine: MachineModel, row: int, positions: int) -> tuple[MachineMode
         return machine, None
     design = row // max(1, positions // math.prod(machine.shape))
     index = tuple(int(i) for i in np.unravel_index(design, machine.shape))
+    if machine.varies:
+        return machine.design(index), index
     mechanism = machine.mechanism.design(index)
     one = type(machine)(mechanism, bodies=machine.bodies, loads=machine.loads, motor=machine.motor)
     return one, index

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, finite_array, real_array, short
+from assur.dynamics.batch_shapes import dimensions, shape_of_results
 from assur.dynamics.loads.load_values import function_values
 from assur.errors import InputError
 from assur.kinematics.solve_arguments import warn_if_degrees
@@ -43,7 +44,7 @@ def answer(
     sense: float | Sequence[float] | None = None,
 ) -> Answer:
     """Ask the core; without a speed no function is called, and the moments are not valid."""
-    n, designs = machine.driver_count, machine.shape
+    n = machine.driver_count
     x, v = real_array(q, "q"), finite_array(0.0 if speed is None else speed, "speed")
     if machine.mechanism is not None:
         warn_if_degrees(machine.mechanism, x)
@@ -51,7 +52,7 @@ def answer(
         message = f"q has the shape {x.shape}: with {n} drivers its last axis must be {n}"
         raise InputError(message)
     positions = x.shape if n == 1 else x.shape[:-1]
-    shape = with_designs(positions, designs)
+    shape = shape_of_results(machine, positions)
     full = shape if n == 1 else (*shape, n)
     try:
         x, v = np.broadcast_to(x, full), np.broadcast_to(v, full)
@@ -65,9 +66,14 @@ def answer(
         functions = machine.core.load_functions
         at = np.broadcast_to(np.asarray(t), shape).ravel()
         load_values = function_values(functions, flat.reshape(-1, n), speeds.reshape(-1, n), at)
-    values = np.empty(0) if machine.mechanism is None else machine.mechanism.values
     *arrays, status, failure = machine.core.reduce(
-        values.reshape(-1), flat, speeds, load_values, senses, None, list(designs)
+        dimensions(machine, each=True),
+        flat,
+        speeds,
+        load_values,
+        senses,
+        None,
+        list(machine.shape),
     )
     inertia, rates, moment, potential = arrays
     return Answer(
@@ -108,19 +114,3 @@ def checked_senses(
         )
         raise InputError(message, value=0.0)
     return []
-
-
-def with_designs(positions: tuple[int, ...], designs: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the shape of the result: q is a number, (N,) or S + (N,)."""
-    if not designs:
-        return positions
-    if len(positions) <= 1:
-        return (*designs, *positions)
-    try:
-        np.broadcast_to(np.empty(positions[:-1]), designs)
-    except ValueError as error:
-        message = (
-            f"q has the shape {positions}: with designs {designs} it is a number, (N,) or S + (N,)"
-        )
-        raise InputError(message) from error
-    return (*designs, positions[-1])

@@ -43,6 +43,7 @@ pub(crate) mod steady;
 pub(crate) mod stiffness;
 pub(crate) mod tables;
 pub(crate) mod value;
+pub(crate) mod variation;
 
 pub use angle_between::{Angle, Line};
 pub use body::Body;
@@ -81,3 +82,4 @@ pub use tables::error::TableError;
 pub use tables::spline::{EndCondition, Pieces, spline, spline_unless};
 pub use tables::table::Table;
 pub use value::Value;
+pub use variation::{MachineNumber, Variation};

@@ -70,6 +70,35 @@ impl Motor {
         [self.ratio * torque, self.ratio * self.ratio * slope]
     }
 
+    /// The names of the numbers that a machine of a batch may have for itself. A torque that is a table or a
+    /// callback is not one.
+    #[must_use]
+    pub fn number_names(&self) -> &'static [&'static str] {
+        match &self.characteristic {
+            Characteristic::Value(_) => &["ratio", "rotor_inertia", "torque"],
+            Characteristic::Linear { .. } => &["ratio", "rotor_inertia", "stall", "no_load"],
+            Characteristic::Induction { .. } => {
+                &["ratio", "rotor_inertia", "breakdown", "slip", "synchronous"]
+            }
+            Characteristic::Table(_) => &["ratio", "rotor_inertia"],
+        }
+    }
+
+    /// The number of an index among [these](Self::number_names), unless it is no constant.
+    pub(crate) fn number(&mut self, index: usize) -> Option<&mut f64> {
+        match (index, &mut self.characteristic) {
+            (0, _) => Some(&mut self.ratio),
+            (1, _) => Some(&mut self.rotor_inertia),
+            (2, Characteristic::Value(Value::Number(torque))) => Some(torque),
+            (2, Characteristic::Linear { stall, .. }) => Some(stall),
+            (3, Characteristic::Linear { no_load, .. }) => Some(no_load),
+            (2, Characteristic::Induction { breakdown, .. }) => Some(breakdown),
+            (3, Characteristic::Induction { slip, .. }) => Some(slip),
+            (4, Characteristic::Induction { synchronous, .. }) => Some(synchronous),
+            _ => None,
+        }
+    }
+
     /// Whether its moment is a formula of its speed, or constant.
     pub(crate) fn reads_its_speed_only(&self) -> bool {
         match &self.characteristic {

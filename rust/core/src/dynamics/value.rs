@@ -50,6 +50,22 @@ impl Value {
         }
     }
 
+    /// The number, if it is a constant.
+    pub(crate) fn number(&mut self) -> Option<&mut f64> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Table(_) | Self::Over(_) | Self::External(_) => None,
+        }
+    }
+
+    /// The number, NaN if it is no constant.
+    pub(crate) fn constant(self) -> f64 {
+        match self {
+            Self::Number(number) => number,
+            Self::Table(_) | Self::Over(_) | Self::External(_) => f64::NAN,
+        }
+    }
+
     /// Derivative by the driver's speed.
     pub(crate) fn d_speed(self, numbers: Numbers<'_>) -> f64 {
         match self {

@@ -10,6 +10,7 @@ pub(crate) mod metric;
 pub(crate) mod motor;
 pub(crate) mod point;
 pub(crate) mod value;
+pub(crate) mod varied;
 pub(crate) mod word;
 
 use pyo3::prelude::*;

@@ -1,6 +1,7 @@
 //! Runs of machines for Python: calls functions, returns arrays.
 
 pub(crate) mod batch;
+pub(crate) mod calls;
 pub(crate) mod options;
 pub(crate) mod outcomes;
 mod state;

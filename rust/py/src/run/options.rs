@@ -1,5 +1,7 @@
 //! The options that runs have in common.
 
+use std::time::{Duration, Instant};
+
 use assur::dynamics::{RunOptions, Variable};
 use assur::ode::Method;
 
@@ -32,4 +34,10 @@ pub(crate) fn options(
         events: &[],
         flywheel: 0.0,
     }
+}
+
+/// When a number of seconds from now is over; `None` for no limit, or none that a clock can tell.
+pub(crate) fn deadline(seconds: Option<f64>) -> Option<Instant> {
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())?;
+    Instant::now().checked_add(duration)
 }

@@ -94,7 +94,7 @@ impl<'b> ForLevel for Terms<'b, '_> {
         let batch = self.batch;
         let new_state = || ThreadState::<'b, L::Register, G> {
             positions: batch.positions.thread(),
-            scene: Scene::new(batch.positions.plan),
+            scene: Scene::new(batch.positions.plan, batch.positions.machine),
             equation: Equation::default(),
             efforts: Vec::new(),
         };

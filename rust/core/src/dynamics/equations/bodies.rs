@@ -128,11 +128,16 @@ impl Partials<'_> {
         }
     }
 
-    /// Adds a body to the mass matrix, the lower half of which is kept, row by row.
+    /// Adds a body of this mass and inertia to the mass matrix, the lower half of which is kept, row by row.
     #[inline(always)]
-    pub(super) fn add_mass<R: Real>(self, scene: &Scene<R>, body: &Body, mass: &mut [R]) {
+    pub(super) fn add_mass<R: Real>(
+        self,
+        scene: &Scene<R>,
+        body: &Body,
+        [m, inertia]: [R; 2],
+        mass: &mut [R],
+    ) {
         let n = self.drivers;
-        let (m, inertia) = (R::splat(body.mass), R::splat(body.inertia));
         for a in 0..n {
             let (first, turning) = (self.place(scene, body.at, a), self.turning::<R>(body, a));
             for b in 0..=a {
@@ -146,11 +151,16 @@ impl Partials<'_> {
         }
     }
 
-    /// Adds a body to the derivatives of the mass matrix, n × n × n with the coordinate's axis last.
+    /// Adds a body of this mass and inertia to the derivatives of the mass matrix, n × n × n with the coordinate's axis last.
     #[inline(always)]
-    pub(super) fn add_mass_rates<R: Real>(self, scene: &Scene<R>, body: &Body, rates: &mut [R]) {
+    pub(super) fn add_mass_rates<R: Real>(
+        self,
+        scene: &Scene<R>,
+        body: &Body,
+        [m, inertia]: [R; 2],
+        rates: &mut [R],
+    ) {
         let n = self.drivers;
-        let (m, inertia) = (R::splat(body.mass), R::splat(body.inertia));
         for a in 0..n {
             let (place_a, angle_a) = (self.place(scene, body.at, a), self.turning::<R>(body, a));
             for b in 0..n {
@@ -167,7 +177,7 @@ impl Partials<'_> {
         }
     }
 
-    /// Derivative of a body's angle; zero where it has no inertia, and the ground.
+    /// Derivative of a body's angle; zero where no machine's has inertia, and the ground.
     #[inline(always)]
     fn turning<R: Real>(self, body: &Body, a: usize) -> R {
         if body.inertia == 0.0 { R::ZERO } else { self.angle(body.link, a) }

@@ -1,6 +1,7 @@
 //! Derivatives of the terms of the equations of motion: the same formulas in dual numbers, one direction after
 //! another at each position.
 
+use std::borrow::Cow;
 use std::mem::MaybeUninit;
 
 use super::bodies::Partials;
@@ -21,6 +22,7 @@ use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::reactions::columns::{Rows, Solved};
 use crate::dynamics::reactions::scene::{Moving, Scene};
 use crate::dynamics::value::Numbers;
+use crate::dynamics::variation::Varied;
 use crate::math::dual::Dual;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -71,7 +73,7 @@ impl Machine {
             control,
         );
         if request.terms.contains(&Term::Effort) {
-            equations.rotors = &rest;
+            equations.has_rotors = false;
         }
         equations.positions.check()?;
         let fits = [request.effort, request.acceleration]
@@ -160,7 +162,10 @@ impl<'b> ForLevel for Derive<'b, '_> {
         let new_state = || ThreadState::<'b, L::Register, G> {
             positions: batch.equations.positions.thread(),
             space: Space {
-                scene: Scene::new(batch.equations.positions.plan),
+                scene: Scene::new(
+                    batch.equations.positions.plan,
+                    batch.equations.positions.machine,
+                ),
                 equation: Equation::default(),
                 row: DualRow::default(),
                 effort: Vec::new(),
@@ -260,6 +265,7 @@ impl<'b> DerivativeBatch<'b> {
             ways: &row.ways,
             external: &external,
             callbacks: positions.values.callbacks,
+            varied: Varied { rows: &row.varied, ..positions.values.varied },
         };
         scene.apply(plan, batch.machine, values, rows);
         let drivers = plan.drivers;
@@ -323,7 +329,11 @@ impl<'b> DerivativeBatch<'b> {
             .collect();
         let numbers =
             Numbers { tables: &tables, over: &over, external: &external, ..Numbers::default() };
-        for motor in &self.dual.machine.motors {
+        let mut motors = Cow::Borrowed(self.dual.machine.motors.as_slice());
+        if positions.values.varied.has_motors() {
+            positions.values.varied.set_motors(motors.to_mut(), index);
+        }
+        for motor in motors.iter() {
             let at = 2 * motor.driver;
             let (speed, rate) = (space.row.speed[at], space.row.speed[at + 1]);
             let [torque, slope] = motor.torque_and_slopes(speed, rate, numbers);

@@ -6,6 +6,7 @@ use super::equation_batch::EquationBatch;
 use super::evaluate::Equation;
 use crate::dynamics::body::Body;
 use crate::dynamics::kinematics::Point;
+use crate::dynamics::reactions::lane_numbers::LaneNumbers;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::structure::closure::point_of_joint;
@@ -27,19 +28,26 @@ impl<R: Real> Equation<R> {
     pub(super) fn read_bodies(
         &mut self,
         batch: &EquationBatch<'_>,
+        numbers: &LaneNumbers<R>,
         partials: Partials<'_>,
         speed: &[f64],
     ) {
         // The compiler unrolls loops over a number of drivers that it knows.
         match partials.drivers {
-            1 => self.sum_bodies(batch, Partials { drivers: 1, ..partials }, speed),
-            2 => self.sum_bodies(batch, Partials { drivers: 2, ..partials }, speed),
-            _ => self.sum_bodies(batch, partials, speed),
+            1 => self.sum_bodies(batch, numbers, Partials { drivers: 1, ..partials }, speed),
+            2 => self.sum_bodies(batch, numbers, Partials { drivers: 2, ..partials }, speed),
+            _ => self.sum_bodies(batch, numbers, partials, speed),
         }
     }
 
     #[inline(always)]
-    fn sum_bodies(&mut self, batch: &EquationBatch<'_>, partials: Partials<'_>, speed: &[f64]) {
+    fn sum_bodies(
+        &mut self,
+        batch: &EquationBatch<'_>,
+        numbers: &LaneNumbers<R>,
+        partials: Partials<'_>,
+        speed: &[f64],
+    ) {
         let n = partials.drivers;
         let direct = &mut self.direct;
         direct.speeds.resize(n, R::ZERO);
@@ -59,17 +67,20 @@ impl<R: Real> Equation<R> {
         self.bias.resize(n, R::ZERO);
         self.bias.fill(R::ZERO);
         let (mass, bias) = (&mut self.mass[..n * n], &mut self.bias[..n]);
-        for (driver, &rotor) in batch.rotors.iter().enumerate() {
-            mass[driver * n + driver] = R::splat(rotor);
-        }
         let machine = batch.positions.machine;
+        if batch.has_rotors {
+            for (motor, &[ratio, rotor]) in machine.motors.iter().zip(&numbers.motors) {
+                mass[motor.driver * n + motor.driver] += ratio * ratio * rotor;
+            }
+        }
         let gravity = Vector::splat(Vector::new(machine.gravity[0], machine.gravity[1]));
-        for body in &machine.bodies {
+        // Where numbers vary the machine has the greatest: zero there is zero everywhere.
+        for (body, &[m, inertia]) in machine.bodies.iter().zip(&numbers.bodies) {
             if body.mass != 0.0 {
-                direct.add_mass(partials, (body, gravity), mass, bias);
+                direct.add_mass(partials, (body, m, gravity), mass, bias);
             }
             if body.inertia != 0.0 {
-                direct.add_inertia(partials, body, mass, bias);
+                direct.add_inertia(partials, (body, inertia), mass, bias);
             }
         }
     }
@@ -81,7 +92,7 @@ impl<R: Real> Direct<R> {
     fn add_mass(
         &mut self,
         partials: Partials<'_>,
-        (body, gravity): (&Body, Vector<R>),
+        (body, m, gravity): (&Body, R, Vector<R>),
         mass: &mut [R],
         bias: &mut [R],
     ) {
@@ -118,7 +129,6 @@ impl<R: Real> Direct<R> {
             acceleration = acceleration + turning.scale(turn_rate(products, partials, link))
                 - arm.scale(turn * turn);
         }
-        let m = R::splat(body.mass);
         for a in 0..n {
             let impulse = places[a].scale(m);
             bias[a] += impulse.dot(acceleration);
@@ -130,8 +140,14 @@ impl<R: Real> Direct<R> {
 
     /// Adds the moment of inertia of a body: `M_ab = J Θ_a Θ_b`, `b_a = J Θ_a Θ_bc q̇_b q̇_c`.
     #[inline(always)]
-    fn add_inertia(&self, partials: Partials<'_>, body: &Body, mass: &mut [R], bias: &mut [R]) {
-        let (n, inertia) = (partials.drivers, R::splat(body.inertia));
+    fn add_inertia(
+        &self,
+        partials: Partials<'_>,
+        (body, inertia): (&Body, R),
+        mass: &mut [R],
+        bias: &mut [R],
+    ) {
+        let n = partials.drivers;
         let couple = inertia * turn_rate(&self.products, partials, body.link);
         for a in 0..n {
             let rate: R = partials.angle(body.link, a);

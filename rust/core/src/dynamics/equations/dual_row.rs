@@ -36,6 +36,7 @@ pub(super) struct DualRow {
     pub tables: Vec<Vec<f64>>,
     pub over: Vec<Vec<f64>>,
     pub ways: Vec<Vec<f64>>,
+    pub varied: Vec<Vec<f64>>,
     linear: Linearization<f64>,
     tangent: Tangent<f64>,
 }
@@ -60,6 +61,7 @@ impl DualPlan<'_> {
             (&mut row.tables, values.tables),
             (&mut row.over, values.over),
             (&mut row.ways, values.ways),
+            (&mut row.varied, values.varied.rows),
         ] {
             duals.resize(lists.len(), Vec::new());
             for (dual, list) in duals.iter_mut().zip(lists) {

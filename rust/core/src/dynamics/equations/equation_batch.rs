@@ -1,5 +1,7 @@
 //! What all chunks of the equations of motion share.
 
+use std::borrow::Cow;
+
 use super::plan::EquationPlan;
 use super::request::EquationRequest;
 use crate::batch::chunks::most_positions;
@@ -16,8 +18,8 @@ use crate::plan::mechanism::Mechanism;
 pub(super) struct EquationBatch<'b> {
     pub positions: MachineBatch<'b>,
     pub request: &'b EquationRequest<'b>,
-    /// Inertia of the rotors, driver by driver.
-    pub rotors: &'b [f64],
+    /// Whether the motors' rotors count in the mass matrix.
+    pub has_rotors: bool,
 }
 
 impl<'b> EquationBatch<'b> {
@@ -52,9 +54,10 @@ impl<'b> EquationBatch<'b> {
                     sense: request.sense,
                 },
                 callbacks: request.external.len().checked_div(rows).unwrap_or(0),
+                variations: request.variations,
             },
             request,
-            rotors: &plan.rotors,
+            has_rotors: true,
         }
     }
 
@@ -73,6 +76,7 @@ impl<'b> EquationBatch<'b> {
             if all.len() == n { all[driver] } else { all[row * n + driver] }
         };
         let (mut tables, mut external) = (Vec::new(), Vec::new());
+        let mut motors = Cow::Borrowed(self.positions.machine.motors.as_slice());
         for row in 0..count {
             tables.clear();
             tables.extend(values.tables.iter().map(|table| [table[row], 0.0]));
@@ -82,7 +86,10 @@ impl<'b> EquationBatch<'b> {
             external.extend(numbers.iter().map(|&number| [number, 0.0]));
             let numbers = Numbers { tables: &tables, external: &external, ..Numbers::default() };
             efforts.extend((0..n).map(|driver| row_of(effort, row, driver)));
-            for motor in &self.positions.machine.motors {
+            if values.varied.has_motors() {
+                values.varied.set_motors(motors.to_mut(), row);
+            }
+            for motor in motors.iter() {
                 let driver_speed = row_of(speed, row, motor.driver);
                 efforts[row * n + motor.driver] += motor.torque_at(driver_speed, numbers);
             }

@@ -89,18 +89,20 @@ impl<R: Real> Equation<R> {
         if needs(&[Term::MassMatrix, Term::Effort, Term::Acceleration]) {
             self.mass.clear();
             self.mass.resize(n * n, R::ZERO);
-            for (driver, &rotor) in batch.rotors.iter().enumerate() {
-                self.mass[driver * n + driver] = R::splat(rotor);
+            if batch.has_rotors {
+                for (motor, &[ratio, rotor]) in machine.motors.iter().zip(&scene.numbers.motors) {
+                    self.mass[motor.driver * n + motor.driver] += ratio * ratio * rotor;
+                }
             }
-            for body in &machine.bodies {
-                partials.add_mass(scene, body, &mut self.mass);
+            for (body, &numbers) in machine.bodies.iter().zip(&scene.numbers.bodies) {
+                partials.add_mass(scene, body, numbers, &mut self.mass);
             }
         }
         if needs(&[Term::MassRates]) {
             self.rates.clear();
             self.rates.resize(n * n * n, R::ZERO);
-            for body in &machine.bodies {
-                partials.add_mass_rates(scene, body, &mut self.rates);
+            for (body, &numbers) in machine.bodies.iter().zip(&scene.numbers.bodies) {
+                partials.add_mass_rates(scene, body, numbers, &mut self.rates);
             }
         }
         if needs(&[Term::Bias, Term::Effort, Term::Acceleration]) {
@@ -114,9 +116,9 @@ impl<R: Real> Equation<R> {
             let gravity = Vector::splat(Vector::new(machine.gravity[0], machine.gravity[1]));
             for a in 0..n {
                 let mut power = R::ZERO;
-                for body in &machine.bodies {
+                for (body, &[mass, _]) in machine.bodies.iter().zip(&scene.numbers.bodies) {
                     let rate = partials.place(scene, body.at, a);
-                    power += R::splat(body.mass) * gravity.dot(rate);
+                    power += mass * gravity.dot(rate);
                 }
                 self.gravity.push(-power);
             }

@@ -22,8 +22,6 @@ pub struct EquationPlan {
     pub(super) derivatives: DerivativeTables,
     pub(super) writer: Arc<Writer>,
     pub(super) sources: Sources,
-    /// Inertia of the rotors, driver by driver.
-    pub(super) rotors: Vec<f64>,
     /// Joints whose Jacobians may be requested.
     joints: Vec<usize>,
 }
@@ -36,7 +34,7 @@ impl EquationPlan {
         for &joint in &joints {
             forces.need_joint(joint);
         }
-        let mut compiled = Self::compiled(mechanism, machine, forces, false);
+        let mut compiled = Self::compiled(mechanism, forces, false);
         compiled.joints = joints;
         compiled
     }
@@ -45,7 +43,7 @@ impl EquationPlan {
     #[must_use]
     pub fn for_steps(mechanism: &Mechanism, machine: &Machine) -> Self {
         let forces = ForcePlan::for_steps(mechanism, machine, order(machine));
-        Self::compiled(mechanism, machine, forces, false)
+        Self::compiled(mechanism, forces, false)
     }
 
     /// Compiles a machine whose terms are to be differentiated: it is solved to one order more, with what
@@ -53,15 +51,10 @@ impl EquationPlan {
     #[must_use]
     pub fn for_derivatives(mechanism: &Mechanism, machine: &Machine) -> Self {
         let forces = ForcePlan::for_equations(mechanism, machine, order(machine));
-        Self::compiled(mechanism, machine, forces, true)
+        Self::compiled(mechanism, forces, true)
     }
 
-    fn compiled(
-        mechanism: &Mechanism,
-        machine: &Machine,
-        mut forces: ForcePlan,
-        differentiates: bool,
-    ) -> Self {
+    fn compiled(mechanism: &Mechanism, mut forces: ForcePlan, differentiates: bool) -> Self {
         let solved_order = if differentiates {
             add_outputs(&mut forces.outputs, &SensitivityPlan::new(mechanism, &[]).outputs);
             forces.order + 1
@@ -78,11 +71,7 @@ impl EquationPlan {
         };
         let writer = Writer::of(mechanism, &derivatives, &request);
         let sources = Sources::new(&forces, &writer.columns);
-        let mut rotors = vec![0.0; forces.drivers];
-        for motor in &machine.motors {
-            rotors[motor.driver] += motor.inertia();
-        }
-        Self { forces, solved_order, derivatives, writer, sources, rotors, joints: Vec::new() }
+        Self { forces, solved_order, derivatives, writer, sources, joints: Vec::new() }
     }
 
     /// About how many times as long as a slider-crank a position takes: groups above class II are solved by

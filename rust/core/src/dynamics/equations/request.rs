@@ -1,6 +1,7 @@
 //! A request for the terms of the equations of motion.
 
 use crate::batch::request::Coordinates;
+use crate::dynamics::variation::Variation;
 
 /// A term of the equations of motion of n drivers; rows over designs and positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +56,8 @@ pub struct EquationRequest<'a> {
     pub external: &'a [f64],
     /// Sense in which each driver is about to move where all rest, +1 or −1. May be empty.
     pub sense: &'a [f64],
+    /// Numbers of bodies, loads and motors that differ from machine to machine. May be empty.
+    pub variations: &'a [Variation<'a>],
     /// The requested terms.
     pub terms: &'a [Term],
 }

@@ -21,6 +21,7 @@ use crate::description::error::SolveError;
 use crate::dynamics::kinetostatics::positions::{DesignPositions, Positions, of_rows};
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::scene::Scene;
+use crate::dynamics::variation::{self, Variation};
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
@@ -45,6 +46,8 @@ pub struct StepRequest<'a> {
     pub effort: &'a [f64],
     /// Whether the motors act, too.
     pub has_motors: bool,
+    /// Numbers of bodies, loads and motors that differ from machine to machine. May be empty.
+    pub variations: &'a [Variation<'a>],
     /// Time of a step, s.
     pub dt: f64,
     /// Number of steps.
@@ -85,6 +88,7 @@ impl Machine {
         if request.speed.len() != rows * n || ![rows * n, n].contains(&request.effort.len()) {
             return Err(SolveError::Shape("speeds or efforts do not fit".into()));
         }
+        variation::check(self, request.variations, rows)?;
         let known_signs = KnownSigns::new(shape.designs)
             .map_err(|_| SolveError::OutOfMemory { numbers: shape.designs })?;
         let control = &Control { known_signs: Some(&known_signs), failures: None, ..*control };
@@ -99,6 +103,7 @@ impl Machine {
             has_motors: request.has_motors,
             external: &[],
             sense: &[],
+            variations: request.variations,
             terms: &[Term::Acceleration],
         };
         let mut equations = EquationBatch::new(
@@ -143,7 +148,7 @@ impl<'b> ForLevel for Steps<'b, '_> {
         let batch = self.batch;
         let new_state = || ThreadState::<'b, L::Register, G> {
             positions: batch.equations.positions.thread(),
-            scene: Scene::new(batch.equations.positions.plan),
+            scene: Scene::new(batch.equations.positions.plan, batch.equations.positions.machine),
             equation: Equation::default(),
             efforts: Vec::new(),
             arrays: StageArrays::default(),

@@ -18,6 +18,7 @@ use crate::dynamics::reactions::columns::{Rows, Solved, Sources, guide_direction
 use crate::dynamics::reactions::force_plan::ForcePlan;
 use crate::dynamics::reactions::scene::Scene;
 use crate::dynamics::value::Numbers;
+use crate::dynamics::variation::Varied;
 use crate::math::lanes::LANES;
 use crate::math::vector::Vector;
 use crate::plan::mechanism::Mechanism;
@@ -74,7 +75,7 @@ impl<'m> FrictionMotion<'m> {
     ) -> Self {
         let plan = ForcePlan::new(mechanism, machine);
         let columns = columns(&plan.outputs, 1, plan.order);
-        let mut scene = Scene::new(&plan);
+        let mut scene = Scene::new(&plan, machine);
         scene.per_metre = 1.0 / unit;
         let linkage = mechanism.linkage();
         let links_at: Vec<Vec<usize>> =
@@ -140,6 +141,7 @@ impl<'m> FrictionMotion<'m> {
             ways: &ways,
             external: &external,
             callbacks: external.len(),
+            varied: Varied::default(),
         };
         let columns: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         let moving =

@@ -102,6 +102,7 @@ impl Machine {
                     sense: request.sense,
                 },
                 callbacks: request.external.len().checked_div(rows).unwrap_or(0),
+                variations: &[],
             },
         };
         batch.positions.check()?;
@@ -130,7 +131,7 @@ impl<'b> ForLevel for React<'b, '_> {
         let batch = self.batch;
         let new_state = || ThreadState::<'b, L::Register, G> {
             positions: batch.positions.thread(),
-            scene: Scene::new(batch.positions.plan),
+            scene: Scene::new(batch.positions.plan, batch.positions.machine),
             friction: FrictionWorkspace::default(),
             squares: Vec::new(),
         };

@@ -14,6 +14,7 @@ use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::applied::Values;
 use crate::dynamics::reactions::columns::{Solved, Sources, guide_directions};
 use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::variation::{self, Variation, Varied};
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
@@ -37,12 +38,15 @@ pub(crate) struct MachineBatch<'b> {
     pub sources: &'b Sources,
     pub driven: Driven<'b>,
     pub callbacks: usize,
+    /// Numbers of the machines that differ from one to the next.
+    pub variations: &'b [Variation<'b>],
 }
 
 /// The working data of one thread.
 pub(crate) struct Positions<'b, R: Real, const G: usize> {
     pub motion: MotionWorker<'b, R, G>,
     tables: Vec<Vec<f64>>,
+    varied: Vec<Vec<f64>>,
     followed: Followed,
     known: Vec<(usize, Vector)>,
     guides: Vec<Vector>,
@@ -85,6 +89,7 @@ impl<'b> MachineBatch<'b> {
         if !fits {
             return Err(SolveError::Shape("speeds, accelerations or values do not fit".into()));
         }
+        variation::check(self.machine, self.variations, rows)?;
         self.motion.check()?;
         Ok(rows)
     }
@@ -99,6 +104,7 @@ impl<'b> MachineBatch<'b> {
         Positions {
             motion: self.motion.thread(),
             tables: vec![Vec::new(); self.machine.tables.len()],
+            varied: vec![Vec::new(); self.variations.len()],
             followed: Followed::default(),
             known: Vec::new(),
             guides: Vec::new(),
@@ -132,7 +138,7 @@ impl<'b> MachineBatch<'b> {
         each: &mut impl FnMut(DesignPositions<'_>),
     ) -> bool {
         let drivers = self.motion.shape.drivers;
-        let Positions { motion, tables, followed, known, guides } = state;
+        let Positions { motion, tables, varied, followed, known, guides } = state;
         let mut is_valid = true;
         self.motion.solve::<L, G>(motion, asked, |design| {
             is_valid = design.is_valid;
@@ -148,6 +154,10 @@ impl<'b> MachineBatch<'b> {
                 values.extend(design.q.iter().step_by(drivers).map(|&q| table.at(q)));
             }
             let rows = design.rows;
+            let all = self.motion.shape.designs * self.motion.shape.positions;
+            for (variation, values) in self.variations.iter().zip(varied.iter_mut()) {
+                variation.at_rows(&rows, all, values);
+            }
             let external = rows.start * self.callbacks..rows.end * self.callbacks;
             let solved = Solved {
                 columns: design.columns,
@@ -177,6 +187,7 @@ impl<'b> MachineBatch<'b> {
                     ways: &followed.ways,
                     external: &self.driven.external[external],
                     callbacks: self.callbacks,
+                    varied: Varied { variations: self.variations, rows: varied },
                 },
                 status: design.status,
             });

@@ -9,6 +9,7 @@ use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::measure::OneWay;
 use crate::dynamics::value::Value;
+use crate::dynamics::variation::Varied;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
 use crate::structure::closure::point_of_joint;
@@ -25,13 +26,16 @@ pub(crate) struct Values<'a> {
     /// Values of the callbacks: `callbacks` numbers a position.
     pub external: &'a [f64],
     pub callbacks: usize,
+    /// Numbers that each position's machine has for itself.
+    pub varied: Varied<'a>,
 }
 
 impl Values<'_> {
+    /// A value; `number` in the lanes if it is one.
     #[inline(always)]
-    fn read<R: Real>(self, value: Value, rows: Rows) -> R {
+    fn read<R: Real>(self, value: Value, number: R, rows: Rows) -> R {
         match value {
-            Value::Number(number) => R::splat(number),
+            Value::Number(_) => number,
             Value::Table(index) => rows.read(&self.tables[index], 1, 0),
             Value::Over(index) => rows.read(&self.over[index], 1, 0),
             Value::External(index) => rows.read(self.external, self.callbacks, index),
@@ -40,8 +44,14 @@ impl Values<'_> {
 
     /// A value where the load acts; 0 elsewhere.
     #[inline(always)]
-    fn read_acting<R: Real>(self, value: Value, one_way: Option<OneWay>, rows: Rows) -> R {
-        let all = self.read(value, rows);
+    fn read_acting<R: Real>(
+        self,
+        value: Value,
+        number: R,
+        one_way: Option<OneWay>,
+        rows: Rows,
+    ) -> R {
+        let all = self.read(value, number, rows);
         self.acting(all, one_way, rows)
     }
 
@@ -63,6 +73,7 @@ impl<R: Real> Scene<R> {
         values: Values<'_>,
         rows: Rows,
     ) {
+        self.numbers.vary(values.varied, rows);
         self.apply_bodies(plan, machine);
         self.apply_loads(plan, machine, values, rows);
     }
@@ -84,7 +95,7 @@ impl<R: Real> Scene<R> {
         rows: Rows,
     ) {
         for (index, load) in machine.loads.iter().enumerate() {
-            self.loads[index] = self.strength(plan, load, values, rows);
+            self.loads[index] = self.strength(plan, load, self.numbers.loads[index], values, rows);
         }
         for action in &plan.load_actions {
             // The ground takes every force, wherever it acts.
@@ -109,8 +120,8 @@ impl<R: Real> Scene<R> {
         self.shaking_force = Vector::ZERO;
         self.shaking_moment = R::ZERO;
         let gravity = Vector::new(R::splat(machine.gravity[0]), R::splat(machine.gravity[1]));
-        for body in &machine.bodies {
-            let mass = R::splat(body.mass);
+        for (index, body) in machine.bodies.iter().enumerate() {
+            let [mass, inertia] = self.numbers.bodies[index];
             let at = self.place(plan, body.at);
             let weight = gravity.scale(mass);
             if !plan.has_inertia || body.link == plan.ground {
@@ -118,7 +129,7 @@ impl<R: Real> Scene<R> {
                 continue;
             }
             let inertia_force = -at.acceleration.scale(mass);
-            let couple = -self.angles[body.link].acceleration * R::splat(body.inertia);
+            let couple = -self.angles[body.link].acceleration * inertia;
             self.force_on(plan, body.link, at.at, weight + inertia_force);
             self.moment_on(plan, body.link, couple);
             self.shaking_force += inertia_force;
@@ -128,49 +139,58 @@ impl<R: Real> Scene<R> {
 
     /// The force of a load on the first link on which it acts; for a couple, its moment as x.
     #[inline(always)]
-    fn strength(&self, plan: &ForcePlan, load: &Load, values: Values<'_>, rows: Rows) -> Vector<R> {
+    fn strength(
+        &self,
+        plan: &ForcePlan,
+        load: &Load,
+        numbers: [R; 3],
+        values: Values<'_>,
+        rows: Rows,
+    ) -> Vector<R> {
         match load {
             Load::Force { force: [x, y], axes, one_way, .. } => {
-                let read = |value: &Value| values.read_acting(*value, *one_way, rows);
-                let force = Vector::new(read(x), read(y));
+                let read =
+                    |value: &Value, number| values.read_acting(*value, number, *one_way, rows);
+                let force = Vector::new(read(x, numbers[0]), read(y, numbers[1]));
                 match axes {
                     Some(link) => self.directions[*link] * force,
                     None => force,
                 }
             }
-            Load::Pressure { slide, area, pressure, ambient, one_way } => {
-                let pressure = values.read::<R>(*pressure, rows) - R::splat(*ambient);
+            Load::Pressure { slide, area, pressure, one_way, .. } => {
+                let [number, ambient, _] = numbers;
+                let pressure = values.read(*pressure, number, rows) - ambient;
                 let force = values.acting(pressure * R::splat(*area), *one_way, rows);
                 self.guides[*slide].scale(force)
             }
             Load::Torque { torque, one_way, .. } => {
-                Vector::new(values.read_acting(*torque, *one_way, rows), R::ZERO)
+                Vector::new(values.read_acting(*torque, numbers[0], *one_way, rows), R::ZERO)
             }
-            Load::Spring { ends, stiffness, length, preload } => {
+            Load::Spring { ends, .. } => {
+                let [stiffness, length, preload] = numbers;
                 let (first, second) = (self.place(plan, ends[0]), self.place(plan, ends[1]));
                 let (unit, distance) = polar(second.at - first.at);
-                let tension =
-                    R::splat(*stiffness) * (distance - R::splat(*length)) + R::splat(*preload);
+                let tension = stiffness * (distance - length) + preload;
                 // A spring without tension has no direction at zero length.
                 let rests = tension.le(R::ZERO).and(R::ZERO.le(tension));
                 let pull = unit.scale(tension);
                 Vector::new(R::select(rests, R::ZERO, pull.x), R::select(rests, R::ZERO, pull.y))
             }
-            Load::Damper { ends, damping } => {
+            Load::Damper { ends, .. } => {
                 let (first, second) = (self.place(plan, ends[0]), self.place(plan, ends[1]));
                 let (unit, _) = polar(second.at - first.at);
                 let rate = unit.dot(second.velocity - first.velocity);
-                unit.scale(rate * R::splat(*damping))
+                unit.scale(rate * numbers[0])
             }
-            Load::TorsionSpring { link, on, stiffness, angle, preload } => {
-                let twist =
-                    self.angle(plan, *link).at - self.angle(plan, *on).at - R::splat(*angle);
-                let torque = -(R::splat(*stiffness) * twist + R::splat(*preload));
+            Load::TorsionSpring { link, on, .. } => {
+                let [stiffness, angle, preload] = numbers;
+                let twist = self.angle(plan, *link).at - self.angle(plan, *on).at - angle;
+                let torque = -(stiffness * twist + preload);
                 Vector::new(torque, R::ZERO)
             }
-            Load::TorsionDamper { link, on, damping } => {
+            Load::TorsionDamper { link, on, .. } => {
                 let rate = self.angle(plan, *link).velocity - self.angle(plan, *on).velocity;
-                Vector::new(-(rate * R::splat(*damping)), R::ZERO)
+                Vector::new(-(rate * numbers[0]), R::ZERO)
             }
         }
     }

@@ -1,6 +1,8 @@
 //! The kinematics of a few positions, and the forces on them: one per lane.
 
 use super::force_plan::ForcePlan;
+use super::lane_numbers::LaneNumbers;
+use crate::dynamics::machine::Machine;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 
@@ -15,6 +17,8 @@ pub(crate) struct Moving<T> {
 /// Work space: kinematics, loads, and the forces in pairs.
 #[derive(Debug, Clone)]
 pub(crate) struct Scene<R: Real> {
+    /// Numbers of bodies, loads and motors.
+    pub numbers: LaneNumbers<R>,
     /// Speeds and accelerations of the drivers.
     pub drive: Vec<[R; 2]>,
     pub points: Vec<Moving<Vector<R>>>,
@@ -53,13 +57,14 @@ pub(crate) struct Scene<R: Real> {
 }
 
 impl<R: Real> Scene<R> {
-    pub(crate) fn new(plan: &ForcePlan) -> Self {
+    pub(crate) fn new(plan: &ForcePlan, machine: &Machine) -> Self {
         let (points, links) = (plan.points.len(), plan.reference.len());
         let slides = plan.slide_links.len();
         let still = Moving { at: R::ZERO, velocity: R::ZERO, acceleration: R::ZERO };
         let zero = Vector::ZERO;
         let resting = Moving { at: zero, velocity: zero, acceleration: zero };
         Self {
+            numbers: LaneNumbers::new(machine),
             drive: vec![[R::ZERO; 2]; plan.drivers],
             points: vec![resting; points],
             angles: vec![still; links],

@@ -10,6 +10,7 @@ use super::runner::{RunTables, Runner};
 use super::tabulated::TabulatedMachine;
 use super::trajectory::Run;
 use crate::dynamics::machine::Machine;
+use crate::dynamics::variation::Variation;
 use crate::plan::mechanism::Mechanism;
 
 /// Runs of designs, the same number of each.
@@ -27,6 +28,8 @@ pub struct RunBatch<'a> {
     pub ends: &'a [f64],
     /// The events of each design, or one list for all.
     pub events: &'a [Vec<EventSpec>],
+    /// Numbers of bodies, loads and motors that differ from design to design. May be empty.
+    pub variations: &'a [Variation<'a>],
     /// Limit of computing time of each run.
     pub limit: Option<Duration>,
     /// The other options. Its states, end, events and deadline do not count.
@@ -59,6 +62,21 @@ impl RunBatch<'_> {
         self.dimensions.iter().skip(design).step_by(self.designs.max(1)).copied().collect()
     }
 
+    /// The runs of a range, design by design.
+    pub(super) fn by_designs(
+        &self,
+        range: Range<usize>,
+    ) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let mut first = range.start;
+        std::iter::from_fn(move || {
+            let design = (first < range.end).then(|| self.design(first))?;
+            let last = (first..range.end).find(|&run| self.design(run) != design);
+            let runs = first..last.unwrap_or(range.end);
+            first = runs.end;
+            Some((design, runs))
+        })
+    }
+
     /// The options of a run.
     pub(super) fn options_of(&self, run: usize) -> RunOptions<'_> {
         let drivers = self.q.len().checked_div(self.len()).unwrap_or(0);
@@ -79,16 +97,17 @@ impl RunBatch<'_> {
     fn each<E>(
         &self,
         range: Range<usize>,
-        mut integrate: impl FnMut(usize, &RunOptions<'_>) -> Outcome<E>,
+        mut integrate: impl FnMut(&RunOptions<'_>) -> Outcome<E>,
         keep: &mut impl FnMut(usize, Outcome<E>) -> ControlFlow<()>,
-    ) {
+    ) -> ControlFlow<()> {
         for run in range {
-            let outcome = integrate(self.design(run), &self.options_of(run));
+            let outcome = integrate(&self.options_of(run));
             let has_failed = matches!(outcome, Err(RunError::Callback(_)));
             if keep(run, outcome).is_break() || has_failed {
-                return;
+                return ControlFlow::Break(());
             }
         }
+        ControlFlow::Continue(())
     }
 }
 
@@ -104,15 +123,22 @@ impl Machine {
         keep: &mut impl FnMut(usize, Outcome<O::Error>) -> ControlFlow<()>,
     ) {
         let tables = RunTables::new(mechanism);
-        let mut bound: Option<(usize, Runner<'_>)> = None;
-        let integrate = |design: usize, options: &RunOptions<'_>| {
-            let runner = match bound.take().filter(|(of, _)| *of == design) {
-                Some((_, runner)) => runner,
-                None => Runner::new(self, mechanism, &batch.dimensions_of(design), &tables)?,
+        for (design, runs) in batch.by_designs(range) {
+            let machine = self.of(batch.variations, design);
+            let mut bound: Option<Runner<'_>> = None;
+            let integrate = |options: &RunOptions<'_>| {
+                let runner = match bound.take() {
+                    Some(runner) => runner,
+                    None => {
+                        Runner::new(&machine, mechanism, &batch.dimensions_of(design), &tables)?
+                    }
+                };
+                bound.insert(runner).run(options, &mut *callbacks)
             };
-            bound.insert((design, runner)).1.run(options, &mut *callbacks)
-        };
-        batch.each(range, integrate, keep);
+            if batch.each(runs, integrate, keep).is_break() {
+                return;
+            }
+        }
     }
 }
 
@@ -125,6 +151,7 @@ impl TabulatedMachine {
         callbacks: &mut O,
         keep: &mut impl FnMut(usize, Outcome<O::Error>) -> ControlFlow<()>,
     ) {
-        batch.each(range, |_, options| self.run(options, &mut *callbacks), keep);
+        // One after another, whether or not they were broken off.
+        let _ = batch.each(range, |options| self.run(options, &mut *callbacks), keep);
     }
 }

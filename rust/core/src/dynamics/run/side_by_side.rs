@@ -47,12 +47,8 @@ impl Machine {
         keep: &mut impl FnMut(usize, Outcome<E>) -> ControlFlow<()>,
     ) {
         let tables = RunTables::new(mechanism);
-        let mut first = range.start;
-        while first < range.end {
-            let design = batch.design(first);
-            let last = (first..range.end).find(|&run| batch.design(run) != design);
-            let of_design = first..last.unwrap_or(range.end);
-            first = of_design.end;
+        for (design, of_design) in batch.by_designs(range) {
+            let machine = &*self.of(batch.variations, design);
             let dimensions = batch.dimensions_of(design);
             let fits = of_design.len() >= WORTH_LANES
                 && batch.limit.is_none()
@@ -60,10 +56,10 @@ impl Machine {
                 && mechanism.q0().len() == 1
                 && dimensions.len() == mechanism.dimensions().len()
                 && mechanism.dimensions().first_fault(&dimensions).is_none();
-            let model = || MechanismModel::new(self, mechanism, &dimensions, &tables.0);
+            let model = || MechanismModel::new(machine, mechanism, &dimensions, &tables.0);
             let reference = fits.then(model);
             let work = SideBySide {
-                machine: self,
+                machine,
                 batch,
                 runs: of_design.clone(),
                 sizes: &sizes_of(mechanism, &dimensions),
