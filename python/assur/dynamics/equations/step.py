@@ -9,7 +9,7 @@ import numpy as np
 from assur._arrays import Float, as_number, real_array, real_number, short
 from assur._validate import checked_threads, whole_number
 from assur.description.words import Status, has_analogues
-from assur.dynamics.batch_shapes import dimensions, shape_of_results
+from assur.dynamics.batch_results import dimensions, shape_of_results
 from assur.dynamics.equations.terms import flat
 from assur.errors import InputError
 

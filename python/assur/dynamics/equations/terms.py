@@ -9,7 +9,7 @@ import numpy as np
 
 from assur._arrays import Float, finite_array, real_array, require_finite
 from assur._validate import checked_threads
-from assur.dynamics.batch_shapes import dimensions, shape_of_results
+from assur.dynamics.batch_results import dimensions, shape_of_results
 from assur.dynamics.loads.load_values import function_values
 from assur.dynamics.reduction.reduced import checked_senses
 from assur.errors import InputError

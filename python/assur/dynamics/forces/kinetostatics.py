@@ -11,7 +11,7 @@ import numpy as np
 from assur._arrays import real_array, short
 from assur._validate import checked_threads, one_of
 from assur.description.words import Status, has_analogues
-from assur.dynamics.batch_shapes import shape_of_results
+from assur.dynamics.batch_results import shape_of_results
 from assur.dynamics.forces.joint_places import links_at
 from assur.dynamics.forces.reaction_key import RESIDUAL, SOLUTIONS, Key
 from assur.dynamics.forces.reactions import Reactions

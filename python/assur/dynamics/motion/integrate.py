@@ -14,7 +14,7 @@ from assur import flywheel as flywheels
 from assur._arrays import finite_array, real_number
 from assur._validate import one_of
 from assur.dynamics import components
-from assur.dynamics.batch_shapes import dimensions, shape_of_results
+from assur.dynamics.batch_results import dimensions, shape_of_results
 from assur.dynamics.components import as_list
 from assur.dynamics.loads.table import Table
 from assur.dynamics.motion.run import Run, energies_are_infinite

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assur._arrays import Float, finite_array, real_array, short
-from assur.dynamics.batch_shapes import dimensions, shape_of_results
+from assur.dynamics.batch_results import dimensions, shape_of_results
 from assur.dynamics.loads.load_values import function_values
 from assur.errors import InputError
 from assur.kinematics.solve_arguments import warn_if_degrees

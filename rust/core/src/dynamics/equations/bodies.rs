@@ -2,8 +2,9 @@
 
 use crate::dynamics::body::Body;
 use crate::dynamics::kinematics::Point;
-use crate::dynamics::reactions::columns::{Rows, Solved, Sources};
+use crate::dynamics::reactions::columns::{Solved, Sources};
 use crate::dynamics::reactions::force_plan::ForcePlan;
+use crate::dynamics::reactions::lane_rows::Rows;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;

@@ -3,7 +3,6 @@
 
 use super::bodies::Partials;
 use super::equation_batch::EquationBatch;
-use super::evaluate::Equation;
 use crate::dynamics::body::Body;
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::reactions::lane_numbers::LaneNumbers;
@@ -22,8 +21,8 @@ pub(super) struct Direct<R> {
     places: Vec<Vector<R>>,
 }
 
-impl<R: Real> Equation<R> {
-    /// Computes mass matrix and bias without loads; `speed`: those of the drivers.
+impl<R: Real> Direct<R> {
+    /// Computes mass matrix and bias without loads, `sums`; `speed`: those of the drivers.
     #[inline(always)]
     pub(super) fn read_bodies(
         &mut self,
@@ -31,12 +30,13 @@ impl<R: Real> Equation<R> {
         numbers: &LaneNumbers<R>,
         partials: Partials<'_>,
         speed: &[f64],
+        sums: [&mut Vec<R>; 2],
     ) {
         // The compiler unrolls loops over a number of drivers that it knows.
         match partials.drivers {
-            1 => self.sum_bodies(batch, numbers, Partials { drivers: 1, ..partials }, speed),
-            2 => self.sum_bodies(batch, numbers, Partials { drivers: 2, ..partials }, speed),
-            _ => self.sum_bodies(batch, numbers, partials, speed),
+            1 => self.sum_bodies(batch, numbers, Partials { drivers: 1, ..partials }, speed, sums),
+            2 => self.sum_bodies(batch, numbers, Partials { drivers: 2, ..partials }, speed, sums),
+            _ => self.sum_bodies(batch, numbers, partials, speed, sums),
         }
     }
 
@@ -47,9 +47,10 @@ impl<R: Real> Equation<R> {
         numbers: &LaneNumbers<R>,
         partials: Partials<'_>,
         speed: &[f64],
+        [mass, bias]: [&mut Vec<R>; 2],
     ) {
         let n = partials.drivers;
-        let direct = &mut self.direct;
+        let direct = self;
         direct.speeds.resize(n, R::ZERO);
         direct.products.resize(n * (n + 1) / 2, R::ZERO);
         direct.places.resize(n, Vector::ZERO);
@@ -62,11 +63,11 @@ impl<R: Real> Equation<R> {
                 entry += 1;
             }
         }
-        self.mass.resize(n * n, R::ZERO);
-        self.mass.fill(R::ZERO);
-        self.bias.resize(n, R::ZERO);
-        self.bias.fill(R::ZERO);
-        let (mass, bias) = (&mut self.mass[..n * n], &mut self.bias[..n]);
+        mass.resize(n * n, R::ZERO);
+        mass.fill(R::ZERO);
+        bias.resize(n, R::ZERO);
+        bias.fill(R::ZERO);
+        let (mass, bias) = (&mut mass[..n * n], &mut bias[..n]);
         let machine = batch.positions.machine;
         if batch.has_rotors {
             for (motor, &[ratio, rotor]) in machine.motors.iter().zip(&numbers.motors) {

@@ -10,7 +10,7 @@ use super::solve::solve_positive;
 use crate::batch::dispatch::Task;
 use crate::batch::rows::RowSlices;
 use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
-use crate::dynamics::reactions::columns::Rows;
+use crate::dynamics::reactions::lane_rows::Rows;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -123,6 +123,19 @@ impl<R: Real> Equation<R> {
                 self.gravity.push(-power);
             }
         }
+    }
+
+    /// Computes mass matrix and bias without loads, body after body.
+    #[inline(always)]
+    pub(super) fn read_bodies(
+        &mut self,
+        batch: &EquationBatch<'_>,
+        scene: &Scene<R>,
+        partials: Partials<'_>,
+        speed: &[f64],
+    ) {
+        let Self { direct, mass, bias, .. } = self;
+        direct.read_bodies(batch, &scene.numbers, partials, speed, [mass, bias]);
     }
 
     /// Adds the forces on links to the bias.

@@ -5,7 +5,7 @@ use super::equation_batch::EquationBatch;
 use super::evaluate::Equation;
 use crate::batch::dispatch::Task;
 use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
-use crate::dynamics::reactions::columns::Rows;
+use crate::dynamics::reactions::lane_rows::Rows;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::{Mask, Real};
 use crate::state::status::Status;
@@ -142,7 +142,7 @@ impl<R: Real> Task<R> for Stage<'_, R> {
             let rows = Rows { first, last: count - 1 };
             let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
             self.scene.numbers.vary(self.design.values.varied, rows);
-            self.equation.read_bodies(self.batch, &self.scene.numbers, partials, self.speed);
+            self.equation.read_bodies(self.batch, self.scene, partials, self.speed);
             if !plan.load_actions.is_empty() {
                 self.scene.read(plan, sources, self.design.guides, solved, rows);
                 self.scene.clear_forces();

@@ -11,7 +11,7 @@ use crate::batch::rows::{RowSlices, begins_line, store_pairs, write};
 use crate::dynamics::friction::pairs::{FrictionPair, PairKind};
 use crate::dynamics::friction::rows::FrictionRequest;
 use crate::dynamics::friction::workspace::FrictionWorkspace;
-use crate::dynamics::reactions::columns::Rows;
+use crate::dynamics::reactions::lane_rows::Rows;
 use crate::dynamics::reactions::pair_forces::JointForce;
 use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::{Mask, Real};

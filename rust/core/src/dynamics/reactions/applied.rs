@@ -1,7 +1,7 @@
 //! Loads and inertia forces of all links.
 
-use super::columns::Rows;
 use super::force_plan::ForcePlan;
+use super::lane_rows::Rows;
 use super::load_actions::LoadAction;
 use super::scene::{Moving, Scene};
 use crate::dynamics::kinematics::Point;

@@ -1,7 +1,7 @@
 //! The numbers of bodies, loads and motors at a few positions, one per lane: those of the machine, or where
 //! they vary those of each position's own machine.
 
-use super::columns::Rows;
+use super::lane_rows::Rows;
 use crate::dynamics::load::Load;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::variation::{MachineNumber, Varied};

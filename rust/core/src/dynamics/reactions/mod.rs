@@ -10,6 +10,7 @@ pub(crate) mod applied;
 pub(crate) mod columns;
 pub(crate) mod force_plan;
 pub(crate) mod lane_numbers;
+pub(crate) mod lane_rows;
 pub(crate) mod load_actions;
 pub(crate) mod moments;
 pub(crate) mod pair_forces;
