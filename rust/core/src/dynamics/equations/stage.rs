@@ -141,7 +141,7 @@ impl<R: Real> Task<R> for Stage<'_, R> {
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
             let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
-            self.scene.numbers.vary(self.design.values.varied, rows);
+            self.scene.numbers.read(machine, self.design.values.varied, rows);
             self.equation.read_bodies(self.batch, self.scene, partials, self.speed);
             if !plan.load_actions.is_empty() {
                 self.scene.read(plan, sources, self.design.guides, solved, rows);

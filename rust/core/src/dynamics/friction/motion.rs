@@ -148,6 +148,7 @@ impl<'m> FrictionMotion<'m> {
         let moving =
             |speed, acceleration| Solved { columns: &columns, speed, acceleration, positions: 1 };
         scene.read(plan, sources, guides, &moving(&[0.0], &[1.0]), ROW);
+        scene.numbers.fill(bodies);
         scene.apply_bodies(plan, bodies);
         scene.start(plan);
         let per_acceleration = scene.pair_reactions(plan, pairs);

@@ -73,7 +73,7 @@ impl<R: Real> Scene<R> {
         values: Values<'_>,
         rows: Rows,
     ) {
-        self.numbers.vary(values.varied, rows);
+        self.numbers.read(machine, values.varied, rows);
         self.apply_bodies(plan, machine);
         self.apply_loads(plan, machine, values, rows);
     }

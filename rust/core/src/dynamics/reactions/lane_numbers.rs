@@ -19,22 +19,27 @@ pub(crate) struct LaneNumbers<R> {
     pub loads: Vec<[R; OF_LOAD]>,
     /// Ratio and rotor's inertia of every motor.
     pub motors: Vec<[R; 2]>,
+    filled: bool,
 }
 
 impl<R: Real> LaneNumbers<R> {
+    /// Room for a machine's numbers: the first reading fills it, in a function compiled for the lanes.
     pub(crate) fn new(machine: &Machine) -> Self {
-        let bodies = machine.bodies.iter().map(|body| [body.mass, body.inertia]);
-        let motors = machine.motors.iter().map(|motor| [motor.ratio, motor.rotor_inertia]);
         Self {
-            bodies: bodies.map(|numbers| numbers.map(R::splat)).collect(),
-            loads: machine.loads.iter().map(|load| numbers(load).map(R::splat)).collect(),
-            motors: motors.map(|numbers| numbers.map(R::splat)).collect(),
+            bodies: vec![[R::ZERO; 2]; machine.bodies.len()],
+            loads: vec![[R::ZERO; OF_LOAD]; machine.loads.len()],
+            motors: vec![[R::ZERO; 2]; machine.motors.len()],
+            filled: false,
         }
     }
 
-    /// Reads what varies at some positions.
+    /// Reads the machine's numbers once, and what varies at some positions.
     #[inline(always)]
-    pub(crate) fn vary(&mut self, varied: Varied<'_>, rows: Rows) {
+    pub(crate) fn read(&mut self, machine: &Machine, varied: Varied<'_>, rows: Rows) {
+        if !self.filled {
+            self.fill(machine);
+            self.filled = true;
+        }
         for (number, values) in varied.each() {
             let value = rows.read(values, 1, 0);
             match number {
@@ -48,6 +53,21 @@ impl<R: Real> LaneNumbers<R> {
                     }
                 }
             }
+        }
+    }
+
+    /// Reads the machine's own numbers.
+    #[inline(always)]
+    pub(crate) fn fill(&mut self, machine: &Machine) {
+        for (place, body) in self.bodies.iter_mut().zip(&machine.bodies) {
+            *place = [R::splat(body.mass), R::splat(body.inertia)];
+        }
+        for (place, load) in self.loads.iter_mut().zip(&machine.loads) {
+            let [a, b, c] = numbers(load);
+            *place = [R::splat(a), R::splat(b), R::splat(c)];
+        }
+        for (place, motor) in self.motors.iter_mut().zip(&machine.motors) {
+            *place = [R::splat(motor.ratio), R::splat(motor.rotor_inertia)];
         }
     }
 }
