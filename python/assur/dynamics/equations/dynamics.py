@@ -8,7 +8,7 @@ import numpy as np
 
 from assur._other_names import other_names
 from assur._validate import checked_name
-from assur.description.words import has_analogues
+from assur.description.words import Status, has_analogues
 from assur.dynamics.equations.terms import State, Term, terms_of
 from assur.dynamics.reduction.undefined_load import Moment, without_value
 from assur.errors import InputError
@@ -48,7 +48,8 @@ class Dynamics:
     gravity : numpy.ndarray
         The part of it that holds the weights, S + (N, n).
     status : numpy.ndarray of uint8
-        `Status` of each position; NaN where it has none.
+        `Status` of each position; NaN where it has none. ``BAD_INPUT`` where only the bias is NaN
+        or infinite: a load without a value there, a speed too great.
 
     Examples
     --------
@@ -79,7 +80,12 @@ class Dynamics:
             require_values(machine, state, found.arrays[2].reshape(-1, n), found.status, "bias is")
         shape = found.shape
         mass, rates, bias, gravity, *each = found.arrays
-        self.status = found.status.reshape(shape)
+        status = found.status
+        if not np.isfinite(bias).all():
+            # A load without a value, or a speed too great for squares.
+            lost = ~np.isfinite(bias).reshape(-1, n).all(axis=1) & has_analogues(status)
+            status = np.where(lost, np.uint8(Status.BAD_INPUT), status)
+        self.status = status.reshape(shape)
         self.mass_matrix = mass.reshape(*shape, n, n)
         self.d_mass_matrix = rates.reshape(*shape, n, n, n)
         self.bias = bias.reshape(*shape, n)

@@ -156,5 +156,6 @@ def _rates(
     try:
         return flat(np.broadcast_to(values, full))
     except ValueError as error:
-        message = f"{name} has the shape {values.shape}, q {x.shape}: they do not fit"
+        machines = "" if full == x.shape else f" (with its designs {full})"
+        message = f"{name} has the shape {values.shape}, q {x.shape}{machines}: they do not fit"
         raise InputError(message) from error

@@ -186,6 +186,12 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: five_bar().acceleration(np.ones((3, 2)), 0.0, np.ones((4, 2))),
         r"effort has the shape \(4, 2\), q \(3, 2\): they do not fit",
     ),
+    "an effort for some machines": (
+        lambda: press(bodies={"piston": assur.Body(mass=np.array([1.0, 2.0, 3.0]))}).acceleration(
+            0.5, 0.0, np.ones(2)
+        ),
+        r"effort has the shape \(2,\), q \(\) \(with its designs \(3,\)\): they do not fit",
+    ),
     "an effort that is NaN": (
         lambda: press().acceleration(0.5, 0.0, float("nan")),
         "effort is nan: finite numbers are needed",
@@ -219,3 +225,14 @@ def test_positions_that_do_not_exist() -> None:
     assert np.isfinite(found.bias[:, 0]).tolist() == [True, False, True]
     values = machine.acceleration([0.5, 2.0, 1.0], 1.0, 0.0, on_error="nan")
     assert np.isfinite(values).tolist() == [True, False, True]
+
+
+def test_positions_without_a_bias_say_so() -> None:
+    torque = assur.Torque("crank", assur.Table([0.0, 1.0], [1.0, 2.0], periodic=False))
+    found = press(loads=[torque]).dynamics([0.5, 2.0, 1.0], 1.0, on_error="nan")
+    assert found.status.tolist() == [0, assur.Status.BAD_INPUT, 0]
+    assert np.isfinite(found.bias[:, 0]).tolist() == [True, False, True]
+    # The square of the speed is too great for a number.
+    fast = press().dynamics([0.5, 0.5], [1.0, 1e300], on_error="nan")
+    assert fast.status.tolist() == [0, assur.Status.BAD_INPUT]
+    assert np.isfinite(fast.mass_matrix).all()

@@ -78,6 +78,7 @@ impl<'m> FrictionMotion<'m> {
         let columns = columns(&plan.outputs, 1, plan.order);
         let mut scene = Scene::new(&plan, machine);
         scene.per_metre = 1.0 / unit;
+        scene.numbers.fill(machine);
         let linkage = mechanism.linkage();
         let links_at: Vec<Vec<usize>> =
             (0..linkage.joints.len()).map(|joint| linkage.links_at(joint).collect()).collect();
@@ -148,7 +149,6 @@ impl<'m> FrictionMotion<'m> {
         let moving =
             |speed, acceleration| Solved { columns: &columns, speed, acceleration, positions: 1 };
         scene.read(plan, sources, guides, &moving(&[0.0], &[1.0]), ROW);
-        scene.numbers.fill(bodies);
         scene.apply_bodies(plan, bodies);
         scene.start(plan);
         let per_acceleration = scene.pair_reactions(plan, pairs);

@@ -38,7 +38,6 @@ impl<R: Real> LaneNumbers<R> {
     pub(crate) fn read(&mut self, machine: &Machine, varied: Varied<'_>, rows: Rows) {
         if !self.filled {
             self.fill(machine);
-            self.filled = true;
         }
         for (number, values) in varied.each() {
             let value = rows.read(values, 1, 0);
@@ -59,6 +58,7 @@ impl<R: Real> LaneNumbers<R> {
     /// Reads the machine's own numbers.
     #[inline(always)]
     pub(crate) fn fill(&mut self, machine: &Machine) {
+        self.filled = true;
         for (place, body) in self.bodies.iter_mut().zip(&machine.bodies) {
             *place = [R::splat(body.mass), R::splat(body.inertia)];
         }
