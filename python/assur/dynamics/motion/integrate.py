@@ -256,8 +256,8 @@ def _broadcast(
             for values, to in zip(states, full, strict=True)
         ]
     except ValueError as error:
-        told = ", ".join(f"{name} {size}" for name, size in shapes.items())
-        message = f"the shapes of the runs do not fit: {told}, designs {machine.shape}"
+        sizes = ", ".join(f"{name} {size}" for name, size in shapes.items())
+        message = f"the shapes of the runs do not fit: {sizes}, designs {machine.shape}"
         raise InputError(message) from error
     return shape, (flat[0], flat[1], flat[2])
 

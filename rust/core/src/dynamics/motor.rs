@@ -84,7 +84,7 @@ impl Motor {
         }
     }
 
-    /// The number of an index among [these](Self::number_names), unless it is no constant.
+    /// The number of an index among [these](Self::number_names), unless it is a table or a function.
     pub(crate) fn number(&mut self, index: usize) -> Option<&mut f64> {
         match (index, &mut self.characteristic) {
             (0, _) => Some(&mut self.ratio),

@@ -58,7 +58,7 @@ impl Value {
         }
     }
 
-    /// The number, NaN if it is no constant.
+    /// The number, NaN of a table or a function.
     pub(crate) fn constant(self) -> f64 {
         match self {
             Self::Number(number) => number,

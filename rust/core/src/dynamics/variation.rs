@@ -148,7 +148,7 @@ impl Load {
         }
     }
 
-    /// The number of an index among [these](Self::number_names), unless it is no constant.
+    /// The number of an index among [these](Self::number_names), unless it is a table or a function.
     fn number(&mut self, index: usize) -> Option<&mut f64> {
         match self {
             Self::Force { force, .. } => force.get_mut(index)?.number(),

@@ -153,6 +153,27 @@ def test_a_six_bar_from_nothing_by_mouse_alone(browser: Browser) -> None:
         assert_same_motion(one, expected, names)
 
 
+def test_the_first_press_after_new_lands_in_the_new_picture(browser: Browser) -> None:
+    # The server's answers are late: the picture before must not stand, or the first joint is
+    # where that one would have it.
+    late = """() => {
+        const { link } = assurStudio.model;
+        const take = link.take.bind(link);
+        link.take = (frame) => setTimeout(() => take(frame), 400);
+    }"""
+    with window(browser) as one:
+        one.page.evaluate(late)
+        before = one.px(0.0, 0.0)
+        one.button("New").click()
+        assert one.px(0.0, 0.0) != before
+        one.button("Draw a link").click()
+        places = SIX_BAR["A"], SIX_BAR["B"]
+        for place in places:
+            one.page.mouse.click(*one.px(*place))
+        one.settle()
+        assert one.document["joints"] == {"A": list(places[0]), "B": list(places[1])}
+
+
 def test_a_slider_crank_by_the_slide_tool(browser: Browser) -> None:
     with window(browser) as one:
         hand = Hand(one)

@@ -220,9 +220,12 @@ export class Model {
     }
   }
 
-  /** Ask for the turn; of a document that does not move there is none, and `check` says why. */
+  /**
+   * Ask for the turn. A document without a driver has none: it is drawn at once, so that what is
+   * pressed next lands in its picture and not in the one before.
+   */
   async #turn(rev) {
-    if (!this.document.driver || !this.document.driver.length) return;
+    if (!this.document.driver || !this.document.driver.length) return this.#sketch();
     try {
       const rows = this.isDragging ? { rows: ROWS_DRAGGED, orders: 2 } : { rows: ROWS };
       const answer = await this.#patiently(rev, "turn", { q: this.#known(), ...rows, axis: Math.min(this.axis, this.driverCount - 1) });

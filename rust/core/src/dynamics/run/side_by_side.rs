@@ -142,7 +142,7 @@ impl<'m, M, K, E: Display> SideBySide<'_, 'm, M, K, E> {
         integrators: &mut [Integrator],
     ) -> Vec<Outcome<E>> {
         let Self { machine, cancel, sizes, .. } = *self;
-        let (mut begun, mut systems, mut prepared) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut starts, mut systems, mut prepared) = (Vec::new(), Vec::new(), Vec::new());
         for (model, options) in models.iter_mut().zip(options) {
             model.restart();
             let callbacks = UnlessCancelled::<E>::new(cancel);
@@ -154,18 +154,19 @@ impl<'m, M, K, E: Display> SideBySide<'_, 'm, M, K, E> {
                     systems.push(system);
                     prepared.push(needs);
                 });
-            begun.push(started);
+            starts.push(started);
         }
-        let of_begun = options.iter().zip(&begun).filter(|(_, started)| started.is_ok());
-        let of_begun: Vec<_> = of_begun.map(|(options, _)| *options).collect();
-        let solutions = lanes.solve(&mut systems, &prepared, &of_begun, integrators);
-        let mut concluded = systems.into_iter().zip(&prepared).zip(&of_begun).zip(solutions).map(
-            |(((system, needs), options), solution)| {
-                conclude(system, options, needs, solution, |samples| lanes.energies(samples))
-            },
-        );
-        let mut outcomes = Vec::with_capacity(begun.len());
-        for started in begun {
+        let options_of_started = options.iter().zip(&starts).filter(|(_, started)| started.is_ok());
+        let options_of_started: Vec<_> = options_of_started.map(|(options, _)| *options).collect();
+        let solutions = lanes.solve(&mut systems, &prepared, &options_of_started, integrators);
+        let mut concluded =
+            systems.into_iter().zip(&prepared).zip(&options_of_started).zip(solutions).map(
+                |(((system, needs), options), solution)| {
+                    conclude(system, options, needs, solution, |samples| lanes.energies(samples))
+                },
+            );
+        let mut outcomes = Vec::with_capacity(starts.len());
+        for started in starts {
             match started {
                 Ok(()) => outcomes.extend(concluded.next()),
                 Err(error) => outcomes.push(Err(error)),
@@ -216,11 +217,11 @@ impl<L: Entry> Lanes<'_, '_, L> {
         let ode_options: Vec<_> = needs.map(|(needs, options)| needs.options(options)).collect();
         let mut solved: Vec<Solved<S>> = systems.iter().map(|_| None).collect();
         let mut underway = Vec::new();
-        let begun = systems.iter_mut().zip(integrators).zip(prepared).zip(&ode_options);
-        for (index, (((system, integrator), needs), options)) in begun.enumerate() {
+        let each = systems.iter_mut().zip(integrators).zip(prepared).zip(&ode_options);
+        for (index, (((system, integrator), needs), options)) in each.enumerate() {
             let [from, to] = needs.range;
-            let begun = integrator.begin(system, from, &needs.start, to, options);
-            match begun.and_then(|mut run| Ok((run.plan()?, run))) {
+            let start = integrator.begin(system, from, &needs.start, to, options);
+            match start.and_then(|mut run| Ok((run.plan()?, run))) {
                 Ok((Plan::Attempt(planned), run)) => {
                     underway.push(Underway { index, run, planned });
                 }
