@@ -7,7 +7,7 @@ use crate::math::root::itp::itp;
 /// Where event functions are sampled, as fractions of a step: near both ends, so that the slope
 /// shows a minimum just inside, and often enough that two roots between samples are rare for a
 /// polynomial of this degree.
-const SAMPLES: [f64; 6] = [1.0 / 64.0, 0.25, 0.5, 0.75, 63.0 / 64.0, 1.0];
+pub(super) const SAMPLES: [f64; 6] = [1.0 / 64.0, 0.25, 0.5, 0.75, 63.0 / 64.0, 1.0];
 
 /// Limit of halvings of an interval in search of a point near its start with another sign.
 const MAX_HALVINGS: u32 = 20;
@@ -274,6 +274,20 @@ impl EventTracker {
                 self.signs[j] = new;
             }
         }
+    }
+
+    /// Sign of the first function after the last sample passed, and its value there; 0 without a sign or
+    /// functions.
+    pub(super) fn first(&self) -> (f64, f64) {
+        match (self.signs.first(), self.values.first()) {
+            (Some(&sign), Some(&value)) => (f64::from(sign), value),
+            _ => (0.0, 0.0),
+        }
+    }
+
+    /// Passes a step over which the only function keeps its sign, to its value at the end.
+    pub(super) fn pass_step(&mut self, end: f64, magnitude: f64) {
+        (self.values[0], self.magnitudes[0]) = (end, magnitude);
     }
 
     /// Makes the end of the step the start of the next.

@@ -53,6 +53,7 @@ pub(crate) mod error;
 pub(crate) mod event;
 pub(crate) mod event_location;
 pub(crate) mod integrator;
+pub(crate) mod lane_step;
 pub(crate) mod options;
 pub(crate) mod pair;
 pub(crate) mod record;

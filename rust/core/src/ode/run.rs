@@ -133,8 +133,21 @@ pub(crate) struct Run<'a, S> {
     pub(super) restarts_in_place: u32,
     /// Consecutive steps rejected for their drift.
     pub(super) drift_retries: u32,
+    /// The end of the planned step, if it was found elsewhere.
+    pub(super) ordinary: Option<Ordinary>,
     pub(super) record: Record<'a>,
     pub(super) statistics: Statistics,
+}
+
+/// How a step ends that is accepted and has no event.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ordinary {
+    /// Its error relative to the tolerance.
+    pub error: f64,
+    pub is_stiff: bool,
+    /// The only event function at its end, and its greatest magnitude.
+    pub event_value: f64,
+    pub magnitude: f64,
 }
 
 impl<'a, S: System> Run<'a, S> {
@@ -174,6 +187,7 @@ impl<'a, S: System> Run<'a, S> {
             to_boundary: None,
             restarts_in_place: 0,
             drift_retries: 0,
+            ordinary: None,
             statistics: Statistics::default(),
         }
     }
@@ -208,7 +222,12 @@ impl<'a, S: System> Run<'a, S> {
     }
 
     /// Its system.
-    pub(crate) fn system(&mut self) -> &mut S {
+    pub(crate) fn system(&self) -> &S {
+        self.system
+    }
+
+    /// Its system, to be changed.
+    pub(crate) fn system_mut(&mut self) -> &mut S {
         self.system
     }
 
@@ -225,6 +244,50 @@ impl<'a, S: System> Run<'a, S> {
     /// The rates there.
     pub(super) fn rates(&self) -> &[f64] {
         &self.integrator.stages.rates(0).as_flattened()[..self.integrator.n]
+    }
+
+    /// The components of the state that event functions are, if the ordinary end of a step can be found from
+    /// its states alone: none or one.
+    pub(super) fn event_component(&self) -> Option<Option<usize>> {
+        if !self.options.max_change.is_empty() {
+            return None;
+        }
+        match self.integrator.tracker.len() {
+            0 => Some(None),
+            1 => self.system.event_component().map(Some),
+            _ => None,
+        }
+    }
+
+    /// Sign and value of the first event function at the present state; see `EventTracker::first`.
+    pub(super) fn first_event(&self) -> (f64, f64) {
+        self.integrator.tracker.first()
+    }
+
+    /// The absolute and the relative tolerance of a component.
+    pub(super) fn tolerance(&self, component: usize) -> [f64; 2] {
+        self.scale.of(component)
+    }
+
+    /// Gives the end of the step that it has planned: the new state and its rates, and the numbers of the
+    /// continuous extension by row and component.
+    pub(super) fn give_end(
+        &mut self,
+        t_new: f64,
+        ordinary: Ordinary,
+        fine: f64,
+        [state, rates]: [&[f64]; 2],
+        row: impl Fn(usize, usize) -> f64,
+    ) {
+        let Integrator { n, stages, interpolant, tracker, new, .. } = &mut *self.integrator;
+        new.as_flattened_mut()[..*n].copy_from_slice(state);
+        stages.give_end(fine, rates);
+        stages.evaluations += stages.tableau.stages as u64;
+        if tracker.len() > 0 || self.record.needs_dense_output(t_new) {
+            stages.evaluations += (stages.tableau.all_stages() - stages.tableau.stages - 1) as u64;
+            interpolant.give(row);
+        }
+        self.ordinary = Some(ordinary);
     }
 
     /// Gives the rates of stages of the step that it has planned; see [`Stages::give`].

@@ -1,25 +1,10 @@
-//! The stages of steps of several runs side by side, one in each lane of a register. A lane has the bits that
+//! Steps of several runs side by side, one in each lane of a register. A lane has the bits that
 //! its run finds alone.
 
+use super::lane_step::{COMPONENTS, LaneEnds, LaneState, Steps, Underway, weighted_sum};
 use super::pair::stages::blocks;
-use super::pair::tableau::Row;
-use super::run::{Planned, Run};
 use super::system::System;
 use crate::math::lanes::{LANES, Mask, Real};
-
-/// Components of a state: one block.
-pub(crate) const COMPONENTS: usize = 3;
-
-/// A state, or its rates, in every lane.
-pub(crate) type LaneState<R> = [R; COMPONENTS];
-
-/// A run with the step that it attempts next.
-pub(crate) struct Underway<'a, S> {
-    /// Its place among all runs.
-    pub index: usize,
-    pub run: Run<'a, S>,
-    pub planned: Planned,
-}
 
 /// Rates of a system in every lane.
 ///
@@ -30,22 +15,45 @@ pub(crate) trait LaneRates<R: Real> {
     fn rates(&mut self, state: &LaneState<R>, is_end: bool, rates: &mut LaneState<R>) -> R::Mask;
 }
 
-/// Work space for the stages of a step in every lane.
-pub(crate) struct LaneStages<R> {
+/// Work space for the steps in every lane.
+pub(crate) struct LaneSteps<R: Real> {
     rates: Vec<LaneState<R>>,
+    argument: LaneState<R>,
+    new: LaneState<R>,
+    ends: LaneEnds,
+    /// The lanes whose steps end without more.
+    ordinary: R::Mask,
+    /// Stages of each lane, from the first on, whose rates are known.
+    known: [usize; LANES],
 }
 
-impl<R: Real> LaneStages<R> {
+impl<R: Real> LaneSteps<R> {
     pub(crate) fn new() -> Self {
-        Self { rates: Vec::new() }
+        Self {
+            rates: Vec::new(),
+            argument: [R::ZERO; COMPONENTS],
+            new: [R::ZERO; COMPONENTS],
+            ends: LaneEnds::default(),
+            ordinary: R::Mask::NONE,
+            known: [0; LANES],
+        }
     }
 
-    /// Finds the rates of all stages of the planned steps, at most as many as there are lanes, and gives
-    /// them to their runs. Those that are not known the run finds itself.
+    /// The states at the ends of the steps.
+    pub(crate) fn new_state(&self) -> &LaneState<R> {
+        &self.new
+    }
+
+    /// Only these lanes may end without more.
+    pub(crate) fn restrict(&mut self, lanes: R::Mask) {
+        self.ordinary = self.ordinary.and(lanes);
+    }
+
+    /// Finds the planned steps, at most as many as there are lanes: the rates of all stages, and their ends.
     #[inline(always)]
-    pub(crate) fn give<S: System>(
+    pub(crate) fn find<S: System>(
         &mut self,
-        runs: &mut [Underway<'_, S>],
+        runs: &[Underway<'_, S>],
         system: &mut impl LaneRates<R>,
     ) {
         let Some(first) = runs.first() else { return };
@@ -66,13 +74,20 @@ impl<R: Real> LaneStages<R> {
         self.rates.clear();
         self.rates.resize(count, [R::ZERO; COMPONENTS]);
         self.rates[0] = rates;
-        let mut known = [count; LANES];
-        let mut argument = y;
+        self.known = [count; LANES];
+        let mut are_all_known = R::ZERO.finite();
         for stage in 1..count {
             let row = if stage == end { tableau.b() } else { tableau.a[stage] };
-            let at = combine(row, &self.rates, h, &y);
+            let sum = weighted_sum(row, &self.rates);
+            let mut at = y;
+            for i in 0..COMPONENTS {
+                at[i] = y[i] + h * sum[i];
+            }
             if stage + 1 == end {
-                argument = at;
+                self.argument = at;
+            }
+            if stage == end {
+                self.new = at;
             }
             let mut found = [R::ZERO; COMPONENTS];
             let mut are_known = system.rates(&at, stage == end, &mut found);
@@ -80,34 +95,30 @@ impl<R: Real> LaneStages<R> {
                 are_known = are_known.and(number.finite());
             }
             self.rates[stage] = found;
+            are_all_known = are_all_known.and(are_known);
             if !are_known.all() {
-                for (lane, known) in known.iter_mut().enumerate().take(R::LANES) {
+                for (lane, known) in self.known.iter_mut().enumerate().take(R::LANES) {
                     if !are_known.lane(lane) {
                         *known = (*known).min(stage);
                     }
                 }
             }
         }
-        for (lane, Underway { run, .. }) in runs.iter_mut().enumerate() {
-            let rate = |stage: usize, i: usize| self.rates[stage][i].lane(lane);
-            run.give(known[lane], rate, |i| argument[i].lane(lane));
-        }
+        let (argument, new) = (self.argument, self.new);
+        let steps = Steps { y, h, rates: &self.rates, argument, new };
+        self.ordinary = self.ends.find(&steps, runs).and(are_all_known);
     }
-}
 
-/// y + h Σ wⱼ kⱼ, as `Stages` sums it.
-#[inline(always)]
-fn combine<R: Real>(row: Row, k: &[LaneState<R>], h: R, y: &LaneState<R>) -> LaneState<R> {
-    let mut total = [R::ZERO; COMPONENTS];
-    for &(stage, weight) in row {
-        let (k, weight) = (&k[stage], R::splat(weight));
-        for i in 0..COMPONENTS {
-            total[i] += weight * k[i];
+    /// Gives a run what was found of its step: its end if that needs no more, else the rates of its stages.
+    /// Those that are not known the run finds itself. Returns whether it was its end.
+    pub(crate) fn give<S: System>(&self, lane: usize, underway: &mut Underway<'_, S>) -> bool {
+        let is_ordinary = self.ordinary.lane(lane);
+        if is_ordinary {
+            self.ends.give(lane, underway);
+        } else {
+            let rate = |stage: usize, i: usize| self.rates[stage][i].lane(lane);
+            underway.run.give(self.known[lane], rate, |i| self.argument[i].lane(lane));
         }
+        is_ordinary
     }
-    let mut state = *y;
-    for i in 0..COMPONENTS {
-        state[i] = y[i] + h * total[i];
-    }
-    state
 }

@@ -4,7 +4,7 @@ use super::error::Error;
 use super::event_location::{Cut, Step};
 use super::integrator::Integrator;
 use super::pair::stages::Refusal;
-use super::run::{Next, Obstacle, Plan, Planned, Run, spacing};
+use super::run::{Next, Obstacle, Ordinary, Plan, Planned, Run, spacing};
 use super::solution::End;
 use super::system::{Attempt, System};
 
@@ -75,7 +75,9 @@ impl<S: System> Run<'_, S> {
     pub(crate) fn attempt(&mut self, planned: Planned) -> Result<(), Error<S::Error>> {
         let outcome = self.compute(planned.h, planned.t_new);
         self.integrator.stages.forget_given();
-        match self.conclude(planned, outcome)? {
+        let next = self.conclude(planned, outcome)?;
+        self.ordinary = None;
+        match next {
             Next::Step => {}
             Next::Restart => self.leave_interval(true),
             Next::End(end) => self.end = Some(end),
@@ -122,6 +124,10 @@ impl<S: System> Run<'_, S> {
     /// Computes a step and its error relative to the tolerance. If the error is at most 1, all
     /// stages are evaluated.
     fn compute(&mut self, h: f64, t_new: f64) -> Result<f64, Refusal<S::Error>> {
+        if let Some(Ordinary { error, is_stiff, .. }) = self.ordinary {
+            self.stiff = is_stiff;
+            return Ok(error);
+        }
         let dense = self.integrator.tracker.len() > 0 || self.record.needs_dense_output(t_new);
         let Integrator { n, stages, interpolant, y, new, .. } = &mut *self.integrator;
         let end = stages.tableau.stages;
@@ -223,6 +229,10 @@ impl<S: System> Run<'_, S> {
         let Integrator { n, stages, interpolant, tracker, y, new, state, event_state, event_rates } =
             &mut *self.integrator;
         if tracker.len() == 0 {
+            return Ok(None);
+        }
+        if let Some(Ordinary { event_value, magnitude, .. }) = self.ordinary {
+            tracker.pass_step(event_value, magnitude);
             return Ok(None);
         }
         let mut step = Step {

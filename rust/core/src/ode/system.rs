@@ -89,6 +89,11 @@ pub trait System {
         Ok(())
     }
 
+    /// The component of the state that is its only event function, if that is so.
+    fn event_component(&self) -> Option<usize> {
+        None
+    }
+
     /// Greatest width, without its sign, of the next step toward the boundary of the domain: the widths of the
     /// few steps there follow from the state. 0 where the boundary is reached, `None` if no boundary is known
     /// ahead. Called after steps that left the domain, and after accepted ones.

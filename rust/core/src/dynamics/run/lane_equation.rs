@@ -1,7 +1,8 @@
 //! The equation of motion of a machine with one driver in each lane of a register, each with the bits of
 //! [`Equation`](super::equation::Equation).
 
-use super::model::{MAX_CONDITION, MechanismModel};
+use super::configuration::Configuration;
+use super::model::{MAX_CONDITION, MechanismModel, ReducedModel};
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::motor::Motor;
@@ -11,7 +12,8 @@ use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
 use crate::math::vector::Vector;
-use crate::ode::side_by_side::{LaneRates, LaneState};
+use crate::ode::lane_step::LaneState;
+use crate::ode::side_by_side::LaneRates;
 use crate::query::lane_evaluator::LaneEvaluator;
 use crate::state::kernel::Level;
 
@@ -20,18 +22,10 @@ pub(crate) struct LaneEquation<'d, 'm, L: Level> {
     machine: &'m Machine,
     derivatives: &'m DerivativeTables,
     evaluator: LaneEvaluator<'d, 'm, L::Register>,
+    /// Unit of the coordinate.
+    unit: f64,
     /// At the end of the step whose stages were found last.
     end: Configuration<L::Register>,
-}
-
-/// Inertia and weights at coordinates, and the condition of the position.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Configuration<R = f64> {
-    pub inertia: R,
-    pub d_inertia: R,
-    pub conservative: R,
-    pub potential: R,
-    pub condition: R,
 }
 
 impl<'d, 'm, L: Level> LaneEquation<'d, 'm, L> {
@@ -44,7 +38,8 @@ impl<'d, 'm, L: Level> LaneEquation<'d, 'm, L> {
             && !machine.follows()
             && machine.motors.iter().all(Motor::reads_its_speed_only);
         let evaluator = LaneEvaluator::new(model.evaluator()).filter(|_| is_simple)?;
-        Some(Self { machine, derivatives, evaluator, end: Configuration::default() })
+        let (unit, end) = (model.unit(0), Configuration::default());
+        Some(Self { machine, derivatives, evaluator, unit, end })
     }
 
     /// The configuration at the end of the step whose stages were found last.
@@ -85,6 +80,13 @@ impl<R: Real, L: Level<Register = R>> LaneEquation<'_, '_, L> {
             found.potential += terms.potential;
         }
         (is_solved, found)
+    }
+
+    /// The energy balance at the end of the steps whose stages were found last; see
+    /// [`Configuration::balance`].
+    #[inline(always)]
+    pub(crate) fn balance(&self, &[_, speed, work]: &LaneState<R>, relative: R) -> [R; 2] {
+        self.end.balance([speed, work], [relative, R::splat(self.unit)])
     }
 
     /// Kinetic and potential energy at coordinates and speeds; NaN where they are not known.

@@ -7,9 +7,10 @@ use std::ops::{ControlFlow, Range};
 use std::sync::atomic::AtomicBool;
 
 use super::callbacks::{Callbacks, UnlessCancelled};
+use super::configuration::Configuration;
 use super::equation::Equation;
 use super::integrate::{Prepared, conclude, prepare};
-use super::lane_equation::{Configuration, LaneEquation};
+use super::lane_equation::LaneEquation;
 use super::model::{MechanismModel, ReducedModel};
 use super::options::RunOptions;
 use super::run_batch::{Outcome, RunBatch};
@@ -19,12 +20,13 @@ use super::system::RunSystem;
 use super::variable::Variable;
 use crate::batch::dispatch::{self, Entry, ForLevel, Task};
 use crate::dynamics::machine::Machine;
-use crate::math::lanes::Real;
+use crate::math::lanes::{Mask, Real};
 use crate::math::simd::Simd;
 use crate::ode::error::Error;
 use crate::ode::integrator::Integrator;
+use crate::ode::lane_step::Underway;
 use crate::ode::run::Plan;
-use crate::ode::side_by_side::{LaneStages, Underway};
+use crate::ode::side_by_side::LaneSteps;
 use crate::ode::solution::Solution;
 use crate::ode::system::System;
 use crate::plan::mechanism::Mechanism;
@@ -53,6 +55,7 @@ impl Machine {
             let fits = of_design.len() >= WORTH_LANES
                 && batch.limit.is_none()
                 && batch.options.along == Variable::Time
+                && batch.options.flywheel == 0.0
                 && mechanism.q0().len() == 1
                 && dimensions.len() == mechanism.dimensions().len()
                 && mechanism.dimensions().first_fault(&dimensions).is_none();
@@ -110,8 +113,11 @@ where
     type Output = Option<ControlFlow<()>>;
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
-        let mut lanes =
-            Lanes::<L> { equation: LaneEquation::new(self.reference?)?, stages: LaneStages::new() };
+        let mut lanes = Lanes::<L> {
+            equation: LaneEquation::new(self.reference?)?,
+            steps: LaneSteps::new(),
+            total: L::Register::ZERO,
+        };
         let count = self.runs.len().min(TOGETHER);
         let mut models: Vec<_> = (0..count).map(|_| (self.model)()).collect();
         let method = self.batch.options.method;
@@ -176,10 +182,12 @@ impl<'m, M, K, E: Display> SideBySide<'_, 'm, M, K, E> {
     }
 }
 
-/// The equation of motion in lanes, and the stages of steps there.
+/// The equation of motion in lanes, and the steps there.
 struct Lanes<'d, 'm, L: Entry> {
     equation: LaneEquation<'d, 'm, L>,
-    stages: LaneStages<L::Register>,
+    steps: LaneSteps<L::Register>,
+    /// Kinetic and potential energy less work at the ends of the steps.
+    total: L::Register,
 }
 
 /// The solution of a run, once it has one.
@@ -189,11 +197,23 @@ type Solved<S> = Option<Result<Solution, Error<<S as System>::Error>>>;
 trait InLane: System {
     /// Takes the configuration at the end of the next step.
     fn give(&mut self, configuration: Configuration);
+    /// The same of a step that is accepted, with the total energy there.
+    fn take(&mut self, configuration: Configuration, total: f64);
+    /// The total energy at the start of the step, and its relative tolerance.
+    fn watched(&self) -> [f64; 2];
 }
 
 impl<S: ReducedModel, O: Callbacks> InLane for RunSystem<'_, S, O> {
     fn give(&mut self, configuration: Configuration) {
         self.give(configuration);
+    }
+
+    fn take(&mut self, configuration: Configuration, total: f64) {
+        self.take(configuration, total);
+    }
+
+    fn watched(&self) -> [f64; 2] {
+        self.watched()
     }
 }
 
@@ -203,6 +223,18 @@ impl<L: Entry> Lanes<'_, '_, L> {
         let mut energies = vec![[f64::NAN; 2]; samples.len()];
         L::call(&mut Energies { lanes: self, samples, out: &mut energies });
         energies
+    }
+
+    /// Gives runs what was found of their steps.
+    fn give<S: InLane>(&self, runs: &mut [Underway<'_, S>]) {
+        for (lane, underway) in runs.iter_mut().enumerate() {
+            let end = self.equation.end(lane);
+            if self.steps.give(lane, underway) {
+                underway.run.system_mut().take(end, self.total.lane(lane));
+            } else {
+                underway.run.system_mut().give(end);
+            }
+        }
     }
 
     /// Integrates all systems to their ends.
@@ -232,7 +264,8 @@ impl<L: Entry> Lanes<'_, '_, L> {
         while !underway.is_empty() {
             for runs in underway.chunks_mut(L::Register::LANES) {
                 if runs.len() >= WORTH_LANES {
-                    L::call(&mut GiveStages { lanes: &mut *self, runs });
+                    L::call(&mut FindSteps { lanes: &mut *self, runs });
+                    self.give(runs);
                 }
             }
             underway.retain_mut(|Underway { index, run, planned }| {
@@ -252,20 +285,26 @@ impl<L: Entry> Lanes<'_, '_, L> {
     }
 }
 
-/// Finds the stages of the next steps of some runs.
-struct GiveStages<'t, 'a, 'd, 'm, L: Entry, S> {
+/// Finds the next steps of some runs.
+struct FindSteps<'t, 'a, 'd, 'm, L: Entry, S> {
     lanes: &'t mut Lanes<'d, 'm, L>,
     runs: &'t mut [Underway<'a, S>],
 }
 
-impl<L: Entry, S: InLane> Task<L::Register> for GiveStages<'_, '_, '_, '_, L, S> {
+impl<L: Entry, S: InLane> Task<L::Register> for FindSteps<'_, '_, '_, '_, L, S> {
     #[inline(always)]
     fn run(&mut self) {
-        let Lanes { equation, stages } = &mut *self.lanes;
-        stages.give(&mut *self.runs, equation);
-        for (lane, Underway { run, .. }) in self.runs.iter_mut().enumerate() {
-            run.system().give(equation.end(lane));
-        }
+        let (Lanes { equation, steps, total }, runs) = (&mut *self.lanes, &*self.runs);
+        steps.find(runs, equation);
+        let watched =
+            |lane: usize| runs[if lane < runs.len() { lane } else { 0 }].run.system().watched();
+        let before = L::Register::from_lanes(|lane| watched(lane)[0]);
+        let relative = L::Register::from_lanes(|lane| watched(lane)[1]);
+        let [after, allowed] = equation.balance(steps.new_state(), relative);
+        // Without a finite energy there is nothing to check.
+        let drifts = L::Register::ONE.lt((after - before).abs() / allowed);
+        steps.restrict(drifts.not());
+        *total = after;
     }
 }
 

@@ -3,9 +3,10 @@
 use std::time::Instant;
 
 use super::callbacks::Callbacks;
+use super::configuration::{Configuration, MAX_DRIFT, ROUNDINGS};
 use super::equation::{Equation, just_inside};
 use super::error::RunError;
-use super::lane_equation::Configuration;
+
 use super::model::{ReducedModel, inertia_noise};
 use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
@@ -61,11 +62,6 @@ pub(crate) struct RunSystem<'a, S, O> {
     given: Option<Configuration>,
     given_noise: Option<f64>,
 }
-
-/// Largest change of the energy over a step, in tolerances: its error is only estimated.
-const MAX_DRIFT: f64 = 3.0;
-/// Multiples of the energies' rounding that do not count as a change.
-const ROUNDINGS: f64 = 64.0;
 
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
 /// far better.
@@ -124,6 +120,25 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
     /// Takes the configuration at the end of the next step.
     pub(super) fn give(&mut self, configuration: Configuration) {
         self.given = Some(configuration);
+    }
+
+    /// Takes the configuration at the end of an accepted step, and the total energy there.
+    pub(super) fn take(&mut self, configuration: Configuration, total: f64) {
+        self.set_reduced(configuration);
+        self.trial_total = total;
+    }
+
+    /// Kinetic and potential energy less work at the start of a step, and the relative tolerance.
+    pub(super) fn watched(&self) -> [f64; 2] {
+        [self.total, self.relative]
+    }
+
+    fn set_reduced(&mut self, given: Configuration) {
+        let reduced = &mut self.equation.reduced;
+        reduced.inertia[0] = given.inertia;
+        reduced.d_inertia[0] = given.d_inertia;
+        reduced.conservative[0] = given.conservative;
+        reduced.potential = given.potential;
     }
 
     /// Kinetic and potential energy less work at the last position, and the tolerance of that sum; `noise`: the
@@ -450,6 +465,14 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
         Ok(Action::Restart)
     }
 
+    /// The speed, where only its sign is watched: a driver at rest may be at a dead point.
+    fn event_component(&self) -> Option<usize> {
+        let is_alone = self.events.is_empty()
+            && !self.has_table_boundaries()
+            && self.equation.motors_with_table().next().is_none();
+        (self.drivers == 1 && is_alone && self.has_dead_points()).then_some(1)
+    }
+
     fn may_cut(&self, event: usize) -> bool {
         self.event_index(event).is_none_or(|index| {
             let EventSpec { stops, rebound, .. } = self.events[index];
@@ -463,11 +486,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
             let _ = self.equation.set_configuration(&y[..self.drivers]);
             return;
         };
-        let reduced = &mut self.equation.reduced;
-        reduced.inertia[0] = given.inertia;
-        reduced.d_inertia[0] = given.d_inertia;
-        reduced.conservative[0] = given.conservative;
-        reduced.potential = given.potential;
+        self.set_reduced(given);
         self.given_noise = Some(inertia_noise(given.condition));
     }
 

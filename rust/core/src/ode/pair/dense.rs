@@ -54,6 +54,15 @@ impl Interpolant {
         }
     }
 
+    /// Takes the polynomial of a step that was found elsewhere; `number`: of a row and a component.
+    pub(in crate::ode) fn give(&mut self, number: impl Fn(usize, usize) -> f64) {
+        for (row, numbers) in self.rows.chunks_exact_mut(self.n).enumerate() {
+            for (component, out) in numbers.iter_mut().enumerate() {
+                *out = number(row, component);
+            }
+        }
+    }
+
     /// Writes the state at θ.
     pub(in crate::ode) fn at(&self, theta: f64, y: &mut [f64]) {
         evaluate(&self.rows, self.n, theta, y);

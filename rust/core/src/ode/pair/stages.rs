@@ -52,6 +52,11 @@ impl Scale {
         Self { relative: to_blocks(relative), absolute: to_blocks(absolute), usual_size }
     }
 
+    /// The absolute and the relative tolerance of a component.
+    pub(in crate::ode) fn of(&self, component: usize) -> [f64; 2] {
+        [&self.absolute, &self.relative].map(|list| list.as_flattened()[component])
+    }
+
     /// Σ (eᵢ / (aᵢ + rᵢ max(|yᵢ|, |zᵢ|)))² (Hairer, Nørsett & Wanner I, eq. II.4.10 and 4.11).
     pub(in crate::ode) fn square_sum(&self, e: &[Block], y: &[Block], z: &[Block]) -> f64 {
         let mut total = 0.0;
@@ -76,7 +81,7 @@ const ABRUPT_RATIO: f64 = 6.0;
 /// fractions from 0.05 to 0.3 this keeps the energy of all of 714 random machines within 0.98 of 10
 /// rtol (0.05 that of one only within 2.0), for 0.4 % more steps; with 0.3 the last steps before a dead
 /// point begin to depend on rounding.
-const ABRUPT_FRACTION: f64 = 0.25;
+pub(in crate::ode) const ABRUPT_FRACTION: f64 = 0.25;
 /// Steps of a smooth interval before the estimates are compared: earlier estimates show too little of the
 /// solution, and a piece of a table has only a few steps.
 const WARM_UP_STEPS: u32 = 2;
@@ -154,6 +159,19 @@ impl Stages {
         for (component, out) in state.iter_mut().enumerate() {
             *out = argument(component);
         }
+    }
+
+    /// Gives the rates at the new state of an accepted step whose other stages nobody asks for, and its fine
+    /// error estimate divided by |h|⁶.
+    pub(in crate::ode) fn give_end(&mut self, fine: f64, rates: &[f64]) {
+        let end = self.tableau.stages * self.blocks;
+        self.k[end..end + self.blocks].as_flattened_mut()[..self.n].copy_from_slice(rates);
+        self.fine = fine;
+    }
+
+    /// The fine error estimate above which a step shows a solution that changes within it.
+    pub(in crate::ode) fn abrupt_from(&self) -> f64 {
+        if self.accepted >= WARM_UP_STEPS { ABRUPT_RATIO * self.greatest } else { f64::INFINITY }
     }
 
     /// The next step has no stages given.
@@ -266,8 +284,8 @@ impl Stages {
         };
         let fine = fine.sqrt();
         self.fine = fine / (h * h * h * h * h).abs();
-        let is_abrupt = self.accepted >= WARM_UP_STEPS && self.fine > ABRUPT_RATIO * self.greatest;
-        let error = if is_abrupt { error.max(ABRUPT_FRACTION * fine) } else { error };
+        let error =
+            if self.fine > self.abrupt_from() { error.max(ABRUPT_FRACTION * fine) } else { error };
         // An overflow gives NaN: the error is then too large, not unknown.
         if error.is_nan() { f64::INFINITY } else { error * h.abs() }
     }
