@@ -2,7 +2,7 @@
 
 use super::event::EventTracker;
 use super::options::Method;
-use super::pair::dense::Interpolant;
+use super::pair::dense::{DenseOutput, Interpolant};
 use super::pair::stages::{Block, Stages, blocks};
 
 /// An integrator of systems of n equations, with its workspace. It can be reused for any number of
@@ -22,6 +22,8 @@ pub struct Integrator {
     pub(super) event_state: Vec<Block>,
     /// The rates there.
     pub(super) event_rates: Vec<f64>,
+    /// Room for the steps of the next run.
+    pub(super) spare: DenseOutput,
 }
 
 impl Integrator {
@@ -40,6 +42,7 @@ impl Integrator {
             state: zero.clone(),
             event_state: zero,
             event_rates: vec![0.0; n],
+            spare: DenseOutput::default(),
         }
     }
 }

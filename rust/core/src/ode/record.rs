@@ -21,8 +21,13 @@ pub(super) struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// For a run that starts at t in state y.
-    pub(super) fn new(output: Output<'a>, direction: f64, t: f64, y: &[f64]) -> Self {
+    /// For a run that starts at t in state y; `spare`: an empty record of steps with room.
+    pub(super) fn new(
+        output: Output<'a>,
+        direction: f64,
+        (t, y): (f64, &[f64]),
+        spare: DenseOutput,
+    ) -> Self {
         let mut record = Self {
             output,
             direction,
@@ -30,7 +35,7 @@ impl<'a> Record<'a> {
             events: Vec::new(),
             event_states: Vec::new(),
             samples: Vec::new(),
-            dense: DenseOutput::default(),
+            dense: spare,
         };
         if let Output::At(times) = output {
             record.samples.reserve_exact(times.len() * y.len());

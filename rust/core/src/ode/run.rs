@@ -165,8 +165,8 @@ impl<'a, S: System> Run<'a, S> {
             record: Record::new(
                 options.output,
                 direction,
-                t,
-                &integrator.y.as_flattened()[..integrator.n],
+                (t, &integrator.y.as_flattened()[..integrator.n]),
+                std::mem::take(&mut integrator.spare),
             ),
             integrator,
             system,
@@ -320,6 +320,17 @@ impl<'a, S: System> Run<'a, S> {
             dense: std::mem::take(&mut record.dense),
             statistics: self.statistics,
         }
+    }
+
+    /// The same, with the room of its steps left to the next run of the integrator.
+    pub(crate) fn finish_in_room(&mut self, end: End) -> Solution {
+        let mut solution = self.finish(end);
+        // Without memory for a copy it keeps all.
+        if let Ok(copy) = solution.dense.copied() {
+            self.integrator.spare = std::mem::replace(&mut solution.dense, copy);
+            self.integrator.spare.clear();
+        }
+        solution
     }
 
     /// The next break, or the end of the run.

@@ -226,8 +226,18 @@ impl<S: System> Run<'_, S> {
     }
 
     fn detect_events(&mut self, h: f64, t_new: f64) -> Result<Option<Cut>, S::Error> {
-        let Integrator { n, stages, interpolant, tracker, y, new, state, event_state, event_rates } =
-            &mut *self.integrator;
+        let Integrator {
+            n,
+            stages,
+            interpolant,
+            tracker,
+            y,
+            new,
+            state,
+            event_state,
+            event_rates,
+            ..
+        } = &mut *self.integrator;
         if tracker.len() == 0 {
             return Ok(None);
         }

@@ -349,8 +349,8 @@ fn assemble_run<S: ReducedModel, O: Callbacks>(
         (End::StepLimit { stiff, .. }, _) => StopReason::StepLimit(stiff),
         (End::Stalled { .. }, _) => StopReason::Stalled,
     };
-    // The start, the steps, and a dead point.
-    let mut samples = Samples::with_room(path.ends().len() + 2, system.drivers);
+    // The start and the steps; few runs end at a dead point.
+    let mut samples = Samples::with_room(path.ends().len() + 1, system.drivers);
     let (mut y, mut rates) = (vec![0.0; len], vec![0.0; len]);
     if path.at(from, &mut y) && path.slope(from, &mut rates) {
         samples.push_state(along, sign, from, &y, &rates);

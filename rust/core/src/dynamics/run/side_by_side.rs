@@ -257,7 +257,7 @@ impl<L: Entry> Lanes<'_, '_, L> {
                 Ok((Plan::Attempt(planned), run)) => {
                     underway.push(Underway { index, run, planned });
                 }
-                Ok((Plan::End(end), mut run)) => solved[index] = Some(Ok(run.finish(end))),
+                Ok((Plan::End(end), mut run)) => solved[index] = Some(Ok(run.finish_in_room(end))),
                 Err(error) => solved[index] = Some(Err(error)),
             }
         }
@@ -275,7 +275,7 @@ impl<L: Entry> Lanes<'_, '_, L> {
                         *planned = next;
                         return true;
                     }
-                    Ok(Plan::End(end)) => Some(Ok(run.finish(end))),
+                    Ok(Plan::End(end)) => Some(Ok(run.finish_in_room(end))),
                     Err(error) => Some(Err(error)),
                 };
                 false

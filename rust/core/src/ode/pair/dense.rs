@@ -205,6 +205,30 @@ impl DenseOutput {
         Ok(())
     }
 
+    /// Forgets all steps; their memory is kept.
+    pub(in crate::ode) fn clear(&mut self) {
+        for list in [&mut self.starts, &mut self.widths, &mut self.ends, &mut self.rows] {
+            list.clear();
+        }
+    }
+
+    /// A copy without room for more.
+    ///
+    /// # Errors
+    ///
+    /// It does not fit in memory.
+    pub(in crate::ode) fn copied(&self) -> Result<Self, TryReserveError> {
+        let copied = |list: &[f64]| -> Result<Vec<f64>, TryReserveError> {
+            let mut copy = Vec::new();
+            copy.try_reserve_exact(list.len())?;
+            copy.extend_from_slice(list);
+            Ok(copy)
+        };
+        let (starts, widths) = (copied(&self.starts)?, copied(&self.widths)?);
+        let (ends, rows) = (copied(&self.ends)?, copied(&self.rows)?);
+        Ok(Self { n: self.n, stride: self.stride, starts, widths, ends, rows })
+    }
+
     /// Gives back the memory that it does not need.
     pub(crate) fn shrink(&mut self) {
         for list in [&mut self.starts, &mut self.widths, &mut self.ends, &mut self.rows] {
