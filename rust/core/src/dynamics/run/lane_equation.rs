@@ -1,7 +1,6 @@
 //! The equation of motion of a machine with one driver in each lane of a register, each with the bits of
 //! [`Equation`](super::equation::Equation).
 
-use super::configuration::Configuration;
 use super::model::{MAX_CONDITION, MechanismModel, ReducedModel};
 use crate::dynamics::kinematics::SolvedPose;
 use crate::dynamics::machine::Machine;
@@ -11,11 +10,17 @@ use crate::dynamics::tables::table::Cell;
 use crate::dynamics::value::Numbers;
 use crate::math::derivatives::DerivativeTables;
 use crate::math::lanes::{Mask, Real};
+use crate::math::tolerance::ANALOGUE_PER_CONDITION_SQUARED;
 use crate::math::vector::Vector;
 use crate::ode::lane_step::LaneState;
 use crate::ode::side_by_side::LaneRates;
 use crate::query::lane_evaluator::LaneEvaluator;
 use crate::state::kernel::Level;
+
+/// Largest change of the energy over a step, in tolerances: its error is only estimated.
+pub(super) const MAX_DRIFT: f64 = 3.0;
+/// Multiples of the energies' rounding that do not count as a change.
+pub(super) const ROUNDINGS: f64 = 64.0;
 
 /// A machine whose only load is its weight, with motors that read only their speed.
 pub(crate) struct LaneEquation<'d, 'm, L: Level> {
@@ -26,6 +31,36 @@ pub(crate) struct LaneEquation<'d, 'm, L: Level> {
     unit: f64,
     /// At the end of the step whose stages were found last.
     end: Configuration<L::Register>,
+}
+
+/// Inertia and weights at coordinates, and the condition of the position.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Configuration<R = f64> {
+    pub inertia: R,
+    pub d_inertia: R,
+    pub conservative: R,
+    pub potential: R,
+    pub condition: R,
+}
+
+impl<R: Real> Configuration<R> {
+    /// Kinetic and potential energy less work at a speed, and the tolerance of that sum. `relative`: that of
+    /// the speed; `unit`: that of the coordinate.
+    #[inline(always)]
+    pub(super) fn balance(&self, [speed, work]: [R; 2], [relative, unit]: [R; 2]) -> [R; 2] {
+        let Self { inertia, d_inertia, conservative, potential, condition } = *self;
+        let half = R::splat(0.5);
+        let kinetic = half * (speed * (inertia * speed));
+        // Speeds are accurate to the relative tolerance, coordinates to that part of their unit.
+        let change = half * d_inertia * speed * speed - conservative;
+        let by_coordinate = change.abs() * unit;
+        let size = kinetic.abs() + potential.abs() + work.abs();
+        let noise = R::splat(ANALOGUE_PER_CONDITION_SQUARED) * condition * condition;
+        let allowed = R::splat(MAX_DRIFT) * relative * (R::splat(2.0) * kinetic + by_coordinate)
+            + R::splat(ROUNDINGS * f64::EPSILON) * size
+            + noise * kinetic;
+        [kinetic + potential - work, allowed]
+    }
 }
 
 impl<'d, 'm, L: Level> LaneEquation<'d, 'm, L> {

@@ -2,7 +2,6 @@
 
 mod boundary;
 pub(crate) mod callbacks;
-pub(crate) mod configuration;
 pub(crate) mod dead_point;
 pub(crate) mod equation;
 pub(crate) mod error;

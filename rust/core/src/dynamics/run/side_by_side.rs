@@ -7,10 +7,9 @@ use std::ops::{ControlFlow, Range};
 use std::sync::atomic::AtomicBool;
 
 use super::callbacks::{Callbacks, UnlessCancelled};
-use super::configuration::Configuration;
 use super::equation::Equation;
 use super::integrate::{Prepared, conclude, prepare};
-use super::lane_equation::LaneEquation;
+use super::lane_equation::{Configuration, LaneEquation};
 use super::model::{MechanismModel, ReducedModel};
 use super::options::RunOptions;
 use super::run_batch::{Outcome, RunBatch};
@@ -195,19 +194,13 @@ type Solved<S> = Option<Result<Solution, Error<<S as System>::Error>>>;
 
 /// A system that takes what lanes have found.
 trait InLane: System {
-    /// Takes the configuration at the end of the next step.
-    fn give(&mut self, configuration: Configuration);
-    /// The same of a step that is accepted, with the total energy there.
+    /// Takes the configuration at the end of an accepted step, and the total energy there.
     fn take(&mut self, configuration: Configuration, total: f64);
     /// The total energy at the start of the step, and its relative tolerance.
     fn watched(&self) -> [f64; 2];
 }
 
 impl<S: ReducedModel, O: Callbacks> InLane for RunSystem<'_, S, O> {
-    fn give(&mut self, configuration: Configuration) {
-        self.give(configuration);
-    }
-
     fn take(&mut self, configuration: Configuration, total: f64) {
         self.take(configuration, total);
     }
@@ -228,11 +221,9 @@ impl<L: Entry> Lanes<'_, '_, L> {
     /// Gives runs what was found of their steps.
     fn give<S: InLane>(&self, runs: &mut [Underway<'_, S>]) {
         for (lane, underway) in runs.iter_mut().enumerate() {
-            let end = self.equation.end(lane);
             if self.steps.give(lane, underway) {
-                underway.run.system_mut().take(end, self.total.lane(lane));
-            } else {
-                underway.run.system_mut().give(end);
+                let (end, total) = (self.equation.end(lane), self.total.lane(lane));
+                underway.run.system_mut().take(end, total);
             }
         }
     }

@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use super::callbacks::Callbacks;
-use super::configuration::{Configuration, MAX_DRIFT, ROUNDINGS};
 use super::equation::{Equation, just_inside};
 use super::error::RunError;
+use super::lane_equation::{Configuration, MAX_DRIFT, ROUNDINGS};
 
-use super::model::{ReducedModel, inertia_noise};
+use super::model::ReducedModel;
 use super::options::{EventKind, EventSpec, RunOptions};
 use super::stick_slip::{Change, Phase};
 use super::variable::Variable;
@@ -57,10 +57,6 @@ pub(crate) struct RunSystem<'a, S, O> {
     /// trial step.
     total: f64,
     trial_total: f64,
-    /// The configuration at the end of the attempted step, if it was found in lanes, and the rounding error
-    /// of its inertia.
-    given: Option<Configuration>,
-    given_noise: Option<f64>,
 }
 
 /// Kinetic energy below this part of the energies of a motion counts as zero: the balance is kept
@@ -97,8 +93,6 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
             tolerance: options.relative * size,
             total: f64::NAN,
             trial_total: f64::NAN,
-            given: None,
-            given_noise: None,
         }
     }
 
@@ -117,28 +111,19 @@ impl<'a, S: ReducedModel, O: Callbacks> RunSystem<'a, S, O> {
         Ok(())
     }
 
-    /// Takes the configuration at the end of the next step.
-    pub(super) fn give(&mut self, configuration: Configuration) {
-        self.given = Some(configuration);
-    }
-
     /// Takes the configuration at the end of an accepted step, and the total energy there.
     pub(super) fn take(&mut self, configuration: Configuration, total: f64) {
-        self.set_reduced(configuration);
+        let reduced = &mut self.equation.reduced;
+        reduced.inertia[0] = configuration.inertia;
+        reduced.d_inertia[0] = configuration.d_inertia;
+        reduced.conservative[0] = configuration.conservative;
+        reduced.potential = configuration.potential;
         self.trial_total = total;
     }
 
     /// Kinetic and potential energy less work at the start of a step, and the relative tolerance.
     pub(super) fn watched(&self) -> [f64; 2] {
         [self.total, self.relative]
-    }
-
-    fn set_reduced(&mut self, given: Configuration) {
-        let reduced = &mut self.equation.reduced;
-        reduced.inertia[0] = given.inertia;
-        reduced.d_inertia[0] = given.d_inertia;
-        reduced.conservative[0] = given.conservative;
-        reduced.potential = given.potential;
     }
 
     /// Kinetic and potential energy less work at the last position, and the tolerance of that sum; `noise`: the
@@ -481,13 +466,8 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
     }
 
     fn place(&mut self, _: f64, y: &[f64]) {
-        let Some(given) = self.given.take() else {
-            // Its rates are known, so it exists.
-            let _ = self.equation.set_configuration(&y[..self.drivers]);
-            return;
-        };
-        self.set_reduced(given);
-        self.given_noise = Some(inertia_noise(given.condition));
+        // Its rates are known, so it exists.
+        let _ = self.equation.set_configuration(&y[..self.drivers]);
     }
 
     fn watch_invariant(&mut self, _: f64, y: &[f64]) {
@@ -495,8 +475,7 @@ impl<S: ReducedModel, O: Callbacks> System for RunSystem<'_, S, O> {
     }
 
     fn drift(&mut self, _: f64, y: &[f64]) -> f64 {
-        let noise = self.given_noise.take();
-        let noise = noise.unwrap_or_else(|| self.equation.model.inertia_noise());
+        let noise = self.equation.model.inertia_noise();
         let (total, allowed) = self.balance(y, noise);
         self.trial_total = total;
         // Without a finite energy there is nothing to check.
