@@ -27,7 +27,7 @@ def case(quick: bool) -> Case:
     subjects: dict[str | int, Callable[[], Subject]] = {
         f"{seconds:g} s of a slider-crank": lambda: slider_crank(count, seconds)
     }
-    return Case("many runs", "run", subjects, plotted=False, every_level=False)
+    return Case("many_runs", "run", subjects, plotted=False, every_level=False)
 
 
 def slider_crank(count: int, seconds: float) -> Subject:

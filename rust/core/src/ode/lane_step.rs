@@ -5,7 +5,7 @@ use super::event::SAMPLES;
 use super::pair::dense::LEAST_ROWS;
 use super::pair::stages::ABRUPT_FRACTION;
 use super::pair::tableau::{Row, Tableau};
-use super::run::{Ordinary, Planned, Run};
+use super::run::{Ordinary, Planned, Run, Watched};
 use super::system::System;
 use crate::math::lanes::{LANES, Mask, Real};
 
@@ -59,7 +59,11 @@ impl LaneEnds {
         runs: &[Underway<'_, S>],
     ) -> R::Mask {
         let Some(first) = runs.first() else { return R::Mask::NONE };
-        let Some(event_component) = first.run.event_component() else { return R::Mask::NONE };
+        let Some(watched) = first.run.watched() else { return R::Mask::NONE };
+        debug_assert!(
+            runs.iter().all(|one| one.run.watched() == Some(watched)),
+            "runs of one design"
+        );
         let used = runs.len();
         let of = |lane: usize| if lane < used { lane } else { 0 };
         let tableau = first.run.stages().tableau;
@@ -72,7 +76,7 @@ impl LaneEnds {
         for number in steps.new {
             is_ordinary = is_ordinary.and(number.finite());
         }
-        if let Some(component) = event_component {
+        if let Watched::Component(component) = watched {
             let sign = R::from_lanes(|lane| runs[of(lane)].run.first_event().0);
             let start = R::from_lanes(|lane| runs[of(lane)].run.first_event().1);
             let (is_quiet, magnitude) =

@@ -139,6 +139,14 @@ pub(crate) struct Run<'a, S> {
     pub(super) statistics: Statistics,
 }
 
+/// What event functions watch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Watched {
+    Nothing,
+    /// The sign of a component of the state.
+    Component(usize),
+}
+
 /// How a step ends that is accepted and has no event.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ordinary {
@@ -246,15 +254,14 @@ impl<'a, S: System> Run<'a, S> {
         &self.integrator.stages.rates(0).as_flattened()[..self.integrator.n]
     }
 
-    /// The components of the state that event functions are, if the ordinary end of a step can be found from
-    /// its states alone: none or one.
-    pub(super) fn event_component(&self) -> Option<Option<usize>> {
+    /// What is watched over a step; `None` if more is than its states show.
+    pub(super) fn watched(&self) -> Option<Watched> {
         if !self.options.max_change.is_empty() {
             return None;
         }
         match self.integrator.tracker.len() {
-            0 => Some(None),
-            1 => self.system.event_component().map(Some),
+            0 => Some(Watched::Nothing),
+            1 => self.system.event_component().map(Watched::Component),
             _ => None,
         }
     }
