@@ -15,7 +15,7 @@ import assur
 from dynamics.equations.test_equations import TURN, five_bar, press
 from models.machines.machine_models import machine_case
 from support.samples import sample
-from support.spectral import derivative
+from support.spectral import WIDTHS, derivative
 
 # Of the greatest entry of a matrix of derivatives.
 CLOSE = 1e-10
@@ -28,9 +28,8 @@ WELL_CONDITIONED = 100.0
 def compare(found: Any, columns: list[tuple[Any, Any]], close: float = CLOSE) -> None:
     wanted, known = (np.stack(parts, axis=-1) for parts in zip(*columns, strict=True))
     size = np.abs(found).max()
-    certain = known <= close * size
-    assert certain.mean() > 0.8
-    assert (np.abs(found - wanted) <= close * size)[certain].all()
+    assert (known <= close * size).all()
+    assert (np.abs(found - wanted) <= close * size).all()
 
 
 def moved(machine: assur.Machine, name: str, by: Any) -> assur.Machine:
@@ -166,8 +165,8 @@ def test_accelerations(name: str) -> None:
                 every.append(np.atleast_1d(other.acceleration(q, speed, efforts)))
             return np.array(every)
 
-        # No mass is negative.
-        return derivative(values, 0.5 * min(1.0, getattr(body, what) / 0.03))
+        # No mass is negative: the longest interval reaches half way to zero.
+        return derivative(values, min(1.0, 0.5 * getattr(body, what) / max(WIDTHS)))
 
     columns = [along(way, driver) for way in range(len(state)) for driver in range(n)]
     columns += [by_dimension(one) for one in dimensions] + [by_mass(one) for one in masses]
