@@ -39,19 +39,20 @@ WEIGHTS = _weights()
 def derivative(values: Callable[[Any], Any], unit: float = 1.0) -> tuple[Any, Any]:
     """The derivative at 0 of a function of many places at once, and how well it is known.
 
-    Of neighbouring widths the two that agree best decide, entry by entry; their difference is how
-    well. It is infinite where none agree because the function has no value beside 0.
+    Of neighbouring widths the two that agree best decide, entry by entry; how well is their
+    difference, and no better than the rounding of the values allows. It is infinite where none
+    agree because the function has no value beside 0.
     """
-    found = np.array(
-        [
-            np.tensordot(WEIGHTS, values(PLACES * width * unit), axes=1) / (width * unit)
-            for width in WIDTHS
-        ]
-    )
-    gaps = np.abs(np.diff(found, axis=0))
+    found, rounding = [], []
+    for width in WIDTHS:
+        sampled = values(PLACES * width * unit)
+        found.append(np.tensordot(WEIGHTS, sampled, axes=1) / (width * unit))
+        size = np.finfo(float).eps * np.abs(sampled).max(axis=0)
+        rounding.append(size * np.abs(WEIGHTS).sum() / (width * unit))
+    gaps = np.maximum(np.abs(np.diff(found, axis=0)), rounding[1:])
     gaps = np.where(np.isnan(gaps), np.inf, gaps)
     best = np.argmin(gaps, axis=0)[np.newaxis]
     return (
-        np.take_along_axis(found[1:], best, axis=0)[0],
+        np.take_along_axis(np.array(found)[1:], best, axis=0)[0],
         np.take_along_axis(gaps, best, axis=0)[0],
     )
