@@ -1,6 +1,6 @@
 //! A run: steps from break to break.
 
-use super::control::{Control, first_width};
+use super::control::{Control, first_width, spacing};
 use super::error::Error;
 use super::integrator::Integrator;
 use super::options::Options;
@@ -306,9 +306,4 @@ impl<'a, S: System> Run<'a, S> {
         }
         Ok(None)
     }
-}
-
-/// Approximate distance from a number to the next.
-pub(super) fn spacing(t: f64) -> f64 {
-    (t.abs() * f64::EPSILON).max(f64::MIN_POSITIVE)
 }
