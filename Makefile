@@ -147,6 +147,7 @@ campaign: rust-tools $(EXTENSION) $(DEV_STAMP)
 	$(CAMPAIGN) --mixed --count 100000 --out docs/developers/campaigns/mixed.md
 	$(CAMPAIGN) --machines --count 10000 --out docs/developers/campaigns/machines.md
 	PYTHONPATH=tests/python $(PY) -W ignore -m campaigns.campaign_assemblies
+	PYTHONPATH=tests/python $(PY) -m campaigns.campaign_steps
 	HYPOTHESIS_PROFILE=slow $(PY) -m pytest -q tests/python/net/test_function_of_q.py \
 	  tests/python/net/test_careful.py tests/python/dynamics/friction/test_friction_random.py \
 	  tests/python/dynamics/forces/test_reactions_oracle.py \

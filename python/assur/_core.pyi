@@ -377,7 +377,7 @@ class Machine:
         state: tuple[_Float, _Float, _Float],
         has_motors: bool,
         rows: int,
-        steps: tuple[float, int],
+        steps: tuple[float, int, tuple[Method, tuple[float, list[float] | None]] | None],
         holds: bool,
         threads: int | None,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8]]: ...

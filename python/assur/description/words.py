@@ -51,7 +51,10 @@ class Status(IntEnum):
     driven angle does not repeat within 64 turns.
     """
     NOT_CONVERGED = 5
-    """The iteration of a group above class II did not converge (NaN)."""
+    """The iteration of a group above class II did not converge (NaN).
+
+    Or steps of `Machine.step` do not meet their tolerance.
+    """
     BAD_DIMENSION = 6
     """A dimension is not finite, not positive, or outside 1e-153 to 1e153 m (NaN)."""
     BAD_INPUT = 7

@@ -3,8 +3,9 @@
 use std::num::NonZeroUsize;
 
 use assur::dynamics::{
-    Direction, EquationPlan, EquationRequest, Machine, StepRequest, Term, Variation,
+    Direction, EquationPlan, EquationRequest, Machine, StepMethod, StepRequest, Term, Variation,
 };
+use assur::ode::Method;
 use assur::{Arrays, Control, Coordinates, Mechanism};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -13,6 +14,7 @@ use crate::convert::word::{Word, Words};
 use crate::error_map;
 use crate::memory::filled;
 use crate::reactions::Found;
+use crate::run::options::Tolerances;
 
 type Flat<'py> = PyReadonlyArray1<'py, f64>;
 
@@ -177,6 +179,12 @@ pub(crate) type Stepped<'py> = (Vec<Bound<'py, PyArray1<f64>>>, Bound<'py, PyArr
 const FEW_STEPS: u64 = 100_000;
 /// As many environments take about as long as one.
 const LIKE_ONE: u64 = 32;
+/// A step with error control takes as long as so many at times: it may end at a dead point, which narrow ones
+/// approach.
+const COST_OF_CONTROL: u64 = 256;
+
+/// Time of a step, number of steps, and of methods with error control the pair with its tolerances.
+pub(crate) type Steps = (f64, u64, Option<(Word<Method>, Tolerances)>);
 
 /// The environments that make steps: dimensions, coordinates, speeds and efforts.
 pub(crate) struct Environments<'py> {
@@ -195,9 +203,15 @@ pub(crate) fn step<'py>(
     py: Python<'py>,
     (mechanism, machine, plan, variations): Planned<'_>,
     environments: &Environments<'py>,
-    (dt, steps): (f64, u64),
+    (dt, steps, pair): Steps,
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Stepped<'py>> {
+    let (method, cost_of_method) = match pair {
+        None => (StepMethod::Even, 1),
+        Some((Word(pair), (relative, absolute))) => {
+            (StepMethod::Controlled { pair, relative, absolute }, COST_OF_CONTROL)
+        }
+    };
     let request = StepRequest {
         dimensions: environments.dimensions.as_slice()?,
         signs: mechanism.signs(),
@@ -208,10 +222,12 @@ pub(crate) fn step<'py>(
         variations,
         dt,
         steps,
+        method,
         holds: environments.holds,
     };
     let (rows, drivers) = (environments.rows, mechanism.q0().len());
-    let cost = plan.cost(mechanism).saturating_mul((rows as u64).max(LIKE_ONE));
+    let cost_of_one = plan.cost(mechanism).saturating_mul(cost_of_method);
+    let cost = cost_of_one.saturating_mul((rows as u64).max(LIKE_ONE));
     let is_short = steps.saturating_mul(cost) < FEW_STEPS;
     let fill = |arrays: Arrays<'_>, control: &Control<'_>| {
         machine.step(mechanism, plan, &request, arrays, control)

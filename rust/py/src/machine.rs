@@ -371,7 +371,7 @@ impl Machine {
         state: (Flat<'py>, Flat<'py>, Flat<'py>),
         has_motors: bool,
         rows: usize,
-        steps: (f64, u64),
+        steps: equations::Steps,
         holds: bool,
         threads: Option<NonZeroUsize>,
     ) -> PyResult<equations::Stepped<'py>> {

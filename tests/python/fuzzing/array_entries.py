@@ -345,6 +345,10 @@ ENTRIES: dict[str, Entry] = {
     ),
     **each_of("Machine.flywheel", OF_TABLE.flywheel, fluctuation=0.125, mean_speed=4.0),
     **each_of("Machine.run", MACHINE.run, t_end=0.5, q0=1.0, speed0=2.0, breaks=0.0, rtol=1e-6),
+    "Machine.step.atol": Entry(
+        lambda x: MACHINE.step(0.5, 1.0, 2.0, 1e-3, method="RK45", atol=x),
+        (np.array([1.0, 2.0]) / 1024.0, np.array(0.125)),
+    ),
     "Machine.run.atol": Entry(
         lambda x: MACHINE.run(0.5, 1.0, 2.0, atol=x),
         (np.array([1.0, 2.0]) / 1024.0, np.array(0.125)),

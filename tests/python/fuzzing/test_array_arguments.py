@@ -185,6 +185,7 @@ OPTIONAL = (
     "Machine.acceleration.effort",
     "Machine.d_acceleration.effort",
     "Machine.linearize.effort",
+    "Machine.step.atol",
     "Machine.step.effort",
     "Mechanism.map.deg",
     "Mechanism.with_driver.deg",

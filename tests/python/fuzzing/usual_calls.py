@@ -207,7 +207,7 @@ def _of_machines() -> Iterable[tuple[str, Call]]:
         d_acceleration=AT,
         d_effort=AT,
         linearize=AT,
-        step={**AT, "effort": 1.0, "dt": 1e-3},
+        step={**AT, "effort": 1.0, "dt": 1e-3, "method": "RK45"},
         equilibria={"between": (0.0, 3.0)},
         flywheel={"fluctuation": 0.1},
         impact={"load": assur.Force("B", (-1.0, 0.0)), "q": 0.5, "speed": -5.0, "restitution": 0.3},

@@ -156,6 +156,9 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "reactions of class IV": lambda n: partial(_loom().reactions, np.linspace(0.2, 1.4, n), 1.0),
     "dynamics of class IV": lambda n: partial(_loom().dynamics, np.linspace(0.2, 1.4, n), 1.0),
     "steps": lambda n: partial(_machine().step, 0.1, 1.0, 0.0, 1e-6, n=n),
+    "controlled steps": lambda n: partial(
+        _machine().step, 0.1, 1.0, 0.0, 0.1, n=n, method="RK45", rtol=1e-14
+    ),
     "steps of class IV": lambda n: partial(_loom().step, 0.5, 0.1, 0.0, 1e-7, n=n),
     "a flywheel of one long table": lambda n: partial(_wheel, n),
     "reactions that friction locks": lambda n: partial(_rubbing().reactions, *_moving(n)),

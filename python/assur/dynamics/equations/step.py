@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from assur._arrays import Float, as_number, real_array, real_number, short
-from assur._validate import checked_threads, whole_number
+from assur._validate import checked_threads, one_of, whole_number
 from assur.description.words import Status, has_analogues
 from assur.dynamics.batch_results import dimensions, shape_of_results
 from assur.dynamics.equations.terms import flat
+from assur.dynamics.preconditions import relative_tolerance, tolerance_pair
 from assur.errors import InputError
 
 if TYPE_CHECKING:
@@ -23,6 +24,13 @@ __all__ = ["Stepped"]
 
 # More are no loop's single call; it goes on for years.
 MOST_STEPS = 10**15
+# The method with even steps, and those that keep a tolerance.
+EVEN, PAIRS = "rk4", ("RK45", "DOP853")
+# Of those, where it is not given.
+RTOL = 1e-10
+
+# A method with its relative tolerance, and absolute ones.
+Pair: TypeAlias = tuple[Literal["DOP853", "RK45"], tuple[float, list[float] | None]]
 
 
 class Stepped(NamedTuple):
@@ -35,7 +43,9 @@ class Stepped(NamedTuple):
     status : int or numpy.ndarray of uint8
         The worst `Status` on the way: `UNREACHABLE` beyond a dead point, `BAD_INPUT` where a driver
         would go more than 1 rad (or the size of the mechanism) in a step or a state is not finite,
-        `NO_VALUE` where a load, an effort or the inertia gives no acceleration.
+        `NO_VALUE` where a load, an effort or the inertia gives no acceleration. Of methods with
+        error control `NOT_CONVERGED` where the tolerance is not met, or only by more than 10000
+        steps of their own in a dt.
 
     Examples
     --------
@@ -61,15 +71,32 @@ class Environments(NamedTuple):
     effort: npt.ArrayLike | None
 
 
+def pair_of(method: Any, rtol: Any, atol: Any) -> Pair | None:
+    """Return a method with error control and its tolerances, None for even steps."""
+    one_of(method, (EVEN, *PAIRS), "method")
+    if method != EVEN:
+        relative = RTOL if rtol is None else relative_tolerance(rtol)
+        return method, (relative, tolerance_pair(atol))
+    for name, given in (("rtol", rtol), ("atol", atol)):
+        if given is not None:
+            message = (
+                f"{name} is {short(given)}, but {EVEN!r} has even steps: give method="
+                f"{PAIRS[0]!r} or {PAIRS[1]!r}, which keep a tolerance, or leave {name} out"
+            )
+            raise InputError(message)
+    return None
+
+
 def step(
     machine: MachineModel,
     environments: Environments,
-    dt: float,
-    n: int,
+    times: tuple[float, int],
+    pair: Pair | None,
     on_error: str,
     threads: int | None,
 ) -> Stepped:
-    """See `Machine.step`."""
+    """See `Machine.step`; `times`: of a step, and how many."""
+    dt, n = times
     mechanism = machine.mechanism
     assert mechanism is not None
     _refuse_functions(machine)
@@ -104,12 +131,12 @@ def step(
         (states[0], states[1], flat(effort)),
         environments.effort is None,
         rows,
-        (seconds, steps),
+        (seconds, steps, pair),
         on_error == "hold",
         checked_threads(threads),
     )
     if on_error == "raise":
-        _require_good(machine, status, states, shape, seconds)
+        _require_good(machine, status, (states[0], states[1], shape), (seconds, pair))
     return Stepped(
         as_number(after_q.reshape(full)[()]),
         as_number(after_speed.reshape(full)[()]),
@@ -143,16 +170,16 @@ def _refuse_functions(machine: MachineModel) -> None:
 def _require_good(
     machine: MachineModel,
     status: npt.NDArray[np.uint8],
-    states: list[Float],
-    shape: tuple[int, ...],
-    dt: float,
+    states: tuple[Float, Float, tuple[int, ...]],
+    method: tuple[float, Pair | None],
 ) -> None:
     """Raise the error of the first environment that could not make all steps."""
     bad = np.flatnonzero(~has_analogues(status))
     if not bad.size:
         return
     row, drivers = int(bad[0]), machine.driver_count
-    q, speed = (state[row * drivers : (row + 1) * drivers].tolist() for state in states)
+    (*both, shape), (dt, pair) = states, method
+    q, speed = (state[row * drivers : (row + 1) * drivers].tolist() for state in both)
     at = tuple(int(i) for i in np.unravel_index(row, shape)) if shape else ()
     where = f"environment {at[0] if len(at) == 1 else at}: " if at else ""
     name = Status(int(status[row])).name
@@ -162,6 +189,13 @@ def _require_good(
         "NO_VALUE": "a load has no finite value there, or no inertia resists a driver",
         "SINGULAR": "it reaches a singular position",
         "BAD_DIMENSION": "its design has a dimension that is not valid",
-    }.get(name, "it reaches a position that does not exist")
-    message = f"{where}{name} within these steps from q = {q}, speed = {speed}: {why}"
+    }
+    if pair is not None:
+        why["BAD_INPUT"] = "its state is not finite, or its speed beyond all steps"
+        why["NOT_CONVERGED"] = (
+            f"rtol = {pair[1][0]:g} is not met, or by too many steps of its own in dt = {dt:g} s: "
+            "take a greater tolerance or a shorter dt"
+        )
+    reason = why.get(name, "it reaches a position that does not exist")
+    message = f"{where}{name} within these steps from q = {q}, speed = {speed}: {reason}"
     raise InputError(message, q=q if drivers > 1 else q[0])

@@ -22,6 +22,7 @@
 
 pub(crate) mod angle_between;
 pub(crate) mod body;
+pub(crate) mod driver_scales;
 pub(crate) mod equations;
 pub(crate) mod equilibria;
 pub(crate) mod flywheel;
@@ -49,7 +50,7 @@ pub use angle_between::{Angle, Line};
 pub use body::Body;
 pub use equations::plan::EquationPlan;
 pub use equations::request::{Direction, EquationRequest, Term};
-pub use equations::step::StepRequest;
+pub use equations::steps::request::{StepMethod, StepRequest};
 pub use equilibria::{Equilibria, Equilibrium, EquilibriumRange};
 pub use flywheel::cycle::{Cycle, Extreme};
 pub use flywheel::flywheel::{Flywheel, Mean};

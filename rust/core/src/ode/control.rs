@@ -21,21 +21,21 @@ const BETA: f64 = 0.04;
 /// Proportional-integral control, h·SAFETY·eₙ^(0.75β − 1/p)·eₙ₋₁^β (Gustafsson, Control
 /// theoretic techniques for stepsize selection in explicit Runge-Kutta methods, ACM TOMS 17
 /// (1991); Hairer & Wanner II, IV.2, eq. 2.43).
-#[derive(Debug)]
-pub(super) struct Control {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Control {
     power: f64,
     previous_error: f64,
     rejected: bool,
 }
 
 impl Control {
-    pub(super) fn new(tableau: &Tableau) -> Self {
+    pub(crate) fn new(tableau: &Tableau) -> Self {
         let power = 1.0 / f64::from(tableau.order) - 0.75 * BETA;
         Self { power, previous_error: MIN_ERROR, rejected: false }
     }
 
     /// Ratio of the next width to that of an accepted step.
-    pub(super) fn factor_after_accept(&mut self, error: f64) -> f64 {
+    pub(crate) fn factor_after_accept(&mut self, error: f64) -> f64 {
         let factor = SAFETY * pow(error, -self.power) * pow(self.previous_error, BETA);
         // No growth directly after a rejected step.
         let limit = if self.rejected { 1.0 } else { MAX_FACTOR };
@@ -45,16 +45,43 @@ impl Control {
     }
 
     /// Ratio of the next width to that of a step with too large an error.
-    pub(super) fn factor_after_reject(&mut self, error: f64) -> f64 {
+    pub(crate) fn factor_after_reject(&mut self, error: f64) -> f64 {
         self.rejected = true;
         (SAFETY * pow(error, -self.power)).clamp(MIN_FACTOR, 1.0)
     }
 
     /// Ratio of the next width to that of a step that could not be evaluated.
-    pub(super) fn factor_after_refusal(&mut self) -> f64 {
+    pub(crate) fn factor_after_refusal(&mut self) -> f64 {
         self.rejected = true;
         0.5
     }
+}
+
+/// A step goes to the end of its smooth interval if that widens it by at most this factor, so that no
+/// sliver remains (Hairer's programs).
+const LAST_STEP_STRETCH: f64 = 1.01;
+/// The last steps of a smooth interval, up to this many, are made equal instead of leaving a narrow
+/// one at its end: the same number of steps with smaller errors.
+const EQUAL_STEPS: f64 = 4.0;
+/// Least width of a step, in spacings of t: the stages of a narrower one coincide.
+pub(crate) const MIN_STEP: f64 = 4.0;
+
+/// The width of the next step, of which `remaining` is left and `proposed` would meet the tolerance, and whether
+/// it is the last.
+pub(crate) fn fitted(remaining: f64, proposed: f64) -> (f64, bool) {
+    let steps_left = (remaining / (proposed * LAST_STEP_STRETCH)).ceil();
+    if steps_left <= 1.0 {
+        (remaining, true)
+    } else if steps_left <= EQUAL_STEPS {
+        (remaining / steps_left, false)
+    } else {
+        (proposed, false)
+    }
+}
+
+/// Approximate distance from a number to the next.
+pub(crate) fn spacing(t: f64) -> f64 {
+    (t.abs() * f64::EPSILON).max(f64::MIN_POSITIVE)
 }
 
 /// Width of the first step (Hairer, Nørsett & Wanner I, II.4, "starting step size"): first one with

@@ -3,7 +3,7 @@
 
 use super::event::SAMPLES;
 use super::pair::dense::LEAST_ROWS;
-use super::pair::stages::ABRUPT_FRACTION;
+use super::pair::estimate::in_tolerances;
 use super::pair::tableau::{Row, Tableau};
 use super::run::{Ordinary, Planned, Run, Watched};
 use super::system::System;
@@ -32,8 +32,9 @@ pub(super) struct LaneEnds {
     new: [Numbers; COMPONENTS],
     rates: [Numbers; COMPONENTS],
     rows: Vec<[Numbers; COMPONENTS]>,
-    error: Numbers,
+    /// Mean squares of the estimated errors of a unit step.
     fine: Numbers,
+    coarse: Option<Numbers>,
     magnitude: Numbers,
     event_value: Numbers,
     is_stiff: u32,
@@ -51,7 +52,8 @@ pub(super) struct Steps<'a, R> {
 }
 
 impl LaneEnds {
-    /// Finds the ends; returns the lanes with an error up to 1 and no event. The other lanes repeat the first.
+    /// Finds the ends; returns the lanes in which they are finite and without an event. The other lanes repeat
+    /// the first.
     #[inline(always)]
     pub(super) fn find<R: Real, S: System>(
         &mut self,
@@ -60,57 +62,58 @@ impl LaneEnds {
     ) -> R::Mask {
         let Some(first) = runs.first() else { return R::Mask::NONE };
         let Some(watched) = first.run.watched() else { return R::Mask::NONE };
-        debug_assert!(
-            runs.iter().all(|one| one.run.watched() == Some(watched)),
-            "runs of one design"
-        );
+        debug_assert!(runs.iter().all(|one| one.run.watched() == Some(watched)), "of one design");
         let used = runs.len();
         let of = |lane: usize| if lane < used { lane } else { 0 };
         let tableau = first.run.stages().tableau;
-        let scale = LaneScale::of(runs, steps);
-        let abrupt_from = R::from_lanes(|lane| runs[of(lane)].run.stages().abrupt_from());
-        let (error, fine) = scale.error(tableau, steps, abrupt_from);
-        let is_stiff = scale.is_stiff(tableau, steps);
+        let scale = LaneScale::of(runs);
+        self.fine = numbers(scale.mean_square(steps, &weighted_sum(tableau.error, steps.rates)));
+        self.coarse = None;
+        if let Some(row) = tableau.coarse_error {
+            let sum = weighted_sum(row, steps.rates);
+            self.coarse = Some(numbers(scale.mean_square(steps, &sum)));
+        }
+        self.is_stiff = scale.is_stiff(tableau, steps).bits();
         self.set_rows(tableau, steps);
-        let mut is_ordinary = error.le(R::ONE);
-        for number in steps.new {
-            is_ordinary = is_ordinary.and(number.finite());
+        let mut are_known = steps.new[0].finite();
+        for i in 0..COMPONENTS {
+            are_known = are_known.and(steps.new[i].finite());
+            self.new[i] = numbers(steps.new[i]);
+            self.rates[i] = numbers(steps.rates[tableau.stages][i]);
         }
         if let Watched::Component(component) = watched {
             let sign = R::from_lanes(|lane| runs[of(lane)].run.first_event().0);
             let start = R::from_lanes(|lane| runs[of(lane)].run.first_event().1);
-            let (is_quiet, magnitude) =
-                self.keeps_sign(component, sign, start, steps.new[component]);
-            is_ordinary = is_ordinary.and(is_quiet);
+            let end = steps.new[component];
+            let (is_quiet, magnitude) = self.keeps_sign(component, sign, start, end);
+            are_known = are_known.and(is_quiet);
             self.magnitude = numbers(magnitude);
-            self.event_value = numbers(steps.new[component]);
+            self.event_value = numbers(end);
         }
-        for i in 0..COMPONENTS {
-            self.new[i] = numbers(steps.new[i]);
-            self.rates[i] = numbers(steps.rates[tableau.stages][i]);
-        }
-        (self.error, self.fine) = (numbers(error), numbers(fine));
-        self.is_stiff = is_stiff.bits();
-        is_ordinary
+        are_known
     }
 
-    /// Gives a run the end of its step.
+    /// Gives a run the end of its step if its error is small enough; returns whether it is.
     pub(super) fn give<S: System>(
         &self,
         lane: usize,
         Underway { run, planned, .. }: &mut Underway<'_, S>,
-    ) {
-        let ordinary = Ordinary {
-            error: self.error[lane],
-            is_stiff: self.is_stiff >> lane & 1 != 0,
-            event_value: self.event_value[lane],
-            magnitude: self.magnitude[lane],
-        };
-        let of = |list: &'_ [Numbers; COMPONENTS]| list.map(|numbers| numbers[lane]);
-        let (new, rates) = (of(&self.new), of(&self.rates));
-        run.give_end(planned.t_new, ordinary, self.fine[lane], [&new, &rates], |row, i| {
-            self.rows[row][i][lane]
-        });
+    ) -> bool {
+        let coarse = self.coarse.map(|coarse| coarse[lane]);
+        let error = run.error_of(self.fine[lane], coarse, planned.h);
+        let is_small = error <= 1.0;
+        if is_small {
+            let ordinary = Ordinary {
+                error,
+                is_stiff: self.is_stiff >> lane & 1 != 0,
+                event_value: self.event_value[lane],
+                magnitude: self.magnitude[lane],
+            };
+            let of = |list: &'_ [Numbers; COMPONENTS]| list.map(|numbers| numbers[lane]);
+            let (new, rates) = (of(&self.new), of(&self.rates));
+            run.give_end(planned.t_new, ordinary, [&new, &rates], |row, i| self.rows[row][i][lane]);
+        }
+        is_small
     }
 
     /// The rows of the continuous extension, as `Interpolant` has them.
@@ -166,61 +169,36 @@ impl LaneEnds {
     }
 }
 
-/// What the square sums of errors divide by, in every lane.
-struct LaneScale<R>(LaneState<R>);
+/// The absolute and the relative tolerance of each component, in every lane.
+struct LaneScale<R>([[R; 2]; COMPONENTS]);
 
 impl<R: Real> LaneScale<R> {
-    /// The tolerances at the greater of the states at both ends.
     #[inline(always)]
-    fn of<S: System>(runs: &[Underway<'_, S>], steps: &Steps<'_, R>) -> Self {
+    fn of<S: System>(runs: &[Underway<'_, S>]) -> Self {
         let used = runs.len();
         let of = |lane: usize| if lane < used { lane } else { 0 };
-        let mut scale = [R::ZERO; COMPONENTS];
-        for i in 0..COMPONENTS {
-            let absolute = R::from_lanes(|lane| runs[of(lane)].run.tolerance(i)[0]);
-            let relative = R::from_lanes(|lane| runs[of(lane)].run.tolerance(i)[1]);
-            let greatest = steps.y[i].abs().max(steps.new[i].abs());
-            scale[i] = (absolute + relative * greatest).max(R::splat(f64::MIN_POSITIVE));
+        let mut scale = [[R::ZERO; 2]; COMPONENTS];
+        for (i, both) in scale.iter_mut().enumerate() {
+            both[0] = R::from_lanes(|lane| runs[of(lane)].run.tolerance(i)[0]);
+            both[1] = R::from_lanes(|lane| runs[of(lane)].run.tolerance(i)[1]);
         }
         Self(scale)
     }
 
     /// As `Scale::square_sum`.
     #[inline(always)]
-    fn square_sum(&self, errors: &LaneState<R>) -> R {
+    fn square_sum(&self, steps: &Steps<'_, R>, errors: &LaneState<R>) -> R {
         let mut total = R::ZERO;
         for i in 0..COMPONENTS {
-            let ratio = errors[i] / self.0[i];
+            let ratio = in_tolerances(errors[i], self.0[i], steps.y[i], steps.new[i]);
             total += ratio * ratio;
         }
         total
     }
 
-    /// The mean square of weighted rates.
     #[inline(always)]
-    fn mean_square(&self, row: Row, rates: &[LaneState<R>]) -> R {
-        self.square_sum(&weighted_sum(row, rates)) / R::splat(COMPONENTS as f64)
-    }
-
-    /// The error and the fine estimate, as `Stages::error` finds them.
-    #[inline(always)]
-    fn error(&self, tableau: &Tableau, steps: &Steps<'_, R>, abrupt_from: R) -> (R, R) {
-        let h = steps.h;
-        let fine = self.mean_square(tableau.error, steps.rates);
-        let error = match tableau.coarse_error {
-            None => fine.sqrt(),
-            Some(row) => {
-                let coarse = self.mean_square(row, steps.rates);
-                let error = fine / (fine + R::splat(0.01) * coarse).sqrt();
-                R::select(R::ZERO.lt(fine), error, R::ZERO)
-            }
-        };
-        let root = fine.sqrt();
-        let kept = root / (h * h * h * h * h).abs();
-        let at_least = error.max(R::splat(ABRUPT_FRACTION) * root);
-        let error = R::select(abrupt_from.lt(kept), at_least, error);
-        // NaN where it overflows: that lane is not ordinary.
-        (error * h.abs(), kept)
+    fn mean_square(&self, steps: &Steps<'_, R>, errors: &LaneState<R>) -> R {
+        self.square_sum(steps, errors) / R::splat(COMPONENTS as f64)
     }
 
     /// As `Stages::is_stiff`.
@@ -232,7 +210,8 @@ impl<R: Real> LaneScale<R> {
             of_rates[i] = steps.rates[last + 1][i] - steps.rates[last][i];
             of_states[i] = steps.new[i] - steps.argument[i];
         }
-        let (rates, states) = (self.square_sum(&of_rates), self.square_sum(&of_states));
+        let (rates, states) =
+            (self.square_sum(steps, &of_rates), self.square_sum(steps, &of_states));
         let limit = R::splat(tableau.stability * tableau.stability) * states;
         R::ZERO.lt(states).and(limit.lt(h * h * rates))
     }

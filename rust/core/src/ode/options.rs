@@ -16,7 +16,7 @@ pub enum Method {
 }
 
 impl Method {
-    pub(super) fn tableau(self) -> &'static Tableau {
+    pub(crate) fn tableau(self) -> &'static Tableau {
         match self {
             Self::DormandPrince54 => &DORMAND_PRINCE_54,
             Self::DormandPrince853 => &DORMAND_PRINCE_853,

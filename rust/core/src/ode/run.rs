@@ -1,6 +1,6 @@
 //! A run: steps from break to break.
 
-use super::control::{Control, first_width};
+use super::control::{Control, first_width, spacing};
 use super::error::Error;
 use super::integrator::Integrator;
 use super::options::Options;
@@ -276,19 +276,23 @@ impl<'a, S: System> Run<'a, S> {
         self.scale.of(component)
     }
 
+    /// Error of the step that it has planned; see [`Stages::error_of`].
+    pub(super) fn error_of(&mut self, fine: f64, coarse: Option<f64>, h: f64) -> f64 {
+        self.integrator.stages.error_of(fine, coarse, h)
+    }
+
     /// Gives the end of the step that it has planned: the new state and its rates, and the numbers of the
     /// continuous extension by row and component.
     pub(super) fn give_end(
         &mut self,
         t_new: f64,
         ordinary: Ordinary,
-        fine: f64,
         [state, rates]: [&[f64]; 2],
         row: impl Fn(usize, usize) -> f64,
     ) {
         let Integrator { n, stages, interpolant, tracker, new, .. } = &mut *self.integrator;
         new.as_flattened_mut()[..*n].copy_from_slice(state);
-        stages.give_end(fine, rates);
+        stages.give_end(rates);
         stages.evaluations += stages.tableau.stages as u64;
         if tracker.len() > 0 || self.record.needs_dense_output(t_new) {
             stages.evaluations += (stages.tableau.all_stages() - stages.tableau.stages - 1) as u64;
@@ -387,9 +391,4 @@ impl<'a, S: System> Run<'a, S> {
         }
         Ok(None)
     }
-}
-
-/// Approximate distance from a number to the next.
-pub(super) fn spacing(t: f64) -> f64 {
-    (t.abs() * f64::EPSILON).max(f64::MIN_POSITIVE)
 }

@@ -21,7 +21,7 @@ pub(crate) struct LaneSteps<R: Real> {
     argument: LaneState<R>,
     new: LaneState<R>,
     ends: LaneEnds,
-    /// The lanes whose steps end without more.
+    /// The lanes whose steps end without more if their errors are small enough.
     ordinary: R::Mask,
     /// Stages of each lane, from the first on, whose rates are known.
     known: [usize; LANES],
@@ -112,10 +112,8 @@ impl<R: Real> LaneSteps<R> {
     /// Gives a run what was found of its step: its end if that needs no more, else the rates of its stages.
     /// Those that are not known the run finds itself. Returns whether it was its end.
     pub(crate) fn give<S: System>(&self, lane: usize, underway: &mut Underway<'_, S>) -> bool {
-        let is_ordinary = self.ordinary.lane(lane);
-        if is_ordinary {
-            self.ends.give(lane, underway);
-        } else {
+        let is_ordinary = self.ordinary.lane(lane) && self.ends.give(lane, underway);
+        if !is_ordinary {
             let rate = |stage: usize, i: usize| self.rates[stage][i].lane(lane);
             underway.run.give(self.known[lane], rate, |i| self.argument[i].lane(lane));
         }

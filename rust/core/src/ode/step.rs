@@ -1,24 +1,17 @@
 //! One step of a run: its width, its error, and what follows from it.
 
+use super::control::{MIN_STEP, fitted, spacing};
 use super::error::Error;
 use super::event_location::{Cut, Step};
 use super::integrator::Integrator;
 use super::pair::stages::Refusal;
-use super::run::{Next, Obstacle, Ordinary, Plan, Planned, Run, spacing};
+use super::run::{Next, Obstacle, Ordinary, Plan, Planned, Run};
 use super::solution::End;
 use super::system::{Attempt, System};
 
 /// Attempted steps between two calls of [`System::cancelled`]: a call may read a clock or take a
 /// lock, and a hundred evaluations are a short wait.
 const CANCEL_CHECK_STEPS: u64 = 16;
-/// A step goes to the end of its smooth interval if that widens it by at most this factor, so that no
-/// sliver remains (Hairer's programs).
-const LAST_STEP_STRETCH: f64 = 1.01;
-/// The last steps of a smooth interval, up to this many, are made equal instead of leaving a narrow
-/// one at its end: the same number of steps with smaller errors.
-const EQUAL_STEPS: f64 = 4.0;
-/// Least width of a step, in spacings of t: the stages of a narrower one coincide.
-const MIN_STEP: f64 = 4.0;
 /// This many refused steps mean a domain boundary, even if some steps succeed between them: a slow
 /// component may stay on its last number before the boundary while the others go on for ever.
 /// Halving alone needs about a hundred.
@@ -48,14 +41,8 @@ impl<S: System> Run<'_, S> {
         if let Some(width) = self.to_boundary {
             proposed = self.direction * width.min(proposed.abs());
         }
-        let steps_left = (remaining / (proposed * LAST_STEP_STRETCH)).ceil();
-        let last = steps_left <= 1.0;
-        let (h, t_new) = if last {
-            (remaining, to)
-        } else {
-            let h = if steps_left <= EQUAL_STEPS { remaining / steps_left } else { proposed };
-            (h, self.t + h)
-        };
+        let (h, last) = fitted(remaining, proposed);
+        let t_new = if last { to } else { self.t + h };
         if self.refusals > MAX_REFUSALS || self.to_boundary == Some(0.0) {
             return Ok(Plan::End(End::DomainBoundary { t: self.t }));
         }

@@ -165,6 +165,12 @@ impl<R: Real> Equation<R> {
         self.right[driver]
     }
 
+    /// The diagonal entry of the mass matrix of a driver, after [`Self::read_bodies`].
+    #[inline(always)]
+    pub(super) fn inertia(&self, driver: usize) -> R {
+        self.mass[driver * self.bias.len() + driver]
+    }
+
     /// Number `entry` of a term, after [`Self::read`] and, for accelerations, [`Self::accelerate`].
     #[inline(always)]
     pub(super) fn entry(

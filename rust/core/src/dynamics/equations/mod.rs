@@ -16,5 +16,4 @@ mod evaluate;
 pub(crate) mod plan;
 pub(crate) mod request;
 mod solve;
-mod stage;
-pub(crate) mod step;
+pub(crate) mod steps;

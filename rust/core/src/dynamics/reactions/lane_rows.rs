@@ -29,6 +29,29 @@ impl Rows {
 }
 
 impl Rows {
+    /// Writes the number `offset` of each position's `width` numbers.
+    #[inline(always)]
+    pub(crate) fn write<R: Real>(self, values: &mut [f64], width: usize, offset: usize, number: R) {
+        let lanes = R::LANES.min(self.last + 1 - self.first);
+        let values = &mut values[self.first * width..(self.first + lanes) * width];
+        // Widths known to the compiler are written by few instructions.
+        if width == 1 && values.len() == R::LANES {
+            for lane in 0..R::LANES {
+                values[lane] = number.lane(lane);
+            }
+        } else if width == 2 && values.len() == 2 * R::LANES {
+            for lane in 0..R::LANES {
+                values[2 * lane + offset] = number.lane(lane);
+            }
+        } else {
+            for (lane, values) in values.chunks_exact_mut(width).enumerate() {
+                values[offset] = number.lane(lane);
+            }
+        }
+    }
+}
+
+impl Rows {
     /// A speed or acceleration of one of `n` drivers: for each position, or the same for all.
     #[inline(always)]
     pub(crate) fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {

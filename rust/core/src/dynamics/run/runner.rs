@@ -7,7 +7,7 @@ use super::integrate;
 use super::model::MechanismModel;
 use super::options::RunOptions;
 use super::trajectory::Run;
-use crate::description::Driver;
+use crate::dynamics::driver_scales::sizes_of;
 use crate::dynamics::machine::Machine;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
@@ -96,17 +96,4 @@ impl Machine {
         let tables = RunTables::new(mechanism);
         Runner::new(self, mechanism, dimensions, &tables)?.run(options, callbacks)
     }
-}
-
-/// The unit of the tolerance of each coordinate: 1 for an angle, the greatest length for a slide.
-/// It must not be the unit of length that is a power of 2: the tolerance would depend on the unit in which
-/// lengths are given.
-pub(super) fn sizes_of(mechanism: &Mechanism, dimensions: &[f64]) -> Vec<f64> {
-    let greatest = mechanism.slots.size(dimensions);
-    let length = if greatest > 0.0 { greatest } else { 1.0 };
-    let size = |driver: &Driver| match driver {
-        Driver::Angle { .. } => 1.0,
-        Driver::Slide(_) => length,
-    };
-    mechanism.linkage().drivers.iter().map(size).collect()
 }

@@ -6,6 +6,7 @@ use super::model::ReducedModel;
 use super::options::RunOptions;
 use super::system::RunSystem;
 use super::variable::Variable;
+use crate::dynamics::driver_scales::small_speeds;
 use crate::ode::system::Fault;
 
 /// Relative and absolute tolerances of the state.
@@ -41,8 +42,7 @@ pub(crate) fn tolerances<S: ReducedModel, O: Callbacks>(
     Ok([relative, absolute])
 }
 
-/// A thousandth of the typical speeds: the initial ones, or those that the initial accelerations
-/// reach over a radian (for a slide, over the size).
+/// A thousandth of the typical speeds; see [`small_speeds`].
 fn typical_speeds<S: ReducedModel, O: Callbacks>(
     system: &mut RunSystem<'_, S, O>,
     options: &RunOptions<'_>,
@@ -61,22 +61,8 @@ fn typical_speeds<S: ReducedModel, O: Callbacks>(
         Err(Fault::OutOfDomain) => accelerations.fill(0.0),
         Ok(()) => {}
     }
-    // In sizes per second: the speeds of an angle and of a slide are compared.
-    let typical = |driver: usize| {
-        let initial = options.speed[driver].abs() / sizes[driver];
-        initial.max((accelerations[driver].abs() / sizes[driver]).sqrt())
-    };
-    let greatest = (0..n).map(typical).fold(0.0, f64::max);
-    // A machine at rest in balance: one radian (or size) over the run.
     let duration = (options.end - options.t).abs();
-    let scale = |driver: usize| {
-        if greatest > 0.0 {
-            typical(driver).max(1e-3 * greatest)
-        } else if duration > 0.0 {
-            1.0 / duration
-        } else {
-            1.0
-        }
-    };
-    Ok((0..n).map(|driver| 1e-3 * scale(driver) * sizes[driver]).collect())
+    let mut typical = vec![0.0; n];
+    small_speeds([options.speed, &accelerations], sizes, duration, &mut typical);
+    Ok(typical)
 }

@@ -2,5 +2,6 @@
 
 pub(crate) mod dense;
 pub(crate) mod dop853;
+pub(crate) mod estimate;
 pub(crate) mod stages;
 pub(crate) mod tableau;

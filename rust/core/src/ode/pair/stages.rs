@@ -3,6 +3,7 @@
 //! Components are stored in blocks of four, so that sums over stages use vector instructions for
 //! any number of equations. The unused components of the last block are zero and stay zero.
 
+use super::estimate::{Estimate, in_tolerances};
 use super::tableau::{Row, Tableau};
 use crate::ode::system::{Fault, System};
 
@@ -63,28 +64,13 @@ impl Scale {
         let tolerances = self.absolute.iter().zip(&self.relative);
         for (((e, (a, r)), y), z) in e.iter().zip(tolerances).zip(y).zip(z) {
             for l in 0..LANES {
-                let scale = a[l] + r[l] * y[l].abs().max(z[l].abs());
-                // Without an absolute tolerance a component may stay at zero: 0/0 must count as 0.
-                let ratio = e[l] / scale.max(f64::MIN_POSITIVE);
+                let ratio = in_tolerances(e[l], [a[l], r[l]], y[l], z[l]);
                 total += ratio * ratio;
             }
         }
         total
     }
 }
-
-/// A fine error estimate, scaled by the step width, that exceeds all earlier ones by this factor
-/// shows a solution that changes within a step. The quotient of the two estimates is then too
-/// optimistic: a step of a machine with an error of 12 tolerances passed as 0.995.
-const ABRUPT_RATIO: f64 = 6.0;
-/// Least fraction of the fine estimate that then counts as the error. Among ratios from 2 to 6 and
-/// fractions from 0.05 to 0.3 this keeps the energy of all of 714 random machines within 0.98 of 10
-/// rtol (0.05 that of one only within 2.0), for 0.4 % more steps; with 0.3 the last steps before a dead
-/// point begin to depend on rounding.
-pub(in crate::ode) const ABRUPT_FRACTION: f64 = 0.25;
-/// Steps of a smooth interval before the estimates are compared: earlier estimates show too little of the
-/// solution, and a piece of a table has only a few steps.
-const WARM_UP_STEPS: u32 = 2;
 
 /// The stages of a step.
 #[derive(Debug)]
@@ -98,12 +84,7 @@ pub(in crate::ode) struct Stages {
     argument: Vec<Block>,
     /// Estimated errors.
     error: Vec<Block>,
-    /// Fine error estimate divided by |h|⁶: of the attempted step, and the greatest of the accepted
-    /// steps since the smooth interval began.
-    fine: f64,
-    greatest: f64,
-    /// Number of those accepted steps.
-    accepted: u32,
+    estimate: Estimate,
     /// Evaluations of the right-hand side.
     pub evaluations: u64,
     /// Stages of the attempted step, from the first on, whose rates are given.
@@ -120,9 +101,7 @@ impl Stages {
             k: vec![[0.0; LANES]; tableau.all_stages() * blocks],
             argument: vec![[0.0; LANES]; blocks],
             error: vec![[0.0; LANES]; blocks],
-            fine: 0.0,
-            greatest: 0.0,
-            accepted: 0,
+            estimate: Estimate::default(),
             evaluations: 0,
             given: 0,
         }
@@ -130,7 +109,7 @@ impl Stages {
 
     /// A smooth interval begins: earlier estimates do not apply to it.
     pub(in crate::ode) fn begin_interval(&mut self) {
-        (self.greatest, self.accepted) = (0.0, 0);
+        self.estimate = Estimate::default();
     }
 
     /// Rates of a stage.
@@ -161,17 +140,10 @@ impl Stages {
         }
     }
 
-    /// Gives the rates at the new state of an accepted step whose other stages nobody asks for, and its fine
-    /// error estimate divided by |h|⁶.
-    pub(in crate::ode) fn give_end(&mut self, fine: f64, rates: &[f64]) {
+    /// Gives the rates at the new state of an accepted step whose other stages nobody asks for.
+    pub(in crate::ode) fn give_end(&mut self, rates: &[f64]) {
         let end = self.tableau.stages * self.blocks;
         self.k[end..end + self.blocks].as_flattened_mut()[..self.n].copy_from_slice(rates);
-        self.fine = fine;
-    }
-
-    /// The fine error estimate above which a step shows a solution that changes within it.
-    pub(in crate::ode) fn abrupt_from(&self) -> f64 {
-        if self.accepted >= WARM_UP_STEPS { ABRUPT_RATIO * self.greatest } else { f64::INFINITY }
     }
 
     /// The next step has no stages given.
@@ -261,10 +233,7 @@ impl Stages {
         result
     }
 
-    /// Error of a step relative to the tolerance: acceptable up to 1.
-    ///
-    /// With two estimates, e = e₅² / √(e₅² + 0.01 e₃²) (Hairer, Nørsett & Wanner I, II.10). This
-    /// treats them as terms of a series and holds only while they change little from step to step.
+    /// Error of a step relative to the tolerance: acceptable up to 1. See [`Estimate::error`].
     pub(in crate::ode) fn error(
         &mut self,
         scale: &Scale,
@@ -277,17 +246,13 @@ impl Stages {
             scale.square_sum(&self.error, y, new) / self.n as f64
         };
         let fine = mean_square(self.tableau.error, &self.k);
-        let error = match self.tableau.coarse_error {
-            None => fine.sqrt(),
-            Some(_) if fine == 0.0 => 0.0,
-            Some(coarse) => fine / (fine + 0.01 * mean_square(coarse, &self.k)).sqrt(),
-        };
-        let fine = fine.sqrt();
-        self.fine = fine / (h * h * h * h * h).abs();
-        let error =
-            if self.fine > self.abrupt_from() { error.max(ABRUPT_FRACTION * fine) } else { error };
-        // An overflow gives NaN: the error is then too large, not unknown.
-        if error.is_nan() { f64::INFINITY } else { error * h.abs() }
+        let coarse = self.tableau.coarse_error.map(|row| mean_square(row, &self.k));
+        self.error_of(fine, coarse, h)
+    }
+
+    /// The same from the mean squares of the estimates of a unit step.
+    pub(in crate::ode) fn error_of(&mut self, fine: f64, coarse: Option<f64>, h: f64) -> f64 {
+        self.estimate.error(fine, coarse, h)
     }
 
     /// Whether stability, not accuracy, limits a step, from the last two stages, both at its end
@@ -312,8 +277,7 @@ impl Stages {
 
     /// Uses the rates at the new state as the first stage of the next step.
     pub(in crate::ode) fn next_step(&mut self) {
-        self.greatest = self.greatest.max(self.fine);
-        self.accepted = self.accepted.saturating_add(1);
+        self.estimate.accept();
         let end = self.tableau.stages * self.blocks;
         self.k.copy_within(end..end + self.blocks, 0);
     }

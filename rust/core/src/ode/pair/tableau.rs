@@ -3,7 +3,7 @@
 //! Rows are sparse: stage and weight. Stages count from zero.
 
 /// A sparse row: (stage, weight).
-pub(in crate::ode) type Row = &'static [(usize, f64)];
+pub(crate) type Row = &'static [(usize, f64)];
 
 /// An explicit Runge-Kutta pair with a continuous extension.
 ///
@@ -11,7 +11,7 @@ pub(in crate::ode) type Row = &'static [(usize, f64)];
 /// the derivative at the new state (index `stages`) and the stages that only the continuous
 /// extension needs.
 #[derive(Debug)]
-pub(in crate::ode) struct Tableau {
+pub(crate) struct Tableau {
     /// Order of the new state.
     pub order: u8,
     /// Number of stages of the new state.
@@ -35,7 +35,7 @@ pub(in crate::ode) struct Tableau {
 
 impl Tableau {
     /// Weights of the new state.
-    pub(in crate::ode) fn b(&self) -> Row {
+    pub(crate) fn b(&self) -> Row {
         self.a[self.stages]
     }
 

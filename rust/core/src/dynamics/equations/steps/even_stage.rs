@@ -1,20 +1,11 @@
 //! One stage of the Runge-Kutta method for the environments of a chunk, a register of these at a time.
 
-use super::bodies::Partials;
-use super::equation_batch::EquationBatch;
-use super::evaluate::Equation;
+use super::failures::{has_failed, longest_way, note, some_failed, without_acceleration};
+use super::lane_accelerations::LaneAccelerations;
 use crate::batch::dispatch::Task;
-use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
 use crate::dynamics::reactions::lane_rows::Rows;
-use crate::dynamics::reactions::scene::Scene;
 use crate::math::lanes::{Mask, Real};
 use crate::state::status::Status;
-
-/// Greatest way of a driver from the start of a step to any stage (rad, or in sizes): a longer one skips
-/// what is between.
-pub(super) const LONGEST: f64 = 1.0;
-/// The status where a load has no finite value, or no inertia resists a driver: `assur.Status.NO_VALUE`.
-const NO_VALUE: u8 = 8;
 
 /// The states of environments in a step, drivers fastest.
 #[derive(Debug, Default)]
@@ -117,13 +108,7 @@ impl StageArrays {
 
 /// The stage of the environments of a chunk.
 pub(super) struct Stage<'e, R: Real> {
-    pub batch: &'e EquationBatch<'e>,
-    pub design: DesignPositions<'e>,
-    pub scene: &'e mut Scene<R>,
-    pub equation: &'e mut Equation<R>,
-    pub effort: &'e [f64],
-    /// Speeds at this stage.
-    pub speed: &'e [f64],
+    pub accelerations: LaneAccelerations<'e, R>,
     pub arrays: &'e mut StageArrays,
     pub status: &'e mut [u8],
     pub dt: f64,
@@ -134,22 +119,10 @@ pub(super) struct Stage<'e, R: Real> {
 impl<R: Real> Task<R> for Stage<'_, R> {
     #[inline(always)]
     fn run(&mut self) {
-        let MachineBatch { plan, machine, sources, .. } = &self.batch.positions;
-        let solved = &{ self.design.solved };
-        let count = solved.positions;
-        self.scene.place_known(self.design.known);
+        let count = self.accelerations.begin();
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
-            self.scene.numbers.read(machine, self.design.values.varied, rows);
-            self.equation.read_bodies(self.batch, self.scene, partials, self.speed);
-            if !plan.load_actions.is_empty() {
-                self.scene.read(plan, sources, self.design.guides, solved, rows);
-                self.scene.clear_forces();
-                self.scene.apply_loads(plan, machine, self.design.values, rows);
-                self.equation.add_forces(self.scene, partials);
-            }
-            self.equation.accelerate(self.effort, rows);
+            self.accelerations.find(rows);
             self.advance(rows, R::LANES.min(count - first));
         }
     }
@@ -159,7 +132,9 @@ impl<R: Real> Stage<'_, R> {
     /// Adds the slopes of this stage, and finds the state at the next one.
     #[inline(always)]
     fn advance(&mut self, rows: Rows, lanes: usize) {
-        let n = self.batch.positions.plan.drivers;
+        let LaneAccelerations { batch, design, equation, speed, .. } = &self.accelerations;
+        let plan = batch.positions.plan;
+        let (n, size) = (plan.drivers, design.size);
         let whole = R::splat(self.dt);
         // Way to the next stage, and the weight of this one.
         let (way, weight) = match self.number {
@@ -170,7 +145,7 @@ impl<R: Real> Stage<'_, R> {
         };
         for driver in 0..n {
             let read = |values: &[f64]| rows.read::<R>(values, n, driver);
-            let (speed, acceleration) = (read(self.speed), self.equation.solution(driver));
+            let (speed, acceleration) = (read(speed), equation.solution(driver));
             let (mut slope_q, mut slope_speed) = (speed, acceleration);
             if self.number > 0 {
                 let sums = (read(&self.arrays.sum_q), read(&self.arrays.sum_speed));
@@ -182,76 +157,36 @@ impl<R: Real> Stage<'_, R> {
             let start_q = read(&self.arrays.q);
             let next_q = start_q + way * toward.0;
             let next_speed = read(&self.arrays.speed) + way * toward.1;
-            let longest = match self.batch.positions.plan.driven_links[driver] {
-                Some(_) => LONGEST,
-                None => LONGEST * self.design.size,
-            };
+            let longest = longest_way(&plan.driven_links, driver, size);
             let gone = (next_q - start_q).abs();
             let is_fine = gone.le(R::splat(longest)).and(next_speed.finite());
             if !is_fine.all() {
-                self.note_failures(rows.first, lanes, next_speed, is_fine);
+                let status = &mut self.status[rows.first..rows.first + lanes];
+                note_failures(status, &design.status[rows.first..], next_speed, is_fine);
             }
-            let now = rows.first * n..(rows.first + lanes) * n;
             for (values, number) in [
                 (&mut self.arrays.sum_q, slope_q),
                 (&mut self.arrays.sum_speed, slope_speed),
                 (&mut self.arrays.next_q, next_q),
                 (&mut self.arrays.next_speed, next_speed),
             ] {
-                write_driver(&mut values[now.clone()], n, driver, number);
+                rows.write(values, n, driver, number);
             }
         }
     }
-
-    /// Notes why environments have no next stage: they go too far, or have no acceleration.
-    #[inline(always)]
-    fn note_failures(&mut self, first: usize, lanes: usize, next_speed: R, is_fine: R::Mask) {
-        for lane in (0..lanes).filter(|&lane| !is_fine.lane(lane)) {
-            let row = first + lane;
-            let now = if next_speed.lane(lane).is_finite() {
-                Status::BadInput as u8
-            } else if self.design.status[row] == Status::Singular as u8 {
-                Status::Singular as u8
-            } else {
-                NO_VALUE
-            };
-            note(&mut self.status[row], now);
-        }
-    }
 }
 
-/// Writes the number of a driver at each position, drivers fastest.
+/// Notes why environments, at positions with statuses, have no next stage: they go too far, or have no
+/// acceleration.
 #[inline(always)]
-fn write_driver<R: Real>(values: &mut [f64], n: usize, driver: usize, number: R) {
-    // Widths known to the compiler are written by few instructions.
-    if n == 1 && values.len() == R::LANES {
-        for lane in 0..R::LANES {
-            values[lane] = number.lane(lane);
+fn note_failures<R: Real>(status: &mut [u8], positions: &[u8], next_speed: R, is_fine: R::Mask) {
+    for (lane, (status, &position)) in status.iter_mut().zip(positions).enumerate() {
+        if is_fine.lane(lane) {
+            continue;
         }
-    } else if n == 2 && values.len() == 2 * R::LANES {
-        for lane in 0..R::LANES {
-            values[2 * lane + driver] = number.lane(lane);
-        }
-    } else {
-        for (lane, values) in values.chunks_exact_mut(n).enumerate() {
-            values[driver] = number.lane(lane);
-        }
-    }
-}
-
-fn has_failed(status: u8) -> bool {
-    status > Status::NearSingular as u8
-}
-
-/// Whether an environment has failed.
-fn some_failed(status: &[u8]) -> bool {
-    // No search that stops at the first: this reads them by vectors.
-    status.iter().fold(false, |failed, &status| failed | has_failed(status))
-}
-
-/// Keeps the worst status; of failures the first, which causes the others.
-pub(super) fn note(status: &mut u8, now: u8) {
-    if *status <= Status::NearSingular as u8 {
-        *status = now.max(*status);
+        let goes_too_far = next_speed.lane(lane).is_finite();
+        let now =
+            if goes_too_far { Status::BadInput as u8 } else { without_acceleration(position) };
+        note(status, now);
     }
 }
