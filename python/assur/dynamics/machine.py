@@ -776,7 +776,9 @@ class Machine(MachineModel):
         Notes
         -----
         Loads with `while_` do not act while their coordinate is at rest. Steps do not end where
-        loads jump: `run` does. Nor does it compare energies, or look for events.
+        loads jump: `run` does. Nor does it compare energies, or look for events. The pairs try
+        whether drivers turn back at a dead point, where a mechanism goes on in another assembly;
+        even steps may lead over one, and with several drivers those of an rtol above 1e-6.
 
         References
         ----------

@@ -14,9 +14,9 @@ pub(super) const PLACES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
 const BESIDE: f64 = 0.02;
 /// The same at least, rad or in sizes: nearer to a dead point nothing shows which way it is.
 const LEAST_BESIDE: f64 = 1e-9;
-/// Inertias that change by this factor in a step may be those beside a dead point: in proportion to the inverse
-/// square of the time to it they change at least by 3.2 from stage to stage.
-const GREAT_CHANGE: f64 = 2.5;
+/// Inertias that change by this factor in a step may be those beside a dead point. In proportion to the inverse
+/// square of the time to it they change at least by 3.2 from stage to stage; other parts of them stay as they are.
+const GREAT_CHANGE: f64 = 1.3;
 
 impl States {
     /// Whether the drivers of an environment may turn back at a dead point in the attempted step: one driver
