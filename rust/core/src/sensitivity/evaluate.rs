@@ -16,8 +16,8 @@ use crate::plan::constants_rate::ConstantsRate;
 use crate::state::kernel::BLOCK;
 use crate::state::status::Status;
 
-/// Positions whose equations are linearised at once: as many as are solved at once. For half of them a
-/// gradient of a mean takes 4 % longer.
+/// Positions whose equations are linearised at once: as many as are solved at once. Half or twice as many take
+/// about as long.
 const POSITIONS: usize = BLOCK;
 
 /// Work space of a thread.
