@@ -166,6 +166,7 @@ class Mechanism:
         rates: _Float | None = None,
         weights: list[_Float] | None = None,
         total: bool = False,
+        of_squares: bool = False,
     ) -> tuple[list[_Float], npt.NDArray[np.uint8]]: ...
     def measure(
         self,

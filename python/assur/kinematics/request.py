@@ -96,6 +96,7 @@ class SolveRequest:
         rates: Float | None = None,
         weights: list[Float] | None = None,
         total: bool = False,
+        of_squares: bool = False,
     ) -> tuple[list[Float], npt.NDArray[np.uint8]]:
         """Return derivatives of results by dimensions, or their products with vectors, flat."""
         return self.mechanism.core.sensitivities(
@@ -108,6 +109,7 @@ class SolveRequest:
             rates=rates,
             weights=weights,
             total=total,
+            of_squares=of_squares,
         )
 
     def layout(self, joints: Names, links: Names, slides: Names) -> Layout:

@@ -16,7 +16,6 @@ import numpy as np
 from assur.errors import InputError
 from assur.kinematics import transmission
 from assur.kinematics.derivatives.jacobian import named_dimensions
-from assur.kinematics.model import with_values
 from assur.kinematics.request import SolveRequest
 from assur.kinematics.solve import solve
 from assur.sweeps.terms import Combination, Leaf, Metric
@@ -40,8 +39,6 @@ EXTREMES = {
     "min_transmission_angle": (("min_transmission_angle", 1.0),),
 }
 MEANS = ("mean", "rms")
-# Positions of the designs that are solved at once: as many as the caches hold.
-POSITIONS = 131_072
 
 
 class _Coordinate(NamedTuple):
@@ -97,7 +94,6 @@ class Gradients:
     def of(self, some: Mechanism, values: Callable[[Single], Float]) -> dict[str, Float]:
         """Return the gradients (n, D) of designs (n,) that have all metrics with these values."""
         each = {leaf: np.empty((some.shape[0], len(self.names))) for leaf in self._leaves}
-        size = max(1, POSITIONS // len(self._q))
         for leaf in self._leaves:
             places = self._places(some, leaf)
             # NaN where a design has no metric: that has none of its positions either.
@@ -105,25 +101,22 @@ class Gradients:
             if at:
                 each[leaf][:] = self._of_extreme(some, leaf, places[np.stack(at, axis=-1)])
                 continue
-            for first in range(0, some.shape[0], size):
-                few = slice(first, first + size)
-                batch = with_values(some, np.ascontiguousarray(some.values[:, few]))
-                each[leaf][few] = self._of_mean(batch, leaf, places)
+            each[leaf][:] = self._of_mean(some, leaf, places, values(leaf))
         return {name: _chained(metric, values, each)[1] for name, metric in self._metrics.items()}
 
-    def _of_mean(self, batch: Mechanism, leaf: Leaf, places: Any) -> Float:
+    def _of_mean(self, some: Mechanism, leaf: Leaf, places: Any, means: Float) -> Float:
         assert leaf.of is not None
-        coordinate = _coordinate(batch, leaf.of)
-        # The same at all positions.
-        weights = np.array(1.0 / len(places))
-        if leaf.kind == "rms":
-            motion = self._solved(batch, self._q[places], leaf.order, [coordinate.name])
-            values = _numbers(motion, coordinate, leaf.order)
-            root = np.sqrt(np.mean(values * values, axis=-1, keepdims=True))
-            with np.errstate(invalid="ignore"):
-                weights = weights * values / root
+        coordinate = _coordinate(some, leaf.of)
+        # The same at all positions; without any no design has a mean.
+        weights = np.array(1.0 / max(1, len(places)))
         of_all = {coordinate.name: _spread(weights, coordinate)}
-        return self._pulled(batch, self._q[places], of_all, leaf.order)
+        is_root = leaf.kind == "rms"
+        found = self._pulled(some, self._q[places], of_all, leaf.order, of_squares=is_root)
+        if not is_root:
+            return found
+        # A root has no derivative at 0: 0 / 0 is NaN.
+        with np.errstate(invalid="ignore"):
+            return found / means[:, np.newaxis]
 
     def _of_extreme(self, some: Mechanism, leaf: Leaf, places: Any) -> Float:
         assert leaf.of is not None
@@ -156,12 +149,17 @@ class Gradients:
         return found + guides[:, 0]
 
     def _pulled(
-        self, batch: Mechanism, q: Float, weights: Mapping[str, Float], order: int
+        self,
+        batch: Mechanism,
+        q: Float,
+        weights: Mapping[str, Float],
+        order: int,
+        of_squares: bool = False,
     ) -> Float:
         """Return the derivatives of weighted sums over positions, (n, D).
 
         The positions are (N,) of all designs, or (n, N) of each; the weights are of every
-        position, or the same for all.
+        position, or the same for all. Of squares: half their derivatives.
         """
         shape = q.shape if batch.driver_count == 1 else q.shape[:-1]
         request = SolveRequest(
@@ -180,7 +178,9 @@ class Gradients:
             kind: Kind = "joint" if name in batch.joint_names else _coordinate(batch, name).kind
             keys.append((kind, batch.core.index_of(kind, name), order))
             flat.append(np.ascontiguousarray(weight).reshape(-1))
-        arrays, _ = request.sensitivities(keys, self._by, weights=flat, total=True)
+        arrays, _ = request.sensitivities(
+            keys, self._by, weights=flat, total=True, of_squares=of_squares
+        )
         return arrays[0].reshape(batch.shape[0], len(self._by))
 
     def _places(self, batch: Mechanism, leaf: Leaf) -> Any:
@@ -211,11 +211,6 @@ def _coordinate(mechanism: Mechanism, name: str) -> _Coordinate:
     if axis in ("x", "y") and joint in mechanism.joint_names:
         return _Coordinate(joint, "joint", "xy".index(axis))
     return _Coordinate(name, "slide" if name in mechanism.slides else "link", None)
-
-
-def _numbers(motion: Motion, coordinate: _Coordinate, order: int) -> Float:
-    numbers: Float = getattr(motion, coordinate.kind)(coordinate.name).arrays[order]
-    return numbers if coordinate.component is None else numbers[..., coordinate.component]
 
 
 def _chained(

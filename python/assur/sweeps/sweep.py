@@ -119,7 +119,7 @@ def sweep(
         well: `Measures.gradient`. For ``min``, ``max``, ``span``, ``mean``, ``rms``,
         ``min_transmission_angle`` and what is made of them. An extreme changes as its coordinate
         does at the position where it is; where another position takes it over there is a bend.
-        Only with `metrics`.
+        NaN of an ``rms`` that is 0: a root has no derivative there. Only with `metrics`.
     on_error : {"nan", "raise", "drop"}
         For positions that cannot be solved: NaN, each with its status; an error for the first
         one; or the motion of only those designs that move over all of q, with their indices in

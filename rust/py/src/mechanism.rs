@@ -345,7 +345,7 @@ impl Mechanism {
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     #[pyo3(signature = (
         dimensions, q, per_design, signs, shape, of, by, threads, *, rates = None, weights = None,
-        total = false
+        total = false, of_squares = false
     ))]
     fn sensitivities<'py>(
         &self,
@@ -361,9 +361,10 @@ impl Mechanism {
         rates: Option<PyReadonlyArray1<'py, f64>>,
         weights: Option<Vec<PyReadonlyArray1<'py, f64>>>,
         total: bool,
+        of_squares: bool,
     ) -> PyResult<Derivatives<'py>> {
         let positions = sensitivity::Positions { dimensions, q, per_design, signs: &signs, shape };
-        let vectors = sensitivity::Vectors { rates, weights, total };
+        let vectors = sensitivity::Vectors { rates, weights, total, of_squares };
         sensitivity::sensitivities(py, &self.inner, &positions, (&of, &by), &vectors, threads)
     }
 

@@ -26,6 +26,8 @@ COORDINATES = {
     "mean": metric.mean,
     "rms": metric.rms,
 }
+# Metrics with gradients, of which every position counts.
+MEANS = ("mean", "rms", "part")
 SHAPES: tuple[Literal["line", "circle"], ...] = ("line", "circle")
 PLACES = {"place_of_least": metric.argmin, "place_of_greatest": metric.argmax}
 TURN = np.arange(POSITIONS) * (2 * np.pi / POSITIONS)
@@ -89,3 +91,8 @@ def results() -> Iterator[tuple[str, Any]]:
         where = [quality <= float(values[len(values) // 2]) if len(values) else quality < 0.0]
         some = assur.sweep(batch, {}, q, metrics={"quality": quality}, where=where)
         yield name, [dict(found), found.status, found.kept, some.kept, dict(some)]
+        if not any(m.core.redundant):
+            means = {key: asked[key] for key in asked if key.startswith(MEANS)}
+            by = list(m.dimensions)
+            slopes = assur.sweep(batch, {}, q, metrics=means, gradient=by)
+            yield f"{name}: gradients", [dict(slopes.gradient), slopes.kept]

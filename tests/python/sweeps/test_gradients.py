@@ -12,6 +12,8 @@ import assur
 from assur import metric
 
 Q = np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
+# More positions than are linearised at once, and the last registers not full.
+MANY = np.linspace(0.1, 6.3, 301)
 # Step of central differences, relative to the dimension, and how near their limit is (Richardson
 # 1911), relative to the greatest entry.
 STEP, CLOSE = 1e-4, 1e-7
@@ -31,6 +33,20 @@ CASES: dict[str, tuple[Any, Any, Any]] = {
     "greatest acceleration": (assur.examples.crank_rocker, Q, metric.max("P.x", order=2)),
     "mean": (assur.examples.crank_rocker, Q, metric.mean("P.x")),
     "root mean square": (assur.examples.crank_rocker, Q, metric.rms("rocker", order=2)),
+    "mean angle": (assur.examples.crank_rocker, MANY, metric.mean("rocker")),
+    "mean acceleration": (
+        assur.examples.engine,
+        MANY,
+        metric.mean("B.x", order=2, over=(1.0, 2.0)),
+    ),
+    "root mean square of a joint": (assur.examples.crank_rocker, MANY, metric.rms("P.y")),
+    "root mean square of a slide": (assur.examples.engine, MANY, metric.rms("bore", order=1)),
+    "root mean square of a turned guide": (assur.examples.whitworth, Q, metric.rms("F.x")),
+    "two dyads": (
+        assur.examples.stephenson_1,
+        np.linspace(0.0, 0.5, 150),
+        metric.rms("S.x") + metric.mean("link2", order=1),
+    ),
     "transmission": (assur.examples.crank_rocker, Q, metric.min_transmission_angle("C")),
     "pressure": (beside_the_crank, Q + 0.01, metric.min_transmission_angle("bore")),
     "between joints": (
@@ -49,6 +65,16 @@ CASES: dict[str, tuple[Any, Any, Any]] = {
         metric.span("P.x") * metric.span("P.y") / (2.0 + metric.rms("rocker")) - metric.min("P.y"),
     ),
     "class IV": (assur.examples.loom, np.linspace(0.2, 1.4, 9), metric.span("6.x")),
+    "class IV, root mean square": (
+        assur.examples.loom,
+        np.linspace(0.2, 1.4, 9),
+        metric.rms("6.y") + metric.mean("6.x", order=1),
+    ),
+    "two drivers, root mean square": (
+        assur.examples.five_bar,
+        np.array([1.85, 1.29]) + np.random.default_rng(3).uniform(-0.2, 0.2, (21, 2)),
+        metric.rms("P.x"),
+    ),
     "two drivers": (
         assur.examples.five_bar,
         np.array([1.85, 1.29]) + np.random.default_rng(2).uniform(-0.2, 0.2, (6, 2)),
@@ -84,6 +110,7 @@ def test_designs_in_rows() -> None:
         "swing": metric.span("rocker"),
         "angle": metric.min_transmission_angle("C"),
         "mean": metric.mean("C.x"),
+        "rms": metric.rms("coupler"),
     }
     where = [metric.min_transmission_angle("C") > 0.3]
     found = assur.sweep(m, space, Q, metrics=asked, where=where, gradient="*.length")
@@ -107,7 +134,28 @@ def test_designs_in_rows() -> None:
         remote = assur.sweep(
             m, space, Q, metrics=asked, where=where, gradient="*.length", engine=engine
         )
-    assert np.array_equal(remote.gradient["mean"], found.gradient["mean"], equal_nan=True)
+    for name in ("mean", "rms"):
+        assert np.array_equal(remote.gradient[name], found.gradient[name], equal_nan=True)
+
+
+def test_a_root_has_no_derivative_at_zero() -> None:
+    """The pin of a piston stays on the line of its bore."""
+    asked = {"across": metric.rms("B.y"), "along": metric.rms("B.x")}
+    by = ["crank.length", "rod.length"]
+    found = assur.sweep(assur.SliderCrank(1.0, 3.0), {}, Q, metrics=asked, gradient=by)
+    assert found["across"] == 0.0
+    assert np.isnan(found.gradient["across"]).all()
+    assert np.isfinite(found.gradient["along"]).all()
+
+
+def test_a_part_without_positions_has_no_gradient() -> None:
+    part = (0.01, 0.02)
+    asked = {"mean": metric.mean("C.x", over=part), "rms": metric.rms("C.x", over=part)}
+    found = assur.sweep(
+        assur.FourBar(1.0, 3.0, 2.5, 3.0), {}, Q, metrics=asked, gradient="*.length"
+    )
+    assert np.isnan(found.gradient["mean"]).all()
+    assert np.isnan(found.gradient["rms"]).all()
 
 
 def test_a_sweep_without_gradients_has_none() -> None:

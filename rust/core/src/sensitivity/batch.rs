@@ -46,7 +46,20 @@ impl Mechanism {
         control: &Control<'_>,
     ) -> Result<(), SolveError> {
         SensitivityPlan::refuse_redundant(self)?;
+        self.check_results(request.of)?;
         let mut sensitivity = SensitivityPlan::new(self, request.of);
+        sensitivity.restrict_to_results();
+        let (is_backward, of_squares) = match request.product {
+            Product::Forward { .. } => (false, false),
+            Product::Jacobian { .. } => (true, false),
+            Product::Backward { of_squares, .. } => (true, of_squares),
+        };
+        if is_backward {
+            sensitivity.reverse();
+        }
+        if of_squares {
+            sensitivity.add_values(request.of);
+        }
         let outputs = sensitivity.outputs.clone();
         let motion = Request {
             dimensions: request.dimensions,
@@ -62,6 +75,7 @@ impl Mechanism {
         let derivatives = DerivativeTables::shared(shape.drivers, sensitivity.order);
         let writer = Writer::of(self, &derivatives, &motion);
         sensitivity.read_from(&writer.columns);
+        sensitivity.read_values(request.of, &writer.columns);
         let batch = SensitivityBatch {
             motion: MotionBatch {
                 mechanism: self,
@@ -86,6 +100,21 @@ impl Mechanism {
         dispatch::at_level(control.simd, Derive { batch: &batch, chunks })
     }
 
+    fn check_results(&self, of: &[(Quantity, usize)]) -> Result<(), SolveError> {
+        let linkage = self.linkage();
+        let exists = |&(quantity, _): &(Quantity, usize)| match quantity {
+            Quantity::Joint(index) => index < linkage.joints.len(),
+            Quantity::Slide(index) => index < linkage.slides.len(),
+            Quantity::Angle(index) | Quantity::Origin(index) => index < linkage.links.len(),
+            Quantity::Direction(_) => false,
+        };
+        if of.iter().all(exists) {
+            Ok(())
+        } else {
+            Err(SolveError::Shape("a result has an index that does not exist".into()))
+        }
+    }
+
     /// The arrays of a product, after checks of its vectors.
     fn columns(
         &self,
@@ -93,16 +122,6 @@ impl Mechanism {
         sensitivity: &SensitivityPlan<'_>,
         [designs, rows]: [usize; 2],
     ) -> Result<Vec<Column>, SolveError> {
-        let linkage = self.linkage();
-        let exists = request.of.iter().all(|&(quantity, _)| match quantity {
-            Quantity::Joint(index) => index < linkage.joints.len(),
-            Quantity::Slide(index) => index < linkage.slides.len(),
-            Quantity::Angle(index) | Quantity::Origin(index) => index < linkage.links.len(),
-            Quantity::Direction(_) => false,
-        });
-        if !exists {
-            return Err(SolveError::Shape("a result has an index that does not exist".into()));
-        }
         let dimensions = self.dimensions().len();
         let components = || sensitivity.results.iter().map(Vec::len);
         let exist = |by: &[usize]| by.iter().all(|&index| index < dimensions);

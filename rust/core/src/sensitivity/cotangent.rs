@@ -1,79 +1,91 @@
 //! Backward: the derivatives of a weighted sum of results by the constants of a design, by the transposed
 //! steps in reverse order.
 
+use std::ops::Range;
+
+use super::backward::{BackwardPath, BackwardStep, Target, UnknownWeight};
+use super::constants_sum::ConstantsSum;
 use super::linearization::Linearization;
-use super::plan::{Component, ComponentKind, LinearStep, SensitivityPlan, slide_along};
+use super::plan::SensitivityPlan;
+use super::registers::{entry, entry_mut, grow};
+use super::steps::{Component, ComponentKind};
 use crate::branch::design::Units;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::dyad::Unknown;
-use crate::plan::plan::EdgeSlide;
 
-/// Derivatives by the points, classes' angles and slides, jet by jet, and by the constants.
+/// Weights of points, edges, and of the classes' angles and slides that are results, jet by jet; each entry has
+/// as many registers as in the [`Linearization`].
 #[derive(Debug, Default)]
 pub(super) struct Cotangent<R> {
+    registers: usize,
     points: Vec<Vector<R>>,
+    edges: Vec<Vector<R>>,
     theta: Vec<R>,
     slides: Vec<R>,
-    pub constants: ConstantsRate<R>,
-    multipliers: Vec<R>,
+    /// Weights of an unknown.
+    weight: Vec<R>,
+    /// Multipliers of the closed paths of a step.
+    multipliers: Vec<Vector<R>>,
+    pub constants: ConstantsSum<R>,
 }
 
 impl<R: Real> Cotangent<R> {
-    /// Begins with all weights zero.
+    /// Begins with all weights of results zero.
     #[inline(always)]
-    pub(super) fn clear(&mut self, sensitivity: &SensitivityPlan<'_>) {
-        let (len, plan) = (sensitivity.len(), sensitivity.plan());
-        let edges = plan.edges.len();
-        for (vectors, count) in [
-            (&mut self.points, plan.points * len),
-            (&mut self.constants.edge_vector, edges),
-            (&mut self.constants.guide, edges),
-            (&mut self.constants.fixed, plan.points),
-        ] {
-            vectors.clear();
-            vectors.resize(count, Vector::ZERO);
+    pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
+        let (plan, backward) = (sensitivity.plan(), &sensitivity.backward);
+        let jets = sensitivity.len() * registers;
+        self.registers = registers;
+        grow(&mut self.points, plan.points * jets);
+        grow(&mut self.edges, plan.edges.len() * jets);
+        grow(&mut self.theta, plan.classes * jets);
+        grow(&mut self.slides, plan.slide_links.len() * jets);
+        grow(&mut self.weight, registers);
+        for &point in &backward.points {
+            entry_mut(&mut self.points, point, jets).fill(Vector::ZERO);
         }
-        for (numbers, count) in [
-            (&mut self.theta, plan.classes * len),
-            (&mut self.slides, plan.slide_links.len() * len),
-            (&mut self.constants.offset, plan.rotation.len()),
-        ] {
-            numbers.clear();
-            numbers.resize(count, R::ZERO);
+        for &class in &backward.classes {
+            entry_mut(&mut self.theta, class, jets).fill(R::ZERO);
         }
-        self.constants.origin = Vector::ZERO;
+        for &slide in &backward.slides {
+            entry_mut(&mut self.slides, slide, jets).fill(R::ZERO);
+        }
     }
 
-    /// Adds the weight of a component of a result, per metre or radian.
+    /// Adds the weights of a component of a result, per metre or radian.
     #[inline(always)]
-    pub(super) fn add(
-        &mut self,
-        len: usize,
-        units: &Units,
-        Component { kind, k }: Component,
-        weight: R,
-    ) {
-        let length = weight * R::splat(units.length[k]);
+    pub(super) fn add(&mut self, len: usize, units: &Units, component: Component, weights: &[R]) {
+        let Component { kind, k } = component;
+        let registers = self.registers;
+        let length = R::splat(units.length[k]);
+        if k == 0 {
+            self.constants.add_result(kind, weights);
+        }
         match kind {
             ComponentKind::X { point } => {
-                self.points[point * len + k].x += length;
-                if k == 0 {
-                    self.constants.origin.x += weight;
+                let points = entry_mut(&mut self.points, point * len + k, registers);
+                for (point, &weight) in points.iter_mut().zip(weights) {
+                    point.x += weight * length;
                 }
             }
             ComponentKind::Y { point } => {
-                self.points[point * len + k].y += length;
-                if k == 0 {
-                    self.constants.origin.y += weight;
+                let points = entry_mut(&mut self.points, point * len + k, registers);
+                for (point, &weight) in points.iter_mut().zip(weights) {
+                    point.y += weight * length;
                 }
             }
-            ComponentKind::Slide(slide) => self.slides[slide * len + k] += length,
-            ComponentKind::Angle { link, class } => {
-                self.theta[class * len + k] += weight * R::splat(units.angle[k]);
-                if k == 0 {
-                    self.constants.offset[link] += weight;
+            ComponentKind::Slide(slide) => {
+                let slides = entry_mut(&mut self.slides, slide * len + k, registers);
+                for (slide, &weight) in slides.iter_mut().zip(weights) {
+                    *slide += weight * length;
+                }
+            }
+            ComponentKind::Angle { class, .. } => {
+                let unit = R::splat(units.angle[k]);
+                let theta = entry_mut(&mut self.theta, class * len + k, registers);
+                for (theta, &weight) in theta.iter_mut().zip(weights) {
+                    *theta += weight * unit;
                 }
             }
         }
@@ -86,80 +98,181 @@ impl<R: Real> Cotangent<R> {
         sensitivity: &SensitivityPlan<'_>,
         linear: &Linearization<R>,
     ) {
-        let len = sensitivity.len();
-        for step in sensitivity.steps.iter().rev() {
+        let (len, registers) = (sensitivity.len(), self.registers);
+        for step in &sensitivity.backward.steps {
             match step {
-                &LinearStep::Place { edge, from, to, sign } => {
+                &BackwardStep::Place { to, from, edge, sign } => {
                     for k in 0..len {
-                        let weight = self.points[to * len + k];
-                        self.points[from * len + k] += weight;
-                        self.edge(sensitivity, linear, (edge, k), weight.scale(R::splat(sign)));
+                        let places = [to, from.index].map(|at| range(at * len + k, registers));
+                        let Ok([placed, base]) = self.points.get_disjoint_mut(places) else {
+                            continue;
+                        };
+                        let edges = entry_mut(&mut self.edges, edge.index * len + k, registers);
+                        let are_first = [from.is_first, edge.is_first];
+                        put_two([base, edges], [1.0, sign], are_first, placed);
                     }
                 }
-                LinearStep::Solve { closures, inverse } => {
-                    let n = closures.unknowns.len();
-                    let inverse = linear.inverse(*inverse, n);
+                BackwardStep::Solve { unknowns, paths, inverse } => {
                     // A higher order depends on the lower ones.
                     for k in (0..len).rev() {
-                        self.multipliers.clear();
-                        self.multipliers.resize(n, R::ZERO);
-                        for (row, &unknown) in closures.unknowns.iter().enumerate() {
-                            let weight = match unknown {
-                                Unknown::Class(class) => self.theta[class * len + k],
-                                Unknown::Slide(slide) => self.slides[slide * len + k],
-                            };
-                            for (multiplier, &entry) in
-                                self.multipliers.iter_mut().zip(&inverse[row * n..])
-                            {
-                                *multiplier += -(entry * weight);
-                            }
-                        }
-                        for (i, path) in closures.paths.iter().enumerate() {
-                            let multiplier =
-                                Vector::new(self.multipliers[2 * i], self.multipliers[2 * i + 1]);
-                            self.points[path.plus * len + k] += multiplier;
-                            self.points[path.minus * len + k] += -multiplier;
-                            for &(e, sign) in &path.edges {
-                                let weight = multiplier.scale(R::splat(sign));
-                                self.edge(sensitivity, linear, (e, k), weight);
-                            }
-                        }
+                        self.multiply(sensitivity, linear, (unknowns, *inverse, paths.len()), k);
+                        self.spread(len, paths, k);
                     }
                 }
             }
         }
-        for (point, fixed) in self.constants.fixed.iter_mut().enumerate() {
-            *fixed = self.points[point * len];
-        }
+        self.reach_constants(sensitivity, linear);
     }
 
-    /// Passes the weight of a jet entry of an edge back: the transpose of [`Tangent`](super::tangent::Tangent)'s
-    /// `edge`. What a step's own unknowns get at its own order is read no more.
+    /// The multipliers of a step's closed paths at an order.
     #[inline(always)]
-    fn edge(
+    fn multiply(
         &mut self,
         sensitivity: &SensitivityPlan<'_>,
         linear: &Linearization<R>,
-        (e, k): (usize, usize),
-        weight: Vector<R>,
+        (unknowns, inverse, paths): (&[UnknownWeight], usize, usize),
+        k: usize,
     ) {
-        let len = sensitivity.len();
-        let edge = &sensitivity.plan().edges[e];
-        if edge.class != 0 {
-            for term in &sensitivity.derivatives.product[k] {
-                let moment = linear.edges[e * len + term.left].cross(weight);
-                self.theta[edge.class * len + term.right] += R::splat(term.factor) * moment;
-            }
-        }
-        self.constants.edge_vector[e] += linear.turns[e * len + k].conj() * weight;
-        if slide_along(edge.along).is_some() {
-            self.constants.guide[e] += linear.strokes[e * len + k].conj() * weight;
-        }
-        if let EdgeSlide::Slide(slide) = edge.along {
-            for term in &sensitivity.derivatives.product[k] {
-                let along = linear.guides[e * len + term.left].dot(weight);
-                self.slides[slide * len + term.right] += R::splat(term.factor) * along;
+        let registers = self.registers;
+        grow(&mut self.multipliers, paths * registers);
+        for (index, unknown) in unknowns.iter().enumerate() {
+            self.weigh(sensitivity, linear, unknown, k);
+            let weights = &self.weight[..registers];
+            for path in 0..paths {
+                let place = unknown.row * 2 * paths + 2 * path;
+                let (x, y) = (linear.inverse(inverse, place), linear.inverse(inverse, place + 1));
+                let multipliers = entry_mut(&mut self.multipliers, path, registers);
+                for g in 0..registers {
+                    let multiplier = -Vector::new(x[g], y[g]).scale(weights[g]);
+                    multipliers[g] =
+                        if index == 0 { multiplier } else { multipliers[g] + multiplier };
+                }
             }
         }
     }
+
+    /// The weights of an unknown at an order.
+    #[inline(always)]
+    fn weigh(
+        &mut self,
+        sensitivity: &SensitivityPlan<'_>,
+        linear: &Linearization<R>,
+        unknown: &UnknownWeight,
+        k: usize,
+    ) {
+        let (len, registers) = (sensitivity.len(), self.registers);
+        let weights = &mut self.weight[..registers];
+        let mut is_first = !unknown.is_result;
+        if unknown.is_result {
+            let results = match unknown.unknown {
+                Unknown::Class(class) => entry(&self.theta, class * len + k, registers),
+                Unknown::Slide(slide) => entry(&self.slides, slide * len + k, registers),
+            };
+            weights.copy_from_slice(results);
+        }
+        for &(e, of_higher_orders) in &unknown.edges {
+            for term in &sensitivity.backward.terms[k] {
+                if of_higher_orders && term.order == k {
+                    continue;
+                }
+                let (factor, turns) = match unknown.unknown {
+                    Unknown::Class(_) => (R::splat(term.factor), true),
+                    Unknown::Slide(_) => (R::splat(term.factor), false),
+                };
+                let jets =
+                    if turns { linear.edge(e, term.left) } else { linear.guide(e, term.left) };
+                let edges = entry(&self.edges, e * len + term.order, registers);
+                for ((weight, jet), &edge) in weights.iter_mut().zip(jets).zip(edges) {
+                    let part = factor * if turns { jet.cross(edge) } else { jet.dot(edge) };
+                    *weight = if is_first { part } else { *weight + part };
+                }
+                is_first = false;
+            }
+        }
+        if is_first {
+            weights.fill(R::ZERO);
+        }
+    }
+
+    /// Passes the multipliers of closed paths at an order to their ends and edges.
+    #[inline(always)]
+    fn spread(&mut self, len: usize, paths: &[BackwardPath], k: usize) {
+        let registers = self.registers;
+        for (i, path) in paths.iter().enumerate() {
+            let multipliers = entry(&self.multipliers, i, registers);
+            let ends = [(path.plus, 1.0), (path.minus, -1.0)];
+            let places = ends.map(|(end, _)| range(end.index * len + k, registers));
+            if let Ok(points) = self.points.get_disjoint_mut(places) {
+                let are_first = [path.plus.is_first, path.minus.is_first];
+                put_two(points, [1.0, -1.0], are_first, multipliers);
+            } else {
+                // A path that ends where it begins.
+                for (end, sign) in ends {
+                    let points = entry_mut(&mut self.points, end.index * len + k, registers);
+                    put((points, sign, end.is_first), multipliers);
+                }
+            }
+            for &(Target { index, is_first }, sign) in &path.edges {
+                let edges = entry_mut(&mut self.edges, index * len + k, registers);
+                put((edges, sign, is_first), multipliers);
+            }
+        }
+    }
+
+    /// Passes the weights of edges and fixed points to the constants.
+    #[inline(always)]
+    fn reach_constants(&mut self, sensitivity: &SensitivityPlan<'_>, linear: &Linearization<R>) {
+        let (len, registers) = (sensitivity.len(), self.registers);
+        for &e in &sensitivity.backward.edges {
+            let edge = &sensitivity.plan().edges[e];
+            for k in 0..len {
+                let weights = entry(&self.edges, e * len + k, registers);
+                self.constants.add_edge(e, linear.unit(edge.orientation, k), weights);
+            }
+        }
+        for &e in &sensitivity.backward.guides {
+            for k in 0..len {
+                let weights = entry(&self.edges, e * len + k, registers);
+                self.constants.add_guide(e, linear.stroke(e, k), weights);
+            }
+        }
+        for &point in &sensitivity.backward.fixed {
+            self.constants.add_fixed(point, entry(&self.points, point * len, registers));
+        }
+    }
+}
+
+/// Where vectors, times a sign, are added, or set if these are the first.
+type Sums<'s, R> = (&'s mut [Vector<R>], f64, bool);
+
+#[inline(always)]
+fn put<R: Real>((sums, sign, is_first): Sums<'_, R>, vectors: &[Vector<R>]) {
+    let sign = R::splat(sign);
+    for (sum, vector) in sums.iter_mut().zip(vectors) {
+        let vector = vector.scale(sign);
+        *sum = if is_first { vector } else { *sum + vector };
+    }
+}
+
+/// The same at two places at once, which takes less time.
+#[inline(always)]
+fn put_two<R: Real>(
+    [one, other]: [&mut [Vector<R>]; 2],
+    signs: [f64; 2],
+    are_first: [bool; 2],
+    vectors: &[Vector<R>],
+) {
+    let signs = [R::splat(signs[0]), R::splat(signs[1])];
+    let both = one.iter_mut().zip(other.iter_mut());
+    for ((one, other), vector) in both.zip(vectors) {
+        let [to_one, to_other] = [vector.scale(signs[0]), vector.scale(signs[1])];
+        *one = if are_first[0] { to_one } else { *one + to_one };
+        *other = if are_first[1] { to_other } else { *other + to_other };
+    }
+}
+
+/// The registers of an entry.
+#[inline(always)]
+fn range(index: usize, registers: usize) -> Range<usize> {
+    index * registers..(index + 1) * registers
 }

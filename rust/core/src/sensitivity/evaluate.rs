@@ -1,19 +1,24 @@
-//! The derivatives of one design at some positions, a register of these at a time.
+//! The derivatives of one design at some positions, some registers of these at a time.
 
 use std::mem::MaybeUninit;
 
 use super::cotangent::Cotangent;
 use super::linearization::Linearization;
 use super::plan::SensitivityPlan;
+use super::registers::{grow, read_numbers};
 use super::request::Product;
 use super::tangent::Tangent;
 use crate::batch::dispatch::Task;
 use crate::batch::motion::SolvedDesign;
 use crate::batch::rows::RowSlices;
-use crate::branch::design::Design;
-use crate::math::lanes::{LANES, Mask, Real};
+use crate::math::lanes::{Mask, Real};
 use crate::plan::constants_rate::ConstantsRate;
+use crate::state::kernel::BLOCK;
 use crate::state::status::Status;
+
+/// Positions whose equations are linearised at once: as many as are solved at once. Half or twice as many take
+/// about as long.
+const POSITIONS: usize = BLOCK;
 
 /// Work space of a thread.
 #[derive(Debug, Default)]
@@ -21,9 +26,15 @@ pub(super) struct SensitivitySpace<R> {
     linear: Linearization<R>,
     tangent: Tangent<R>,
     cotangent: Cotangent<R>,
+    /// Weights of a component of a result, and its values.
+    weights: Vec<R>,
+    values: Vec<R>,
+    /// Derivatives of a register of positions by constants and by dimensions.
+    rate: ConstantsRate<R>,
     by: Vec<R>,
-    /// Sums over positions, several for each dimension.
-    totals: Vec<R>,
+    /// Their sums over positions.
+    sums: ConstantsRate,
+    totals: Vec<f64>,
 }
 
 /// The derivatives of one design at some positions.
@@ -44,11 +55,12 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
     fn run(&mut self) {
         let total = self.product.is_total();
         let count = self.solved.status.len();
+        let mut worst = 0;
         if total {
-            self.set_worst_status();
-            self.space.totals.clear();
-            let count = self.sensitivity.mechanism.dimensions().len();
-            self.space.totals.resize(count * Self::SUMS, R::ZERO);
+            for &status in self.solved.status {
+                worst = worst.max(status);
+            }
+            self.results.status[self.first] = MaybeUninit::new(worst);
         }
         if !self.solved.is_valid {
             let count = if total { 1 } else { count };
@@ -62,118 +74,195 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             }
             return;
         }
-        for row in (0..count).step_by(R::LANES) {
-            let lanes = R::LANES.min(count - row);
+        for row in (0..count).step_by(POSITIONS) {
+            let rows = POSITIONS.min(count - row);
             if !total {
-                self.set_status(row, lanes);
+                self.set_status(row, rows);
             }
             let (design, columns) = (self.solved.design, self.solved.columns);
-            self.space.linear.read(self.sensitivity, design, columns, row);
+            let registers = rows.div_ceil(R::LANES);
+            self.space.linear.read(self.sensitivity, design, columns, (row, registers));
             match self.product {
-                Product::Jacobian { by } => self.jacobian(by, row, lanes),
-                Product::Forward { .. } => self.forward(row, lanes),
-                Product::Backward { weights, by, .. } => self.backward(weights, by, row, lanes),
+                Product::Jacobian { by } => self.jacobian(by, row, rows),
+                Product::Forward { .. } => self.forward(row, rows),
+                Product::Backward { weights, by, of_squares, .. } => {
+                    self.backward((weights, of_squares), by, row, rows);
+                }
             }
         }
         if let Product::Backward { by, total: true, .. } = self.product {
-            self.write_totals(by);
+            self.write_totals(by, worst);
         }
     }
 }
 
 impl<R: Real> Evaluate<'_, '_, R> {
-    /// Registers of a sum: as many lanes at every level, so that it has the same bits.
-    const SUMS: usize = LANES / R::LANES;
-
     #[inline(always)]
-    fn jacobian(&mut self, by: &[usize], row: usize, lanes: usize) {
-        let (sensitivity, design) = (self.sensitivity, self.solved.design);
+    fn jacobian(&mut self, by: &[usize], row: usize, rows: usize) {
+        let (sensitivity, units) = (self.sensitivity, &self.solved.design.units);
+        let registers = rows.div_ceil(R::LANES);
         for (column, components) in sensitivity.results.iter().enumerate() {
             let width = self.product.width(components.len());
             for (index, &component) in components.iter().enumerate() {
-                self.space.cotangent.clear(sensitivity);
-                self.space.cotangent.add(sensitivity.len(), &design.units, component, R::ONE);
-                self.space.pull_back(sensitivity, design, self.solved.dimensions);
-                for (place, &dimension) in by.iter().enumerate() {
-                    let number = self.space.by[dimension];
-                    self.write((column, width, index * by.len() + place), row, lanes, number);
-                }
+                let SensitivitySpace { linear, cotangent, weights, .. } = &mut *self.space;
+                cotangent.begin(sensitivity, registers);
+                cotangent.constants.begin(sensitivity, registers);
+                grow(weights, registers);
+                weights[..registers].fill(R::ONE);
+                cotangent.add(sensitivity.len(), units, component, &weights[..registers]);
+                cotangent.pull_back(sensitivity, linear);
+                self.write_by((column, width, index * by.len()), by, row, rows);
             }
         }
     }
 
     #[inline(always)]
-    fn forward(&mut self, row: usize, lanes: usize) {
+    fn forward(&mut self, row: usize, rows: usize) {
         let Some(rates) = self.rates else { return };
         let (sensitivity, units) = (self.sensitivity, &self.solved.design.units);
-        self.space.tangent.solve(sensitivity, &self.space.linear, rates);
-        for (column, components) in sensitivity.results.iter().enumerate() {
-            for (index, &component) in components.iter().enumerate() {
-                let number =
-                    self.space.tangent.component(sensitivity.len(), (units, rates), component);
-                self.write((column, components.len(), index), row, lanes, number);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn backward(&mut self, weights: &[&[f64]], by: &[usize], row: usize, lanes: usize) {
-        let (sensitivity, design) = (self.sensitivity, self.solved.design);
-        self.space.cotangent.clear(sensitivity);
-        for (components, weights) in sensitivity.results.iter().zip(weights) {
-            let width = components.len();
-            let first = if weights.len() == width { None } else { Some(self.solved.rows.start) };
-            for (index, &component) in components.iter().enumerate() {
-                let weight = match first {
-                    None => R::splat(weights[index]),
-                    Some(first) => R::from_lanes(|lane| {
-                        weights[(first + row + lane.min(lanes - 1)) * width + index]
-                    }),
-                };
-                self.space.cotangent.add(sensitivity.len(), &design.units, component, weight);
-            }
-        }
-        self.space.pull_back(sensitivity, design, self.solved.dimensions);
-        if self.product.is_total() {
-            // Lanes beyond the last position repeat it.
-            let exists = R::from_lanes(|lane| if lane < lanes { 1.0 } else { 0.0 });
-            let sum = row / R::LANES % Self::SUMS;
-            for &dimension in by {
-                self.space.totals[dimension * Self::SUMS + sum] +=
-                    self.space.by[dimension] * exists;
-            }
-            return;
-        }
-        for (place, &dimension) in by.iter().enumerate() {
-            let number = self.space.by[dimension];
-            self.write((0, by.len(), place), row, lanes, number);
-        }
-    }
-
-    /// Writes the sums over all positions, lane after lane.
-    #[inline(always)]
-    fn write_totals(&mut self, by: &[usize]) {
-        let worst = self.solved.status.iter().fold(0, |worst, &status| worst.max(status));
-        let exists = worst <= Status::NearSingular as u8;
-        for (place, &dimension) in by.iter().enumerate() {
-            let mut sum = 0.0;
-            for total in &self.space.totals[dimension * Self::SUMS..][..Self::SUMS] {
-                for lane in 0..R::LANES {
-                    sum += total.lane(lane);
+        for first in (0..rows).step_by(R::LANES) {
+            let register = first / R::LANES;
+            let SensitivitySpace { linear, tangent, .. } = &mut *self.space;
+            tangent.solve(sensitivity, (linear, register), rates);
+            for (column, components) in sensitivity.results.iter().enumerate() {
+                for (index, &component) in components.iter().enumerate() {
+                    let number =
+                        self.space.tangent.component(sensitivity.len(), (units, rates), component);
+                    let lanes = R::LANES.min(rows - first);
+                    self.write((column, components.len(), index), row + first, lanes, number);
                 }
             }
+        }
+    }
+
+    #[inline(always)]
+    fn backward(
+        &mut self,
+        (weights, of_squares): (&[&[f64]], bool),
+        by: &[usize],
+        row: usize,
+        rows: usize,
+    ) {
+        let (sensitivity, units) = (self.sensitivity, &self.solved.design.units);
+        let registers = rows.div_ceil(R::LANES);
+        let total = self.product.is_total();
+        self.space.cotangent.begin(sensitivity, registers);
+        let constants = &mut self.space.cotangent.constants;
+        if !total {
+            constants.begin(sensitivity, registers);
+        } else if row == 0 {
+            constants.begin_total(sensitivity);
+        }
+        grow(&mut self.space.weights, registers);
+        for (result, components) in sensitivity.results.iter().enumerate() {
+            for (index, &component) in components.iter().enumerate() {
+                let place = (result, components.len(), index);
+                let is_any = self.weigh(weights[result], of_squares, place, row, rows);
+                let SensitivitySpace { cotangent, weights, .. } = &mut *self.space;
+                if is_any {
+                    cotangent.add(sensitivity.len(), units, component, &weights[..registers]);
+                }
+            }
+        }
+        let SensitivitySpace { linear, cotangent, .. } = &mut *self.space;
+        cotangent.pull_back(sensitivity, linear);
+        if !total {
+            self.write_by((0, by.len(), 0), by, row, rows);
+        }
+    }
+
+    /// The weights of a component of a result at some positions; false if all are zero.
+    #[inline(always)]
+    fn weigh(
+        &mut self,
+        weights: &[f64],
+        of_squares: bool,
+        (result, width, index): (usize, usize, usize),
+        row: usize,
+        rows: usize,
+    ) -> bool {
+        let shared = weights.len() == width;
+        if shared && weights[index] == 0.0 {
+            return false;
+        }
+        let registers = rows.div_ceil(R::LANES);
+        let SensitivitySpace { weights: numbers, values, .. } = &mut *self.space;
+        let numbers = &mut numbers[..registers];
+        if shared {
+            numbers.fill(R::splat(weights[index]));
+        } else {
+            let first = self.solved.rows.start + row;
+            for (g, number) in numbers.iter_mut().enumerate() {
+                *number = R::from_lanes(|lane| {
+                    let place = (g * R::LANES + lane).min(rows - 1);
+                    weights[(first + place) * width + index]
+                });
+            }
+        }
+        if of_squares {
+            grow(values, registers);
+            let column = self.solved.columns[self.sensitivity.values[result]];
+            read_numbers(&mut values[..registers], column, row, (width, index));
+            for (number, &value) in numbers.iter_mut().zip(&*values) {
+                *number = *number * value;
+            }
+        }
+        if let (Some(last), true) = (numbers.last_mut(), self.product.is_total()) {
+            // Lanes beyond the last position repeat it.
+            let first = rows - rows % R::LANES;
+            if first < rows {
+                *last = *last * R::from_lanes(|lane| if first + lane < rows { 1.0 } else { 0.0 });
+            }
+        }
+        true
+    }
+
+    /// Writes derivatives by the dimensions, whose entries begin at a place of a column's rows.
+    #[inline(always)]
+    fn write_by(
+        &mut self,
+        (column, width, place): (usize, usize, usize),
+        by: &[usize],
+        row: usize,
+        rows: usize,
+    ) {
+        let (sensitivity, design) = (self.sensitivity, self.solved.design);
+        let (plan, slots) = (sensitivity.plan(), &sensitivity.mechanism.slots);
+        let dimensions = self.solved.dimensions;
+        for first in (0..rows).step_by(R::LANES) {
+            let SensitivitySpace { cotangent, rate, by: numbers, .. } = &mut *self.space;
+            cotangent.constants.register(sensitivity, first / R::LANES, rate);
+            grow(numbers, dimensions.len());
+            rate.by_dimensions(plan, slots, &design.constants, dimensions, numbers);
+            for (index, &dimension) in by.iter().enumerate() {
+                let number = self.space.by[dimension];
+                let lanes = R::LANES.min(rows - first);
+                self.write((column, width, place + index), row + first, lanes, number);
+            }
+        }
+    }
+
+    /// Writes the sums over all positions.
+    #[inline(always)]
+    fn write_totals(&mut self, by: &[usize], worst: u8) {
+        let (sensitivity, design) = (self.sensitivity, self.solved.design);
+        let (plan, slots) = (sensitivity.plan(), &sensitivity.mechanism.slots);
+        let dimensions = self.solved.dimensions;
+        let exists = worst <= Status::NearSingular as u8;
+        let SensitivitySpace { cotangent, sums, totals, .. } = &mut *self.space;
+        grow(totals, dimensions.len());
+        if !self.solved.status.is_empty() {
+            cotangent.constants.sums(sensitivity, sums);
+            sums.by_dimensions(plan, slots, &design.constants, dimensions, totals);
+        }
+        for (place, &dimension) in by.iter().enumerate() {
+            let sum = totals[dimension];
             let value = if exists { sum } else { f64::NAN };
             self.results.columns[0][self.first * by.len() + place] = MaybeUninit::new(value);
             if exists && !sum.is_finite() {
                 self.results.status[self.first] = MaybeUninit::new(Status::Singular as u8);
             }
         }
-    }
-
-    #[inline(always)]
-    fn set_worst_status(&mut self) {
-        let worst = self.solved.status.iter().fold(0, |worst, &status| worst.max(status));
-        self.results.status[self.first] = MaybeUninit::new(worst);
     }
 
     /// Copies the statuses of the positions.
@@ -206,23 +295,5 @@ impl<R: Real> Evaluate<'_, '_, R> {
                     MaybeUninit::new(Status::Singular as u8);
             }
         }
-    }
-}
-
-impl<R: Real> SensitivitySpace<R> {
-    /// Passes the weights back to the dimensions.
-    #[inline(always)]
-    fn pull_back(
-        &mut self,
-        sensitivity: &SensitivityPlan<'_>,
-        design: &Design<'_>,
-        dimensions: &[f64],
-    ) {
-        let mechanism = sensitivity.mechanism;
-        self.cotangent.pull_back(sensitivity, &self.linear);
-        self.by.resize(dimensions.len(), R::ZERO);
-        let constants = &self.cotangent.constants;
-        let (plan, slots) = (mechanism.plan(), &mechanism.slots);
-        constants.by_dimensions(plan, slots, &design.constants, dimensions, &mut self.by);
     }
 }

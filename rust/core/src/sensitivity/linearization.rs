@@ -1,67 +1,99 @@
-//! The equations of a register of positions, linearised: jets of all edges, and the inverse of every step's
-//! matrix.
+//! The equations of some positions, linearised: jets of edges, and the inverse of every step's matrix.
 
-use nalgebra::DMatrix;
-
-use super::plan::{LinearStep, SensitivityPlan, slide_along};
+use super::inverses::{Inverses, Jets};
+use super::plan::SensitivityPlan;
+use super::registers::{entry, entry_mut, grow, read_numbers, read_vectors};
+use super::steps::{LinearStep, slide_along};
 use crate::branch::design::Design;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
-use crate::plan::dyad::Unknown;
-use crate::plan::plan::EdgeSlide;
-use crate::state::closures::{ClosedPath, Closures};
 
-/// Work space.
+/// Work space. Each entry has a register for so many lanes of positions; loops over registers are the inner
+/// ones, so that what a step is need not be asked for each.
 #[derive(Debug, Default)]
 pub(crate) struct Linearization<R> {
+    /// Registers of an entry.
+    registers: usize,
+    /// Entries of a jet.
+    len: usize,
     /// Jets of orientations.
     units: Vec<Vector<R>>,
-    /// Jets of the derivatives of every orientation's angle; entry 0 is not used.
+    /// Jets of the derivatives of an orientation's angle; entry 0 is not used.
     rates: Vec<R>,
     /// Jets of slides, in units of the scale.
     slides: Vec<R>,
-    /// Jets of edges.
-    pub edges: Vec<Vector<R>>,
+    /// Jets of edges that turn.
+    edges: Vec<Vector<R>>,
     /// Jets of the guides along edges with a slide.
-    pub guides: Vec<Vector<R>>,
+    guides: Vec<Vector<R>>,
     /// Jets of the factor by which a turned guide counts: orientation times slide.
-    pub strokes: Vec<Vector<R>>,
-    /// Orientation of every edge, jet by jet.
-    pub turns: Vec<Vector<R>>,
-    /// Inverses of the matrices, row by row.
-    inverses: Vec<R>,
-    matrix: Vec<R>,
+    strokes: Vec<Vector<R>>,
+    inverses: Inverses<R>,
 }
 
 impl<R: Real> Linearization<R> {
-    /// Reads the register of solved positions that begins at a row.
+    /// Reads some registers of solved positions, which begin at a row.
     #[inline(always)]
     pub(crate) fn read(
         &mut self,
         sensitivity: &SensitivityPlan<'_>,
         design: &Design<'_>,
         columns: &[&[f64]],
-        row: usize,
+        (row, registers): (usize, usize),
     ) {
         let plan = sensitivity.plan();
+        (self.registers, self.len) = (registers, sensitivity.len());
+        let jets = self.len * registers;
+        for (vectors, count) in [
+            (&mut self.units, plan.orientations.len()),
+            (&mut self.edges, plan.edges.len()),
+            (&mut self.guides, plan.edges.len()),
+            (&mut self.strokes, plan.edges.len()),
+        ] {
+            grow(vectors, count * jets);
+        }
+        grow(&mut self.rates, jets);
+        grow(&mut self.slides, plan.slide_links.len() * jets);
+        self.inverses.begin(sensitivity.inverses, registers);
         self.read_slides(sensitivity, design, columns, row);
         self.read_orientations(sensitivity, design, columns, row);
         self.span_edges(sensitivity, design);
-        self.inverses.resize(sensitivity.inverses, R::ZERO);
+        let jets = Jets { edges: &self.edges, guides: &self.guides, len: self.len };
         for step in &sensitivity.steps {
             if let LinearStep::Solve { closures, inverse } = step {
-                let n = closures.unknowns.len();
-                self.fill_matrix(sensitivity.len(), plan, closures);
-                let inverse = &mut self.inverses[*inverse..*inverse + n * n];
-                invert(&self.matrix, n, inverse);
+                self.inverses.invert(plan, closures, *inverse, &jets);
             }
         }
     }
 
-    /// The inverse of a step's matrix.
+    /// An entry of the jet of an orientation.
     #[inline(always)]
-    pub(crate) fn inverse(&self, first: usize, n: usize) -> &[R] {
-        &self.inverses[first..first + n * n]
+    pub(crate) fn unit(&self, orientation: usize, k: usize) -> &[Vector<R>] {
+        entry(&self.units, orientation * self.len + k, self.registers)
+    }
+
+    /// An entry of the jet of an edge that turns.
+    #[inline(always)]
+    pub(crate) fn edge(&self, edge: usize, k: usize) -> &[Vector<R>] {
+        entry(&self.edges, edge * self.len + k, self.registers)
+    }
+
+    /// An entry of the jet of the guide along an edge.
+    #[inline(always)]
+    pub(crate) fn guide(&self, edge: usize, k: usize) -> &[Vector<R>] {
+        entry(&self.guides, edge * self.len + k, self.registers)
+    }
+
+    /// An entry of the jet of the factor of a turned guide.
+    #[inline(always)]
+    pub(crate) fn stroke(&self, edge: usize, k: usize) -> &[Vector<R>] {
+        entry(&self.strokes, edge * self.len + k, self.registers)
+    }
+
+    /// An entry of the inverse that begins at `first`.
+    #[inline(always)]
+    pub(crate) fn inverse(&self, first: usize, place: usize) -> &[R] {
+        self.inverses.entry(first, place)
     }
 
     #[inline(always)]
@@ -72,12 +104,18 @@ impl<R: Real> Linearization<R> {
         columns: &[&[f64]],
         row: usize,
     ) {
-        let len = sensitivity.len();
-        self.slides.clear();
-        for (index, source) in sensitivity.slides.iter().enumerate() {
-            let value: R = R::of_block(columns[source.column], row, source.width, source.entry);
-            // Powers of two: exact.
-            self.slides.push(value / R::splat(design.units.length[index % len]));
+        for &slide in &sensitivity.read_slides {
+            for k in 0..self.len {
+                let index = slide * self.len + k;
+                let source = sensitivity.slides[index];
+                // Powers of two: exact.
+                let unit = R::splat(design.units.length[k]);
+                let values = entry_mut(&mut self.slides, index, self.registers);
+                read_numbers(values, columns[source.column], row, (source.width, source.entry));
+                for value in values {
+                    *value = *value / unit;
+                }
+            }
         }
     }
 
@@ -89,113 +127,107 @@ impl<R: Real> Linearization<R> {
         columns: &[&[f64]],
         row: usize,
     ) {
-        let (len, tables) = (sensitivity.len(), &sensitivity.derivatives);
-        self.units.clear();
-        for (o, link) in sensitivity.links.iter().enumerate() {
-            let Some(link) = *link else {
-                self.units.push(Vector::ONE);
-                self.units.extend((1..len).map(|_| Vector::ZERO));
+        let (len, registers) = (self.len, self.registers);
+        for &o in &sensitivity.orientations {
+            let Some(link) = sensitivity.links[o] else {
+                let jets = &mut self.units[o * len * registers..][..len * registers];
+                let (values, derivatives) = jets.split_at_mut(registers);
+                values.fill(Vector::ONE);
+                derivatives.fill(Vector::ZERO);
                 continue;
             };
             let column = columns[sensitivity.directions[o]];
-            let direction =
-                Vector::<R>::new(R::of_block(column, row, 2, 0), R::of_block(column, row, 2, 1));
-            let unit = direction * Vector::splat(design.constants.turn[link].conj());
-            self.units.push(unit);
-            self.rates.clear();
-            self.rates.push(R::ZERO);
-            for k in 1..len {
-                let source = sensitivity.rates[o * len + k];
-                let rate: R = R::of_block(columns[source.column], row, source.width, source.entry);
-                self.rates.push(rate / R::splat(design.units.angle[k]));
-                let mut sum = unit.scale(self.rates[k]);
-                for term in &tables.rotation[k] {
-                    let factor = R::splat(term.factor) * self.rates[term.right];
-                    sum += self.units[o * len + term.left].scale(factor);
+            let turn = design.constants.turn[link].conj();
+            let is_turned = turn != Vector::ONE;
+            let units = entry_mut(&mut self.units, o * len, registers);
+            read_vectors(units, column, row);
+            if is_turned {
+                for unit in units {
+                    *unit = *unit * Vector::splat(turn);
                 }
-                self.units.push(sum.left());
+            }
+            for k in 1..len {
+                self.turn_derivative(sensitivity, design, columns, (row, o, k));
             }
         }
     }
 
-    /// The jets of all edges.
+    /// A derivative of an orientation, from those of lower order and of its angle.
+    #[inline(always)]
+    fn turn_derivative(
+        &mut self,
+        sensitivity: &SensitivityPlan<'_>,
+        design: &Design<'_>,
+        columns: &[&[f64]],
+        (row, o, k): (usize, usize, usize),
+    ) {
+        let (len, registers) = (self.len, self.registers);
+        let source = sensitivity.rates[o * len + k];
+        let unit = R::splat(design.units.angle[k]);
+        let rates = entry_mut(&mut self.rates, k, registers);
+        read_numbers(rates, columns[source.column], row, (source.width, source.entry));
+        for g in 0..registers {
+            let rate = self.rates[k * registers + g] / unit;
+            self.rates[k * registers + g] = rate;
+            let mut sum = self.units[o * len * registers + g].scale(rate);
+            for term in &sensitivity.derivatives.rotation[k] {
+                let factor = R::splat(term.factor) * self.rates[term.right * registers + g];
+                sum += self.units[(o * len + term.left) * registers + g].scale(factor);
+            }
+            self.units[(o * len + k) * registers + g] = sum.left();
+        }
+    }
+
+    /// The jets of edges.
     #[inline(always)]
     fn span_edges(&mut self, sensitivity: &SensitivityPlan<'_>, design: &Design<'_>) {
-        let (len, tables) = (sensitivity.len(), &sensitivity.derivatives);
-        let edges = &sensitivity.plan().edges;
-        for jets in [&mut self.edges, &mut self.guides, &mut self.strokes, &mut self.turns] {
-            jets.resize(edges.len() * len, Vector::ZERO);
-        }
-        for (e, edge) in edges.iter().enumerate() {
-            let units = &self.units[edge.orientation * len..][..len];
-            self.turns[e * len..][..len].copy_from_slice(units);
-            let vector = Vector::splat(design.constants.edge_vector[e]);
-            for k in 0..len {
-                self.edges[e * len + k] = units[k] * vector;
-            }
-            let Some(slide) = slide_along(edge.along) else { continue };
-            let (guide, values) =
-                (Vector::splat(design.constants.guide[e]), &self.slides[slide * len..][..len]);
-            for k in 0..len {
-                let mut stroke = Vector::ZERO;
-                for term in &tables.product[k] {
-                    let value = R::splat(term.factor) * values[term.right];
-                    stroke += units[term.left].scale(value);
+        let (len, registers) = (self.len, self.registers);
+        for &e in &sensitivity.edges {
+            let edge = &sensitivity.plan().edges[e];
+            if edge.class != 0 {
+                let vector = design.constants.edge_vector[e];
+                for k in 0..len {
+                    let units = entry(&self.units, edge.orientation * len + k, registers);
+                    let edges = entry_mut(&mut self.edges, e * len + k, registers);
+                    for (edge, unit) in edges.iter_mut().zip(units) {
+                        *edge = unit.turn(vector);
+                    }
                 }
-                self.strokes[e * len + k] = stroke;
-                self.guides[e * len + k] = units[k] * guide;
-                self.edges[e * len + k] += stroke * guide;
+            }
+            if let Some(slide) = slide_along(edge.along) {
+                let guide = Vector::splat(design.constants.guide[e]);
+                for k in 0..len {
+                    self.stroke_derivative(sensitivity, (e, k), slide, guide);
+                }
             }
         }
     }
 
-    /// Derivatives of the closures by their unknowns, row by row.
+    /// An entry of the jets of the slide along an edge.
     #[inline(always)]
-    fn fill_matrix(&mut self, len: usize, plan: &crate::plan::plan::Plan, closures: &Closures) {
-        let n = closures.unknowns.len();
-        self.matrix.clear();
-        self.matrix.resize(n * n, R::ZERO);
-        for (i, ClosedPath { edges, .. }) in closures.paths.iter().enumerate() {
-            for &(e, sign) in edges {
-                let edge = &plan.edges[e];
-                for (column, &unknown) in closures.unknowns.iter().enumerate() {
-                    let by = match (unknown, edge.along) {
-                        (Unknown::Class(class), _) if class == edge.class => {
-                            self.edges[e * len].left()
-                        }
-                        (Unknown::Slide(slide), EdgeSlide::Slide(along)) if slide == along => {
-                            self.guides[e * len]
-                        }
-                        _ => continue,
-                    };
-                    let by = by.scale(R::splat(sign));
-                    self.matrix[2 * i * n + column] += by.x;
-                    self.matrix[(2 * i + 1) * n + column] += by.y;
-                }
+    fn stroke_derivative(
+        &mut self,
+        sensitivity: &SensitivityPlan<'_>,
+        (e, k): (usize, usize),
+        slide: usize,
+        guide: Vector<R>,
+    ) {
+        let (len, registers) = (self.len, self.registers);
+        let edge = &sensitivity.plan().edges[e];
+        let o = edge.orientation;
+        for g in 0..registers {
+            let mut stroke = Vector::ZERO;
+            for term in &sensitivity.derivatives.product[k] {
+                let value = self.slides[(slide * len + term.right) * registers + g];
+                let unit = self.units[(o * len + term.left) * registers + g];
+                stroke += unit.scale(R::splat(term.factor) * value);
+            }
+            let at = (e * len + k) * registers + g;
+            self.strokes[at] = stroke;
+            self.guides[at] = self.units[(o * len + k) * registers + g] * guide;
+            if edge.class != 0 {
+                self.edges[at] += stroke * guide;
             }
         }
     }
-}
-
-/// Inverts a matrix in every lane; the inverse of a singular one is not finite.
-#[inline(always)]
-fn invert<R: Real>(matrix: &[R], n: usize, inverse: &mut [R]) {
-    if let (&[a, b, c, d], [p, q, r, s]) = (matrix, &mut *inverse) {
-        let factor = R::ONE / (a * d - b * c);
-        (*p, *q, *r, *s) = (d * factor, -b * factor, -c * factor, a * factor);
-        return;
-    }
-    let lanes: Vec<Option<DMatrix<f64>>> =
-        (0..R::LANES).map(|lane| lane_inverse(matrix, n, lane)).collect();
-    for (index, number) in inverse.iter_mut().enumerate() {
-        let entry = (index / n, index % n);
-        *number = R::from_lanes(|lane| lanes[lane].as_ref().map_or(f64::NAN, |m| m[entry]));
-    }
-}
-
-/// The inverse in one lane, by LU with partial pivoting.
-#[inline(never)]
-fn lane_inverse<R: Real>(matrix: &[R], n: usize, lane: usize) -> Option<DMatrix<f64>> {
-    let matrix = DMatrix::from_row_iterator(n, n, matrix.iter().map(|number| number.lane(lane)));
-    matrix.lu().try_inverse()
 }

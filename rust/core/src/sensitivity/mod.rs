@@ -6,10 +6,16 @@
 //! algebra). Forward, the rates of the dimensions pass through the steps in order. Backward, weights of the
 //! results pass through them in reverse, by the transposed equations (the adjoint method: Giles & Pierce
 //! 2000): all dimensions in one pass.
+mod backward;
 mod batch;
+mod cone;
+mod constants_sum;
 mod cotangent;
 mod evaluate;
+mod inverses;
 pub(crate) mod linearization;
 pub(crate) mod plan;
+mod registers;
 pub(crate) mod request;
+pub(crate) mod steps;
 pub(crate) mod tangent;

@@ -2,40 +2,14 @@
 
 use std::sync::Arc;
 
+use super::backward::Backward;
+use super::steps::{Component, LinearStep, components, linear_steps};
 use crate::batch::request::{Column, Outputs, Quantity};
 use crate::description::error::SolveError;
 use crate::math::derivatives::DerivativeTables;
 use crate::plan::mechanism::Mechanism;
-use crate::plan::plan::{EdgeSlide, Plan, Step};
+use crate::plan::plan::{Plan, Step};
 use crate::query::failure::redundant_name;
-use crate::state::closures::{Closures, signed};
-use crate::structure::closure::point_of_joint;
-
-/// A step of the solution, as linear equations.
-#[derive(Debug)]
-pub(crate) enum LinearStep {
-    /// A point is placed from another, along an edge with this sign.
-    Place { edge: usize, from: usize, to: usize, sign: f64 },
-    /// Closures are solved; the inverse of their matrix begins at this place.
-    Solve { closures: Closures, inverse: usize },
-}
-
-/// A number of each row of a result: where it comes from.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Component {
-    pub kind: ComponentKind,
-    /// Entry of the jet.
-    pub k: usize,
-}
-
-/// The source of a number of a result.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum ComponentKind {
-    X { point: usize },
-    Y { point: usize },
-    Slide(usize),
-    Angle { link: usize, class: usize },
-}
 
 /// Number `entry` of `width` in a column of the solved motion.
 #[derive(Debug, Clone, Copy, Default)]
@@ -52,6 +26,10 @@ pub(crate) struct SensitivityPlan<'m> {
     pub steps: Vec<LinearStep>,
     /// Numbers in the inverses of all steps.
     pub inverses: usize,
+    /// Edges, orientations and slides that the steps read.
+    pub edges: Vec<usize>,
+    pub orientations: Vec<usize>,
+    pub read_slides: Vec<usize>,
     /// For every orientation but the ground's a link that has it.
     pub links: Vec<Option<usize>>,
     /// For every orientation the column of that link's direction.
@@ -60,8 +38,11 @@ pub(crate) struct SensitivityPlan<'m> {
     pub rates: Vec<Source>,
     /// For every slide the jet of its value.
     pub slides: Vec<Source>,
-    /// For every result its components.
+    /// For every result its components, and the column with their values, if weights count times these.
     pub results: Vec<Vec<Component>>,
+    pub values: Vec<usize>,
+    /// The steps in reverse.
+    pub(super) backward: Backward,
     pub derivatives: Arc<DerivativeTables>,
     pub order: usize,
     pub outputs: Outputs,
@@ -105,15 +86,50 @@ impl<'m> SensitivityPlan<'m> {
             mechanism,
             steps,
             inverses,
+            edges: (0..plan.edges.len()).collect(),
+            orientations: (0..links.len()).collect(),
+            read_slides: (0..plan.slide_links.len()).collect(),
             links,
             directions: Vec::new(),
             rates: Vec::new(),
             slides: Vec::new(),
             results,
+            values: Vec::new(),
+            backward: Backward::default(),
             derivatives,
             order,
             outputs,
         }
+    }
+
+    /// Compiles the steps in reverse.
+    pub(super) fn reverse(&mut self) {
+        let (steps, results) = (&self.steps, &self.results);
+        self.backward = Backward::new(self.mechanism, steps, results, &self.derivatives);
+    }
+
+    /// Lets the results themselves be solved: for weights that count times these.
+    pub(super) fn add_values(&mut self, of: &[(Quantity, usize)]) {
+        for &(quantity, _) in of {
+            let (list, index) = match quantity {
+                Quantity::Joint(index) => (&mut self.outputs.joints, index),
+                Quantity::Slide(index) => (&mut self.outputs.slides, index),
+                Quantity::Angle(index) => (&mut self.outputs.links, index),
+                Quantity::Origin(index) => (&mut self.outputs.origins, index),
+                Quantity::Direction(_) => continue,
+            };
+            if !list.contains(&index) {
+                list.push(index);
+            }
+        }
+    }
+
+    /// Finds the values of results in the columns of the request.
+    pub(super) fn read_values(&mut self, of: &[(Quantity, usize)], columns: &[Column]) {
+        let at = |&(quantity, order): &(Quantity, usize)| {
+            columns.iter().position(|c| c.quantity == quantity && c.order == order).unwrap_or(0)
+        };
+        self.values = of.iter().map(at).collect();
     }
 
     /// Finds the sources in the columns of the request.
@@ -152,54 +168,5 @@ impl<'m> SensitivityPlan<'m> {
     /// Entries of a jet.
     pub(crate) fn len(&self) -> usize {
         self.derivatives.len()
-    }
-}
-
-/// The steps as linear equations, and the numbers in their inverses.
-fn linear_steps(plan: &Plan) -> (Vec<LinearStep>, usize) {
-    let mut inverses = 0;
-    let mut linear = Vec::new();
-    for step in &plan.steps {
-        if let &Step::Place { edge, backward } = step {
-            let [from, to] = plan.edges[edge].ends(backward);
-            linear.push(LinearStep::Place { edge, from, to, sign: signed(backward) });
-        } else if let Some(closures) = Closures::of_step(step) {
-            let n = closures.unknowns.len();
-            linear.push(LinearStep::Solve { closures, inverse: inverses });
-            inverses += n * n;
-        }
-    }
-    (linear, inverses)
-}
-
-/// The components of a result, in the order of its array.
-fn components(
-    plan: &Plan,
-    derivatives: &DerivativeTables,
-    quantity: Quantity,
-    order: usize,
-) -> Vec<Component> {
-    let tensor = derivatives.tensor(order);
-    let entries = |kind: ComponentKind| {
-        tensor.iter().map(move |&k| Component { kind, k }).collect::<Vec<_>>()
-    };
-    let point = |point: usize| {
-        [entries(ComponentKind::X { point }), entries(ComponentKind::Y { point })].concat()
-    };
-    match quantity {
-        Quantity::Joint(joint) => point(point_of_joint(joint)),
-        Quantity::Origin(link) => point(plan.reference[link]),
-        Quantity::Slide(slide) => entries(ComponentKind::Slide(slide)),
-        Quantity::Angle(link) | Quantity::Direction(link) => {
-            entries(ComponentKind::Angle { link, class: plan.rotation[link].class })
-        }
-    }
-}
-
-/// The slide along an edge, whoever finds its value.
-pub(crate) fn slide_along(along: EdgeSlide) -> Option<usize> {
-    match along {
-        EdgeSlide::Nothing => None,
-        EdgeSlide::Slide(slide) | EdgeSlide::Driver { slide } => Some(slide),
     }
 }

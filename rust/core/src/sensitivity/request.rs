@@ -27,6 +27,9 @@ pub enum Product<'a> {
         /// Whether the array has a row for each design, the sum over its positions, NaN if one of them has no
         /// derivatives; its status is the worst of theirs.
         total: bool,
+        /// Whether each weight counts times the component itself: half the derivatives of the weighted sum of
+        /// squares.
+        of_squares: bool,
     },
 }
 

@@ -1,7 +1,8 @@
 //! Forward: the rates of positions where the constants of a design change at given rates.
 
 use super::linearization::Linearization;
-use super::plan::{Component, ComponentKind, LinearStep, SensitivityPlan, slide_along};
+use super::plan::SensitivityPlan;
+use super::steps::{Component, ComponentKind, LinearStep, slide_along};
 use crate::branch::design::Units;
 use crate::math::lanes::Real;
 use crate::math::vector::Vector;
@@ -19,12 +20,12 @@ pub(crate) struct Tangent<R> {
 }
 
 impl<R: Real> Tangent<R> {
-    /// Computes all rates.
+    /// Computes all rates in a register of the linearised equations.
     #[inline(always)]
     pub(crate) fn solve(
         &mut self,
         sensitivity: &SensitivityPlan<'_>,
-        linear: &Linearization<R>,
+        (linear, register): (&Linearization<R>, usize),
         by: &ConstantsRate,
     ) {
         let (len, plan) = (sensitivity.len(), sensitivity.plan());
@@ -43,28 +44,28 @@ impl<R: Real> Tangent<R> {
             match step {
                 &LinearStep::Place { edge, from, to, sign } => {
                     for k in 0..len {
-                        let along = self.edge(sensitivity, linear, by, (edge, k));
+                        let along = self.edge(sensitivity, (linear, register), by, (edge, k));
                         let start = self.points[from * len + k];
                         self.points[to * len + k] = start + along.scale(R::splat(sign));
                     }
                 }
                 LinearStep::Solve { closures, inverse } => {
                     let n = closures.unknowns.len();
-                    let inverse = linear.inverse(*inverse, n);
                     for k in 0..len {
                         self.right.clear();
                         for path in &closures.paths {
                             let mut sum = self.points[path.plus * len + k];
                             sum = sum - self.points[path.minus * len + k];
                             for &(e, sign) in &path.edges {
-                                let rate = self.edge(sensitivity, linear, by, (e, k));
+                                let rate = self.edge(sensitivity, (linear, register), by, (e, k));
                                 sum += rate.scale(R::splat(sign));
                             }
                             self.right.extend([-sum.x, -sum.y]);
                         }
                         for (row, &unknown) in closures.unknowns.iter().enumerate() {
                             let mut value = R::ZERO;
-                            for (&entry, &right) in inverse[row * n..].iter().zip(&self.right) {
+                            for (column, &right) in self.right.iter().enumerate() {
+                                let entry = linear.inverse(*inverse, row * n + column)[register];
                                 value += entry * right;
                             }
                             match unknown {
@@ -83,25 +84,29 @@ impl<R: Real> Tangent<R> {
     fn edge(
         &self,
         sensitivity: &SensitivityPlan<'_>,
-        linear: &Linearization<R>,
+        (linear, register): (&Linearization<R>, usize),
         by: &ConstantsRate,
         (e, k): (usize, usize),
     ) -> Vector<R> {
         let len = sensitivity.len();
         let edge = &sensitivity.plan().edges[e];
-        let mut turned = Vector::ZERO;
-        for term in &sensitivity.derivatives.product[k] {
-            let rate = R::splat(term.factor) * self.theta[edge.class * len + term.right];
-            turned += linear.edges[e * len + term.left].scale(rate);
+        let unit = linear.unit(edge.orientation, k)[register];
+        let mut sum = unit * Vector::splat(by.edge_vector[e]);
+        if edge.class != 0 {
+            let mut turned = Vector::ZERO;
+            for term in &sensitivity.derivatives.product[k] {
+                let rate = R::splat(term.factor) * self.theta[edge.class * len + term.right];
+                turned += linear.edge(e, term.left)[register].scale(rate);
+            }
+            sum = turned.left() + sum;
         }
-        let mut sum = turned.left() + linear.turns[e * len + k] * Vector::splat(by.edge_vector[e]);
         if slide_along(edge.along).is_some() {
-            sum += linear.strokes[e * len + k] * Vector::splat(by.guide[e]);
+            sum += linear.stroke(e, k)[register] * Vector::splat(by.guide[e]);
         }
         if let EdgeSlide::Slide(slide) = edge.along {
             for term in &sensitivity.derivatives.product[k] {
                 let rate = R::splat(term.factor) * self.slides[slide * len + term.right];
-                sum += linear.guides[e * len + term.left].scale(rate);
+                sum += linear.guide(e, term.left)[register].scale(rate);
             }
         }
         sum

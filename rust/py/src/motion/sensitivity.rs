@@ -51,6 +51,8 @@ pub(crate) struct Vectors<'py> {
     pub weights: Option<Vec<Flat<'py>>>,
     /// Whether their product is summed over the positions of each design.
     pub total: bool,
+    /// Whether each weight counts times the result itself.
+    pub of_squares: bool,
 }
 
 /// See `assur.Motion.jacobian`, `jvp` and `vjp`.
@@ -71,7 +73,10 @@ pub(crate) fn sensitivities<'py>(
     };
     let product = match (&vectors.rates, &vectors.weights) {
         (Some(rates), _) => Product::Forward { rates: rates.as_slice()? },
-        (None, Some(_)) => Product::Backward { weights: &weights, by, total: vectors.total },
+        (None, Some(_)) => {
+            let Vectors { total, of_squares, .. } = *vectors;
+            Product::Backward { weights: &weights, by, total, of_squares }
+        }
         (None, None) => Product::Jacobian { by },
     };
     let request = SensitivityRequest {

@@ -13,7 +13,8 @@ use crate::math::vector::Vector;
 use crate::plan::constants_rate::ConstantsRate;
 use crate::plan::mechanism::Mechanism;
 use crate::sensitivity::linearization::Linearization;
-use crate::sensitivity::plan::{Component, ComponentKind, SensitivityPlan};
+use crate::sensitivity::plan::SensitivityPlan;
+use crate::sensitivity::steps::{Component, ComponentKind};
 use crate::sensitivity::tangent::Tangent;
 
 /// What all rows share.
@@ -69,7 +70,7 @@ impl DualPlan<'_> {
             }
         }
         if let (Some((sensitivity, _)), Some(design)) = (&self.sensitivity, positions.design) {
-            row.linear.read(sensitivity, design, solved.columns, index);
+            row.linear.read(sensitivity, design, solved.columns, (index, 1));
         }
     }
 
@@ -147,7 +148,7 @@ impl DualPlan<'_> {
     /// Rates of the columns where dimensions change.
     fn along_dimension(&self, row: &mut DualRow, design: &Design<'_>, rates: &ConstantsRate) {
         let Some((sensitivity, results)) = &self.sensitivity else { return };
-        row.tangent.solve(sensitivity, &row.linear, rates);
+        row.tangent.solve(sensitivity, (&row.linear, 0), rates);
         let with = (&design.units, rates);
         for ((dual, column), result) in row.columns.iter_mut().zip(self.columns).zip(results) {
             let Some(result) = result else { continue };

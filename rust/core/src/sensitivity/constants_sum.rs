@@ -1,0 +1,225 @@
+//! Derivatives by the constants of a design: of each position, or summed over positions.
+
+use super::plan::SensitivityPlan;
+use super::registers::{entry, entry_mut, grow};
+use super::steps::ComponentKind;
+use crate::math::lanes::{LANES, Real};
+use crate::math::vector::Vector;
+use crate::plan::constants_rate::ConstantsRate;
+
+/// Derivatives by the constants, as in [`ConstantsRate`]. Each entry has a register for so many lanes of
+/// positions; or a few into which all positions are summed, as many lanes at every level, so that sums have the
+/// same bits.
+#[derive(Debug, Default)]
+pub(super) struct ConstantsSum<R> {
+    /// Registers of an entry.
+    registers: usize,
+    /// Whether all positions are summed.
+    is_total: bool,
+    origin: Vec<Vector<R>>,
+    edge_vector: Vec<Vector<R>>,
+    guide: Vec<Vector<R>>,
+    fixed: Vec<Vector<R>>,
+    offset: Vec<R>,
+}
+
+impl<R: Real> ConstantsSum<R> {
+    /// Registers of a sum.
+    const SUMMED: usize = LANES / R::LANES;
+
+    /// Begins the derivatives of so many registers of positions.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
+        self.is_total = false;
+        self.clear(sensitivity, registers);
+    }
+
+    /// Begins sums over positions.
+    #[inline(always)]
+    pub(super) fn begin_total(&mut self, sensitivity: &SensitivityPlan<'_>) {
+        self.is_total = true;
+        self.clear(sensitivity, Self::SUMMED);
+    }
+
+    #[inline(always)]
+    fn clear(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
+        self.registers = registers;
+        let (plan, backward) = (sensitivity.plan(), &sensitivity.backward);
+        grow(&mut self.origin, registers);
+        grow(&mut self.edge_vector, plan.edges.len() * registers);
+        grow(&mut self.guide, plan.edges.len() * registers);
+        grow(&mut self.fixed, plan.points * registers);
+        grow(&mut self.offset, plan.rotation.len() * registers);
+        self.origin[..registers].fill(Vector::ZERO);
+        for (vectors, entries) in [
+            (&mut self.edge_vector, &backward.edges),
+            (&mut self.guide, &backward.guides),
+            (&mut self.fixed, &backward.fixed),
+        ] {
+            for &index in entries {
+                entry_mut(vectors, index, registers).fill(Vector::ZERO);
+            }
+        }
+        for &link in &backward.links {
+            entry_mut(&mut self.offset, link, registers).fill(R::ZERO);
+        }
+    }
+
+    /// Adds the weights of a component of a result itself.
+    #[inline(always)]
+    pub(super) fn add_result(&mut self, kind: ComponentKind, weights: &[R]) {
+        let registers = self.registers;
+        match kind {
+            ComponentKind::X { .. } => {
+                for (g, &weight) in weights.iter().enumerate() {
+                    self.origin[g % registers].x += weight;
+                }
+            }
+            ComponentKind::Y { .. } => {
+                for (g, &weight) in weights.iter().enumerate() {
+                    self.origin[g % registers].y += weight;
+                }
+            }
+            ComponentKind::Slide(_) => {}
+            ComponentKind::Angle { link, .. } => {
+                let offsets = entry_mut(&mut self.offset, link, registers);
+                for (g, &weight) in weights.iter().enumerate() {
+                    offsets[g % registers] += weight;
+                }
+            }
+        }
+    }
+
+    /// Adds what an edge that turns by `units` gets where it has these weights.
+    #[inline(always)]
+    pub(super) fn add_edge(&mut self, edge: usize, units: &[Vector<R>], weights: &[Vector<R>]) {
+        let sums = entry_mut(&mut self.edge_vector, edge, self.registers);
+        add_turned(sums, units, weights, self.is_total);
+    }
+
+    /// The same for the guide along it.
+    #[inline(always)]
+    pub(super) fn add_guide(&mut self, edge: usize, strokes: &[Vector<R>], weights: &[Vector<R>]) {
+        let sums = entry_mut(&mut self.guide, edge, self.registers);
+        add_turned(sums, strokes, weights, self.is_total);
+    }
+
+    /// Adds the weights of a fixed point.
+    #[inline(always)]
+    pub(super) fn add_fixed(&mut self, point: usize, weights: &[Vector<R>]) {
+        let sums = entry_mut(&mut self.fixed, point, self.registers);
+        if let (true, [sum]) = (self.is_total, &mut *sums) {
+            for &weight in weights {
+                *sum += weight;
+            }
+            return;
+        }
+        let registers = sums.len();
+        for (g, &weight) in weights.iter().enumerate() {
+            sums[g % registers] += weight;
+        }
+    }
+
+    /// The derivatives in one register.
+    #[inline(always)]
+    pub(super) fn register(
+        &self,
+        sensitivity: &SensitivityPlan<'_>,
+        g: usize,
+        rate: &mut ConstantsRate<R>,
+    ) {
+        let backward = &sensitivity.backward;
+        make_room(sensitivity, rate);
+        rate.origin = self.origin[g];
+        for &edge in &backward.edges {
+            rate.edge_vector[edge] = entry(&self.edge_vector, edge, self.registers)[g];
+        }
+        for &edge in &backward.guides {
+            rate.guide[edge] = entry(&self.guide, edge, self.registers)[g];
+        }
+        for &point in &backward.fixed {
+            rate.fixed[point] = entry(&self.fixed, point, self.registers)[g];
+        }
+        for &link in &backward.links {
+            rate.offset[link] = entry(&self.offset, link, self.registers)[g];
+        }
+    }
+
+    /// The sums over all positions.
+    #[inline(always)]
+    pub(super) fn sums(&self, sensitivity: &SensitivityPlan<'_>, rate: &mut ConstantsRate) {
+        let (backward, registers) = (&sensitivity.backward, self.registers);
+        make_room(sensitivity, rate);
+        rate.origin = vector_sum(&self.origin[..registers]);
+        for &edge in &backward.edges {
+            rate.edge_vector[edge] = vector_sum(entry(&self.edge_vector, edge, registers));
+        }
+        for &edge in &backward.guides {
+            rate.guide[edge] = vector_sum(entry(&self.guide, edge, registers));
+        }
+        for &point in &backward.fixed {
+            rate.fixed[point] = vector_sum(entry(&self.fixed, point, registers));
+        }
+        for &link in &backward.links {
+            rate.offset[link] = lane_sum(entry(&self.offset, link, registers));
+        }
+    }
+}
+
+/// Adds weights seen from what turns by `units`.
+#[inline(always)]
+fn add_turned<R: Real>(
+    sums: &mut [Vector<R>],
+    units: &[Vector<R>],
+    weights: &[Vector<R>],
+    is_total: bool,
+) {
+    let registers = sums.len();
+    if let (true, [sum]) = (is_total, &mut *sums) {
+        for (unit, &weight) in units.iter().zip(weights) {
+            *sum += unit.conj() * weight;
+        }
+    } else if is_total {
+        for (g, (unit, &weight)) in units.iter().zip(weights).enumerate() {
+            sums[g % registers] += unit.conj() * weight;
+        }
+    } else {
+        for ((sum, unit), &weight) in sums.iter_mut().zip(units).zip(weights) {
+            *sum += unit.conj() * weight;
+        }
+    }
+}
+
+/// The sum of the lanes of some registers, one after another.
+#[inline(always)]
+fn lane_sum<R: Real>(registers: &[R]) -> f64 {
+    let mut sum = 0.0;
+    for register in registers {
+        for lane in 0..R::LANES {
+            sum += register.lane(lane);
+        }
+    }
+    sum
+}
+
+/// The same for vectors.
+#[inline(always)]
+fn vector_sum<R: Real>(registers: &[Vector<R>]) -> Vector {
+    let mut sum = Vector::ZERO;
+    for register in registers {
+        for lane in 0..R::LANES {
+            sum += Vector::new(register.x.lane(lane), register.y.lane(lane));
+        }
+    }
+    sum
+}
+
+/// Makes room for all constants; those without weights stay zero.
+#[inline(always)]
+fn make_room<R: Real>(sensitivity: &SensitivityPlan<'_>, rate: &mut ConstantsRate<R>) {
+    let plan = sensitivity.plan();
+    grow(&mut rate.edge_vector, plan.edges.len());
+    grow(&mut rate.guide, plan.edges.len());
+    grow(&mut rate.fixed, plan.points);
+    grow(&mut rate.offset, plan.rotation.len());
+}
