@@ -119,7 +119,7 @@ impl Design<'_> {
         if self.is_too_far(q) {
             return None;
         }
-        if self.serves_all {
+        if self.serves_all && self.chord_paths.is_empty() {
             return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at: 0.0 });
         }
         let angles = &self.mechanism.class_angle;
