@@ -5,7 +5,6 @@ use std::mem::MaybeUninit;
 use super::rows::RowRange;
 use super::worker::{Job, Worker, mask};
 use crate::branch::location::BranchLocation;
-use crate::math::angle::unwrap_to;
 use crate::math::lanes::{Mask, Real};
 use crate::state::kernel::Level;
 use crate::state::state::Context;
@@ -91,20 +90,10 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
         }
         let cx = Context { tape: &self.space.tape, ..design.context(design.derivatives) };
         L::solve(&mut self.space.block, &cx);
-        let state = &self.space.block;
-        // A separate loop: independent arctangents overlap.
-        for &class in &self.writer.classes {
-            for g in 0..groups.min(G) {
-                self.space.lifted[class][g] = state.pose.class[class][g].unit_angle();
-            }
+        for (redo, unknown) in redo.iter_mut().zip(self.lift(first, groups.min(G))) {
+            *redo = redo.or(unknown);
         }
-        for &class in &self.writer.classes {
-            for (location, lifted) in
-                self.space.locations[first..].iter().zip(&mut self.space.lifted[class])
-            {
-                *lifted = unwrap_to(*lifted, design.branch.reference_angle(location, class));
-            }
-        }
+        let (design, state) = (&self.design, &self.space.block);
         let at = job.first + row;
         let with = (&design.constants, &design.units);
         let (mut open, mut some_open, mut again) = ([R::Mask::NONE; G], false, false);
@@ -163,7 +152,7 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
 
     /// Solves some lanes of a block one by one.
     #[inline(always)]
-    fn solve_lanes(
+    pub(super) fn solve_lanes(
         &mut self,
         job: &mut Job<'_, '_>,
         row: usize,

@@ -5,7 +5,10 @@ use std::ops::Range;
 
 use super::request::{Arrays, Column};
 use super::rows::{Layout, RowSlices};
+use super::writer::Writer;
+use crate::branch::driven_chord::positions_share_branch;
 use crate::plan::mechanism::Mechanism;
+use crate::state::kernel::BLOCK;
 
 /// Positions per chunk: some hundred microseconds of work, so that tracing the branch and taking
 /// the chunk from the queue cost little.
@@ -71,6 +74,13 @@ impl<'a> Chunks<'a> {
             size,
             max_designs: MAX_DESIGNS,
             past_caches,
+        }
+    }
+
+    /// Makes the chunks of several drivers longer if no position needs a branch of its own.
+    pub(crate) fn lengthen(&mut self, mechanism: &Mechanism, writer: &Writer) {
+        if positions_share_branch(mechanism.plan(), !writer.classes.is_empty()) {
+            self.size = self.size.max(BLOCK);
         }
     }
 

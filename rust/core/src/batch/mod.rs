@@ -15,7 +15,8 @@ pub(crate) mod scratch;
 pub(crate) mod solve;
 #[cfg(feature = "test-hooks")]
 pub mod test_hooks;
-pub(crate) mod unchecked;
+pub(crate) mod turns;
+mod unchecked;
 mod work_space;
 pub(crate) mod worker;
 pub(crate) mod writer;

@@ -133,7 +133,8 @@ pub fn fill(
     let writer = &Writer::of(mechanism, &derivatives, request);
     let columns = &writer.columns;
     check_arrays(columns, &arrays, product(shape.designs, shape.positions)?)?;
-    let chunks = Chunks::new(arrays, columns, [shape.designs, shape.positions], shape.drivers);
+    let mut chunks = Chunks::new(arrays, columns, [shape.designs, shape.positions], shape.drivers);
+    chunks.lengthen(mechanism, writer);
     let derivatives = &derivatives;
     let batch = Batch { mechanism, request, derivatives, writer, shape, control };
     dispatch::at_level(control.simd, Fill { batch: &batch, chunks })

@@ -80,7 +80,10 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
             return false;
         }
         let some_open = self.space.block.has_open();
-        if located && !self.lift_by_knots(first, groups) {
+        let mut unknown = None;
+        if located && self.turns_by_path() {
+            unknown = Some(self.lift(first, groups));
+        } else if located && !self.lift_by_knots(first, groups) {
             return false;
         }
         if some_open && !self.is_counted(job, row, count) {
@@ -108,6 +111,9 @@ impl<R: Real, const G: usize> Worker<'_, R, G> {
                     status.copy_from_slice(&codes[..status.len()]);
                 }
             }
+        }
+        if let Some(lanes) = unknown {
+            self.solve_lanes(job, row, count, &lanes);
         }
         true
     }

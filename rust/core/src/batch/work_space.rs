@@ -28,6 +28,10 @@ pub(super) struct WorkSpace<R: Real, const G: usize> {
     pub(super) block: State<R, G>,
     /// Unwrapped angles of the classes.
     pub(super) lifted: Vec<[R; G]>,
+    /// Angles of the classes near those, where they are found along the path to each position.
+    pub(super) near: Vec<[R; G]>,
+    /// How far each coordinate of a register is from the drawing's.
+    pub(super) moved: Vec<R>,
     /// Coordinates of the last job.
     pub(super) coordinates: CoordinateRegisters<R, G>,
     /// Location of each of their registers on the branch.
@@ -86,6 +90,8 @@ impl<R: Real, const G: usize> WorkSpace<R, G> {
             single: State::new(plan, derivatives),
             block,
             lifted: vec![[R::ZERO; G]; plan.classes],
+            near: vec![[R::ZERO; G]; plan.classes],
+            moved: vec![R::ZERO; plan.drivers.len()],
             coordinates: CoordinateRegisters::new(plan, derivatives.len()),
             locations: Vec::new(),
             locations_width: None,

@@ -56,7 +56,7 @@ pub(super) fn find_references(
 }
 
 /// The whole turns (rad) from `angle` to nearest `near`; `None` if either way is as short.
-fn turns(angle: f64, near: f64) -> Option<f64> {
+pub(super) fn turns(angle: f64, near: f64) -> Option<f64> {
     let apart = TAU * MIN_FROM_HALF;
     let [low, high] = [-apart, apart].map(|apart| turns_between(angle, near + apart));
     (low == high).then_some(TAU * low)
@@ -73,7 +73,7 @@ fn next_to(start: f64, angle: f64, half_width: f64) -> Option<f64> {
 }
 
 /// The angle of a vector, with a shortcut for the frequent case along x.
-fn angle_of(vector: Vector) -> f64 {
+pub(super) fn angle_of(vector: Vector) -> f64 {
     if vector.y == 0.0 && vector.x > 0.0 { 0.0 } else { vector.angle() }
 }
 

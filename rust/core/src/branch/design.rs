@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::branch::Branch;
 use super::change_interpolant::{ChangeInterpolant, ChangeWindow};
 use super::crank_dyad::{CrankDyad, CrankLengths};
+use super::driven_chord::{ChordPath, DrivenDyad};
 use super::knot::Taylor2;
 use super::lanes::lane_tracer::LaneTracer;
 use super::lanes::uniform::UniformTracer;
@@ -48,6 +49,11 @@ pub(crate) struct Design<'a> {
     /// Whether all steps have closed forms: then lanes close or not by the same bits as single
     /// positions. Groups iterate, and redundant links close within a tolerance.
     pub(crate) closed_forms: bool,
+    /// The dyads of several drivers, if chords give the turns of all angles.
+    pub(super) driven_dyads: Option<Vec<DrivenDyad>>,
+    /// Their chords, if whole turns of requested angles depend on the path to each position and are
+    /// counted by these.
+    pub(crate) chord_paths: Vec<ChordPath>,
     /// For every dyad: where it is attached, if it is on a crank and the ground.
     pub(super) crank_dyads: Vec<Option<CrankDyad>>,
     /// For every one of those, where its lengths stand, if they decide alone whether it closes.
@@ -143,6 +149,8 @@ impl<'a> Design<'a> {
             branch: Branch::default(),
             serves_all: false,
             closed_forms: mechanism.plan().has_closed_forms(),
+            driven_dyads: DrivenDyad::all(mechanism.plan()),
+            chord_paths: Vec::new(),
             crank_dyads: crank_dyads(mechanism.plan()),
             crank_lengths: crank_lengths(mechanism),
             settled: Vec::new(),
@@ -190,6 +198,7 @@ impl<'a> Design<'a> {
         let mechanism = self.mechanism;
         self.interpolants.get_mut().clear();
         self.serves_all = false;
+        self.chord_paths.clear();
         self.constants.bind(mechanism.plan(), &mechanism.slots, values, scale, driven_reach);
         self.units.set(mechanism, self.constants.scale, self.derivatives);
         self.q0.clear();

@@ -8,6 +8,7 @@ pub(crate) mod constant_signs;
 mod crank_angles;
 pub(crate) mod crank_dyad;
 pub(crate) mod design;
+pub(crate) mod driven_chord;
 pub(crate) mod hermite;
 pub(crate) mod homotopy;
 #[cfg(test)]

@@ -119,7 +119,7 @@ impl Design<'_> {
         if self.is_too_far(q) {
             return None;
         }
-        if self.serves_all {
+        if self.serves_all && self.chord_paths.is_empty() {
             return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at: 0.0 });
         }
         let angles = &self.mechanism.class_angle;
@@ -132,6 +132,36 @@ impl Design<'_> {
             (Branch::empty(angles.len(), &self.signs), 0.0)
         };
         Some(BranchPoint { branch: Cow::Owned(branch), at })
+    }
+
+    /// The same where angles are not read from it: then no path is followed if one branch serves all
+    /// positions.
+    pub(crate) fn branch_without_angles(&self, q: &[f64]) -> Option<BranchPoint<'_>> {
+        let is_known = self.serves_all && q.iter().all(|x| x.is_finite()) && !self.is_too_far(q);
+        if is_known {
+            return Some(BranchPoint { branch: Cow::Borrowed(&self.branch), at: 0.0 });
+        }
+        self.branch_to(q)
+    }
+
+    /// Class angles near those at (scaled) coordinates that can be reached, if chords give them.
+    pub(crate) fn angles_by_chords(&self, q: &[f64]) -> Option<Vec<f64>> {
+        if self.chord_paths.is_empty() {
+            return None;
+        }
+        let moved: Vec<f64> = q.iter().zip(&self.q0).map(|(q, q0)| q - q0).collect();
+        let mut near = vec![0.0; self.mechanism.class_angle.len()];
+        for path in &self.chord_paths {
+            let turned = path.turned(self.mechanism.plan(), &moved);
+            let (angle, missing) = path.end_angle(&turned, false, self.chord_paths.len() == 1);
+            if missing {
+                return None;
+            }
+            for (class, middle) in path.legs {
+                near[class] = angle + middle;
+            }
+        }
+        Some(near)
     }
 
     /// Distance (in sizes) of the farthest joint at a parameter of the branch; 0 if it cannot be

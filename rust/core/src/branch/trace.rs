@@ -3,6 +3,7 @@
 use super::branch::Branch;
 use super::crank_angles::find_references;
 use super::design::Design;
+use super::driven_chord::chord_paths;
 use super::knot::InitialGuess;
 use super::lanes::grid::Grid;
 use super::lanes::reference_branch::ReferenceBranch;
@@ -39,11 +40,17 @@ impl Design<'_> {
             let is_length = dyad.is_length && (several || classes.is_empty());
             self.settled.push(fixed || is_length || keeps_sign());
         }
-        if !self.settled.iter().all(|&settled| settled) || several && !classes.is_empty() {
+        if !self.settled.iter().all(|&settled| settled) {
             return Traced::No;
         }
         let start = &self.mechanism.class_angle;
-        if classes.is_empty() {
+        if several && !classes.is_empty() {
+            let Some(dyads) = &self.driven_dyads else { return Traced::No };
+            let paths = chord_paths(&self.tracing_context(), dyads, (&self.q0, start), classes);
+            let Some(paths) = paths else { return Traced::No };
+            self.chord_paths = paths;
+        }
+        if classes.is_empty() || several {
             self.set_constant_signs();
             return Traced::Whole;
         }

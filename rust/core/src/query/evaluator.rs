@@ -8,6 +8,7 @@ use crate::branch::change_interpolant::ChangeWindow;
 use crate::branch::design::Design;
 use crate::branch::design::Units;
 use crate::branch::knot::{InitialGuess, Taylor2};
+use crate::branch::lanes::uniform::Traced;
 use crate::branch::position::BranchPoint;
 use crate::math::angle::unwrap_to;
 use crate::math::derivatives::DerivativeTables;
@@ -121,7 +122,14 @@ impl<'m> Evaluator<'m> {
         design.bind(dimensions);
         let far = MAX_SLIDE * design.constants.scale;
         match queries {
-            Queries::Listed(q) => design.trace(q),
+            Queries::Listed(q) => {
+                let classes = 1..if needs_angles { mechanism.class_angle.len() } else { 1 };
+                let classes: Vec<usize> = classes.collect();
+                let several = mechanism.q0().len() > 1;
+                if !several || design.trace_in_closed_form(&classes, None) == Traced::No {
+                    design.trace(q);
+                }
+            }
             Queries::Any => design.trace(&[-far, far]),
         }
         let state = design.state(derivatives);
@@ -287,7 +295,7 @@ impl<'m> Evaluator<'m> {
         }
         let point = match self.last.as_ref().filter(|_| self.q.iter().all(|q| q.is_finite())) {
             Some(last) => Some(last.branch_to(&self.design, &self.q)),
-            None => self.design.branch_to(&self.q),
+            None => self.design.branch_without_angles(&self.q),
         };
         let solved = self.design.solve(&mut self.state, &self.q, point.as_ref());
         let Some(point) = point.filter(|_| solved) else {
@@ -295,8 +303,14 @@ impl<'m> Evaluator<'m> {
             return Err(Rejection::Failed { status, fault });
         };
         if self.needs_angles {
-            self.reference_angles =
-                self.design.reference_angles(&point, self.state.pose.class.len());
+            let by_chords = self.design.angles_by_chords(&self.q);
+            self.reference_angles = by_chords.unwrap_or_else(|| {
+                // Some turns are ambiguous by these: then the path is followed.
+                let uses_chords = !self.design.chord_paths.is_empty();
+                let followed = if uses_chords { self.design.branch_to(&self.q) } else { None };
+                let point = followed.as_ref().unwrap_or(&point);
+                self.design.reference_angles(point, self.state.pose.class.len())
+            });
         }
         if self.continues_from_last {
             let last = LastPosition::new(

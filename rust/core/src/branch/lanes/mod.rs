@@ -12,3 +12,4 @@ mod scan;
 mod survey;
 mod surveyed_angle;
 pub(crate) mod uniform;
+mod winding;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::request::Term;
 use crate::batch::request::{Coordinates, Outputs, Request};
 use crate::batch::writer::Writer;
+use crate::branch::driven_chord::positions_share_branch;
 use crate::description::error::SolveError;
 use crate::dynamics::machine::Machine;
 use crate::dynamics::reactions::columns::Sources;
@@ -75,7 +76,7 @@ impl EquationPlan {
     }
 
     /// About how many times as long as a slider-crank a position takes: groups above class II are solved by
-    /// iteration, and angles of several drivers are followed from the drawing.
+    /// iteration, and some angles of several drivers are followed from the drawing.
     #[must_use]
     pub fn cost(&self, mechanism: &Mechanism) -> u64 {
         if self.serves_all(mechanism) { 1 } else { 100 }
@@ -83,7 +84,7 @@ impl EquationPlan {
 
     /// Whether one branch serves all positions of a design.
     pub(super) fn serves_all(&self, mechanism: &Mechanism) -> bool {
-        self.forces.outputs.links.is_empty() && mechanism.plan().has_closed_forms()
+        positions_share_branch(mechanism.plan(), !self.forces.outputs.links.is_empty())
     }
 
     /// Refuses Jacobians of joints that it was not compiled for.

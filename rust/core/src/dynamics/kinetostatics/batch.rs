@@ -106,7 +106,8 @@ impl Machine {
             },
         };
         batch.positions.check()?;
-        let chunks = Chunks::new(arrays, &results, [shape.designs, written], shape.drivers);
+        let mut chunks = Chunks::new(arrays, &results, [shape.designs, written], shape.drivers);
+        chunks.lengthen(mechanism, &writer);
         dispatch::at_level(control.simd, React { batch: &batch, chunks })
     }
 }
