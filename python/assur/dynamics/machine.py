@@ -806,7 +806,7 @@ class Machine(MachineModel):
 
         >>> q, speed, status = machine.step(q, speed, 0.0, dt=0.1, n=5, method="RK45", rtol=1e-9)
         >>> q.round(4), status.tolist()
-        (array([-1.6301, -1.8879, -2.171 , -2.4844]), [0, 0, 0, 0])
+        (array([-1.636 , -1.9483, -2.2798, -2.6303]), [0, 0, 0, 0])
         """
         require_equations(self, "step")
         pair = steps.pair_of(method, rtol, atol)

@@ -21,8 +21,8 @@ pub(crate) struct LaneSteps<R: Real> {
     argument: LaneState<R>,
     new: LaneState<R>,
     ends: LaneEnds,
-    /// The lanes whose steps end without more if their errors are small enough.
-    ordinary: R::Mask,
+    /// The lanes whose steps end without more if their errors are small enough, a bit each.
+    ordinary: u32,
     /// Stages of each lane, from the first on, whose rates are known.
     known: [usize; LANES],
 }
@@ -31,10 +31,10 @@ impl<R: Real> LaneSteps<R> {
     pub(crate) fn new() -> Self {
         Self {
             rates: Vec::new(),
-            argument: [R::ZERO; COMPONENTS],
-            new: [R::ZERO; COMPONENTS],
+            argument: Default::default(),
+            new: Default::default(),
             ends: LaneEnds::default(),
-            ordinary: R::Mask::NONE,
+            ordinary: 0,
             known: [0; LANES],
         }
     }
@@ -44,19 +44,21 @@ impl<R: Real> LaneSteps<R> {
         &self.new
     }
 
-    /// Only these lanes may end without more.
-    pub(crate) fn restrict(&mut self, lanes: R::Mask) {
-        self.ordinary = self.ordinary.and(lanes);
+    /// The steps of these lanes may end without more.
+    #[inline(always)]
+    pub(crate) fn let_end(&mut self, lanes: R::Mask) {
+        self.ordinary = lanes.bits();
     }
 
     /// Finds the planned steps, at most as many as there are lanes: the rates of all stages, and their ends.
+    /// Returns the lanes in which these are known and have no event.
     #[inline(always)]
     pub(crate) fn find<S: System>(
         &mut self,
         runs: &[Underway<'_, S>],
         system: &mut impl LaneRates<R>,
-    ) {
-        let Some(first) = runs.first() else { return };
+    ) -> R::Mask {
+        let Some(first) = runs.first() else { return R::Mask::NONE };
         let tableau = first.run.stages().tableau;
         debug_assert!(blocks(COMPONENTS) == 1, "a state is one block");
         let used = runs.len();
@@ -106,13 +108,13 @@ impl<R: Real> LaneSteps<R> {
         }
         let (argument, new) = (self.argument, self.new);
         let steps = Steps { y, h, rates: &self.rates, argument, new };
-        self.ordinary = self.ends.find(&steps, runs).and(are_all_known);
+        self.ends.find(&steps, runs).and(are_all_known)
     }
 
     /// Gives a run what was found of its step: its end if that needs no more, else the rates of its stages.
     /// Those that are not known the run finds itself. Returns whether it was its end.
     pub(crate) fn give<S: System>(&self, lane: usize, underway: &mut Underway<'_, S>) -> bool {
-        let is_ordinary = self.ordinary.lane(lane) && self.ends.give(lane, underway);
+        let is_ordinary = self.ordinary >> lane & 1 != 0 && self.ends.give(lane, underway);
         if !is_ordinary {
             let rate = |stage: usize, i: usize| self.rates[stage][i].lane(lane);
             underway.run.give(self.known[lane], rate, |i| self.argument[i].lane(lane));

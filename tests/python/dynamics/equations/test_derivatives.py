@@ -19,8 +19,8 @@ from support.spectral import WIDTHS, derivative
 
 # Of the greatest entry of a matrix of derivatives.
 CLOSE = 1e-10
-# Machines of the sample without friction and without functions: about two of five.
-SEEDS = range(sample(60, 2500))
+# Machines without friction and without functions are about a third: a thousand of the many.
+SEEDS = range(sample(60, 3000))
 # Above it a derivative of this order may lose more digits (docs/reference/conventions.md).
 WELL_CONDITIONED = 100.0
 

@@ -116,7 +116,7 @@ where
         let mut lanes = Lanes::<L> {
             equation: LaneEquation::new(self.reference?)?,
             steps: LaneSteps::new(),
-            total: L::Register::ZERO,
+            total: L::Register::default(),
         };
         let count = self.runs.len().min(TOGETHER);
         let mut models: Vec<_> = (0..count).map(|_| (self.model)()).collect();
@@ -287,7 +287,7 @@ impl<L: Entry, S: InLane> Task<L::Register> for FindSteps<'_, '_, '_, '_, L, S> 
     #[inline(always)]
     fn run(&mut self) {
         let (Lanes { equation, steps, total }, runs) = (&mut *self.lanes, &*self.runs);
-        steps.find(runs, equation);
+        let known = steps.find(runs, equation);
         let watched =
             |lane: usize| runs[if lane < runs.len() { lane } else { 0 }].run.system().watched();
         let before = L::Register::from_lanes(|lane| watched(lane)[0]);
@@ -295,7 +295,7 @@ impl<L: Entry, S: InLane> Task<L::Register> for FindSteps<'_, '_, '_, '_, L, S> 
         let [after, allowed] = equation.balance(steps.new_state(), relative);
         // Without a finite energy there is nothing to check.
         let drifts = L::Register::ONE.lt((after - before).abs() / allowed);
-        steps.restrict(drifts.not());
+        steps.let_end(known.and(drifts.not()));
         *total = after;
     }
 }
