@@ -51,7 +51,7 @@ impl Machine {
         let results: Vec<Column> = request.terms.iter().map(column).collect();
         check_arrays(&results, &arrays, rows)?;
         let rest = vec![0.0; n];
-        let batch = EquationBatch::new(
+        let mut batch = EquationBatch::new(
             (mechanism, self, plan),
             (&solve_request, &shape),
             request,
@@ -68,8 +68,10 @@ impl Machine {
         let mut chunks = Chunks::new(arrays, &results, [shape.designs, shape.positions], n);
         if plan.serves_all(mechanism) {
             // One branch serves all positions of a chunk.
-            chunks.size = chunks.size.max(CHUNK);
+            chunks.size = CHUNK;
         }
+        // Each thread makes room for so many: more would cost more than the work.
+        batch.positions.motion.most = shape.positions.min(chunks.size);
         dispatch::at_level(control.simd, Terms { batch: &batch, chunks })
     }
 }
