@@ -153,6 +153,13 @@ pub trait Real:
             out[lane] = MaybeUninit::new(self.lane(lane));
         }
     }
+    /// The same to numbers that are there already.
+    #[inline(always)]
+    fn put(self, out: &mut [f64]) {
+        for (lane, number) in out[..Self::LANES].iter_mut().enumerate() {
+            *number = self.lane(lane);
+        }
+    }
     /// The same past the caches, if the slice is aligned for that. Code must not read or overwrite these
     /// numbers before [`fence`](Self::fence).
     #[inline(always)]

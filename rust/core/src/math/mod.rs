@@ -9,6 +9,7 @@ pub mod lanes;
 pub(crate) mod pair;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
+pub(crate) mod random;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod registers;
 pub(crate) mod room;

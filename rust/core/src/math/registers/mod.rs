@@ -122,6 +122,12 @@ macro_rules! common {
             out[..$lanes].copy_from_slice(&numbers);
         }
         #[inline(always)]
+        fn put(self, out: &mut [f64]) {
+            // SAFETY: a register is as many numbers side by side.
+            let numbers = unsafe { std::mem::transmute::<$register, [f64; $lanes]>(self.0) };
+            out[..$lanes].copy_from_slice(&numbers);
+        }
+        #[inline(always)]
         fn stream(self, out: &mut [MaybeUninit<f64>]) {
             let out = &mut out[..$lanes];
             if out.as_ptr().addr().is_multiple_of(std::mem::align_of::<$register>()) {

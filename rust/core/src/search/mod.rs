@@ -1,0 +1,12 @@
+//! Search for the linkage that draws a path: structure and dimensions.
+
+mod budget;
+mod evolve;
+mod levenberg_marquardt;
+mod moves;
+mod nearest;
+mod normal;
+mod objective;
+pub(crate) mod path_search;
+mod retrieve;
+mod target;

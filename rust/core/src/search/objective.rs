@@ -1,0 +1,454 @@
+//! How far the curve of a packed linkage is from a target, with its derivatives.
+//!
+//! F = Chamfer distance + γ · mean square of ordered distances + barriers. Lengths are those of the target's
+//! frame, where its root mean square radius is 1.
+//!
+//! - Chamfer distance: mean distance from samples of the target to the curve, plus mean distance from the
+//!   curve (each position with its share of the length) to the target. A distance r counts as
+//!   √(r² + ε²) − ε, which is smooth.
+//! - Ordered distance: from samples of the target at equal parts of its length to the places of the curve at the same
+//!   parts of its own.
+
+use std::f64::consts::TAU;
+
+use super::nearest::{Feet, Points, Polyline, nearest};
+use super::normal::{CurveSegment, DistanceRow, Normal, OrderedRow, Rows, assemble};
+use super::target::Target;
+use crate::batch::dispatch::Entry;
+use crate::math::vector::Vector;
+use crate::population::adjoint::{Jacobian, add_gradient_at, jacobian};
+use crate::population::course::{Angles, Course, apex_cosine, sweep};
+use crate::population::packed::{PackedLinkage, Placement};
+
+/// Weight of the ordered distance. Without it, strokes that the curve covers more often than the target go unseen.
+const ORDERED: f64 = 0.5;
+/// Weight of the square by which an apex cosine exceeds its limit.
+const APEX_BARRIER: f64 = 600.0;
+/// Weight of the square by which a joint is outside the frame.
+const FRAME_BARRIER: f64 = 0.01;
+
+/// A linkage to be scored: of an open target with the arc on which it draws it.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    pub linkage: PackedLinkage,
+    /// The crank's turn over the target, rad: a whole turn for a closed one.
+    pub arc: f64,
+    /// The objective.
+    pub value: f64,
+}
+
+/// How finely it is scored.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fineness {
+    /// Positions on the arc and on the rest of the turn.
+    pub positions: (usize, usize),
+    /// Samples of the target.
+    pub samples: usize,
+    /// ε; `None`: the ordered distance alone.
+    pub epsilon: Option<f64>,
+}
+
+/// What a linkage must keep over its whole turn. Barriers begin within the limits.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Limits {
+    /// Greatest absolute cosine of the angle between the bars of a dyad.
+    pub apex_cosine: f64,
+    /// Where its barrier begins.
+    pub apex_barrier: f64,
+    /// Greatest distance of a joint from the target's centroid.
+    pub frame: f64,
+    /// Where its barrier begins.
+    pub frame_barrier: f64,
+    /// Least and greatest arc of an open target, rad.
+    pub arc: [f64; 2],
+}
+
+/// A target with what is asked of a linkage, at some fineness.
+#[derive(Debug, Clone)]
+pub(crate) struct Objective<'t> {
+    target: &'t Target,
+    limits: Limits,
+    fineness: Fineness,
+    samples: Points,
+}
+
+/// Memory of an evaluation, and what the last one found.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Workspace {
+    angles: Angles,
+    /// For which arc and positions the angles are set.
+    set_for: Option<(f64, (usize, usize))>,
+    course: Course,
+    curve: Points,
+    line: Polyline,
+    /// Lengths of the curve before each of its positions.
+    lengths: Vec<f64>,
+    to_curve: Feet,
+    to_target: Feet,
+    weights: Vec<f64>,
+    jacobian: Jacobian,
+    rows: Rows,
+    /// Evaluations of objectives so far.
+    pub evaluations: u64,
+}
+
+impl Workspace {
+    /// The positions that were found last.
+    pub(crate) fn course(&self) -> &Course {
+        &self.course
+    }
+}
+
+impl<'t> Objective<'t> {
+    pub(crate) fn new(target: &'t Target, limits: Limits, fineness: Fineness) -> Self {
+        let mut samples = Points::default();
+        let points = target.samples(fineness.samples);
+        samples.set(points.iter().map(|point| point.x), points.iter().map(|point| point.y));
+        Self { target, limits, fineness, samples }
+    }
+
+    /// The target's limits on a linkage.
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Whether the arc is a number to be found.
+    pub(crate) fn has_arc(&self) -> bool {
+        !self.target.is_closed
+    }
+
+    /// The objective of a linkage, infinite if it breaks a limit.
+    pub(crate) fn value<L: Entry>(
+        &self,
+        linkage: &PackedLinkage,
+        arc: f64,
+        work: &mut Workspace,
+    ) -> f64 {
+        work.evaluations += 1;
+        let positions = self.fineness.positions;
+        if work.set_for != Some((arc, positions)) {
+            work.angles.set(arc, self.target.is_closed, positions);
+            work.set_for = Some((arc, positions));
+        }
+        let most = self.limits.apex_cosine;
+        if !sweep::<L>(linkage, &work.angles, (0, most), &mut work.course) {
+            return f64::INFINITY;
+        }
+        let mut value = self.barriers(linkage, work);
+        if value.is_infinite() {
+            return value;
+        }
+        self.measure_curve(linkage.len() - 1, work);
+        if let Some(epsilon) = self.fineness.epsilon {
+            value += self.chamfer::<L>(epsilon, work);
+        }
+        value += self.ordered(work);
+        if value.is_finite() { value } else { f64::INFINITY }
+    }
+
+    /// The penalties of limits that are nearly reached.
+    fn barriers(&self, linkage: &PackedLinkage, work: &Workspace) -> f64 {
+        let limits = &self.limits;
+        let mut sum = 0.0;
+        for joint in 0..linkage.len() {
+            let distance = work.course.farthest(joint).0.sqrt();
+            if distance > limits.frame {
+                return f64::INFINITY;
+            }
+            let excess = (distance - limits.frame_barrier).max(0.0);
+            sum += FRAME_BARRIER * excess * excess;
+            if let Placement::Dyad { .. } = linkage.placements[joint] {
+                for square in work.course.chord(joint) {
+                    let cosine = apex_cosine(linkage.numbers[joint], square).abs();
+                    let excess = (cosine - limits.apex_barrier).max(0.0);
+                    sum += APEX_BARRIER * excess * excess;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Reads the traced joint's curve and measures its lengths.
+    fn measure_curve(&self, traced: usize, work: &mut Workspace) {
+        let count = work.angles.arc;
+        let [x, y] = [0, 1].map(|axis| &work.course.coordinate(traced, axis)[..count]);
+        work.curve.set(x.iter().copied(), y.iter().copied());
+        let segments = if self.target.is_closed { count } else { count - 1 };
+        let point = |t: usize| work.curve.get(if t == count { 0 } else { t });
+        work.line.set((0..segments).map(|t| [point(t), point(t + 1)]));
+        work.lengths.clear();
+        work.lengths.push(0.0);
+        let mut length = 0.0;
+        for segment in &work.line.segments {
+            length += segment.vector.norm();
+            work.lengths.push(length);
+        }
+    }
+
+    /// The Chamfer distance, with the feet that it is measured to.
+    fn chamfer<L: Entry>(&self, epsilon: f64, work: &mut Workspace) -> f64 {
+        nearest::<L>(&self.samples, &work.line, &mut work.to_curve);
+        nearest::<L>(&work.curve, &self.target.polyline, &mut work.to_target);
+        let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
+        let samples = self.samples.count;
+        let to_curve: f64 = (0..samples).map(|k| smooth(work.to_curve.square(k))).sum();
+        to_curve / samples as f64 + self.from_curve(epsilon, work)
+    }
+
+    /// The mean distance from the curve to the target.
+    fn from_curve(&self, epsilon: f64, work: &Workspace) -> f64 {
+        let count = work.curve.count;
+        let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
+        let distance = |t: usize| smooth(work.to_target.square(if t == count { 0 } else { t }));
+        let mut sum = 0.0;
+        let mut before = distance(0);
+        for (t, ends) in work.lengths.windows(2).enumerate() {
+            let next = distance(t + 1);
+            sum += 0.5 * (before + next) * (ends[1] - ends[0]);
+            before = next;
+        }
+        sum / work.lengths[work.lengths.len() - 1]
+    }
+
+    /// Calls a function for each sample of the target: its index, the segment of the curve on which its place lies, the
+    /// part of it before, and the vector from the sample to the place.
+    fn for_each_place(&self, work: &Workspace, mut see: impl FnMut(usize, usize, f64, Vector)) {
+        let total = work.lengths[work.lengths.len() - 1];
+        let last = work.line.segments.len() - 1;
+        let mut segment = 0;
+        for k in 0..self.samples.count {
+            let length = total * self.length_part(k);
+            while segment < last && work.lengths[segment + 1] < length {
+                segment += 1;
+            }
+            let [from, to] = [work.lengths[segment], work.lengths[segment + 1]];
+            let part = if to > from { (length - from) / (to - from) } else { 0.0 };
+            let line = &work.line.segments[segment];
+            let place = line.start + line.vector.scale(part);
+            see(k, segment, part, place - self.samples.get(k));
+        }
+    }
+
+    /// The part of the length before a sample.
+    fn length_part(&self, k: usize) -> f64 {
+        let count = self.samples.count;
+        k as f64 / if self.target.is_closed { count } else { count - 1 } as f64
+    }
+
+    fn ordered(&self, work: &Workspace) -> f64 {
+        let mut sum = 0.0;
+        self.for_each_place(work, |_, _, _, off| sum += off.norm2());
+        self.ordered_weight() * sum
+    }
+
+    /// The weight of a sample's ordered distance squared.
+    fn ordered_weight(&self) -> f64 {
+        let whole = if self.fineness.epsilon.is_some() { ORDERED } else { 1.0 };
+        whole / self.samples.count as f64
+    }
+
+    /// Sets up the normal equations for the linkage that was evaluated last.
+    pub(crate) fn linearize<L: Entry>(
+        &self,
+        linkage: &PackedLinkage,
+        work: &mut Workspace,
+        normal: &mut Normal,
+    ) {
+        let Workspace { angles, course, weights, jacobian: derivatives, .. } = work;
+        jacobian::<L>(linkage, angles, course, weights, derivatives);
+        self.collect_rows(work);
+        assemble::<L>(&work.rows, &work.jacobian, normal);
+        self.add_barriers(linkage, work, normal);
+    }
+
+    fn collect_rows(&self, work: &mut Workspace) {
+        let mut rows = std::mem::take(&mut work.rows);
+        rows.segments.clear();
+        rows.segments.extend(work.line.segments.iter().map(|segment| {
+            let length = segment.vector.norm();
+            let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+            CurveSegment { along: segment.vector.scale(inverse), by_length: 0.0 }
+        }));
+        rows.distances.clear();
+        if let Some(epsilon) = self.fineness.epsilon {
+            self.collect_distances(epsilon, work, &mut rows);
+        }
+        rows.ordered.clear();
+        rows.ordered_root = (2.0 * self.ordered_weight()).sqrt();
+        let root = rows.ordered_root;
+        self.for_each_place(work, |k, from, part, off| {
+            let length_part = self.length_part(k);
+            rows.ordered.push(OrderedRow { from, part, length_part, residual: off.scale(root) });
+        });
+        work.rows = rows;
+    }
+
+    /// The rows of both halves of the Chamfer distance: a distance r of weight w has the slope w r / √(r² + ε²).
+    fn collect_distances(&self, epsilon: f64, work: &Workspace, rows: &mut Rows) {
+        let softened = |square: f64| (square + epsilon * epsilon).sqrt();
+        let count = work.curve.count;
+        let share = 1.0 / self.samples.count as f64;
+        for k in 0..self.samples.count {
+            let (from, part) = (work.to_curve.segment(k), work.to_curve.part(k));
+            let segment = &work.line.segments[from];
+            let off = segment.start + segment.vector.scale(part) - self.samples.get(k);
+            let root = (share / softened(work.to_curve.square(k))).sqrt();
+            let along = direction(off, part, segment.vector);
+            let to = if from + 1 == count { 0 } else { from + 1 };
+            let residual = off.dot(along) * root;
+            rows.distances.push(DistanceRow { from, to, part, along: along.scale(root), residual });
+        }
+        let total = work.lengths[work.lengths.len() - 1];
+        let whole = self.from_curve(epsilon, work);
+        let segments = work.line.segments.len();
+        let own = |segment: usize| work.lengths[segment + 1] - work.lengths[segment];
+        for t in 0..count {
+            let before = if t > 0 {
+                own(t - 1)
+            } else if self.target.is_closed {
+                own(segments - 1)
+            } else {
+                0.0
+            };
+            let after = if t < segments { own(t) } else { 0.0 };
+            let share = 0.5 * (before + after) / total;
+            let square = work.to_target.square(t);
+            let segment = &self.target.polyline.segments[work.to_target.segment(t)];
+            let part = work.to_target.part(t);
+            let off = work.curve.get(t) - segment.start - segment.vector.scale(part);
+            let root = (share / softened(square)).sqrt();
+            let along = direction(off, part, segment.vector);
+            let residual = off.dot(along) * root;
+            let row = DistanceRow { from: t, to: t, part: 0.0, along: along.scale(root), residual };
+            rows.distances.push(row);
+        }
+        let distance =
+            |t: usize| softened(work.to_target.square(if t == count { 0 } else { t })) - epsilon;
+        for (t, segment) in rows.segments.iter_mut().enumerate() {
+            segment.by_length = (0.5 * (distance(t) + distance(t + 1)) - whole) / total;
+        }
+    }
+
+    fn add_barriers(&self, linkage: &PackedLinkage, work: &Workspace, normal: &mut Normal) {
+        let limits = &self.limits;
+        let mut add = |position: usize,
+                       seeds: &[(usize, Vector)],
+                       own: Option<(usize, [f64; 2])>,
+                       (weight, excess): (f64, f64)| {
+            let mut v = vec![0.0; normal.width];
+            add_gradient_at(linkage, &work.angles, &work.course, position, seeds, &mut v);
+            if let Some((joint, by_lengths)) = own {
+                v[2 * joint] += by_lengths[0];
+                v[2 * joint + 1] += by_lengths[1];
+            }
+            normal.add(&v, 2.0 * weight, 2.0 * weight * excess);
+        };
+        for joint in 0..linkage.len() {
+            let (square, position) = work.course.farthest(joint);
+            let distance = square.sqrt();
+            let excess = distance - limits.frame_barrier;
+            if excess > 0.0 {
+                let outward = work.course.point(joint, position).scale(1.0 / distance);
+                add(position, &[(joint, outward)], None, (FRAME_BARRIER, excess));
+            }
+            let Placement::Dyad { ends, .. } = linkage.placements[joint] else { continue };
+            let [a, b] = linkage.numbers[joint];
+            for square in work.course.chord(joint) {
+                let cosine = apex_cosine([a, b], square);
+                let excess = cosine.abs() - limits.apex_barrier;
+                if excess <= 0.0 {
+                    continue;
+                }
+                let sign = cosine.signum();
+                let position = work.course.position_of(ends, square);
+                let chord =
+                    work.course.point(ends[1], position) - work.course.point(ends[0], position);
+                // cos = (a² + b² − l²) / 2ab
+                let by_chord = chord.scale(-sign / (a * b));
+                let seeds = [(ends[1], by_chord), (ends[0], -by_chord)];
+                let by_lengths = [sign * (1.0 / b - cosine / a), sign * (1.0 / a - cosine / b)];
+                add(position, &seeds, Some((joint, by_lengths)), (APEX_BARRIER, excess));
+            }
+        }
+    }
+}
+
+/// The direction in which a distance changes: across the segment where its foot lies within, else along
+/// the distance itself.
+fn direction(off: Vector, part: f64, segment: Vector) -> Vector {
+    if part > 0.0 && part < 1.0 {
+        return segment.left().scale(1.0 / segment.norm());
+    }
+    let distance = off.norm();
+    if distance > 0.0 { off.scale(1.0 / distance) } else { Vector::ZERO }
+}
+
+/// The arc of a closed target.
+pub(crate) const WHOLE_TURN: f64 = TAU;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+    use crate::population::random::RandomLinkages;
+    use crate::state::kernel::baseline::Baseline;
+
+    const LIMITS: Limits = Limits {
+        apex_cosine: 0.995,
+        apex_barrier: 0.9,
+        frame: 20.0,
+        frame_barrier: 0.8,
+        arc: [1.62, 6.2],
+    };
+
+    /// Gradients are those of differences: of open and closed targets, with all barriers up.
+    #[test]
+    fn gradients_are_slopes() {
+        let corners = [[0.0, 0.0], [2.0, 0.5], [1.0, 2.0], [0.2, 1.0]];
+        let wanted = RandomLinkages { joints: [6, 12], most_cosine: 0.97 };
+        let (mut work, mut normal) = (Workspace::default(), Normal::default());
+        let mut course = Course::default();
+        let mut checked = 0;
+        for index in 0..60 {
+            let target = Target::new(&corners, index % 2 == 0).expect("a path");
+            let epsilon = [Some(0.05), None][index / 2 % 2];
+            let fineness = Fineness { positions: (64, 32), samples: 64, epsilon };
+            let objective = Objective::new(&target, LIMITS, fineness);
+            let random = &mut Random::new(5, index as u64);
+            let mut linkage = wanted.make::<Baseline>(random, &mut course);
+            if !linkage.prune() {
+                continue;
+            }
+            linkage.transform(Vector::new(3.0, 1.0), Vector::new(-1.5, -2.0), index % 3 == 0);
+            let arc = if objective.has_arc() { 3.0 } else { WHOLE_TURN };
+            let value = objective.value::<Baseline>(&linkage, arc, &mut work);
+            if value.is_infinite() {
+                continue;
+            }
+            objective.linearize::<Baseline>(&linkage, &mut work, &mut normal);
+            let gradient = normal.g.clone();
+            let size = gradient.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let step = 1e-6;
+            let mut errors = vec![];
+            for number in 0..2 * linkage.len() + usize::from(objective.has_arc()) {
+                let mut values = [-2.0, -1.0, 1.0, 2.0].map(|times: f64| {
+                    let mut moved = linkage.clone();
+                    let mut moved_arc = arc;
+                    if number < 2 * linkage.len() {
+                        moved.numbers[number / 2][number % 2] += times * step;
+                    } else {
+                        moved_arc += times * step;
+                    }
+                    objective.value::<Baseline>(&moved, moved_arc, &mut work)
+                });
+                values[0] = (values[0] - values[3]) / 12.0 + (values[2] - values[1]) * 2.0 / 3.0;
+                errors.push((values[0] / step - gradient[number]).abs() / size);
+            }
+            // A sample may lie where the nearest segment changes: there the slope jumps.
+            errors.sort_by(f64::total_cmp);
+            assert!(errors[errors.len() - 1] < 1e-6, "{index}: {errors:?}");
+            checked += 1;
+        }
+        assert!(checked > 20, "{checked}");
+    }
+}
