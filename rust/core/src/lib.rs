@@ -108,7 +108,7 @@ pub use query::failure::{Failure, GroupName, Reason};
 pub use query::limits::finder::{Interval, Limits, LimitsFinder, Tables};
 pub use query::metrics;
 pub use remedies::{Remedy, RemedyKind, remedies};
-pub use search::path_search::{FoundLinkage, SearchRequest, SearchResult, search_path};
+pub use search::path_search::{FoundLinkage, PathSearch, SearchRequest};
 pub use sensitivity::request::{Product, SensitivityRequest};
 pub use state::status::Status;
 pub use structure::Structure;

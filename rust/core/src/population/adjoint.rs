@@ -48,7 +48,7 @@ pub(crate) fn jacobian<L: Entry>(
     out: &mut Jacobian,
 ) {
     out.width = row_width(2 * linkage.len() + 1);
-    out.rows.clear();
+    // What lies beyond the numbers of a row stays as it is.
     out.rows.resize(2 * angles.arc * out.width, 0.0);
     weights.resize(4 * LANES * linkage.len(), 0.0);
     L::call(&mut Adjoint { linkage, angles, course, weights, out });

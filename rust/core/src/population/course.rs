@@ -22,7 +22,12 @@ pub(crate) struct Angles {
 impl Angles {
     /// `count` positions on an arc with both ends (on a whole turn: without its end), and `rest` on the rest of
     /// the turn, numbers that fill registers.
-    pub(crate) fn set(&mut self, arc: f64, is_closed: bool, (count, rest): (usize, usize)) {
+    pub(crate) fn set<L: Entry>(
+        &mut self,
+        arc: f64,
+        is_closed: bool,
+        (count, rest): (usize, usize),
+    ) {
         debug_assert!(count % LANES == 0 && rest % LANES == 0, "{count} and {rest} positions");
         let rest = if is_closed { 0 } else { rest };
         let steps = if is_closed { count } else { count - 1 } as f64;
@@ -30,20 +35,37 @@ impl Angles {
         let parts = (0..count).map(|t| t as f64 / steps);
         let beyond = (0..rest).map(|t| (t + 1) as f64 / (rest + 1) as f64);
         self.rates.clear();
-        self.cos.clear();
         self.sin.clear();
-        let places = parts.map(|part| (arc * part, part));
-        for (angle, rate) in places.chain(beyond.map(|x| (arc + (TAU - arc) * x, 1.0 - x))) {
+        for (angle, rate) in parts
+            .map(|part| (arc * part, part))
+            .chain(beyond.map(|x| (arc + (TAU - arc) * x, 1.0 - x)))
+        {
             self.rates.push(rate);
-            let (sin, cos) = trig::sin_cos(angle);
-            self.cos.push(cos);
-            self.sin.push(sin);
+            self.sin.push(angle);
         }
+        self.cos.resize(self.sin.len(), 0.0);
+        L::call(&mut Turns { angles: self });
     }
 
     /// The number of positions.
     pub(crate) fn len(&self) -> usize {
         self.cos.len()
+    }
+}
+
+/// Puts sines in the place of the angles, and cosines beside them.
+struct Turns<'t> {
+    angles: &'t mut Angles,
+}
+
+impl<R: Real> Task<R> for Turns<'_> {
+    #[inline(always)]
+    fn run(&mut self) {
+        for first in (0..self.angles.sin.len()).step_by(R::LANES) {
+            let (sin, cos) = trig::sin_cos(R::read(&self.angles.sin[first..]));
+            sin.put(&mut self.angles.sin[first..]);
+            cos.put(&mut self.angles.cos[first..]);
+        }
     }
 }
 
@@ -54,6 +76,8 @@ pub(crate) struct Course {
     at: Vec<f64>,
     /// For each joint of a dyad the least and greatest square of the distance of its ends.
     chords: Vec<[f64; 2]>,
+    /// For each joint the greatest square of its distance from the origin.
+    reaches: Vec<f64>,
     positions: usize,
 }
 
@@ -87,15 +111,19 @@ impl Course {
     }
 
     /// The first position at which the ends of a dyad are as far apart as this.
-    pub(crate) fn position_of(&self, ends: [usize; 2], square: f64) -> usize {
-        let squares = |t: usize| (self.point(ends[1], t) - self.point(ends[0], t)).norm2();
-        (0..self.positions).find(|&t| squares(t) == square).unwrap_or(0)
+    pub(crate) fn chord_position(&self, ends: [usize; 2], square: f64) -> usize {
+        let own = |t: usize| (self.point(ends[1], t) - self.point(ends[0], t)).norm2();
+        (0..self.positions).find(|&t| own(t) == square).unwrap_or(0)
     }
 
-    /// The greatest square of the distance of a joint from the origin, and where.
-    pub(crate) fn farthest(&self, joint: usize) -> (f64, usize) {
-        let squares = (0..self.positions).map(|t| (self.point(joint, t).norm2(), t));
-        squares.fold((0.0, 0), |most, next| if next.0 > most.0 { next } else { most })
+    /// The greatest square of the distance of a joint from the origin.
+    pub(crate) fn reach(&self, joint: usize) -> f64 {
+        self.reaches[joint]
+    }
+
+    /// The first position at which a joint is as far from the origin as this.
+    pub(crate) fn reach_position(&self, joint: usize, square: f64) -> usize {
+        (0..self.positions).find(|&t| self.point(joint, t).norm2() == square).unwrap_or(0)
     }
 }
 
@@ -115,6 +143,7 @@ pub(crate) fn sweep<L: Entry>(
     course.positions = positions;
     course.at.resize(2 * joints * positions, 0.0);
     course.chords.resize(joints, [0.0; 2]);
+    course.reaches.resize(joints, 0.0);
     let mut task = Sweep { linkage, angles, first, most_cosine, course, closes: false };
     L::call(&mut task);
     task.closes
@@ -169,12 +198,15 @@ impl Sweep<'_> {
     #[inline(always)]
     fn place<R: Real>(&mut self, joint: usize, at: impl Fn(&Course, usize) -> Vector<R>) {
         let positions = self.course.positions;
+        let mut reach = R::ZERO;
         for t in (0..positions).step_by(R::LANES) {
             let point = at(self.course, t);
+            reach = point.norm2().max(reach);
             let x = 2 * joint * positions + t;
             point.x.put(&mut self.course.at[x..]);
             point.y.put(&mut self.course.at[x + positions..]);
         }
+        self.course.reaches[joint] = greatest_lane(reach);
     }
 
     /// Places the inner joint of a dyad: P = I + u d + h left(d), d from I to J.
@@ -186,6 +218,7 @@ impl Sweep<'_> {
         let side = R::splat(side);
         let positions = self.course.positions;
         let (mut least, mut greatest) = (R::splat(f64::INFINITY), R::ZERO);
+        let mut reach = R::ZERO;
         for t in (0..positions).step_by(R::LANES) {
             let from = self.course.register::<R>(i, t);
             let chord = self.course.register::<R>(j, t) - from;
@@ -195,18 +228,22 @@ impl Sweep<'_> {
             let along = half + difference * inverse;
             let height = (a2 * inverse - along * along).max(R::ZERO).sqrt() * side;
             let point = from + Vector::new(along, height) * chord;
+            reach = point.norm2().max(reach);
             let x = 2 * joint * positions + t;
             point.x.put(&mut self.course.at[x..]);
             point.y.put(&mut self.course.at[x + positions..]);
         }
-        let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
-        for lane in 0..R::LANES {
-            low = low.min(least.lane(lane));
-            high = high.max(greatest.lane(lane));
-        }
+        let low = (0..R::LANES).fold(f64::INFINITY, |low, lane| low.min(least.lane(lane)));
+        let high = greatest_lane(greatest);
+        self.course.reaches[joint] = greatest_lane(reach);
         self.course.chords[joint] = [low, high];
         // A NaN anywhere makes both lengths or both squares NaN somewhere: no comparison holds.
         let [first, last] = [low, high].map(|square| apex_cosine([a, b], square));
         first <= self.most_cosine && last >= -self.most_cosine
     }
+}
+
+#[inline(always)]
+fn greatest_lane<R: Real>(x: R) -> f64 {
+    (0..R::LANES).fold(0.0, |most, lane| most.max(x.lane(lane)))
 }

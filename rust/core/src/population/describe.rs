@@ -89,7 +89,7 @@ mod tests {
             moving += 1;
             linkage.sense = if random.happens(0.5) { 1.0 } else { -1.0 };
             let mut angles = Angles::default();
-            angles.set(2.0, false, (64, 32));
+            angles.set::<Baseline>(2.0, false, (64, 32));
             assert!(sweep::<Baseline>(&linkage, &angles, (0, 0.99), &mut course));
             let description = linkage.describe("P").expect("a linkage");
             let mechanism = Mechanism::new(&description).expect("it moves");

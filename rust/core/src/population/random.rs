@@ -29,7 +29,7 @@ impl RandomLinkages {
     /// A random linkage, with its positions; joints are added until no dyad closes or there are enough.
     pub(crate) fn make<L: Entry>(&self, random: &mut Random, course: &mut Course) -> PackedLinkage {
         let mut angles = Angles::default();
-        angles.set(TAU, true, (POSITIONS, 0));
+        angles.set::<L>(TAU, true, (POSITIONS, 0));
         let place = |random: &mut Random| [random.unit(), random.unit()];
         let radius = random.log_between(0.03, 0.3);
         let phase = random.direction();

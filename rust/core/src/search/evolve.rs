@@ -37,7 +37,19 @@ pub(super) struct Breeder {
     sound: Refiner,
 }
 
+impl Breeder {
+    /// Objectives that were evaluated in it.
+    pub(super) fn evaluations(&self) -> u64 {
+        self.refiner.work.evaluations
+    }
+}
+
 impl Rules<'_> {
+    /// Puts the best first.
+    pub(super) fn sort(&self, candidates: &mut [Candidate]) {
+        candidates.sort_by(|a, b| self.score(a).total_cmp(&self.score(b)));
+    }
+
     /// What candidates are ranked by.
     pub(super) fn score(&self, candidate: &Candidate) -> f64 {
         candidate.value * libm::exp(self.joint_price * candidate.linkage.len() as f64)

@@ -1,7 +1,7 @@
 //! Search for the linkage that draws a path: structure and dimensions.
 
-mod budget;
 mod evolve;
+mod for_all;
 mod levenberg_marquardt;
 mod moves;
 mod nearest;

@@ -127,7 +127,7 @@ impl<'t> Objective<'t> {
         work.evaluations += 1;
         let positions = self.fineness.positions;
         if work.set_for != Some((arc, positions)) {
-            work.angles.set(arc, self.target.is_closed, positions);
+            work.angles.set::<L>(arc, self.target.is_closed, positions);
             work.set_for = Some((arc, positions));
         }
         let most = self.limits.apex_cosine;
@@ -151,7 +151,7 @@ impl<'t> Objective<'t> {
         let limits = &self.limits;
         let mut sum = 0.0;
         for joint in 0..linkage.len() {
-            let distance = work.course.farthest(joint).0.sqrt();
+            let distance = work.course.reach(joint).sqrt();
             if distance > limits.frame {
                 return f64::INFINITY;
             }
@@ -344,10 +344,11 @@ impl<'t> Objective<'t> {
             normal.add(&v, 2.0 * weight, 2.0 * weight * excess);
         };
         for joint in 0..linkage.len() {
-            let (square, position) = work.course.farthest(joint);
+            let square = work.course.reach(joint);
             let distance = square.sqrt();
             let excess = distance - limits.frame_barrier;
             if excess > 0.0 {
+                let position = work.course.reach_position(joint, square);
                 let outward = work.course.point(joint, position).scale(1.0 / distance);
                 add(position, &[(joint, outward)], None, (FRAME_BARRIER, excess));
             }
@@ -360,7 +361,7 @@ impl<'t> Objective<'t> {
                     continue;
                 }
                 let sign = cosine.signum();
-                let position = work.course.position_of(ends, square);
+                let position = work.course.chord_position(ends, square);
                 let chord =
                     work.course.point(ends[1], position) - work.course.point(ends[0], position);
                 // cos = (a² + b² − l²) / 2ab

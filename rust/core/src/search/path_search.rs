@@ -1,26 +1,31 @@
 //! The search for a linkage that draws a path: random linkages, the most alike of them refined, then evolution.
+//!
+//! The caller has the clock: it makes the starts, asks for rounds of evolution until it has had enough, and takes
+//! the results. A search that is limited in evaluations is the same on every machine and any number of threads.
 
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread;
-use std::time::Duration;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::budget::Budget;
 use super::evolve::{Breeder, Rules};
+use super::for_all::for_all;
 use super::levenberg_marquardt::Refiner;
 use super::objective::{Candidate, Fineness, Limits, Objective};
 use super::retrieve::{Retrieval, RetrievalMemory};
 use super::target::Target;
 use crate::batch::dispatch::{Entry, ForLevel, at_level};
+use crate::batch::schedule::available_threads;
 use crate::description::Description;
 use crate::math::random::Random;
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 use crate::population::random::RandomLinkages;
 
-/// Random linkages whose curves are compared with the target.
+/// Random linkages whose curves are compared with the target, and their joints.
 const LIBRARY: usize = 2000;
+const LIBRARY_JOINTS: [usize; 2] = [5, 13];
+/// Greatest absolute cosine of their apex angles, at most that of the limits.
+const LIBRARY_COSINE: f64 = 0.97;
 /// Stages of refinement of the most alike: how many, for how many iterations, how finely.
 const HALVING: [(usize, usize, Fineness); 5] = [
     (1500, 6, Fineness { positions: (64, 32), samples: 64, epsilon: None }),
@@ -32,13 +37,11 @@ const HALVING: [(usize, usize, Fineness); 5] = [
 /// How finely children are scored, and how finely they are checked.
 const EVOLUTION: Fineness = Fineness { positions: (128, 64), samples: 128, epsilon: Some(0.02) };
 const SOUND: Fineness = Fineness { positions: (512, 128), samples: 64, epsilon: None };
-/// Islands and candidates on each; the part of the budget before they are one.
+/// Islands, and candidates on each.
 const ISLANDS: usize = 4;
 const ON_ISLAND: usize = 4;
-const APART: f64 = 0.6;
-/// Part of the budget before the best are polished.
-const EVOLVED: f64 = 0.9;
-/// Children that are bred at the same time once the islands are one.
+/// Evaluations of an island in a round, and children of all together in one.
+const ROUND: u64 = 1000;
 const BROOD: usize = 8;
 /// Candidates that are polished, iterations, how finely.
 const POLISHED: usize = 5;
@@ -47,109 +50,166 @@ const POLISH: [Fineness; 2] = [
     Fineness { positions: (256, 96), samples: 256, epsilon: Some(0.004) },
 ];
 const POLISH_ITERATIONS: usize = 40;
+/// Values that differ by less than this part are of the same design.
+const SAME: f64 = 1e-3;
+/// Barriers begin at this part of the frame, and at this multiple of the least apex angle; refinement may go beyond
+/// the limits by so much.
+const FRAME_MARGIN: f64 = 0.97;
+const APEX_MARGIN: f64 = 1.02;
+const BEYOND_FRAME: f64 = 1.2;
+const BEYOND_APEX: f64 = 0.3;
+/// The greatest arc of an open path, rad; its least is greater by this factor.
+const MOST_ARC: f64 = 6.2;
+const ARC_MARGIN: f64 = 1.02;
 
 /// What is asked of a search.
-#[derive(Debug, Clone)]
-pub struct SearchRequest<'a> {
-    /// The path's corners.
-    pub points: &'a [[f64; 2]],
-    /// Whether the last leads back to the first.
+#[derive(Debug, Clone, Copy)]
+pub struct SearchRequest {
+    /// Whether the path leads from its last corner back to the first.
     pub is_closed: bool,
     /// The greatest number of joints.
     pub joints: usize,
     /// The least angle between the bars of a dyad, over the whole turn, rad.
     pub least_apex: f64,
-    /// The greatest distance of a joint from the path's centroid over the whole turn, in root mean square radii of the path.
+    /// The greatest distance of a joint from the path's centroid over the whole turn, in root mean square radii of
+    /// the path.
     pub frame: f64,
     /// The least arc of the crank on which an open path is drawn, rad.
     pub least_arc: f64,
-    /// By which part a further joint must lower the error.
+    /// By which part a further joint must lower the objective.
     pub joint_price: f64,
     /// Results differ with it.
     pub seed: u64,
-    /// The time that it may take.
-    pub time: Option<Duration>,
-    /// The number of linkages that it may evaluate.
-    pub evaluations: Option<u64>,
-    /// The most threads.
-    pub threads: NonZeroUsize,
+    /// The most threads; `None` means one per core.
+    pub threads: Option<NonZeroUsize>,
     /// Level of vector instructions.
     pub simd: Simd,
-    /// Setting it to true ends the search with the best so far.
-    pub cancel: Option<&'a AtomicBool>,
 }
 
 /// A linkage that was found.
 #[derive(Debug, Clone)]
 pub struct FoundLinkage {
-    /// It, drawn where it begins with the path. The traced joint is the last.
+    /// It, drawn where it begins with the path. The traced joint is the last, P.
     pub description: Description,
     /// The crank's turn over the path, rad, positive counter-clockwise.
     pub arc: f64,
     /// The objective.
     pub value: f64,
-    /// Number of joints.
-    pub joints: usize,
 }
 
-/// Result of a search.
-#[derive(Debug, Clone, Default)]
-pub struct SearchResult {
-    /// What was found, the best first.
-    pub found: Vec<FoundLinkage>,
-    /// Linkages that were evaluated.
-    pub evaluations: u64,
-    /// The time that it took.
-    pub time: Duration,
+/// A search in progress.
+#[derive(Debug)]
+pub struct PathSearch {
+    request: SearchRequest,
+    target: Target,
+    islands: Vec<Island>,
+    /// All candidates, once the islands are one.
+    population: Vec<Candidate>,
+    breeders: Vec<Mutex<Breeder>>,
+    random: Random,
+    evaluations: u64,
 }
 
-/// Searches for linkages that draw a path. `None` if there is no path: fewer than two different points, or
-/// one that is not finite.
-#[must_use]
-pub fn search_path(request: &SearchRequest<'_>) -> Option<SearchResult> {
-    let target = Target::new(request.points, request.is_closed)?;
-    Some(at_level(request.simd, Search { request, target: &target }))
+#[derive(Debug)]
+struct Island {
+    candidates: Vec<Candidate>,
+    random: Random,
+    breeder: Breeder,
 }
 
-struct Search<'s> {
-    request: &'s SearchRequest<'s>,
-    target: &'s Target,
+/// A part of a search, to be done at a level.
+struct Part<'p> {
+    search: &'p mut PathSearch,
+    kind: PartKind,
+    cancel: &'p AtomicBool,
 }
 
-impl ForLevel for Search<'_> {
-    type Output = SearchResult;
+#[derive(Debug, Clone, Copy)]
+enum PartKind {
+    Start,
+    Round { is_apart: bool },
+    Finish,
+}
 
-    fn run<L: Entry, const G: usize>(self) -> SearchResult {
-        let request = self.request;
-        let budget = Budget::new(request.time, request.evaluations, request.cancel);
-        let limits = self.limits();
-        let objective = Objective::new(self.target, limits, EVOLUTION);
-        let sound = Objective::new(self.target, self.strict_limits(), SOUND);
-        let rules = Rules {
-            objective: &objective,
-            sound: &sound,
-            most_joints: request.joints,
-            joint_price: request.joint_price,
-        };
-        let (starts, mut evaluations) = self.starts::<L>(&rules, &budget);
-        let mut population = self.islands::<L>(&rules, starts, &budget, &mut evaluations);
-        self.together::<L>(&rules, &mut population, &budget, &mut evaluations);
-        let found = self.polish::<L>(&rules, population, &mut evaluations);
-        SearchResult { found, evaluations, time: budget.elapsed() }
+impl ForLevel for Part<'_> {
+    type Output = Vec<FoundLinkage>;
+
+    fn run<L: Entry, const G: usize>(self) -> Vec<FoundLinkage> {
+        match self.kind {
+            PartKind::Start => self.search.start_at::<L>(self.cancel),
+            PartKind::Round { is_apart: true } => self.search.round_apart::<L>(),
+            PartKind::Round { is_apart: false } => self.search.round_together::<L>(),
+            PartKind::Finish => return self.search.finish_at::<L>(self.cancel),
+        }
+        vec![]
     }
 }
 
-impl Search<'_> {
+impl PathSearch {
+    /// A search for linkages that draw the path through points. `None` if there is no path: fewer than two different
+    /// points, or one that is not finite.
+    #[must_use]
+    pub fn new(points: &[[f64; 2]], request: SearchRequest) -> Option<Self> {
+        Some(Self {
+            request,
+            target: Target::new(points, request.is_closed)?,
+            islands: vec![],
+            population: vec![],
+            breeders: (0..BROOD).map(|_| Mutex::default()).collect(),
+            random: Random::new(request.seed, (LIBRARY + ISLANDS) as u64),
+            evaluations: 0,
+        })
+    }
+
+    /// Linkages that were evaluated so far.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// The least objective so far; infinite if there is no candidate.
+    #[must_use]
+    pub fn best(&self) -> f64 {
+        let all = self.islands.iter().flat_map(|island| &island.candidates);
+        all.chain(&self.population).map(|one| one.value).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Makes the candidates that evolution starts from.
+    pub fn start(&mut self, cancel: &AtomicBool) {
+        let simd = self.request.simd;
+        at_level(simd, Part { search: self, kind: PartKind::Start, cancel });
+    }
+
+    /// A round of evolution: on islands as long as they are apart, then of all together. `false` if there
+    /// is nothing that could evolve.
+    pub fn round(&mut self, is_apart: bool, cancel: &AtomicBool) -> bool {
+        let simd = self.request.simd;
+        at_level(simd, Part { search: self, kind: PartKind::Round { is_apart }, cancel });
+        !(self.islands.is_empty() && self.population.is_empty())
+    }
+
+    /// The candidates, the best of them refined once more (unless that is cancelled), best first.
+    #[must_use]
+    pub fn finish(&mut self, cancel: &AtomicBool) -> Vec<FoundLinkage> {
+        let simd = self.request.simd;
+        at_level(simd, Part { search: self, kind: PartKind::Finish, cancel })
+    }
+
+    fn threads(&self) -> NonZeroUsize {
+        let threads = self.request.threads.or_else(|| NonZeroUsize::new(available_threads()));
+        threads.unwrap_or(NonZeroUsize::MIN)
+    }
+
     /// The limits that refinement keeps.
     fn limits(&self) -> Limits {
         let cos = |angle: f64| Vector::<f64>::at_angle(angle).x;
-        let apex = self.request.least_apex;
+        let SearchRequest { least_apex, frame, least_arc, .. } = self.request;
         Limits {
-            apex_cosine: cos(0.3 * apex),
-            apex_barrier: cos(1.02 * apex),
-            frame: 1.2 * self.request.frame,
-            frame_barrier: 0.97 * self.request.frame,
-            arc: [1.02 * self.request.least_arc, 6.2],
+            apex_cosine: cos(BEYOND_APEX * least_apex),
+            apex_barrier: cos(APEX_MARGIN * least_apex),
+            frame: BEYOND_FRAME * frame,
+            frame_barrier: FRAME_MARGIN * frame,
+            arc: [(ARC_MARGIN * least_arc).min(MOST_ARC), MOST_ARC],
         }
     }
 
@@ -159,193 +219,181 @@ impl Search<'_> {
         Limits { apex_cosine, frame: self.request.frame, ..self.limits() }
     }
 
-    /// Does something for all indices below a count, on all threads; results are in order.
-    fn for_all<M: Default, T: Send>(
-        &self,
-        count: usize,
-        work: impl Fn(usize, &mut M) -> T + Sync,
-    ) -> Vec<T> {
-        let next = AtomicUsize::new(0);
-        let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(count));
-        let work_until_done = || {
-            let mut memory = M::default();
-            loop {
-                let index = next.fetch_add(1, Ordering::Relaxed);
-                if index >= count {
-                    return;
-                }
-                let result = work(index, &mut memory);
-                if let Ok(mut results) = results.lock() {
-                    results.push((index, result));
-                }
-            }
-        };
-        thread::scope(|scope| {
-            for _ in 1..self.request.threads.get().min(count) {
-                scope.spawn(work_until_done);
-            }
-            work_until_done();
-        });
-        let mut results = results.into_inner().unwrap_or_default();
-        results.sort_by_key(|(index, _)| *index);
-        results.into_iter().map(|(_, result)| result).collect()
+    fn objective(&self, fineness: Fineness) -> Objective<'_> {
+        Objective::new(&self.target, self.limits(), fineness)
+    }
+
+    fn sound(&self) -> Objective<'_> {
+        Objective::new(&self.target, self.strict_limits(), SOUND)
+    }
+
+    fn rules<'o>(&self, objective: &'o Objective<'o>, sound: &'o Objective<'o>) -> Rules<'o> {
+        let SearchRequest { joints, joint_price, .. } = self.request;
+        Rules { objective, sound, most_joints: joints, joint_price }
     }
 
     /// The most alike random linkages, refined: enough for all islands.
-    fn starts<L: Entry>(&self, rules: &Rules<'_>, budget: &Budget<'_>) -> (Vec<Candidate>, u64) {
-        let limits = self.limits();
-        let wanted = RandomLinkages {
-            joints: [5, self.request.joints.clamp(5, 13)],
-            most_cosine: 0.97_f64.min(limits.apex_barrier),
-        };
-        let retrieval = Retrieval::new(self.target, limits);
-        let mut candidates: Vec<Candidate> = self
-            .for_all(LIBRARY, |index, memory: &mut RetrievalMemory| {
-                retrieval.candidates::<L>(&wanted, (self.request.seed, index as u64), memory)
-            })
-            .into_iter()
-            .flatten()
-            .collect();
-        let mut evaluations = 0;
+    fn start_at<L: Entry>(&mut self, cancel: &AtomicBool) {
+        let mut candidates = self.retrieve::<L>();
         for (count, iterations, fineness) in HALVING {
-            let objective = Objective::new(self.target, limits, fineness);
+            let objective = self.objective(fineness);
             candidates.sort_by(|a, b| a.value.total_cmp(&b.value));
             candidates.truncate(count);
-            let refined = self.for_all(candidates.len(), |index, refiner: &mut Refiner| {
-                let before = refiner.work.evaluations;
-                let mut candidate = candidates[index].clone();
-                if !budget.is_cancelled() {
-                    refiner.refine::<L>(&objective, &mut candidate, iterations);
-                }
-                (candidate, refiner.work.evaluations - before)
-            });
+            let refined =
+                for_all(self.threads(), candidates.len(), |index, refiner: &mut Refiner| {
+                    let before = refiner.work.evaluations;
+                    let mut candidate = candidates[index].clone();
+                    if !cancel.load(Ordering::Relaxed) {
+                        refiner.refine::<L>(&objective, &mut candidate, iterations);
+                    }
+                    (candidate, refiner.work.evaluations - before)
+                });
             candidates.clear();
+            let mut evaluations = 0;
             for (candidate, count) in refined {
                 evaluations += count;
                 if candidate.value.is_finite() {
                     candidates.push(candidate);
                 }
             }
+            drop(objective);
+            self.evaluations += evaluations;
         }
-        candidates.sort_by(|a, b| rules.score(a).total_cmp(&rules.score(b)));
+        let (objective, sound) = (self.objective(EVOLUTION), self.sound());
+        let rules = self.rules(&objective, &sound);
         let mut breeder = Breeder::default();
+        rules.sort(&mut candidates);
         candidates.retain(|candidate| rules.is_sound::<L>(candidate, &mut breeder));
-        candidates.dedup_by(|a, b| (a.value - b.value).abs() < 1e-3 * b.value);
+        candidates.dedup_by(|a, b| (a.value - b.value).abs() < SAME * b.value);
         candidates.truncate(ISLANDS * ON_ISLAND);
-        (candidates, evaluations)
+        let mut islands: Vec<Island> = (0..ISLANDS.min(candidates.len()))
+            .map(|index| Island {
+                candidates: vec![],
+                random: Random::new(self.request.seed, (LIBRARY + index) as u64),
+                breeder: Breeder::default(),
+            })
+            .collect();
+        for (index, candidate) in candidates.into_iter().enumerate() {
+            islands[index % ISLANDS].candidates.push(candidate);
+        }
+        self.islands = islands;
     }
 
-    /// Evolution on islands.
-    fn islands<L: Entry>(
-        &self,
-        rules: &Rules<'_>,
-        starts: Vec<Candidate>,
-        budget: &Budget<'_>,
-        evaluations: &mut u64,
-    ) -> Vec<Candidate> {
-        let mut islands = vec![vec![]; ISLANDS];
-        for (index, start) in starts.into_iter().enumerate() {
-            islands[index % ISLANDS].push(start);
-        }
-        islands.retain(|island| !island.is_empty());
-        let rounds = islands.len().div_ceil(self.request.threads.get()).max(1);
-        let before = *evaluations / islands.len().max(1) as u64;
-        let started = budget.part_used();
-        let evolved = self.for_all(islands.len(), |index, breeder: &mut Breeder| {
-            let mut island = islands[index].clone();
-            let random = &mut Random::new(self.request.seed, (LIBRARY + index) as u64);
-            let first = breeder.refiner.work.evaluations;
-            let round = index / self.request.threads.get();
-            let end = started + (APART - started) * (round + 1) as f64 / rounds as f64;
+    /// The curves of random linkages that are most alike the target.
+    fn retrieve<L: Entry>(&self) -> Vec<Candidate> {
+        let limits = self.limits();
+        let [least, most] = LIBRARY_JOINTS;
+        let wanted = RandomLinkages {
+            joints: [least.min(self.request.joints), most.min(self.request.joints)],
+            most_cosine: LIBRARY_COSINE.min(limits.apex_barrier),
+        };
+        let retrieval = Retrieval::new(&self.target, limits);
+        let seed = self.request.seed;
+        for_all(self.threads(), LIBRARY, |index, memory: &mut RetrievalMemory| {
+            retrieval.candidates::<L>(&wanted, (seed, index as u64), memory)
+        })
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// A round on all islands.
+    fn round_apart<L: Entry>(&mut self) {
+        let mut islands = std::mem::take(&mut self.islands);
+        let (objective, sound) = (self.objective(EVOLUTION), self.sound());
+        let rules = self.rules(&objective, &sound);
+        let shared: Vec<Mutex<&mut Island>> = islands.iter_mut().map(Mutex::new).collect();
+        let counts = for_all(self.threads(), shared.len(), |index, (): &mut ()| {
+            let Ok(mut island) = shared[index].lock() else { return 0 };
+            let Island { candidates, random, breeder } = &mut **island;
+            let before = breeder.evaluations();
             loop {
-                let count = breeder.refiner.work.evaluations - first;
-                if budget.is_used([end, APART], before + count, islands.len() as u64) {
-                    return (island, count);
+                let count = breeder.evaluations() - before;
+                if count >= ROUND {
+                    return count;
                 }
-                if let Some(child) = rules.breed::<L>(&island, random, breeder) {
-                    rules.insert(&mut island, child, random);
+                if let Some(child) = rules.breed::<L>(candidates, random, breeder) {
+                    rules.insert(candidates, child, random);
                 }
             }
         });
-        let mut population = vec![];
-        for (island, count) in evolved {
-            *evaluations += count;
-            population.extend(island);
-        }
-        population
+        drop(shared);
+        self.evaluations += counts.into_iter().sum::<u64>();
+        self.islands = islands;
     }
 
-    /// Evolution of all together, some children at a time.
-    fn together<L: Entry>(
-        &self,
-        rules: &Rules<'_>,
-        population: &mut Vec<Candidate>,
-        budget: &Budget<'_>,
-        evaluations: &mut u64,
-    ) {
-        let mut random = Random::new(self.request.seed, (LIBRARY + ISLANDS) as u64);
-        let breeders: Vec<Mutex<Breeder>> = (0..BROOD).map(|_| Mutex::default()).collect();
-        while !population.is_empty() && !budget.is_used([EVOLVED; 2], *evaluations, 1) {
-            let seed = random.bits();
-            let brood = self.for_all(BROOD, |index, (): &mut ()| {
-                let mut breeder = breeders[index].lock().ok()?;
-                let before = breeder.refiner.work.evaluations;
-                let own = &mut Random::new(seed, index as u64);
-                let child = rules.breed::<L>(population, own, &mut breeder);
-                Some((child, breeder.refiner.work.evaluations - before))
-            });
-            for (child, count) in brood.into_iter().flatten() {
-                *evaluations += count;
-                if let Some(child) = child {
-                    rules.insert(population, child, &mut random);
-                }
+    /// A round of all candidates together: some children at a time.
+    fn round_together<L: Entry>(&mut self) {
+        for island in std::mem::take(&mut self.islands) {
+            self.population.extend(island.candidates);
+        }
+        if self.population.is_empty() {
+            return;
+        }
+        let mut population = std::mem::take(&mut self.population);
+        let seed = self.random.bits();
+        let (objective, sound) = (self.objective(EVOLUTION), self.sound());
+        let rules = self.rules(&objective, &sound);
+        let brood = for_all(self.threads(), BROOD, |index, (): &mut ()| {
+            let mut breeder = self.breeders[index].lock().ok()?;
+            let before = breeder.evaluations();
+            let own = &mut Random::new(seed, index as u64);
+            let child = rules.breed::<L>(&population, own, &mut breeder);
+            Some((child, breeder.evaluations() - before))
+        });
+        let own = &mut Random::new(seed, BROOD as u64);
+        let mut evaluations = 0;
+        for (child, count) in brood.into_iter().flatten() {
+            evaluations += count;
+            if let Some(child) = child {
+                rules.insert(&mut population, child, own);
             }
         }
-        population.sort_by(|a, b| rules.score(a).total_cmp(&rules.score(b)));
+        self.evaluations += evaluations;
+        self.population = population;
     }
 
-    /// Refines the best once more, and describes them in the user's units.
-    fn polish<L: Entry>(
-        &self,
-        rules: &Rules<'_>,
-        population: Vec<Candidate>,
-        evaluations: &mut u64,
-    ) -> Vec<FoundLinkage> {
-        let objectives =
-            POLISH.map(|fineness| Objective::new(self.target, self.limits(), fineness));
-        let polished = self.for_all(population.len(), |index, breeder: &mut Breeder| {
-            let before = breeder.refiner.work.evaluations;
+    fn finish_at<L: Entry>(&mut self, cancel: &AtomicBool) -> Vec<FoundLinkage> {
+        let mut population = self.population.clone();
+        population.extend(self.islands.iter().flat_map(|island| island.candidates.clone()));
+        let (objective, sound) = (self.objective(EVOLUTION), self.sound());
+        let rules = self.rules(&objective, &sound);
+        rules.sort(&mut population);
+        let objectives = POLISH.map(|fineness| self.objective(fineness));
+        let polished = for_all(self.threads(), population.len(), |index, breeder: &mut Breeder| {
+            let before = breeder.evaluations();
             let mut candidate = population[index].clone();
             for objective in &objectives {
                 let mut finer = candidate.clone();
                 breeder.refiner.evaluate::<L>(objective, &mut candidate);
-                if index < POLISHED {
-                    breeder.refiner.refine::<L>(objective, &mut finer, POLISH_ITERATIONS);
-                    if rules.is_sound::<L>(&finer, breeder) {
-                        candidate = finer;
-                    }
+                if index >= POLISHED || cancel.load(Ordering::Relaxed) {
+                    continue;
+                }
+                breeder.refiner.refine::<L>(objective, &mut finer, POLISH_ITERATIONS);
+                if rules.is_sound::<L>(&finer, breeder) {
+                    candidate = finer;
                 }
             }
-            (candidate, breeder.refiner.work.evaluations - before)
+            (candidate, breeder.evaluations() - before)
         });
-        let mut found = vec![];
+        let mut candidates = vec![];
+        let mut evaluations = 0;
         for (candidate, count) in polished {
-            *evaluations += count;
-            found.extend(self.describe(candidate));
+            evaluations += count;
+            candidates.push(candidate);
         }
-        found.sort_by(|a, b| a.value.total_cmp(&b.value));
+        rules.sort(&mut candidates);
+        candidates.dedup_by(|a, b| (a.value - b.value).abs() < SAME * b.value);
+        let found = candidates.into_iter().filter_map(|one| self.describe(one)).collect();
+        self.evaluations += evaluations;
         found
     }
 
+    /// A candidate in the user's units.
     fn describe(&self, candidate: Candidate) -> Option<FoundLinkage> {
         let Candidate { mut linkage, arc, value } = candidate;
         let scale = Vector::new(self.target.radius, 0.0);
         linkage.transform(scale, self.target.centre, false);
-        Some(FoundLinkage {
-            description: linkage.describe("P")?,
-            arc: arc * linkage.sense,
-            value,
-            joints: linkage.len(),
-        })
+        Some(FoundLinkage { description: linkage.describe("P")?, arc: arc * linkage.sense, value })
     }
 }

@@ -93,7 +93,7 @@ impl<'t> Retrieval<'t> {
         let random = &mut Random::new(seed, index);
         let linkage = wanted.make::<L>(random, &mut memory.course);
         let mut angles = Angles::default();
-        angles.set(TAU, true, (POSITIONS, 0));
+        angles.set::<L>(TAU, true, (POSITIONS, 0));
         sweep::<L>(&linkage, &angles, (0, 1.0), &mut memory.course);
         let moving = |joint: &usize| !matches!(linkage.placements[*joint], Placement::Pivot);
         (2..linkage.len())
