@@ -14,8 +14,6 @@ use crate::plan::constants_rate::ConstantsRate;
 pub(super) struct ConstantsSum<R> {
     /// Registers of an entry.
     registers: usize,
-    /// Whether all positions are summed.
-    is_total: bool,
     origin: Vec<Vector<R>>,
     edge_vector: Vec<Vector<R>>,
     guide: Vec<Vector<R>>,
@@ -27,22 +25,15 @@ impl<R: Real> ConstantsSum<R> {
     /// Registers of a sum.
     const SUMMED: usize = LANES / R::LANES;
 
-    /// Begins the derivatives of so many registers of positions.
-    #[inline(always)]
-    pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
-        self.is_total = false;
-        self.clear(sensitivity, registers);
-    }
-
     /// Begins sums over positions.
     #[inline(always)]
     pub(super) fn begin_total(&mut self, sensitivity: &SensitivityPlan<'_>) {
-        self.is_total = true;
-        self.clear(sensitivity, Self::SUMMED);
+        self.begin(sensitivity, Self::SUMMED);
     }
 
+    /// Begins the derivatives of so many registers of positions.
     #[inline(always)]
-    fn clear(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
+    pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
         self.registers = registers;
         let (plan, backward) = (sensitivity.plan(), &sensitivity.backward);
         grow(&mut self.origin, registers);
@@ -69,23 +60,18 @@ impl<R: Real> ConstantsSum<R> {
     #[inline(always)]
     pub(super) fn add_result(&mut self, kind: ComponentKind, weights: &[R]) {
         let registers = self.registers;
+        let origins = &mut self.origin[..registers];
         match kind {
             ComponentKind::X { .. } => {
-                for (g, &weight) in weights.iter().enumerate() {
-                    self.origin[g % registers].x += weight;
-                }
+                add_in_turns(origins, weights, |origin, &weight| origin.x += weight);
             }
             ComponentKind::Y { .. } => {
-                for (g, &weight) in weights.iter().enumerate() {
-                    self.origin[g % registers].y += weight;
-                }
+                add_in_turns(origins, weights, |origin, &weight| origin.y += weight);
             }
             ComponentKind::Slide(_) => {}
             ComponentKind::Angle { link, .. } => {
                 let offsets = entry_mut(&mut self.offset, link, registers);
-                for (g, &weight) in weights.iter().enumerate() {
-                    offsets[g % registers] += weight;
-                }
+                add_in_turns(offsets, weights, |offset, &weight| *offset += weight);
             }
         }
     }
@@ -94,30 +80,21 @@ impl<R: Real> ConstantsSum<R> {
     #[inline(always)]
     pub(super) fn add_edge(&mut self, edge: usize, units: &[Vector<R>], weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.edge_vector, edge, self.registers);
-        add_turned(sums, units, weights, self.is_total);
+        add_turned(sums, units, weights);
     }
 
     /// The same for the guide along it.
     #[inline(always)]
     pub(super) fn add_guide(&mut self, edge: usize, strokes: &[Vector<R>], weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.guide, edge, self.registers);
-        add_turned(sums, strokes, weights, self.is_total);
+        add_turned(sums, strokes, weights);
     }
 
     /// Adds the weights of a fixed point.
     #[inline(always)]
     pub(super) fn add_fixed(&mut self, point: usize, weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.fixed, point, self.registers);
-        if let (true, [sum]) = (self.is_total, &mut *sums) {
-            for &weight in weights {
-                *sum += weight;
-            }
-            return;
-        }
-        let registers = sums.len();
-        for (g, &weight) in weights.iter().enumerate() {
-            sums[g % registers] += weight;
-        }
+        add_in_turns(sums, weights, |sum, &weight| *sum += weight);
     }
 
     /// The derivatives in one register.
@@ -150,6 +127,11 @@ impl<R: Real> ConstantsSum<R> {
     pub(super) fn sums(&self, sensitivity: &SensitivityPlan<'_>, rate: &mut ConstantsRate) {
         let (backward, registers) = (&sensitivity.backward, self.registers);
         make_room(sensitivity, rate);
+        // Another plan may have left weights.
+        for vectors in [&mut rate.edge_vector, &mut rate.guide, &mut rate.fixed] {
+            vectors.fill(Vector::ZERO);
+        }
+        rate.offset.fill(0.0);
         rate.origin = vector_sum(&self.origin[..registers]);
         for &edge in &backward.edges {
             rate.edge_vector[edge] = vector_sum(entry(&self.edge_vector, edge, registers));
@@ -168,24 +150,39 @@ impl<R: Real> ConstantsSum<R> {
 
 /// Adds weights seen from what turns by `units`.
 #[inline(always)]
-fn add_turned<R: Real>(
-    sums: &mut [Vector<R>],
-    units: &[Vector<R>],
-    weights: &[Vector<R>],
-    is_total: bool,
-) {
+fn add_turned<R: Real>(sums: &mut [Vector<R>], units: &[Vector<R>], weights: &[Vector<R>]) {
+    let seen = |unit: &Vector<R>, &weight: &Vector<R>| unit.conj() * weight;
+    if let [sum] = sums {
+        // Kept in a register.
+        let mut total = *sum;
+        for (unit, weight) in units.iter().zip(weights) {
+            total += seen(unit, weight);
+        }
+        *sum = total;
+        return;
+    }
     let registers = sums.len();
-    if let (true, [sum]) = (is_total, &mut *sums) {
-        for (unit, &weight) in units.iter().zip(weights) {
-            *sum += unit.conj() * weight;
+    for (units, weights) in units.chunks(registers).zip(weights.chunks(registers)) {
+        for ((sum, unit), weight) in sums.iter_mut().zip(units).zip(weights) {
+            *sum += seen(unit, weight);
         }
-    } else if is_total {
-        for (g, (unit, &weight)) in units.iter().zip(weights).enumerate() {
-            sums[g % registers] += unit.conj() * weight;
+    }
+}
+
+/// Adds terms to the sums of an entry in turns: one to each, and from the first again.
+#[inline(always)]
+fn add_in_turns<S: Copy, T>(sums: &mut [S], terms: &[T], add: impl Fn(&mut S, &T)) {
+    if let [sum] = sums {
+        let mut total = *sum;
+        for term in terms {
+            add(&mut total, term);
         }
-    } else {
-        for ((sum, unit), &weight) in sums.iter_mut().zip(units).zip(weights) {
-            *sum += unit.conj() * weight;
+        *sum = total;
+        return;
+    }
+    for terms in terms.chunks(sums.len()) {
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            add(sum, term);
         }
     }
 }
