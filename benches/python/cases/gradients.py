@@ -28,7 +28,7 @@ def case(quick: bool) -> Case:
     subjects: dict[str | int, Callable[[], Subject]] = {
         f"{name}, {kind}": partial(subject, name, kind, designs) for name, kind in pairs
     }
-    return Case("gradients", "position", subjects, plotted=False)
+    return Case("gradients", "position", subjects, plotted=False, every_level=False)
 
 
 def four_bar() -> tuple[assur.Mechanism, str, str]:
@@ -75,5 +75,4 @@ def subject(name: str, kind: str, designs: int) -> Subject:
         f"{OURS}, the sweep": Contender(partial(run, None), answer),
         f"{OURS}, with gradients": Contender(partial(run, by), answer),
     }
-    note = f"{len(by)} dimensions"
-    return Subject(designs, len(q), contenders, designs * len(q), note=note)
+    return Subject(designs, len(q), contenders, designs * len(q))

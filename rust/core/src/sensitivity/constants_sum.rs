@@ -1,5 +1,7 @@
 //! Derivatives by the constants of a design: of each position, or summed over positions.
 
+use std::ops::AddAssign;
+
 use super::plan::SensitivityPlan;
 use super::registers::{entry, entry_mut, grow};
 use super::steps::ComponentKind;
@@ -14,7 +16,8 @@ use crate::plan::constants_rate::ConstantsRate;
 pub(super) struct ConstantsSum<R> {
     /// Registers of an entry.
     registers: usize,
-    origin: Vec<Vector<R>>,
+    /// x and y of the origin.
+    origin: [Vec<R>; 2],
     edge_vector: Vec<Vector<R>>,
     guide: Vec<Vector<R>>,
     fixed: Vec<Vector<R>>,
@@ -36,12 +39,14 @@ impl<R: Real> ConstantsSum<R> {
     pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
         self.registers = registers;
         let (plan, backward) = (sensitivity.plan(), &sensitivity.backward);
-        grow(&mut self.origin, registers);
         grow(&mut self.edge_vector, plan.edges.len() * registers);
         grow(&mut self.guide, plan.edges.len() * registers);
         grow(&mut self.fixed, plan.points * registers);
         grow(&mut self.offset, plan.rotation.len() * registers);
-        self.origin[..registers].fill(Vector::ZERO);
+        for origin in &mut self.origin {
+            grow(origin, registers);
+            origin[..registers].fill(R::ZERO);
+        }
         for (vectors, entries) in [
             (&mut self.edge_vector, &backward.edges),
             (&mut self.guide, &backward.guides),
@@ -60,18 +65,17 @@ impl<R: Real> ConstantsSum<R> {
     #[inline(always)]
     pub(super) fn add_result(&mut self, kind: ComponentKind, weights: &[R]) {
         let registers = self.registers;
-        let origins = &mut self.origin[..registers];
         match kind {
             ComponentKind::X { .. } => {
-                add_in_turns(origins, weights, |origin, &weight| origin.x += weight);
+                add_in_turns(&mut self.origin[0][..registers], weights);
             }
             ComponentKind::Y { .. } => {
-                add_in_turns(origins, weights, |origin, &weight| origin.y += weight);
+                add_in_turns(&mut self.origin[1][..registers], weights);
             }
             ComponentKind::Slide(_) => {}
             ComponentKind::Angle { link, .. } => {
                 let offsets = entry_mut(&mut self.offset, link, registers);
-                add_in_turns(offsets, weights, |offset, &weight| *offset += weight);
+                add_in_turns(offsets, weights);
             }
         }
     }
@@ -94,7 +98,7 @@ impl<R: Real> ConstantsSum<R> {
     #[inline(always)]
     pub(super) fn add_fixed(&mut self, point: usize, weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.fixed, point, self.registers);
-        add_in_turns(sums, weights, |sum, &weight| *sum += weight);
+        add_in_turns(sums, weights);
     }
 
     /// The derivatives in one register.
@@ -107,7 +111,7 @@ impl<R: Real> ConstantsSum<R> {
     ) {
         let backward = &sensitivity.backward;
         make_room(sensitivity, rate);
-        rate.origin = self.origin[g];
+        rate.origin = Vector::new(self.origin[0][g], self.origin[1][g]);
         for &edge in &backward.edges {
             rate.edge_vector[edge] = entry(&self.edge_vector, edge, self.registers)[g];
         }
@@ -132,7 +136,8 @@ impl<R: Real> ConstantsSum<R> {
             vectors.fill(Vector::ZERO);
         }
         rate.offset.fill(0.0);
-        rate.origin = vector_sum(&self.origin[..registers]);
+        let [x, y] = &self.origin;
+        rate.origin = Vector::new(lane_sum(&x[..registers]), lane_sum(&y[..registers]));
         for &edge in &backward.edges {
             rate.edge_vector[edge] = vector_sum(entry(&self.edge_vector, edge, registers));
         }
@@ -148,41 +153,41 @@ impl<R: Real> ConstantsSum<R> {
     }
 }
 
-/// Adds weights seen from what turns by `units`.
+/// Adds weights seen from what turns by `units`. No closures here: they are not always inlined into the code of a
+/// level, and then take three times as long.
 #[inline(always)]
 fn add_turned<R: Real>(sums: &mut [Vector<R>], units: &[Vector<R>], weights: &[Vector<R>]) {
-    let seen = |unit: &Vector<R>, &weight: &Vector<R>| unit.conj() * weight;
     if let [sum] = sums {
         // Kept in a register.
         let mut total = *sum;
-        for (unit, weight) in units.iter().zip(weights) {
-            total += seen(unit, weight);
+        for (unit, &weight) in units.iter().zip(weights) {
+            total += unit.conj() * weight;
         }
         *sum = total;
         return;
     }
     let registers = sums.len();
     for (units, weights) in units.chunks(registers).zip(weights.chunks(registers)) {
-        for ((sum, unit), weight) in sums.iter_mut().zip(units).zip(weights) {
-            *sum += seen(unit, weight);
+        for ((sum, unit), &weight) in sums.iter_mut().zip(units).zip(weights) {
+            *sum += unit.conj() * weight;
         }
     }
 }
 
-/// Adds terms to the sums of an entry in turns: one to each, and from the first again.
+/// Adds weights to sums in turns: one to each, and from the first again.
 #[inline(always)]
-fn add_in_turns<S: Copy, T>(sums: &mut [S], terms: &[T], add: impl Fn(&mut S, &T)) {
+fn add_in_turns<S: Copy + AddAssign>(sums: &mut [S], weights: &[S]) {
     if let [sum] = sums {
         let mut total = *sum;
-        for term in terms {
-            add(&mut total, term);
+        for &weight in weights {
+            total += weight;
         }
         *sum = total;
         return;
     }
-    for terms in terms.chunks(sums.len()) {
-        for (sum, term) in sums.iter_mut().zip(terms) {
-            add(sum, term);
+    for weights in weights.chunks(sums.len()) {
+        for (sum, &weight) in sums.iter_mut().zip(weights) {
+            *sum += weight;
         }
     }
 }
