@@ -85,16 +85,34 @@ class Gradients:
         return [index for leaf in self._leaves for index in _indices(leaf)]
 
     @property
+    def means(self) -> list[Leaf]:
+        """What the core derives with its value, from the same positions: means over all of q."""
+        return [leaf for leaf in self._leaves if leaf.kind in MEANS and leaf.over is None]
+
+    @property
+    def by(self) -> list[int]:
+        """Indices of the dimensions."""
+        return self._by
+
+    @property
     def _leaves(self) -> list[Leaf]:
         leaves = dict.fromkeys(
             leaf for metric in self._metrics.values() for leaf in metric.leaves()
         )
         return [leaf for leaf in leaves if isinstance(leaf, Leaf)]
 
-    def of(self, some: Mechanism, values: Callable[[Single], Float]) -> dict[str, Float]:
-        """Return the gradients (n, D) of designs (n,) that have all metrics with these values."""
+    def of(
+        self, some: Mechanism, values: Callable[[Single], Float], means: Mapping[Leaf, Float]
+    ) -> dict[str, Float]:
+        """Return the gradients (n, D) of designs (n,) that have all metrics with these values.
+
+        Those of `means` are known.
+        """
         each = {leaf: np.empty((some.shape[0], len(self.names))) for leaf in self._leaves}
+        each.update(means)
         for leaf in self._leaves:
+            if leaf in means:
+                continue
             places = self._places(some, leaf)
             # NaN where a design has no metric: that has none of its positions either.
             at = [np.nan_to_num(values(index)).astype(np.intp) for index in _indices(leaf)]

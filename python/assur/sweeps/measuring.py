@@ -102,6 +102,7 @@ class Measuring:
         if gradient is not None:
             self.gradients = Gradients(mechanism, self.metrics, self.q, gradient, threads)
             self.leaves = list(dict.fromkeys([*self.leaves, *self.gradients.indices]))
+        self.summed: tuple[list[int], list[int]] = [], []
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
         for measured in self.leaves:
             located = _with_lines(measured, mechanism)
@@ -110,6 +111,8 @@ class Measuring:
                 message = f"{measured!r}: {refusal}"
                 raise InputError(message)
         self.asked = [_with_lines(metric, mechanism) for metric in asked]
+        if self.gradients is not None:
+            self.summed = [asked.index(mean) for mean in self.gradients.means], self.gradients.by
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
 
     @property
@@ -151,12 +154,13 @@ class Measuring:
 
     def measure(self, some: Mechanism) -> Block:
         """Measure a batch (n,)."""
-        numbers, status, kept = some.core.measure(
+        numbers, status, kept, summed = some.core.measure(
             some.values.reshape(-1),
             self.q.reshape(-1),
             some.signs,
             self.asked,
             self.early,
+            self.summed,
             self.threads,
         )
         of: dict[Single, Float] = dict(zip(self.leaves, numbers, strict=False))
@@ -177,19 +181,26 @@ class Measuring:
         for value in values.values():
             without |= kept & np.isnan(value) & is_defined
         kept &= ~without
-        slopes = self._slopes(some, kept, of)
+        slopes = self._slopes(some, kept, of, summed)
         return values, np.where(without, np.uint8(Status.NO_VALUE), status), kept, slopes
 
     def _slopes(
-        self, some: Mechanism, kept: npt.NDArray[np.bool_], of: dict[Single, Float]
+        self,
+        some: Mechanism,
+        kept: npt.NDArray[np.bool_],
+        of: dict[Single, Float],
+        summed: list[Float],
     ) -> dict[str, Float]:
         """Return the gradients of the designs that are kept: NaN of the others."""
         if self.gradients is None:
             return {}
         indices = np.flatnonzero(kept)
         batch = with_values(some, np.ascontiguousarray(some.values[:, indices]))
+        width = len(self.gradients.names)
+        rows = [found.reshape(len(kept), width)[indices] for found in summed]
+        means = dict(zip(self.gradients.means, rows, strict=True))
         slopes = {}
-        for name, found in self.gradients.of(batch, lambda leaf: of[leaf][indices]).items():
+        for name, found in self.gradients.of(batch, lambda leaf: of[leaf][indices], means).items():
             slopes[name] = np.full((len(kept), found.shape[1]), np.nan)
             slopes[name][indices] = found
         return slopes

@@ -368,7 +368,8 @@ impl Mechanism {
         sensitivity::sensitivities(py, &self.inner, &positions, (&of, &by), &vectors, threads)
     }
 
-    /// Metrics of designs; see `assur.sweep`. `conditions`: metric, relation and limit.
+    /// Metrics of designs; see `assur.sweep`. `conditions`: metric, relation and limit; `gradients`: indices
+    /// of means, and of the dimensions.
     #[allow(clippy::too_many_arguments, reason = "the one call across the border")]
     fn measure<'py>(
         &self,
@@ -378,9 +379,11 @@ impl Mechanism {
         signs: Vec<i8>,
         metrics: Vec<Bound<'py, PyAny>>,
         conditions: Vec<(usize, Word<assur::sweep::Relation>, f64)>,
+        gradients: (Vec<usize>, Vec<usize>),
         threads: Option<NonZeroUsize>,
     ) -> PyResult<Found<'py>> {
-        sweep::measure(py, &self.inner, (dimensions, q), &signs, &metrics, conditions, threads)
+        let (designs, gradients) = ((dimensions, q), (&gradients.0[..], &gradients.1[..]));
+        sweep::measure(py, &self.inner, designs, &signs, &metrics, conditions, gradients, threads)
     }
 
     /// The reason why a metric has no meaning at coordinates, if any.

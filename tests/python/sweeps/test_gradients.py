@@ -138,6 +138,43 @@ def test_designs_in_rows() -> None:
         assert np.array_equal(remote.gradient[name], found.gradient[name], equal_nan=True)
 
 
+# Conditions that read the joint row after row, and ask for two positions of the next turn.
+BESIDE = [
+    metric.deviation("P") < 10.0,
+    metric.time_ratio("rocker") < 10.0,
+    metric.min_transmission_angle("C") > 0.1,
+    metric.span("P.y") > 0.0,
+]
+
+
+@pytest.mark.parametrize("count", [7, 8, 90, 301])
+def test_means_beside_other_metrics(count: int) -> None:
+    """Gradients are those of weighted sums; values are those of a sweep without gradients."""
+    m = assur.examples.crank_rocker()
+    q = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+    names = {"x": "P.x", "y": "P.y", "angle": "rocker"}
+    means = {key: metric.mean(name) for key, name in names.items()}
+    roots = {f"rms {key}": metric.rms(name) for key, name in names.items()}
+    asked = {**means, **roots, "speed": metric.rms("coupler", order=1)}
+    lengths = {"coupler.length": float(m.dimensions["coupler.length"]) * np.array([1.0, 9.0, 1.01])}
+    found = assur.sweep(m, lengths, q, metrics=asked, where=BESIDE, gradient="*")
+    plain = assur.sweep(m, lengths, q, metrics=asked, where=BESIDE)
+    assert list(found.kept) == list(plain.kept) == [0, 2]
+    for name, measured in asked.items():
+        assert np.array_equal(found[name], plain[name], equal_nan=True)
+        assert np.isnan(found.gradient[name][1]).all()
+        alone = assur.sweep(m, lengths, q, metrics={"it": measured}, gradient="*")
+        assert np.array_equal(found.gradient[name], alone.gradient["it"], equal_nan=True)
+    motion = found.designs([0, 2]).solve(q)
+    jacobian = motion.jacobian("P", by="*")
+    x = motion.joint("P").value[..., 0]
+    most = 1e-12 * float(np.abs(jacobian).max())
+    slope = jacobian[..., 0, :]
+    assert np.abs(found.gradient["x"][[0, 2]] - slope.mean(axis=1)).max() < most
+    wanted = (x[..., None] * slope).mean(axis=1) / np.sqrt((x * x).mean(axis=1))[:, None]
+    assert np.abs(found.gradient["rms x"][[0, 2]] - wanted).max() < most
+
+
 def test_a_root_has_no_derivative_at_zero() -> None:
     """The pin of a piston stays on the line of its bore."""
     asked = {"across": metric.rms("B.y"), "along": metric.rms("B.x")}

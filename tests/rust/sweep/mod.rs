@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use assur::sweep::{
-    Combination, Condition, Coordinate, Deviation, Extreme, Growth, LeastTransmission, Line,
-    Metric, Moves, Need, Operand, Operation, Part, PlaceOf, Positions, Relation, Shape, Span,
-    Sweep, TimeRatio,
+    Combination, Condition, Coordinate, Deviation, Extreme, Gradients, Growth, LeastTransmission,
+    Line, Mean, Metric, Moves, Need, Operand, Operation, Part, PlaceOf, Positions, Relation,
+    RootMeanSquare, Shape, Span, Sweep, TimeRatio,
 };
 use assur::{Checks, Control, Mechanism, Quantity, Simd, SliderCrank, SolveError};
 
@@ -69,6 +69,60 @@ fn a_metric_of_ones_own() {
     let found = mechanism.measure(&sweep, &Control::default()).unwrap();
     assert_eq!(found.kept, [false]);
     assert!(found.values[0][0].is_nan());
+}
+
+/// Of a slider-crank with a = 1, b = 3 the piston is at x = a cos q + √(b² − a² sin² q).
+#[test]
+fn gradients_of_means() {
+    let mechanism = Mechanism::new(&SliderCrank::description()).unwrap();
+    let by = ["crank.length", "rod.length"].map(|name| mechanism.dimensions().position(name));
+    let [crank, rod] = by.map(Option::unwrap);
+    let mut dimensions = mechanism.drawing().to_vec();
+    (dimensions[crank], dimensions[rod]) = (1.0, 3.0);
+    let pin = Coordinate::joint(mechanism.joint("B").unwrap(), 0);
+    let (mean, root) = (Mean(pin), RootMeanSquare(pin));
+    let q = turn(100);
+    // In another order than the metrics, by the rod first.
+    let gradients = Gradients { of: &[1, 0], by: &[rod, crank] };
+    let sweep =
+        Sweep { metrics: &[&mean, &root], gradients, ..Sweep::of(&mechanism, &dimensions, &q) };
+    let found = mechanism.measure(&sweep, &Control::default()).unwrap();
+    let terms = q.iter().map(|q| {
+        let (sin, cos) = q.sin_cos();
+        let along = (9.0 - sin * sin).sqrt();
+        (cos + along, [3.0 / along, cos - sin * sin / along])
+    });
+    let terms: Vec<(f64, [f64; 2])> = terms.collect();
+    let average = |term: &dyn Fn(&(f64, [f64; 2])) -> f64| {
+        terms.iter().map(term).sum::<f64>() / terms.len() as f64
+    };
+    let root = average(&|(x, _)| x * x).sqrt();
+    for at in 0..2 {
+        let of_mean = average(&|(_, slopes)| slopes[at]);
+        let of_root = average(&|(x, slopes)| x * slopes[at]) / root;
+        assert!((found.gradients[1][at] - of_mean).abs() < 1e-13);
+        assert!((found.gradients[0][at] - of_root).abs() < 1e-13);
+    }
+    assert!((found.values[1][0] - root).abs() < 1e-13);
+}
+
+#[test]
+fn gradients_that_are_refused() {
+    let mechanism = Mechanism::new(&SliderCrank::description()).unwrap();
+    let bore = Coordinate::slide(mechanism.slide("bore").unwrap());
+    let (mean, span) = (Mean(bore), Span(bore));
+    let q = turn(9);
+    let refusal = |of: &[usize], by: &[usize]| {
+        let sweep = Sweep {
+            metrics: &[&mean, &span],
+            gradients: Gradients { of, by },
+            ..Sweep::of(&mechanism, mechanism.drawing(), &q)
+        };
+        mechanism.measure(&sweep, &Control::default()).unwrap_err().to_string()
+    };
+    assert!(refusal(&[1], &[0]).contains("metric 1 is no mean"), "{}", refusal(&[1], &[0]));
+    assert!(refusal(&[2], &[0]).contains("metric 2 is no mean"));
+    assert!(refusal(&[0], &[99]).contains("dimension 99"));
 }
 
 #[test]

@@ -60,6 +60,27 @@ pub struct Outputs {
 }
 
 impl Outputs {
+    /// Adds what it lacks of others.
+    pub(crate) fn add(&mut self, more: &Self) {
+        for (list, others) in [
+            (&mut self.joints, &more.joints),
+            (&mut self.links, &more.links),
+            (&mut self.origins, &more.origins),
+            (&mut self.slides, &more.slides),
+            (&mut self.rates, &more.rates),
+            (&mut self.directions, &more.directions),
+        ] {
+            for &index in others {
+                if !list.contains(&index) {
+                    list.push(index);
+                }
+            }
+        }
+        // Angles have their derivatives with them.
+        let links = &self.links;
+        self.rates.retain(|link| !links.contains(link));
+    }
+
     /// All joints, links' angles and slides of a mechanism.
     #[must_use]
     pub fn all(mechanism: &Mechanism) -> Self {

@@ -112,7 +112,7 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
     }
 
     /// The design bound last.
-    pub(super) fn bound_design(&self) -> &Design<'a> {
+    pub(crate) fn bound_design(&self) -> &Design<'a> {
         &self.design
     }
 

@@ -47,19 +47,13 @@ impl Mechanism {
     ) -> Result<(), SolveError> {
         SensitivityPlan::refuse_redundant(self)?;
         self.check_results(request.of)?;
-        let mut sensitivity = SensitivityPlan::new(self, request.of);
-        sensitivity.restrict_to_results();
-        let (is_backward, of_squares) = match request.product {
-            Product::Forward { .. } => (false, false),
-            Product::Jacobian { .. } => (true, false),
-            Product::Backward { of_squares, .. } => (true, of_squares),
+        let mut sensitivity = match request.product {
+            Product::Forward { .. } => SensitivityPlan::restricted(self, request.of),
+            Product::Jacobian { .. } => SensitivityPlan::backward(self, request.of, false),
+            Product::Backward { of_squares, .. } => {
+                SensitivityPlan::backward(self, request.of, of_squares)
+            }
         };
-        if is_backward {
-            sensitivity.reverse();
-        }
-        if of_squares {
-            sensitivity.add_values(request.of);
-        }
         let outputs = sensitivity.outputs.clone();
         let motion = Request {
             dimensions: request.dimensions,
@@ -206,11 +200,13 @@ impl<'b> SensitivityBatch<'b> {
                 let mut task = Evaluate {
                     sensitivity: self.sensitivity,
                     product: self.request.product,
-                    solved,
+                    solved: &solved,
                     rates: rates.as_ref(),
                     space,
                     results: &mut results,
+                    column: 0,
                     first,
+                    divisor: 1.0,
                 };
                 L::call(&mut task);
             });

@@ -1,5 +1,7 @@
 //! Derivatives by the constants of a design: of each position, or summed over positions.
 
+use std::ops::AddAssign;
+
 use super::plan::SensitivityPlan;
 use super::registers::{entry, entry_mut, grow};
 use super::steps::ComponentKind;
@@ -14,9 +16,8 @@ use crate::plan::constants_rate::ConstantsRate;
 pub(super) struct ConstantsSum<R> {
     /// Registers of an entry.
     registers: usize,
-    /// Whether all positions are summed.
-    is_total: bool,
-    origin: Vec<Vector<R>>,
+    /// x and y of the origin.
+    origin: [Vec<R>; 2],
     edge_vector: Vec<Vector<R>>,
     guide: Vec<Vector<R>>,
     fixed: Vec<Vector<R>>,
@@ -27,30 +28,25 @@ impl<R: Real> ConstantsSum<R> {
     /// Registers of a sum.
     const SUMMED: usize = LANES / R::LANES;
 
-    /// Begins the derivatives of so many registers of positions.
-    #[inline(always)]
-    pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
-        self.is_total = false;
-        self.clear(sensitivity, registers);
-    }
-
     /// Begins sums over positions.
     #[inline(always)]
     pub(super) fn begin_total(&mut self, sensitivity: &SensitivityPlan<'_>) {
-        self.is_total = true;
-        self.clear(sensitivity, Self::SUMMED);
+        self.begin(sensitivity, Self::SUMMED);
     }
 
+    /// Begins the derivatives of so many registers of positions.
     #[inline(always)]
-    fn clear(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
+    pub(super) fn begin(&mut self, sensitivity: &SensitivityPlan<'_>, registers: usize) {
         self.registers = registers;
         let (plan, backward) = (sensitivity.plan(), &sensitivity.backward);
-        grow(&mut self.origin, registers);
         grow(&mut self.edge_vector, plan.edges.len() * registers);
         grow(&mut self.guide, plan.edges.len() * registers);
         grow(&mut self.fixed, plan.points * registers);
         grow(&mut self.offset, plan.rotation.len() * registers);
-        self.origin[..registers].fill(Vector::ZERO);
+        for origin in &mut self.origin {
+            grow(origin, registers);
+            origin[..registers].fill(R::ZERO);
+        }
         for (vectors, entries) in [
             (&mut self.edge_vector, &backward.edges),
             (&mut self.guide, &backward.guides),
@@ -71,21 +67,15 @@ impl<R: Real> ConstantsSum<R> {
         let registers = self.registers;
         match kind {
             ComponentKind::X { .. } => {
-                for (g, &weight) in weights.iter().enumerate() {
-                    self.origin[g % registers].x += weight;
-                }
+                add_in_turns(&mut self.origin[0][..registers], weights);
             }
             ComponentKind::Y { .. } => {
-                for (g, &weight) in weights.iter().enumerate() {
-                    self.origin[g % registers].y += weight;
-                }
+                add_in_turns(&mut self.origin[1][..registers], weights);
             }
             ComponentKind::Slide(_) => {}
             ComponentKind::Angle { link, .. } => {
                 let offsets = entry_mut(&mut self.offset, link, registers);
-                for (g, &weight) in weights.iter().enumerate() {
-                    offsets[g % registers] += weight;
-                }
+                add_in_turns(offsets, weights);
             }
         }
     }
@@ -94,30 +84,21 @@ impl<R: Real> ConstantsSum<R> {
     #[inline(always)]
     pub(super) fn add_edge(&mut self, edge: usize, units: &[Vector<R>], weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.edge_vector, edge, self.registers);
-        add_turned(sums, units, weights, self.is_total);
+        add_turned(sums, units, weights);
     }
 
     /// The same for the guide along it.
     #[inline(always)]
     pub(super) fn add_guide(&mut self, edge: usize, strokes: &[Vector<R>], weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.guide, edge, self.registers);
-        add_turned(sums, strokes, weights, self.is_total);
+        add_turned(sums, strokes, weights);
     }
 
     /// Adds the weights of a fixed point.
     #[inline(always)]
     pub(super) fn add_fixed(&mut self, point: usize, weights: &[Vector<R>]) {
         let sums = entry_mut(&mut self.fixed, point, self.registers);
-        if let (true, [sum]) = (self.is_total, &mut *sums) {
-            for &weight in weights {
-                *sum += weight;
-            }
-            return;
-        }
-        let registers = sums.len();
-        for (g, &weight) in weights.iter().enumerate() {
-            sums[g % registers] += weight;
-        }
+        add_in_turns(sums, weights);
     }
 
     /// The derivatives in one register.
@@ -130,7 +111,7 @@ impl<R: Real> ConstantsSum<R> {
     ) {
         let backward = &sensitivity.backward;
         make_room(sensitivity, rate);
-        rate.origin = self.origin[g];
+        rate.origin = Vector::new(self.origin[0][g], self.origin[1][g]);
         for &edge in &backward.edges {
             rate.edge_vector[edge] = entry(&self.edge_vector, edge, self.registers)[g];
         }
@@ -150,7 +131,13 @@ impl<R: Real> ConstantsSum<R> {
     pub(super) fn sums(&self, sensitivity: &SensitivityPlan<'_>, rate: &mut ConstantsRate) {
         let (backward, registers) = (&sensitivity.backward, self.registers);
         make_room(sensitivity, rate);
-        rate.origin = vector_sum(&self.origin[..registers]);
+        // Another plan may have left weights.
+        for vectors in [&mut rate.edge_vector, &mut rate.guide, &mut rate.fixed] {
+            vectors.fill(Vector::ZERO);
+        }
+        rate.offset.fill(0.0);
+        let [x, y] = &self.origin;
+        rate.origin = Vector::new(lane_sum(&x[..registers]), lane_sum(&y[..registers]));
         for &edge in &backward.edges {
             rate.edge_vector[edge] = vector_sum(entry(&self.edge_vector, edge, registers));
         }
@@ -166,26 +153,41 @@ impl<R: Real> ConstantsSum<R> {
     }
 }
 
-/// Adds weights seen from what turns by `units`.
+/// Adds weights seen from what turns by `units`. No closures here: they are not always inlined into the code of a
+/// level, and then take three times as long.
 #[inline(always)]
-fn add_turned<R: Real>(
-    sums: &mut [Vector<R>],
-    units: &[Vector<R>],
-    weights: &[Vector<R>],
-    is_total: bool,
-) {
-    let registers = sums.len();
-    if let (true, [sum]) = (is_total, &mut *sums) {
+fn add_turned<R: Real>(sums: &mut [Vector<R>], units: &[Vector<R>], weights: &[Vector<R>]) {
+    if let [sum] = sums {
+        // Kept in a register.
+        let mut total = *sum;
         for (unit, &weight) in units.iter().zip(weights) {
-            *sum += unit.conj() * weight;
+            total += unit.conj() * weight;
         }
-    } else if is_total {
-        for (g, (unit, &weight)) in units.iter().zip(weights).enumerate() {
-            sums[g % registers] += unit.conj() * weight;
-        }
-    } else {
+        *sum = total;
+        return;
+    }
+    let registers = sums.len();
+    for (units, weights) in units.chunks(registers).zip(weights.chunks(registers)) {
         for ((sum, unit), &weight) in sums.iter_mut().zip(units).zip(weights) {
             *sum += unit.conj() * weight;
+        }
+    }
+}
+
+/// Adds weights to sums in turns: one to each, and from the first again.
+#[inline(always)]
+fn add_in_turns<S: Copy + AddAssign>(sums: &mut [S], weights: &[S]) {
+    if let [sum] = sums {
+        let mut total = *sum;
+        for &weight in weights {
+            total += weight;
+        }
+        *sum = total;
+        return;
+    }
+    for weights in weights.chunks(sums.len()) {
+        for (sum, &weight) in sums.iter_mut().zip(weights) {
+            *sum += weight;
         }
     }
 }

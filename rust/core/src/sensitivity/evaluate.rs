@@ -22,7 +22,7 @@ const POSITIONS: usize = BLOCK;
 
 /// Work space of a thread.
 #[derive(Debug, Default)]
-pub(super) struct SensitivitySpace<R> {
+pub(crate) struct SensitivitySpace<R> {
     linear: Linearization<R>,
     tangent: Tangent<R>,
     cotangent: Cotangent<R>,
@@ -38,16 +38,19 @@ pub(super) struct SensitivitySpace<R> {
 }
 
 /// The derivatives of one design at some positions.
-pub(super) struct Evaluate<'e, 'r, R: Real> {
+pub(crate) struct Evaluate<'e, 'r, R: Real> {
     pub sensitivity: &'e SensitivityPlan<'e>,
     pub product: Product<'e>,
-    pub solved: SolvedDesign<'e, 'e>,
+    pub solved: &'e SolvedDesign<'e, 'e>,
     /// Rates of the constants, for [`Product::Forward`].
     pub rates: Option<&'e ConstantsRate>,
     pub space: &'e mut SensitivitySpace<R>,
     pub results: &'e mut RowSlices<'r>,
-    /// Row of the first position in the results.
+    /// The first column of the product in the results, and there the row of the first position.
+    pub column: usize,
     pub first: usize,
+    /// What totals are divided by.
+    pub divisor: f64,
 }
 
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
@@ -67,7 +70,7 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             if !total {
                 self.set_status(0, count);
             }
-            for (column, out) in self.results.columns.iter_mut().enumerate() {
+            for (column, out) in self.results.columns[self.column..].iter_mut().enumerate() {
                 let width = self.product.width(self.sensitivity.results[column].len());
                 out[self.first * width..(self.first + count) * width]
                     .fill(MaybeUninit::new(f64::NAN));
@@ -257,8 +260,9 @@ impl<R: Real> Evaluate<'_, '_, R> {
         }
         for (place, &dimension) in by.iter().enumerate() {
             let sum = totals[dimension];
-            let value = if exists { sum } else { f64::NAN };
-            self.results.columns[0][self.first * by.len() + place] = MaybeUninit::new(value);
+            let value = if exists { sum / self.divisor } else { f64::NAN };
+            self.results.columns[self.column][self.first * by.len() + place] =
+                MaybeUninit::new(value);
             if exists && !sum.is_finite() {
                 self.results.status[self.first] = MaybeUninit::new(Status::Singular as u8);
             }
@@ -283,7 +287,7 @@ impl<R: Real> Evaluate<'_, '_, R> {
         number: R,
     ) {
         let finite = number.finite();
-        let out = &mut self.results.columns[column];
+        let out = &mut self.results.columns[self.column + column];
         for lane in 0..lanes {
             let status = self.solved.status[row + lane];
             let exists = status <= Status::NearSingular as u8;

@@ -11,7 +11,7 @@ mod batch;
 mod cone;
 mod constants_sum;
 mod cotangent;
-mod evaluate;
+pub(crate) mod evaluate;
 mod inverses;
 pub(crate) mod linearization;
 pub(crate) mod plan;

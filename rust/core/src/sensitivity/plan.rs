@@ -102,14 +102,30 @@ impl<'m> SensitivityPlan<'m> {
         }
     }
 
-    /// Compiles the steps in reverse.
-    pub(super) fn reverse(&mut self) {
-        let (steps, results) = (&self.steps, &self.results);
-        self.backward = Backward::new(self.mechanism, steps, results, &self.derivatives);
+    /// The same, restricted to what the results depend on.
+    pub(super) fn restricted(mechanism: &'m Mechanism, of: &[(Quantity, usize)]) -> Self {
+        let mut plan = Self::new(mechanism, of);
+        plan.restrict_to_results();
+        plan
+    }
+
+    /// The same with the steps in reverse; `of_squares`: weights count
+    /// times the results, which are solved, too.
+    pub(crate) fn backward(
+        mechanism: &'m Mechanism,
+        of: &[(Quantity, usize)],
+        of_squares: bool,
+    ) -> Self {
+        let mut plan = Self::restricted(mechanism, of);
+        plan.backward = Backward::new(mechanism, &plan.steps, &plan.results, &plan.derivatives);
+        if of_squares {
+            plan.add_values(of);
+        }
+        plan
     }
 
     /// Lets the results themselves be solved: for weights that count times these.
-    pub(super) fn add_values(&mut self, of: &[(Quantity, usize)]) {
+    fn add_values(&mut self, of: &[(Quantity, usize)]) {
         for &(quantity, _) in of {
             let (list, index) = match quantity {
                 Quantity::Joint(index) => (&mut self.outputs.joints, index),
@@ -125,7 +141,7 @@ impl<'m> SensitivityPlan<'m> {
     }
 
     /// Finds the values of results in the columns of the request.
-    pub(super) fn read_values(&mut self, of: &[(Quantity, usize)], columns: &[Column]) {
+    pub(crate) fn read_values(&mut self, of: &[(Quantity, usize)], columns: &[Column]) {
         let at = |&(quantity, order): &(Quantity, usize)| {
             columns.iter().position(|c| c.quantity == quantity && c.order == order).unwrap_or(0)
         };

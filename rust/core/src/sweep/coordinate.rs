@@ -1,6 +1,6 @@
 //! One coordinate of a motion: of a joint, a link or a slide, or a derivative of it.
 
-use super::metric::{Need, Positions};
+use super::metric::{MeanOf, Need, Positions};
 use crate::batch::request::Quantity;
 use crate::query::extremes::tracked::Tracked;
 
@@ -36,6 +36,11 @@ impl Coordinate {
     #[must_use]
     pub fn derivative(self, order: usize) -> Self {
         Self { need: Need { order, ..self.need }, ..self }
+    }
+
+    /// What its mean is, or the root of the mean of its squares.
+    pub(super) fn mean(self, is_root_of_squares: bool) -> MeanOf {
+        MeanOf { need: self.need, component: self.component, is_root_of_squares }
     }
 
     /// Its numbers, if it is the only need.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::course::Course;
+use super::gradients::MeanGradients;
 use super::metric::{Metric, Positions};
 use super::request::Sweep;
 use crate::batch::chunks::DesignRow;
@@ -59,6 +60,7 @@ pub(super) struct SweepBatch<'b> {
     pub sources: &'b [Vec<usize>],
     pub probes: &'b Probes,
     pub course: &'b Course<'b>,
+    pub gradients: &'b MeanGradients<'b>,
     /// All coordinates that are solved: after those of the course may follow two of the next turn.
     pub q: &'b [f64],
     pub shape: &'b Shape,
@@ -133,7 +135,7 @@ impl SweepBatch<'_> {
         }
         let drivers = self.shape.drivers;
         let count = q.len() / drivers;
-        let column = |&index: &usize| &rows.column(index)[..count * self.columns[index].width];
+        let column = |&index: &usize| &rows.by_row(index)[..count * self.columns[index].width];
         let sources = &self.sources[metric][..];
         // Most read few columns; an allocation would take as long as the metric of the probes.
         let mut few = [&[][..]; FEW_SOURCES];
@@ -162,7 +164,7 @@ impl SweepBatch<'_> {
             && metric.asks_return()
             && sources.iter().all(|&index| {
                 let width = self.columns[index].width;
-                let values = rows.column(index);
+                let values = rows.by_row(index);
                 let (turn, after) = values.split_at(count * width);
                 let size = turn.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
                 // NaN is not the same.

@@ -1,7 +1,7 @@
 //! Means of a coordinate over the positions; evenly spaced over a turn, they are those over the turn.
 
 use super::coordinate::Coordinate;
-use super::metric::{Metric, Need, Positions};
+use super::metric::{MeanOf, Metric, Need, Positions};
 
 /// The arithmetic mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +14,10 @@ impl Metric for Mean {
 
     fn of(&self, positions: &Positions<'_>) -> f64 {
         mean(self.0.values(positions))
+    }
+
+    fn mean_of(&self) -> Option<MeanOf> {
+        Some(self.0.mean(false))
     }
 }
 
@@ -28,6 +32,10 @@ impl Metric for RootMeanSquare {
 
     fn of(&self, positions: &Positions<'_>) -> f64 {
         mean(self.0.values(positions).map(|value| value * value)).sqrt()
+    }
+
+    fn mean_of(&self) -> Option<MeanOf> {
+        Some(self.0.mean(true))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::course::Course;
 use super::evaluate_design::{Probes, SweepBatch};
+use super::gradients::MeanGradients;
 use super::metric::{Metric, Need};
 use super::request::{Measured, Sweep};
 use super::threads::Measure;
@@ -33,8 +34,10 @@ impl Mechanism {
         sweep: &Sweep<'_>,
         control: &Control<'_>,
     ) -> Result<Measured, SolveError> {
-        let (outputs, order) = needed(sweep.metrics);
         let course = self.course(sweep.q);
+        let mut gradients = MeanGradients::new(self, sweep, course.count())?;
+        let (mut outputs, order) = needed(sweep.metrics);
+        gradients.add_outputs(&mut outputs);
         for (index, metric) in sweep.metrics.iter().enumerate() {
             let named = |reason| SolveError::Shape(format!("metric {index}: {reason}"));
             metric.check(&course).map_err(named)?;
@@ -56,14 +59,20 @@ impl Mechanism {
         let derivatives = DerivativeTables::new(shape.drivers, order);
         let writer = Writer::of(self, &derivatives, &request);
         let sources = sources(sweep.metrics, &writer.columns);
+        gradients.read_from(&writer.columns);
         let probes = Probes::new(&course);
-        let results = shape.designs.saturating_mul(sweep.metrics.len() + 2);
-        if !has_room(results) {
-            return Err(SolveError::OutOfMemory { numbers: results });
+        // After the metrics 1 of each design that is kept, then the gradients.
+        let width = Column { quantity: Quantity::Joint(0), order: 0, width: 1 };
+        let mut results = vec![width; sweep.metrics.len() + 1];
+        results.extend(gradients.columns());
+        let width = results.iter().map(|column| column.width).sum::<usize>();
+        let numbers = shape.designs.saturating_mul(width + 1);
+        if !has_room(numbers) {
+            return Err(SolveError::OutOfMemory { numbers });
         }
         Scratch::check(&writer.columns, shape.positions, control)?;
-        // After the metrics 1 of each design that is kept.
-        let mut values = vec![vec![f64::NAN; shape.designs]; sweep.metrics.len() + 1];
+        let mut values: Vec<Vec<f64>> =
+            results.iter().map(|column| vec![f64::NAN; shape.designs * column.width]).collect();
         let mut status = vec![Status::Ok as u8; shape.designs];
         #[allow(unsafe_code, reason = "the standard library has no safe form of this yet")]
         // SAFETY: only initialised numbers are stored.
@@ -73,8 +82,6 @@ impl Mechanism {
                 status: as_unwritten(&mut status),
             }
         };
-        let width = Column { quantity: Quantity::Joint(0), order: 0, width: 1 };
-        let results = vec![width; sweep.metrics.len() + 1];
         // Chunks of several drivers are small.
         let drivers = if shape.designs < FEW_DESIGNS { 2 } else { shape.drivers };
         let chunks = Chunks::new(arrays, &results, [shape.designs, 1], drivers);
@@ -88,13 +95,15 @@ impl Mechanism {
             sources: &sources,
             probes: &probes,
             course: &course,
+            gradients: &gradients,
             q,
             shape: &shape,
             control,
         };
         dispatch::at_level(control.simd, Measure { batch: &batch, chunks })?;
+        let gradients = values.split_off(sweep.metrics.len() + 1);
         let kept = values.pop().unwrap_or_default().iter().map(|&kept| kept == 1.0).collect();
-        Ok(Measured { values, status, kept })
+        Ok(Measured { values, status, kept, gradients })
     }
 
     /// The course with which metrics are [checked](Metric::check): the coordinates of all designs.

@@ -24,6 +24,17 @@ impl Need {
     }
 }
 
+/// Of what a metric is the mean over the positions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeanOf {
+    /// Where it is read.
+    pub need: Need,
+    /// For a joint, 0 for x and 1 for y.
+    pub component: usize,
+    /// Whether the metric is the root of the mean of its squares.
+    pub is_root_of_squares: bool,
+}
+
 /// The positions of one design.
 #[derive(Debug, Clone, Copy)]
 pub struct Positions<'a> {
@@ -135,6 +146,11 @@ pub trait Metric: Sync {
         false
     }
 
+    /// Of what it is the mean, if it is one: then it has a gradient.
+    fn mean_of(&self) -> Option<MeanOf> {
+        None
+    }
+
     /// Checks that it has a meaning for a mechanism at the coordinates of `course`.
     ///
     /// # Errors
@@ -167,6 +183,10 @@ impl<M: Metric + ?Sized + Send> Metric for Box<M> {
 
     fn asks_return(&self) -> bool {
         self.as_ref().asks_return()
+    }
+
+    fn mean_of(&self) -> Option<MeanOf> {
+        self.as_ref().mean_of()
     }
 
     fn check(&self, course: &Course<'_>) -> Result<(), String> {

@@ -16,6 +16,17 @@ pub struct Sweep<'a> {
     pub metrics: &'a [&'a dyn Metric],
     /// The conditions on designs, in the order in which they are checked.
     pub conditions: &'a [Condition],
+    /// The gradients to find.
+    pub gradients: Gradients<'a>,
+}
+
+/// Gradients of metrics that are [means](Metric::mean_of), by dimensions.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Gradients<'a> {
+    /// Indices of the metrics.
+    pub of: &'a [usize],
+    /// The dimensions, in the order of [`Mechanism::dimensions`].
+    pub by: &'a [usize],
 }
 
 /// The metrics of a batch.
@@ -29,12 +40,15 @@ pub struct Measured {
     pub status: Vec<u8>,
     /// Whether it moves over all positions and meets all conditions.
     pub kept: Vec<bool>,
+    /// For every gradient the derivatives of each design, design after design: NaN if it is not kept.
+    pub gradients: Vec<Vec<f64>>,
 }
 
 impl<'a> Sweep<'a> {
     /// Designs of a mechanism in the assembly of its drawing, without metrics.
     #[must_use]
     pub fn of(mechanism: &'a Mechanism, dimensions: &'a [f64], q: &'a [f64]) -> Self {
-        Self { dimensions, q, signs: mechanism.signs(), metrics: &[], conditions: &[] }
+        let gradients = Gradients::default();
+        Self { dimensions, q, signs: mechanism.signs(), metrics: &[], conditions: &[], gradients }
     }
 }

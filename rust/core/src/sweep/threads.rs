@@ -3,13 +3,15 @@
 use std::mem::MaybeUninit;
 
 use super::evaluate_design::{Outcome, SweepBatch};
+use super::gradients::Kept;
 use crate::batch::chunks::{Chunk, Chunks, DesignRow, Designs};
 use crate::batch::dispatch::{Entry, ForLevel};
 use crate::batch::rows::{Layout, RowSlices};
-use crate::batch::scratch::{Scratch, ScratchRows};
+use crate::batch::scratch::{CopyRows, Scratch, ScratchRows};
 use crate::batch::worker::Worker;
 use crate::description::error::SolveError;
 use crate::math::lanes::Real;
+use crate::sensitivity::evaluate::SensitivitySpace;
 use crate::state::status::Status;
 
 /// Designs after which the solver decides whether probes are worth their time, and the least part of them
@@ -31,6 +33,7 @@ struct ThreadState<'b, R: Real, const G: usize> {
     solver: Solver<'b, R, G>,
     designs: Designs,
     scratch: Scratch,
+    space: SensitivitySpace<R>,
 }
 
 /// Solves designs, first at the probes.
@@ -48,12 +51,13 @@ impl ForLevel for Measure<'_, '_> {
 
     fn run<L: Entry, const G: usize>(self) -> Self::Output {
         let batch = self.batch;
-        let SweepBatch { mechanism, request, derivatives, writer, columns, control, .. } = *batch;
+        let SweepBatch { mechanism, request, derivatives, writer, control, .. } = *batch;
         let new_worker = || Worker::new(mechanism, request, derivatives, writer, control);
         let worker = || ThreadState::<'_, L::Register, G> {
             solver: Solver { worker: new_worker(), probe: new_worker(), probed: 0, dropped: 0 },
             designs: Designs::default(),
-            scratch: Scratch::new(columns, batch.shape.positions, Layout::Rows),
+            scratch: batch.scratch(),
+            space: SensitivitySpace::default(),
         };
         let work =
             |state: &mut ThreadState<'_, L::Register, G>, chunk: &Chunk, rows: RowSlices<'_>| {
@@ -92,6 +96,7 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             self.worker.swap_space(&mut self.probe);
             L::run(&mut self.worker, &mut rows.job(probes, design));
             self.worker.swap_space(&mut self.probe);
+            batch.copy_rows::<L>(rows, probes);
             let outcome = batch.evaluate(rows, (row, probes), true, values);
             let is_dropped = !matches!(outcome, Outcome::Moves(_));
             self.probed += 1;
@@ -107,11 +112,29 @@ impl<R: Real, const G: usize> Solver<'_, R, G> {
             }
             L::run(&mut self.worker, &mut rows.part(q, part * POSITIONS, design));
         }
+        batch.copy_rows::<L>(rows, all);
         batch.evaluate(rows, (row, q), false, values)
     }
 }
 
 impl SweepBatch<'_> {
+    /// Gradients read blocks, metrics rows.
+    fn scratch(&self) -> Scratch {
+        let positions = self.shape.positions;
+        if self.gradients.is_empty() {
+            return Scratch::new(self.columns, positions, Layout::Rows);
+        }
+        let is_read = |column: usize| self.sources.iter().any(|of| of.contains(&column));
+        Scratch::new(self.columns, positions, Layout::Blocks).copying(self.columns, is_read)
+    }
+
+    /// Lets metrics read the positions at `q`.
+    fn copy_rows<L: Entry>(&self, rows: &mut ScratchRows<'_>, q: &[f64]) {
+        if !self.gradients.is_empty() {
+            L::call(&mut CopyRows { rows, count: q.len() / self.shape.drivers });
+        }
+    }
+
     /// Measures the designs of a chunk; `results` holds one row a design.
     fn measure_chunk<L: Entry, const G: usize>(
         &self,
@@ -119,7 +142,7 @@ impl SweepBatch<'_> {
         chunk: &Chunk,
         mut results: RowSlices<'_>,
     ) {
-        let ThreadState { solver, designs, scratch } = state;
+        let ThreadState { solver, designs, scratch, space } = state;
         let all = self.shape.designs;
         designs.read(self.mechanism, self.sweep.dimensions, all, chunk.designs.clone());
         let mut rows = scratch.rows();
@@ -143,6 +166,21 @@ impl SweepBatch<'_> {
                     }
                 }
                 Outcome::FailsCondition => values.fill(f64::NAN),
+            }
+            if !self.gradients.is_empty() {
+                let results = (&mut results, place);
+                if is_kept {
+                    let kept = Kept {
+                        design: solver.worker.bound_design(),
+                        dimensions: row.dimensions,
+                        q: self.course.q,
+                        count: self.course.count(),
+                        values: &values,
+                    };
+                    self.gradients.write::<L>(space, &mut rows, &kept, results);
+                } else {
+                    self.gradients.write_none(values.len(), results);
+                }
             }
             values.push(f64::from(u8::from(is_kept)));
             for (column, &value) in results.columns.iter_mut().zip(&values) {
