@@ -83,7 +83,7 @@ impl Turns {
         let [least, greatest] = &self.inertias;
         (0..self.drivers).any(|driver| {
             let place = place_in_blocks(index, self.drivers, driver);
-            greatest[place] > GREAT_CHANGE * least[place]
+            changes_greatly(least[place], greatest[place])
         })
     }
 
@@ -95,6 +95,12 @@ impl Turns {
         }
         let [least, greatest] = &self.inertias;
         let each = least.iter().zip(greatest);
-        each.fold(false, |some, (&least, &greatest)| some | (greatest > GREAT_CHANGE * least))
+        each.fold(false, |some, (&least, &greatest)| some | changes_greatly(least, greatest))
     }
+}
+
+/// Whether an inertia between these may be that beside a dead point.
+#[inline(always)]
+fn changes_greatly(least: f64, greatest: f64) -> bool {
+    greatest > GREAT_CHANGE * least
 }
