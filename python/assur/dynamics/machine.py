@@ -776,9 +776,13 @@ class Machine(MachineModel):
         Notes
         -----
         Loads with `while_` do not act while their coordinate is at rest. Steps do not end where
-        loads jump: `run` does. Nor does it compare energies, or look for events. The pairs try
-        whether drivers turn back at a dead point, where a mechanism goes on in another assembly;
-        even steps may lead over one, and with several drivers those of an rtol above 1e-6.
+        loads jump: `run` does. Nor does it compare energies, or look for events.
+
+        At a dead point drivers turn back, and a mechanism goes on in another assembly. Where they
+        may turn back in a step, coordinates beside its way are tried: if one does not exist, the
+        step fails, and a pair tries a narrower one. Even steps do not resolve how drivers turn:
+        they also fail where they turn nearer to a dead point than half the change of speed times
+        dt.
 
         References
         ----------

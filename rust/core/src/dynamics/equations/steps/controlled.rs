@@ -2,7 +2,7 @@
 //! that have arrived, or cannot go on, leave the others.
 
 use super::controlled_stage::{Bounds, ControlledStage, FirstStage};
-use super::dead_points::PLACES;
+use super::dead_points::{Attempted, DeadPoints};
 use super::environment::{Environment, Span};
 use super::failures::{has_failed, longest_way, note, note_positions};
 use super::lane_accelerations::LaneAccelerations;
@@ -35,8 +35,7 @@ pub(super) struct ControlledSteps {
     states: States,
     /// Those that stay underway, or may turn back at a dead point.
     kept: Vec<usize>,
-    /// Coordinates beside their steps.
-    beside: Vec<f64>,
+    dead_points: DeadPoints,
     /// The design's size, and those that the tolerances of its drivers are relative to.
     size: f64,
     sizes: Vec<f64>,
@@ -198,34 +197,21 @@ impl ControlledSteps {
         worker: &mut StepWorker<'b, L::Register, G>,
         asked: &Asked<'_>,
     ) {
-        let n = batch.drivers();
-        let Self { states, kept, beside, underway, size, .. } = self;
-        let may_end =
-            |&index: &usize| underway[index].is_near_an_end() || states.may_turn_back(index, n);
+        let Self { states, kept, dead_points, underway, size, relative, .. } = self;
+        let States { q, speed, stage_q, stage_speed, h, status, turns, .. } = states;
+        let may_end = |&index: &usize| {
+            let may_end = underway[index].is_near_an_end() || turns.may_turn_back(index);
+            may_end && !has_failed(status[index])
+        };
         kept.clear();
-        kept.extend((0..states.h.len()).filter(may_end));
-        if kept.is_empty() {
-            return;
-        }
-        let links = batch.equations.positions.plan.driven_links.iter();
-        let units: Vec<f64> = links.map(|link| if link.is_some() { 1.0 } else { *size }).collect();
-        for part in PLACES {
-            beside.clear();
-            for &index in &*kept {
-                states.add_beside(index, &units, part, beside);
-            }
-            let rows = asked.rows.start..asked.rows.start + kept.len();
-            let positions = Asked { q: beside, rows, ..*asked };
-            let read = &mut |design: DesignPositions<'_>| {
-                let failed = kept.iter().zip(design.status).filter(|(_, now)| has_failed(**now));
-                for (&index, &now) in failed {
-                    note_positions(&mut states.status[index..=index], &[now]);
-                }
-            };
-            let rest = &vec![0.0; n];
-            let solved = &batch.equations.positions;
-            solved.solve_design::<L, G>(&mut worker.positions, &positions, rest, read);
-        }
+        kept.extend((0..h.len()).filter(may_end));
+        let steps = Attempted {
+            start: [q, speed],
+            end: [stage_q, stage_speed],
+            h,
+            tolerance: Some(*relative),
+        };
+        dead_points.note::<L, G>((batch, worker), (asked, *size), (kept, steps), status);
     }
 
     /// Lets the environments leave that have ended, by `has_ended` or because they have no next step, and

@@ -73,18 +73,16 @@ impl<R: Real> ControlledStage<'_, R> {
     fn keep_rates(&mut self, rows: Rows) {
         let LaneAccelerations { design, equation, speed, .. } = &self.accelerations;
         let n = self.bounds.driven_links.len();
-        let States { rates, status, inertia: [least, greatest], .. } = &mut *self.states;
+        let States { speed: start, rates, status, turns, .. } = &mut *self.states;
         let [rates_q, rates_speed] = &mut rates[self.number];
         for driver in 0..n {
-            let acceleration: R = equation.solution(driver);
-            rows.write(rates_q, n, driver, rows.read::<R>(speed, n, driver));
+            let (speed, acceleration) =
+                (rows.read::<R>(speed, n, driver), equation.solution(driver));
+            rows.write(rates_q, n, driver, speed);
             rows.write(rates_speed, n, driver, acceleration);
-            if n > 1 && self.number > 0 {
-                let inertia: R = equation.inertia(driver);
-                let smaller = inertia.min(rows.read(least, n, driver));
-                let greater = inertia.max(rows.read(greatest, n, driver));
-                rows.write(least, n, driver, smaller);
-                rows.write(greatest, n, driver, greater);
+            if self.number > 0 {
+                turns.note_speed(rows, speed, rows.read(start, n, driver));
+                turns.note_inertia(rows, driver, || equation.inertia(driver), self.number == 1);
             }
             let is_known = acceleration.finite();
             if !is_known.all() {

@@ -1,7 +1,8 @@
 //! Even steps by the classical Runge-Kutta method of order 4 (W. Kutta 1901).
 
+use super::dead_points::DeadPoints;
 use super::even_stage::{Stage, StageArrays};
-use super::failures::{longest_way, note, note_positions};
+use super::failures::{has_failed, longest_way, note, note_positions};
 use super::lane_accelerations::LaneAccelerations;
 use super::step_batch::{StepBatch, StepWorker};
 use crate::batch::dispatch::Entry;
@@ -18,6 +19,11 @@ const STAGES: usize = 4;
 pub(super) struct EvenSteps {
     pub arrays: StageArrays,
     pub status: Vec<u8>,
+    /// Those whose drivers may turn back in the step.
+    suspects: Vec<usize>,
+    dead_points: DeadPoints,
+    /// The size of the design.
+    size: f64,
 }
 
 impl EvenSteps {
@@ -38,6 +44,7 @@ impl EvenSteps {
             if batch.is_cancelled() {
                 return false;
             }
+            self.arrays.turns.start(self.status.len(), n);
             for stage in 0..STAGES {
                 if !self.stage::<L, G>(batch, worker, &asked, stage) {
                     self.status.fill(Status::BadDimension as u8);
@@ -45,6 +52,7 @@ impl EvenSteps {
                 }
                 asked.binds = binds_again;
             }
+            self.refuse_dead_points::<L, G>(batch, worker, &asked);
             self.arrays.finish_step(&self.status, n);
         }
         // The last state must exist, too.
@@ -52,6 +60,25 @@ impl EvenSteps {
             self.arrays.finish_step(&self.status, n);
         }
         true
+    }
+
+    /// Marks the environments whose step leads over a dead point.
+    fn refuse_dead_points<'b, L: Entry, const G: usize>(
+        &mut self,
+        batch: &StepBatch<'b>,
+        worker: &mut StepWorker<'b, L::Register, G>,
+        asked: &Asked<'_>,
+    ) {
+        let Self { arrays, status, suspects, dead_points, size } = self;
+        if !arrays.turns.some_may_turn_back() {
+            return;
+        }
+        let may_end =
+            |&index: &usize| arrays.turns.may_turn_back(index) && !has_failed(status[index]);
+        suspects.clear();
+        suspects.extend((0..status.len()).filter(may_end));
+        let steps = arrays.attempted(&batch.request.dt);
+        dead_points.note::<L, G>((batch, worker), (asked, *size), (suspects, steps), status);
     }
 
     /// Computes one stage of a step; false if the design has invalid dimensions.
@@ -63,7 +90,7 @@ impl EvenSteps {
         stage: usize,
     ) -> bool {
         let StepWorker { positions, scene, equation, efforts } = worker;
-        let Self { arrays, status } = self;
+        let Self { arrays, status, size, .. } = self;
         let (request, equations) = (batch.request, &batch.equations);
         let [q, speed] = arrays.take_stage();
         let stage_asked = Asked { q: &q, rows: asked.rows.clone(), ..*asked };
@@ -72,6 +99,7 @@ impl EvenSteps {
             &stage_asked,
             &speed,
             &mut |design: DesignPositions<'_>| {
+                *size = design.size;
                 if stage == 0 {
                     refuse_long_steps(&speed, request.dt, (design.size, equations), status);
                 }

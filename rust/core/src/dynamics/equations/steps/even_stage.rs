@@ -1,7 +1,9 @@
 //! One stage of the Runge-Kutta method for the environments of a chunk, a register of these at a time.
 
+use super::dead_points::Attempted;
 use super::failures::{has_failed, longest_way, note, some_failed, without_acceleration};
 use super::lane_accelerations::LaneAccelerations;
+use super::turns::Turns;
 use crate::batch::dispatch::Task;
 use crate::dynamics::reactions::lane_rows::Rows;
 use crate::math::lanes::{Mask, Real};
@@ -25,6 +27,8 @@ pub(super) struct StageArrays {
     /// The last states that are known to exist.
     good_q: Vec<f64>,
     good_speed: Vec<f64>,
+    /// What the stages of the step show of drivers that turn back.
+    pub turns: Turns,
 }
 
 impl StageArrays {
@@ -83,6 +87,16 @@ impl StageArrays {
     /// The states at the end: of environments that have failed the last ones that exist.
     pub(super) fn last_states(&self, failed: bool) -> [&[f64]; 2] {
         if failed { [&self.good_q, &self.good_speed] } else { [&self.q, &self.speed] }
+    }
+
+    /// The step that ends at the present stage.
+    pub(super) fn attempted<'a>(&'a self, h: &'a f64) -> Attempted<'a> {
+        Attempted {
+            start: [&self.q, &self.speed],
+            end: [&self.stage_q, &self.stage_speed],
+            h: std::slice::from_ref(h),
+            tolerance: None,
+        }
     }
 
     /// Begins the next step where the last stage ended; environments that have failed stay where they
@@ -156,7 +170,11 @@ impl<R: Real> Stage<'_, R> {
             let toward = if last { (slope_q, slope_speed) } else { (speed, acceleration) };
             let start_q = read(&self.arrays.q);
             let next_q = start_q + way * toward.0;
-            let next_speed = read(&self.arrays.speed) + way * toward.1;
+            let start_speed = read(&self.arrays.speed);
+            let next_speed = start_speed + way * toward.1;
+            let turns = &mut self.arrays.turns;
+            turns.note_speed(rows, next_speed, start_speed);
+            turns.note_inertia(rows, driver, || equation.inertia(driver), self.number == 0);
             let longest = longest_way(&plan.driven_links, driver, size);
             let gone = (next_q - start_q).abs();
             let is_fine = gone.le(R::splat(longest)).and(next_speed.finite());

@@ -15,3 +15,4 @@ pub(crate) mod request;
 mod states;
 mod step;
 mod step_batch;
+mod turns;

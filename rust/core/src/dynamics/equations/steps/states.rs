@@ -1,5 +1,7 @@
 //! The states of the environments underway.
 
+use super::turns::Turns;
+
 /// Arrays over the environments underway, in their order, drivers fastest.
 #[derive(Debug, Default)]
 pub(super) struct States {
@@ -21,8 +23,8 @@ pub(super) struct States {
     pub h: Vec<f64>,
     /// Statuses of the attempted steps.
     pub status: Vec<u8>,
-    /// Least and greatest inertia of each driver at the stages of the attempted steps, of several drivers.
-    pub inertia: [Vec<f64>; 2],
+    /// What the stages of the attempted steps show of drivers that turn back.
+    pub turns: Turns,
     /// Mean squares of the error estimates of a unit step, in tolerances.
     pub fine: Vec<f64>,
     pub coarse: Vec<f64>,
@@ -57,10 +59,7 @@ impl States {
         }
         self.status.clear();
         self.status.resize(count, 0);
-        for (array, unknown) in self.inertia.iter_mut().zip([f64::INFINITY, 0.0]) {
-            array.clear();
-            array.resize(count * n, unknown);
-        }
+        self.turns.start(count, n);
     }
 
     /// Goes on from the end of the attempted step of one environment.
