@@ -75,8 +75,8 @@ fn a_metric_of_ones_own() {
 #[test]
 fn gradients_of_means() {
     let mechanism = Mechanism::new(&SliderCrank::description()).unwrap();
-    let by = ["crank.length", "rod.length"].map(|name| mechanism.dimensions().position(name));
-    let [crank, rod] = by.map(Option::unwrap);
+    let index = |name| mechanism.dimensions().position(name).expect("a dimension");
+    let [crank, rod] = ["crank.length", "rod.length"].map(index);
     let mut dimensions = mechanism.drawing().to_vec();
     (dimensions[crank], dimensions[rod]) = (1.0, 3.0);
     let pin = Coordinate::joint(mechanism.joint("B").unwrap(), 0);
