@@ -55,9 +55,13 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
             let rows = Rows { first, last: count - 1 };
             let solved = &{ self.design.solved };
             let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
-            self.scene.read(plan, sources, self.design.guides, solved, rows);
-            self.scene.apply(plan, machine, self.design.values, rows);
-            self.equation.read(self.batch, self.scene, partials);
+            if self.batch.request.terms == [Term::Acceleration] {
+                self.equation.read_directly(self.batch, self.scene, partials, &self.design);
+            } else {
+                self.scene.read(plan, sources, self.design.guides, solved, rows);
+                self.scene.apply(plan, machine, self.design.values, rows);
+                self.equation.read(self.batch, self.scene, partials);
+            }
             self.write(partials, first, R::LANES.min(count - first));
         }
         for (row, &status) in self.design.status.iter().enumerate() {
