@@ -1,6 +1,7 @@
 //! The equations of motion of a machine for Python.
 
 use std::num::NonZeroUsize;
+use std::sync::OnceLock;
 
 use assur::dynamics::{
     Direction, EquationPlan, EquationRequest, Machine, StepMethod, StepRequest, Term, Variation,
@@ -55,7 +56,7 @@ pub(crate) struct TermKey(Word<Kind>, usize);
 
 impl TermKey {
     /// Whether it is a Jacobian.
-    pub(crate) fn is_of_a_joint(&self) -> bool {
+    fn is_of_a_joint(&self) -> bool {
         matches!(self.0.0, Kind::Jacobian)
     }
 
@@ -69,6 +70,43 @@ impl TermKey {
             Kind::Acceleration => Term::Acceleration,
             Kind::Jacobian => Term::Jacobian(self.1),
         }
+    }
+}
+
+/// The compiled equations of motion of a machine: without Jacobians of joints, with all of them, for
+/// derivatives, for accelerations alone.
+#[derive(Default)]
+pub(crate) struct Plans([OnceLock<EquationPlan>; 4]);
+
+impl Plans {
+    /// Those for some terms, or for their derivatives.
+    pub(crate) fn of_terms(
+        &self,
+        mechanism: &Mechanism,
+        machine: &Machine,
+        terms: &[TermKey],
+        derives: bool,
+    ) -> &EquationPlan {
+        if derives {
+            return self.0[2].get_or_init(|| EquationPlan::for_derivatives(mechanism, machine));
+        }
+        if let [TermKey(Word(Kind::Acceleration), _)] = terms {
+            return self.of_accelerations(mechanism, machine);
+        }
+        let joints = terms.iter().any(TermKey::is_of_a_joint);
+        self.0[usize::from(joints)].get_or_init(|| {
+            let all = if joints { mechanism.linkage().joints.len() } else { 0 };
+            EquationPlan::new(mechanism, machine, (0..all).collect())
+        })
+    }
+
+    /// Those for accelerations alone.
+    pub(crate) fn of_accelerations(
+        &self,
+        mechanism: &Mechanism,
+        machine: &Machine,
+    ) -> &EquationPlan {
+        self.0[3].get_or_init(|| EquationPlan::for_accelerations(mechanism, machine))
     }
 }
 

@@ -1,12 +1,11 @@
 //! Machines for Python: reduced inertias and moments, runs and steady states.
 
 use std::num::NonZeroUsize;
-use std::sync::OnceLock;
 use std::time::Duration;
 
 use assur::dynamics::{
-    EndCondition, EquationPlan, EquilibriumRange, FluctuationTarget, LoadAction, Mean, Point,
-    RunBatch, RunOptions, SteadyOptions, TabulatedMachine,
+    EndCondition, EquilibriumRange, FluctuationTarget, LoadAction, Mean, Point, RunBatch,
+    RunOptions, SteadyOptions, TabulatedMachine,
 };
 use assur::ode::Method;
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -22,7 +21,7 @@ use crate::convert::value::{FEW_ROWS, Values};
 use crate::convert::varied::{Varied, VariedKey};
 use crate::convert::word::Word;
 use crate::detach::{self, catch_panic};
-use crate::equations::{self, DirectionKey, TermKey};
+use crate::equations::{self, DirectionKey, Plans, TermKey};
 use crate::mechanism::Mechanism;
 use crate::reactions::{self, Inputs, Key};
 use crate::run::Run;
@@ -48,9 +47,7 @@ pub(crate) struct Machine {
     /// Python functions: those of loads, then those of motors.
     functions: Vec<Py<PyAny>>,
     load_functions: usize,
-    /// Its compiled equations of motion: without Jacobians of joints, with all of them, for derivatives, for
-    /// steps.
-    plans: [OnceLock<EquationPlan>; 4],
+    plans: Plans,
     /// The numbers that differ from machine to machine of a batch.
     varied: Varied,
 }
@@ -99,7 +96,7 @@ impl Machine {
             inner: Inner::Mechanism(mechanism, machine),
             functions,
             load_functions,
-            plans: Default::default(),
+            plans: Plans::default(),
             varied,
         })
     }
@@ -129,7 +126,7 @@ impl Machine {
                 inner,
                 functions,
                 load_functions: 0,
-                plans: Default::default(),
+                plans: Plans::default(),
                 varied: Varied::default(),
             })
         })
@@ -348,15 +345,7 @@ impl Machine {
             sense,
             rows,
         };
-        let plan = if by.is_some() {
-            self.plans[2].get_or_init(|| EquationPlan::for_derivatives(mechanism, machine))
-        } else {
-            let joints = terms.iter().any(TermKey::is_of_a_joint);
-            self.plans[usize::from(joints)].get_or_init(|| {
-                let all = if joints { mechanism.linkage().joints.len() } else { 0 };
-                EquationPlan::new(mechanism, machine, (0..all).collect())
-            })
-        };
+        let plan = self.plans.of_terms(mechanism, machine, &terms, by.is_some());
         let variations = self.varied.variations();
         let of = (mechanism, machine, plan, &variations[..]);
         equations::equations(py, of, &inputs, (&terms, by.as_deref()), threads, &report)
@@ -382,7 +371,7 @@ impl Machine {
         let (q, speed, effort) = state;
         let environments =
             equations::Environments { dimensions, q, speed, effort, has_motors, holds, rows };
-        let plan = self.plans[3].get_or_init(|| EquationPlan::for_steps(mechanism, machine));
+        let plan = self.plans.of_accelerations(mechanism, machine);
         let variations = self.varied.variations();
         let of = (mechanism, machine, plan, &variations[..]);
         equations::step(py, of, &environments, steps, threads)

@@ -4,3 +4,4 @@ mod agreement;
 mod higher_classes;
 mod published_numbers;
 mod regressions;
+mod two_drivers;

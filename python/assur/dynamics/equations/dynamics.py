@@ -134,18 +134,16 @@ def acceleration(
 ) -> Float:
     """See `Machine.acceleration`."""
     n = machine.driver_count
-    terms: list[Term] = [("acceleration", 0)]
-    if on_error == "raise":
-        terms = [*terms, ("mass matrix", 0), ("bias", 0)]
-    found = terms_of(machine, state, terms, threads)
+    found = terms_of(machine, state, [("acceleration", 0)], threads)
     if on_error == "raise":
         if found.failure is not None:
             raise found.failure
         solved = found.arrays[0].reshape(-1, n)
         if not np.isfinite(solved).all():
-            bias = found.arrays[2].reshape(-1, n)
+            why = terms_of(machine, state, [("mass matrix", 0), ("bias", 0)], threads)
+            bias = why.arrays[1].reshape(-1, n)
             require_values(machine, state, bias, found.status, "the acceleration is")
-            _require_inertia(machine, found.arrays[1].reshape(-1, n, n), solved, found.q)
+            _require_inertia(machine, why.arrays[0].reshape(-1, n, n), solved, found.q)
     full = found.shape if n == 1 else (*found.shape, n)
     result: Float = found.arrays[0].reshape(full)[()]
     return result

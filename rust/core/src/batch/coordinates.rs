@@ -158,7 +158,7 @@ fn read<R: Real>(chunk: &[f64], drivers: usize, driver: usize, first: usize) -> 
     // Widths known to the compiler are read by few instructions.
     match (chunk.get(first * drivers..(first + R::LANES) * drivers), drivers) {
         (Some(all), 1) => R::read(all),
-        (Some(all), 2) => R::from_lanes(|lane| all[2 * lane + driver]),
+        (Some(all), 2) => R::read(all).unzip(R::read(&all[R::LANES..]))[driver],
         _ => {
             let last = chunk.len() / drivers - 1;
             R::from_lanes(|lane| chunk[(first + lane).min(last) * drivers + driver])

@@ -1,9 +1,10 @@
 //! The rows of arrays that positions are written to, and how registers are stored in them.
 
+use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
 use super::request::Column;
-use crate::math::lanes::{Real, place_in_blocks};
+use crate::math::lanes::{LANES, Real, place_in_blocks};
 use crate::math::vector::Vector;
 
 /// Bytes of a cache line.
@@ -57,6 +58,44 @@ impl BlockColumn<'_> {
     pub(super) fn put<R: Real>(&mut self, g: usize, index: usize, x: R) {
         let at = place_in_blocks(self.first + g * R::LANES, self.width, index);
         x.write(&mut self.numbers[at..at + R::LANES]);
+    }
+
+    /// Where numbers `index` of the rows go, register after register.
+    #[inline(always)]
+    pub(super) fn registers<R: Real>(&mut self, index: usize) -> BlockRegisters<'_, R> {
+        let at = place_in_blocks(self.first, self.width, index);
+        BlockRegisters {
+            rest: self.numbers.get_mut(at..).unwrap_or_default(),
+            lane: self.first % LANES,
+            gap: LANES * (self.width - 1),
+            register: PhantomData,
+        }
+    }
+}
+
+/// Registers of a [`BlockColumn`]. Each takes few instructions, unlike a [place](place_in_blocks).
+pub(super) struct BlockRegisters<'r, R> {
+    rest: &'r mut [MaybeUninit<f64>],
+    /// Lane of the next register in its block.
+    lane: usize,
+    /// Numbers between those of a block and of the next one.
+    gap: usize,
+    register: PhantomData<R>,
+}
+
+impl<'r, R: Real> Iterator for BlockRegisters<'r, R> {
+    type Item = &'r mut [MaybeUninit<f64>];
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        let (out, rest) = std::mem::take(&mut self.rest).split_at_mut_checked(R::LANES)?;
+        self.lane += R::LANES;
+        self.rest = rest;
+        if R::LANES == LANES || self.lane == LANES {
+            self.lane = 0;
+            self.rest = std::mem::take(&mut self.rest).get_mut(self.gap..).unwrap_or_default();
+        }
+        Some(out)
     }
 }
 
@@ -159,7 +198,7 @@ pub(super) fn write_scaled<R: Real>(
 
 /// Stores one entry of each row, one lane per row.
 #[inline(always)]
-pub(super) fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, index: usize, x: R) {
+pub(crate) fn store_lanes<R: Real>(out: &mut [MaybeUninit<f64>], width: usize, index: usize, x: R) {
     for (lane, row) in out.chunks_exact_mut(width).enumerate() {
         row[index] = MaybeUninit::new(x.lane(lane));
     }

@@ -16,7 +16,7 @@ use super::writer::Writer;
 use crate::branch::design::Design;
 use crate::branch::lanes::uniform::Traced;
 use crate::branch::location::BranchLocation;
-use crate::math::derivatives::DerivativeTables;
+use crate::math::derivatives::{DerivativeTables, TWO_DRIVERS};
 use crate::math::lanes::Real;
 use crate::plan::mechanism::Mechanism;
 use crate::query::failure::Failure;
@@ -206,8 +206,11 @@ impl<'a, R: Real, const G: usize> Worker<'a, R, G> {
         if self.checks != Checks::Needed || drivers > 1 && !self.design.serves_all {
             return Path::ByPosition;
         }
-        // Analogues without checks are for one driver.
-        let has_kernels = drivers == 1 || self.space.block.len == 1;
+        // Analogues without checks are for one driver, second ones also for two.
+        let (len, tape) = (self.space.block.len, &self.space.tape);
+        let has_kernels = drivers == 1
+            || len == 1
+            || drivers == 2 && len == TWO_DRIVERS.len() && tape.serves_two_drivers;
         if !(has_kernels && (traced == Traced::Surveyed || self.needs_no_checks())) {
             return Path::Checked;
         }

@@ -336,22 +336,26 @@ impl Writer {
     ) {
         let origin = Vector::splat(Vector::new(constants.origin[0], constants.origin[1]));
         let groups = range.count.div_ceil(R::LANES);
+        // No closures in these loops: they are not always inlined into the code of a level.
         for entry in &self.points {
             let mut column = rows.blocks(entry.column, entry.width, range);
             let scale = R::splat(unit.length[entry.k]);
             let shift = if entry.k == 0 { Some(origin) } else { None };
-            for g in 0..groups {
-                let p = scaled(state.pose.points[entry.source][g], scale, shift);
-                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, p.x));
-                column.put(g, entry.index + entry.y, or_nan::<R, R, G>(failed, g, p.y));
+            let points = &state.pose.points[entry.source][..groups];
+            for (g, (out, &point)) in column.registers::<R>(entry.index).zip(points).enumerate() {
+                or_nan::<R, R, G>(failed, g, scaled(point, scale, shift).x).write(out);
+            }
+            let ys = column.registers::<R>(entry.index + entry.y);
+            for (g, (out, &point)) in ys.zip(points).enumerate() {
+                or_nan::<R, R, G>(failed, g, scaled(point, scale, shift).y).write(out);
             }
         }
         for entry in &self.slides {
             let mut column = rows.blocks(entry.column, entry.width, range);
             let scale = R::splat(unit.length[entry.k]);
-            for g in 0..groups {
-                let value = state.pose.slides[entry.source][g] * scale;
-                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, value));
+            let slides = &state.pose.slides[entry.source][..groups];
+            for (g, (out, &slide)) in column.registers::<R>(entry.index).zip(slides).enumerate() {
+                or_nan::<R, R, G>(failed, g, slide * scale).write(out);
             }
         }
         for DirectionEntry { row: entry, class, driven } in &self.directions {
@@ -366,10 +370,10 @@ impl Writer {
         }
         for entry in &self.rates {
             let mut column = rows.blocks(entry.column, entry.width, range);
-            for g in 0..groups {
-                let rate = state.pose.theta[entry.source][g] + R::splat(entry.driven);
-                let rate = entry.scaled_rate(rate, unit);
-                column.put(g, entry.index, or_nan::<R, R, G>(failed, g, rate));
+            let rates = &state.pose.theta[entry.source][..groups];
+            for (g, (out, &rate)) in column.registers::<R>(entry.index).zip(rates).enumerate() {
+                let rate = entry.scaled_rate(rate + R::splat(entry.driven), unit);
+                or_nan::<R, R, G>(failed, g, rate).write(out);
             }
         }
     }

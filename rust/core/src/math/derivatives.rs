@@ -36,6 +36,16 @@ pub(crate) const ONE_DRIVER_MIXED: [&[Term]; 4] = [
     &[Term { factor: 3.0, left: 2, right: 1 }, Term { factor: 3.0, left: 1, right: 2 }],
 ];
 
+/// [`DerivativeTables::rotation`] for two drivers to order 2, as a constant.
+pub(crate) const TWO_DRIVERS: [&[Term]; 6] = [
+    &[],
+    &[],
+    &[],
+    &[Term { factor: 1.0, left: 1, right: 1 }],
+    &[Term { factor: 1.0, left: 2, right: 1 }],
+    &[Term { factor: 1.0, left: 2, right: 2 }],
+];
+
 /// Terms of rotation, and of a slide along a turning guide, for one driver.
 pub(crate) fn one_driver(k: usize) -> (&'static [Term], &'static [Term]) {
     (ONE_DRIVER[k], ONE_DRIVER_MIXED[k])
@@ -207,6 +217,15 @@ mod tests {
         assert!(
             ONE_DRIVER.iter().zip(&derivatives.rotation).all(|(constant, made)| constant == made)
         );
+    }
+
+    #[test]
+    fn two_drivers_are_as_in_the_table() {
+        let derivatives = DerivativeTables::new(2, 2);
+        assert!(
+            TWO_DRIVERS.iter().zip(&derivatives.rotation).all(|(constant, made)| constant == made)
+        );
+        assert_eq!(TWO_DRIVERS.len(), derivatives.len());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::dyad::{Dyad, Form, LoopTerm, Unknown};
 use super::plan::{EdgeSlide, Plan, Step};
-use super::tape::{CrankPin, DyadOp, Op, PlaceKind, PlaceOp, Tape};
+use super::tape::{CrankPin, DrivenOrientation, DyadOp, Op, PlaceKind, PlaceOp, Tape};
 
 /// The needs of a request.
 #[derive(Debug, Clone, Copy)]
@@ -38,9 +38,7 @@ impl Uses {
         Self {
             points: needs.points.to_vec(),
             points_unchecked: needs.points.to_vec(),
-            orientations: (0..plan.orientations.len())
-                .map(|o| all || needs.orientations.get(o).is_some_and(|&needed| needed))
-                .collect(),
+            orientations: vec![all; plan.orientations.len()],
             legs: vec![all; plan.legs()],
             conditions: vec![has_redundant; plan.points],
             classes: needs.classes.to_vec(),
@@ -164,8 +162,10 @@ impl Tape {
         }
         ops.reverse();
         add_upstream(plan, &mut ops);
+        let is_needed = |o: usize| needs.orientations.get(o).is_some_and(|&needed| needed);
         let driven = (0..plan.orientations.len())
-            .filter(|&o| plan.orientations[o].driven && uses.orientations[o])
+            .filter(|&o| plan.orientations[o].driven && (uses.orientations[o] || is_needed(o)))
+            .map(|index| DrivenOrientation { index, has_jet: uses.orientations[index] })
             .collect();
         let fixed =
             (0..plan.points).filter(|&at| plan.fixed[at] && uses.points_unchecked[at]).collect();
@@ -177,7 +177,11 @@ impl Tape {
             )
         };
         let dyads = (0..ops.len()).filter(|&op| is_dyad(&ops[op])).collect();
-        Self { ops, dyads, fixed, driven, is_bounded }
+        let serves_two_drivers = ops.iter().all(|op| match op {
+            Op::TwoLegs(op) => op.pin.is_none(),
+            op => matches!(op, Op::Place(_)),
+        });
+        Self { ops, dyads, fixed, driven, is_bounded, serves_two_drivers }
     }
 }
 

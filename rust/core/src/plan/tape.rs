@@ -9,11 +9,21 @@ pub(crate) struct Tape {
     pub dyads: Vec<usize>,
     /// Ground points that the unchecked path uses.
     pub fixed: Vec<usize>,
-    /// Driven orientations whose phases some operation uses.
-    pub driven: Vec<usize>,
+    /// Driven orientations whose phases are used.
+    pub driven: Vec<DrivenOrientation>,
     /// Whether all dyads have kernels and depend only on points with bounded coordinates. Then a
     /// product of sines bounds the condition, and the unchecked path may be used.
     pub is_bounded: bool,
+    /// Whether all dyads have kernels for second derivatives by two drivers.
+    pub serves_two_drivers: bool,
+}
+
+/// An orientation that turns with drivers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct DrivenOrientation {
+    pub index: usize,
+    /// Whether some operation uses its derivatives.
+    pub has_jet: bool,
 }
 
 /// One operation.

@@ -102,28 +102,33 @@ impl<R: Real, const G: usize> State<R, G> {
                 let edge = cx.constants.edge_vector[op.edge];
                 let edge = if op.backward { -edge } else { edge };
                 let units = &self.pose.unit[driver];
+                let one_driver = cx.derivatives.drivers == 1;
                 for g in 0..groups {
                     let unit = if conj { units[g].conj() } else { units[g] };
                     let mut entry = unit.turn(edge);
                     out[0][g] = base.entry(0, g) + entry;
-                    if cx.derivatives.drivers == 1 {
-                        for k in 1..len {
+                    for k in 1..if one_driver { len } else { 1 } {
+                        entry = if conj { -entry.left() } else { entry.left() };
+                        out[k][g] = base.entry(k, g) + entry;
+                    }
+                }
+                for k in if one_driver { len..len } else { 1..len } {
+                    // Only derivatives by this driver alone are not 0.
+                    let power = &cx.derivatives.powers[k];
+                    let order = power[driver];
+                    if power.iter().sum::<usize>() != order {
+                        for g in 0..groups {
+                            out[k][g] = base.entry(k, g) + Vector::ZERO;
+                        }
+                        continue;
+                    }
+                    for g in 0..groups {
+                        let unit = if conj { units[g].conj() } else { units[g] };
+                        let mut entry = unit.turn(edge);
+                        for _ in 0..order {
                             entry = if conj { -entry.left() } else { entry.left() };
-                            out[k][g] = base.entry(k, g) + entry;
                         }
-                    } else {
-                        let first = entry;
-                        for k in 1..len {
-                            // Only derivatives by this driver alone are not 0.
-                            let power = &cx.derivatives.powers[k];
-                            let order = power[driver];
-                            let alone = power.iter().sum::<usize>() == order;
-                            let mut entry = if alone { first } else { Vector::ZERO };
-                            for _ in 0..if alone { order } else { 0 } {
-                                entry = if conj { -entry.left() } else { entry.left() };
-                            }
-                            out[k][g] = base.entry(k, g) + entry;
-                        }
+                        out[k][g] = base.entry(k, g) + entry;
                     }
                 }
             }

@@ -8,7 +8,7 @@ use crate::math::lanes::{Mask, Real};
 use crate::math::tolerance::NEAR_SINGULAR_CONDITION;
 use crate::math::vector::Vector;
 use crate::plan::plan::{Orientation, Step};
-use crate::plan::tape::{DyadOp, Op, Tape};
+use crate::plan::tape::{DrivenOrientation, DyadOp, Op, Tape};
 
 /// No dyad is nearly flat while all [`Conditions::bounds`] are at least this (with a margin for their
 /// rounding).
@@ -61,7 +61,8 @@ impl<R: Real, const G: usize> State<R, G> {
         }
     }
 
-    /// Unchecked path, for one driver and a tape that [`is_bounded`](Tape::is_bounded): computes positions
+    /// Unchecked path, for one driver, or two where the tape
+    /// [serves these](Tape::serves_two_drivers), and a tape that [`is_bounded`](Tape::is_bounded): computes positions
     /// with no more about them than [`Conditions::open`] and [`Conditions::bounds`]. If
     /// [`is_uncertain`](Self::is_uncertain), they must be computed again by [`run`](Self::run);
     /// otherwise they have the same bits.
@@ -73,6 +74,7 @@ impl<R: Real, const G: usize> State<R, G> {
             1 => self.run_unchecked_of_length::<L, 1>(cx, tape),
             2 => self.run_unchecked_of_length::<L, 2>(cx, tape),
             3 => self.run_unchecked_of_length::<L, 3>(cx, tape),
+            6 => self.run_unchecked_of_length::<L, 6>(cx, tape),
             _ => self.run_unchecked_of_length::<L, 4>(cx, tape),
         }
     }
@@ -212,12 +214,12 @@ impl<R: Real, const G: usize> State<R, G> {
                 self.pose.slides[slide * self.len] = *q;
             }
         }
-        for &o in &tape.driven {
+        for &DrivenOrientation { index: o, has_jet } in &tape.driven {
             let orientation = &cx.plan.orientations[o];
             for g in 0..self.groups.min(G) {
                 let phase = self.phase_of(g, orientation);
                 self.pose.phase[o][g] = phase;
-                if orientation.class == 0 {
+                if orientation.class == 0 && has_jet {
                     self.set_driven_orientation(g, cx, o, phase);
                 }
             }

@@ -1,5 +1,5 @@
-//! Mass matrix and bias at one stage of a step, body after body from the derivatives of its place and angle:
-//! fewer operations than by the inertia forces on links, which the terms of the equations share.
+//! Mass matrix and bias where accelerations alone are asked for, body after body from the derivatives of its place
+//! and angle: fewer operations than by the inertia forces on links, which the terms of the equations share.
 
 use super::bodies::Partials;
 use super::equation_batch::EquationBatch;
@@ -10,96 +10,126 @@ use crate::math::lanes::Real;
 use crate::math::vector::Vector;
 use crate::structure::closure::point_of_joint;
 
-/// Work space: what all bodies read, and the derivatives of one.
+/// Work space of any number of drivers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Direct<R> {
-    /// Speeds of the drivers.
     speeds: Vec<R>,
-    /// Their products, row by row of the lower half, those beside the diagonal doubled.
     products: Vec<R>,
-    /// Derivatives of the place of a body by the drivers.
     places: Vec<Vector<R>>,
 }
 
+/// What all bodies read, the derivatives of one, and the sums.
+struct Sums<'s, R> {
+    /// Speeds of the drivers.
+    speeds: &'s mut [R],
+    /// Their products, row by row of the lower half, those beside the diagonal doubled.
+    products: &'s mut [R],
+    /// Derivatives of the place of a body by the drivers.
+    places: &'s mut [Vector<R>],
+    mass: &'s mut [R],
+    bias: &'s mut [R],
+}
+
 impl<R: Real> Direct<R> {
-    /// Computes mass matrix and bias without loads, `sums`; `speed`: those of the drivers.
+    /// Computes mass matrix and bias without loads.
     #[inline(always)]
     pub(super) fn read_bodies(
         &mut self,
         batch: &EquationBatch<'_>,
         numbers: &LaneNumbers<R>,
         partials: Partials<'_>,
-        speed: &[f64],
-        sums: [&mut Vec<R>; 2],
+        [mass, bias]: [&mut Vec<R>; 2],
     ) {
-        // The compiler unrolls loops over a number of drivers that it knows.
-        match partials.drivers {
-            1 => self.sum_bodies(batch, numbers, Partials { drivers: 1, ..partials }, speed, sums),
-            2 => self.sum_bodies(batch, numbers, Partials { drivers: 2, ..partials }, speed, sums),
-            _ => self.sum_bodies(batch, numbers, partials, speed, sums),
+        let n = partials.drivers;
+        mass.resize(n * n, R::ZERO);
+        bias.resize(n, R::ZERO);
+        let (mass, bias) = (&mut mass[..], &mut bias[..]);
+        match n {
+            1 => sum_few::<R, 1, 1, 1>(batch, numbers, partials, [mass, bias]),
+            2 => sum_few::<R, 2, 3, 4>(batch, numbers, partials, [mass, bias]),
+            _ => {
+                let Self { speeds, products, places } = self;
+                speeds.resize(n, R::ZERO);
+                products.resize(n * (n + 1) / 2, R::ZERO);
+                places.resize(n, Vector::ZERO);
+                let mut sums = Sums { speeds, products, places, mass, bias };
+                sums.add_bodies(batch, numbers, partials);
+            }
         }
     }
+}
 
+/// The same of a number of drivers for which the compiler unrolls all loops, and keeps the sums in registers.
+#[inline(always)]
+fn sum_few<R: Real, const N: usize, const PRODUCTS: usize, const ENTRIES: usize>(
+    batch: &EquationBatch<'_>,
+    numbers: &LaneNumbers<R>,
+    partials: Partials<'_>,
+    [mass, bias]: [&mut [R]; 2],
+) {
+    let (mut speeds, mut products) = ([R::ZERO; N], [R::ZERO; PRODUCTS]);
+    let (mut places, mut entries, mut forces) =
+        ([Vector::ZERO; N], [R::ZERO; ENTRIES], [R::ZERO; N]);
+    let mut sums = Sums {
+        speeds: &mut speeds,
+        products: &mut products,
+        places: &mut places,
+        mass: &mut entries,
+        bias: &mut forces,
+    };
+    sums.add_bodies(batch, numbers, Partials { drivers: N, ..partials });
+    mass.copy_from_slice(&entries);
+    bias.copy_from_slice(&forces);
+}
+
+impl<R: Real> Sums<'_, R> {
+    /// Adds rotors and bodies.
     #[inline(always)]
-    fn sum_bodies(
+    fn add_bodies(
         &mut self,
         batch: &EquationBatch<'_>,
         numbers: &LaneNumbers<R>,
         partials: Partials<'_>,
-        speed: &[f64],
-        [mass, bias]: [&mut Vec<R>; 2],
     ) {
         let n = partials.drivers;
-        let direct = self;
-        direct.speeds.resize(n, R::ZERO);
-        direct.products.resize(n * (n + 1) / 2, R::ZERO);
-        direct.places.resize(n, Vector::ZERO);
         let mut entry = 0;
         for a in 0..n {
-            direct.speeds[a] = partials.rows.read_drive(speed, n, a);
+            self.speeds[a] = partials.rows.read_drive(partials.solved.speed, n, a);
             for b in 0..=a {
-                let product = direct.speeds[a] * direct.speeds[b];
-                direct.products[entry] = if a == b { product } else { product + product };
+                let product = self.speeds[a] * self.speeds[b];
+                self.products[entry] = if a == b { product } else { product + product };
                 entry += 1;
             }
         }
-        mass.resize(n * n, R::ZERO);
-        mass.fill(R::ZERO);
-        bias.resize(n, R::ZERO);
-        bias.fill(R::ZERO);
-        let (mass, bias) = (&mut mass[..n * n], &mut bias[..n]);
+        self.mass.fill(R::ZERO);
+        self.bias.fill(R::ZERO);
         let machine = batch.positions.machine;
         if batch.has_rotors {
-            for (motor, &[ratio, rotor]) in machine.motors.iter().zip(&numbers.motors) {
-                mass[motor.driver * n + motor.driver] += ratio * ratio * rotor;
+            for a in 0..n {
+                for (motor, &[ratio, rotor]) in machine.motors.iter().zip(&numbers.motors) {
+                    if motor.driver == a {
+                        self.mass[a * n + a] += ratio * ratio * rotor;
+                    }
+                }
             }
         }
         let gravity = Vector::splat(Vector::new(machine.gravity[0], machine.gravity[1]));
         // Where numbers vary the machine has the greatest: zero there is zero everywhere.
         for (body, &[m, inertia]) in machine.bodies.iter().zip(&numbers.bodies) {
             if body.mass != 0.0 {
-                direct.add_mass(partials, (body, m, gravity), mass, bias);
+                self.add_mass(partials, (body, m, gravity));
             }
             if body.inertia != 0.0 {
-                direct.add_inertia(partials, (body, inertia), mass, bias);
+                self.add_inertia(partials, (body, inertia));
             }
         }
     }
-}
 
-impl<R: Real> Direct<R> {
     /// Adds the mass of a body: `M_ab = m S_a·S_b`, `b_a = m S_a·(S_bc q̇_b q̇_c − g)`.
     #[inline(always)]
-    fn add_mass(
-        &mut self,
-        partials: Partials<'_>,
-        (body, m, gravity): (&Body, R, Vector<R>),
-        mass: &mut [R],
-        bias: &mut [R],
-    ) {
+    fn add_mass(&mut self, partials: Partials<'_>, (body, m, gravity): (&Body, R, Vector<R>)) {
         let n = partials.drivers;
-        let Self { speeds, products, places } = self;
-        let (places, speeds) = (&mut places[..n], &speeds[..n]);
+        let Self { speeds, products, places, mass, bias } = self;
         let (reference, beyond) = match body.at {
             Point::Joint(joint) => (point_of_joint(joint), None),
             Point::Link { link, .. } if link == partials.plan.ground => return,
@@ -141,15 +171,10 @@ impl<R: Real> Direct<R> {
 
     /// Adds the moment of inertia of a body: `M_ab = J Θ_a Θ_b`, `b_a = J Θ_a Θ_bc q̇_b q̇_c`.
     #[inline(always)]
-    fn add_inertia(
-        &self,
-        partials: Partials<'_>,
-        (body, inertia): (&Body, R),
-        mass: &mut [R],
-        bias: &mut [R],
-    ) {
+    fn add_inertia(&mut self, partials: Partials<'_>, (body, inertia): (&Body, R)) {
         let n = partials.drivers;
-        let couple = inertia * turn_rate(&self.products, partials, body.link);
+        let Self { products, mass, bias, .. } = self;
+        let couple = inertia * turn_rate(products, partials, body.link);
         for a in 0..n {
             let rate: R = partials.angle(body.link, a);
             bias[a] += rate * couple;

@@ -8,7 +8,7 @@ use super::equation_batch::EquationBatch;
 use super::request::Term;
 use super::solve::solve_positive;
 use crate::batch::dispatch::Task;
-use crate::batch::rows::RowSlices;
+use crate::batch::rows::{RowSlices, store_lanes, store_pairs};
 use crate::dynamics::kinetostatics::positions::{DesignPositions, MachineBatch};
 use crate::dynamics::reactions::lane_rows::Rows;
 use crate::dynamics::reactions::scene::Scene;
@@ -53,11 +53,15 @@ impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
         self.scene.place_known(self.design.known);
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
-            self.scene.read(plan, sources, self.design.guides, &self.design.solved, rows);
-            self.scene.apply(plan, machine, self.design.values, rows);
             let solved = &{ self.design.solved };
             let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
-            self.equation.read(self.batch, self.scene, partials);
+            if self.batch.request.terms == [Term::Acceleration] {
+                self.equation.read_directly(self.batch, self.scene, partials, &self.design);
+            } else {
+                self.scene.read(plan, sources, self.design.guides, solved, rows);
+                self.scene.apply(plan, machine, self.design.values, rows);
+                self.equation.read(self.batch, self.scene, partials);
+            }
             self.write(partials, first, R::LANES.min(count - first));
         }
         for (row, &status) in self.design.status.iter().enumerate() {
@@ -125,24 +129,26 @@ impl<R: Real> Equation<R> {
         }
     }
 
-    /// Computes mass matrix and bias without loads, body after body.
+    /// Computes mass matrix and bias alone, body after body.
     #[inline(always)]
-    pub(super) fn read_bodies(
+    pub(super) fn read_directly(
         &mut self,
         batch: &EquationBatch<'_>,
-        scene: &Scene<R>,
+        scene: &mut Scene<R>,
         partials: Partials<'_>,
-        speed: &[f64],
+        design: &DesignPositions<'_>,
     ) {
         let Self { direct, mass, bias, .. } = self;
-        direct.read_bodies(batch, &scene.numbers, partials, speed, [mass, bias]);
-    }
-
-    /// Adds the forces on links to the bias.
-    #[inline(always)]
-    pub(super) fn add_forces(&mut self, scene: &Scene<R>, partials: Partials<'_>) {
-        for (a, bias) in self.bias.iter_mut().enumerate() {
-            *bias = *bias - power(scene, partials, a);
+        let (MachineBatch { plan, machine, .. }, rows) = (&batch.positions, partials.rows);
+        scene.numbers.read(machine, design.values.varied, rows);
+        direct.read_bodies(batch, &scene.numbers, partials, [mass, bias]);
+        if !plan.load_actions.is_empty() {
+            scene.read(plan, partials.sources, design.guides, partials.solved, rows);
+            scene.clear_forces();
+            scene.apply_loads(plan, machine, design.values, rows);
+            for (a, bias) in bias.iter_mut().enumerate() {
+                *bias = *bias - power(scene, partials, a);
+            }
         }
     }
 
@@ -165,7 +171,7 @@ impl<R: Real> Equation<R> {
         self.right[driver]
     }
 
-    /// The diagonal entry of the mass matrix of a driver, after [`Self::read_bodies`].
+    /// The diagonal entry of the mass matrix of a driver, after [`Self::read_directly`].
     #[inline(always)]
     pub(super) fn inertia(&self, driver: usize) -> R {
         self.mass[driver * self.bias.len() + driver]
@@ -221,12 +227,16 @@ impl<R: Real> Evaluate<'_, '_, R> {
             if term == Term::Acceleration {
                 self.equation.accelerate(self.effort, rows);
             }
+            let out = &mut self.results.columns[column][row * width..(row + lanes) * width];
+            if width == 2 && lanes == R::LANES {
+                let x = self.equation.entry(term, 0, partials, self.acceleration);
+                let y = self.equation.entry(term, 1, partials, self.acceleration);
+                store_pairs(out, false, Vector::new(x, y));
+                continue;
+            }
             for entry in 0..width {
                 let value = self.equation.entry(term, entry, partials, self.acceleration);
-                let out = &mut self.results.columns[column][row * width..(row + lanes) * width];
-                for lane in 0..lanes {
-                    out[lane * width + entry] = MaybeUninit::new(value.lane(lane));
-                }
+                store_lanes(out, width, entry, value);
             }
         }
     }

@@ -40,10 +40,10 @@ impl EquationPlan {
         compiled
     }
 
-    /// Compiles a machine for steps in time, which read its bodies and loaded links alone.
+    /// Compiles a machine for steps in time and for accelerations alone, which read its bodies and loaded links.
     #[must_use]
-    pub fn for_steps(mechanism: &Mechanism, machine: &Machine) -> Self {
-        let forces = ForcePlan::for_steps(mechanism, machine, order(machine));
+    pub fn for_accelerations(mechanism: &Mechanism, machine: &Machine) -> Self {
+        let forces = ForcePlan::for_accelerations(mechanism, machine, order(machine));
         Self::compiled(mechanism, forces, false)
     }
 

@@ -117,7 +117,11 @@ impl ForcePlan {
     }
 
     /// The same of the bodies and the loaded links alone.
-    pub(crate) fn for_steps(mechanism: &Mechanism, machine: &Machine, order: usize) -> Self {
+    pub(crate) fn for_accelerations(
+        mechanism: &Mechanism,
+        machine: &Machine,
+        order: usize,
+    ) -> Self {
         let mut compiled = Self::by_drivers(mechanism, machine, order);
         compiled.find_needs_of_parts(mechanism, machine);
         for link in machine.load_actions(mechanism).iter().map(|action| action.link) {

@@ -22,7 +22,7 @@ impl Rows {
         // Widths known to the compiler are read by few instructions.
         match (values.get(first..first + R::LANES * width), width) {
             (Some(all), 1) => R::read(all),
-            (Some(all), 2) => R::from_lanes(|lane| all[2 * lane + offset]),
+            (Some(all), 2) => R::read(all).unzip(R::read(&all[R::LANES..]))[offset],
             _ => R::from_lanes(|lane| values[(self.first + lane).min(self.last) * width + offset]),
         }
     }
@@ -34,14 +34,9 @@ impl Rows {
     pub(crate) fn write<R: Real>(self, values: &mut [f64], width: usize, offset: usize, number: R) {
         let lanes = R::LANES.min(self.last + 1 - self.first);
         let values = &mut values[self.first * width..(self.first + lanes) * width];
-        // Widths known to the compiler are written by few instructions.
         if width == 1 && values.len() == R::LANES {
             for lane in 0..R::LANES {
                 values[lane] = number.lane(lane);
-            }
-        } else if width == 2 && values.len() == 2 * R::LANES {
-            for lane in 0..R::LANES {
-                values[2 * lane + offset] = number.lane(lane);
             }
         } else {
             for (lane, values) in values.chunks_exact_mut(width).enumerate() {
@@ -52,6 +47,30 @@ impl Rows {
 }
 
 impl Rows {
+    /// Writes the numbers from `first` on of each position's `width` numbers.
+    #[inline(always)]
+    pub(crate) fn write_some<R: Real, const N: usize>(
+        self,
+        values: &mut [f64],
+        width: usize,
+        first: usize,
+        numbers: [R; N],
+    ) {
+        if let ([x, y], 2) = (&numbers[..], width)
+            && let Some(all) = values.get_mut(2 * self.first..2 * (self.first + R::LANES))
+        {
+            let [before, after] = x.zip(*y);
+            for lane in 0..R::LANES {
+                all[lane] = before.lane(lane);
+                all[R::LANES + lane] = after.lane(lane);
+            }
+            return;
+        }
+        for (offset, &number) in (first..).zip(&numbers) {
+            self.write(values, width, offset, number);
+        }
+    }
+
     /// A speed or acceleration of one of `n` drivers: for each position, or the same for all.
     #[inline(always)]
     pub(crate) fn read_drive<R: Real>(self, values: &[f64], n: usize, driver: usize) -> R {

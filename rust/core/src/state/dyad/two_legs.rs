@@ -3,6 +3,7 @@
 use super::chord::{DyadChord, Ends, FROM_GROUND, FROM_PIN, POINTS, TO_GROUND, TO_PIN, ends_of};
 use super::intersections::TwoCircles;
 use super::turning_leg::{entry, second_rest, third_rest};
+use crate::math::derivatives::{TWO_DRIVERS, Term};
 use crate::math::lanes::Real;
 use crate::math::stride::Stride;
 use crate::math::vector::Vector;
@@ -33,19 +34,24 @@ impl<R: Real, const G: usize> State<R, G> {
     #[inline(always)]
     pub(crate) fn two_legs(&mut self, cx: &Context<'_>, op: &DyadOp) {
         if cx.derivatives.drivers > 1 {
-            self.legs_by_drivers(cx, op);
+            self.legs_by_drivers::<R, true>(cx, op, self.len, &|k| &cx.derivatives.rotation[k][..]);
         } else {
             self.legs_by_driver::<R, true, POINTS>(cx, op, self.len);
         }
     }
 
-    /// The same on the unchecked path: one driver, jets of a constant length, only what the tape uses.
+    /// The same on the unchecked path: one driver, or two with jets of second order; jets of a constant
+    /// length, only what the tape uses.
     #[inline(always)]
     pub(crate) fn unchecked_two_legs<W: Stride<R>, const LEN: usize>(
         &mut self,
         cx: &Context<'_>,
         op: &DyadOp,
     ) {
+        if LEN == TWO_DRIVERS.len() {
+            self.legs_by_drivers::<W, false>(cx, op, LEN, &|k| TWO_DRIVERS[k]);
+            return;
+        }
         match ends_of(op) {
             FROM_PIN => self.legs_by_driver::<W, false, FROM_PIN>(cx, op, LEN),
             TO_PIN => self.legs_by_driver::<W, false, TO_PIN>(cx, op, LEN),
@@ -142,10 +148,15 @@ impl<R: Real, const G: usize> State<R, G> {
         self.turn_orientations(cx, op);
     }
 
-    /// The checked path for any number of drivers.
+    /// Several drivers; `terms`: those of a rotation.
     #[inline(always)]
-    fn legs_by_drivers(&mut self, cx: &Context<'_>, op: &DyadOp) {
-        let len = self.len;
+    fn legs_by_drivers<'t, W: Stride<R>, const CHECKED: bool>(
+        &mut self,
+        cx: &Context<'_>,
+        op: &DyadOp,
+        len: usize,
+        terms: &impl Fn(usize) -> &'t [Term],
+    ) {
         let jet = |i: usize| i * len..i * len + len;
         let (start, end) = (&self.pose.points[jet(op.start)], &self.pose.points[jet(op.end)]);
         let (Ok([a_jet, b_jet]), Ok([u, v]), Ok([a_turn, b_turn])) = (
@@ -156,32 +167,51 @@ impl<R: Real, const G: usize> State<R, G> {
             return;
         };
         let signs = &self.pose.signs[op.sign.unwrap_or(0)];
-        let legs = &cx.constants.legs[op.dyad];
-        let (a, b) = (legs[0].on_lanes(), legs[1].on_lanes());
-        let sides = cx.constants.dyads[op.dyad].sides.on_lanes();
-        for g in 0..self.groups.min(G) {
-            let k = end[0][g] - start[0][g];
-            let solved = TwoCircles::solve::<true>([&a, &b], &sides, k, signs[g]);
-            self.work.closings[g] = solved.closing;
+        let (legs, dyad) = (&cx.constants.legs[op.dyad], &cx.constants.dyads[op.dyad]);
+        let (a, b) = (legs[0].on_lanes::<W>(), legs[1].on_lanes::<W>());
+        let mut sides = dyad.sides.on_lanes::<W>();
+        if !CHECKED {
+            sides.per_sine2 = W::splat(dyad.bounding_per_sine2);
+        }
+        let bounds = &mut self.conditions.bounds[op.dyad];
+        for g in (0..self.groups.min(G)).step_by(W::REGISTERS) {
+            let k = W::load_vectors(&end[0], g) - W::load_vectors(&start[0], g);
+            let solved = TwoCircles::solve::<CHECKED>([&a, &b], &sides, k, W::load(signs, g));
+            if CHECKED {
+                self.work.closings[g] = solved.closing.first();
+            } else {
+                W::add_to(solved.closing.open, &mut self.conditions.open, g);
+                let bound = W::load(&self.conditions.bound, g) * solved.closing.sine2;
+                bound.store(bounds, g);
+            }
             let [a0, b0] = solved.legs;
-            (a_jet[0][g], b_jet[0][g]) = (a0, b0);
-            (a_turn[g], b_turn[g]) = (a.turn_to(a0), b.turn_to(b0));
+            W::store_vectors(a0, &mut a_jet[0], g);
+            W::store_vectors(b0, &mut b_jet[0], g);
+            W::store_vectors(a.turn_to(a0), a_turn, g);
+            W::store_vectors(b.turn_to(b0), b_turn, g);
             let legs = Legs { a: a0, b: b0, inverse: solved.inverse_determinant };
             for k in 1..len {
                 let (mut a_rest, mut b_rest) = (Vector::ZERO, Vector::ZERO);
-                for term in &cx.derivatives.rotation[k] {
-                    let factor = R::splat(term.factor);
-                    a_rest += a_jet[term.left][g].scale(factor * u[term.right][g]);
-                    b_rest += b_jet[term.left][g].scale(factor * v[term.right][g]);
+                for term in terms(k) {
+                    let (left, right) = (term.left, term.right);
+                    let factor = W::splat(term.factor);
+                    let [u, v] = [factor * W::load(&u[right], g), factor * W::load(&v[right], g)];
+                    a_rest += W::load_vectors(&a_jet[left], g).scale(u);
+                    b_rest += W::load_vectors(&b_jet[left], g).scale(v);
                 }
-                let chord = end[k][g] - start[k][g];
+                let chord = W::load_vectors(&end[k], g) - W::load_vectors(&start[k], g);
                 let rests = [a_rest.left(), b_rest.left()];
-                [u[k][g], v[k][g]] = legs.rates(chord, Some(rests));
-                a_jet[k][g] = entry(a0, u[k][g], Some(rests[0]));
-                b_jet[k][g] = chord - a_jet[k][g];
+                let entries = legs.rates(chord, Some(rests));
+                entries[0].store(&mut u[k], g);
+                entries[1].store(&mut v[k], g);
+                let a_next = entry(a0, entries[0], Some(rests[0]));
+                W::store_vectors(a_next, &mut a_jet[k], g);
+                W::store_vectors(chord - a_next, &mut b_jet[k], g);
             }
         }
-        self.record_closings(cx, op);
+        if CHECKED {
+            self.record_closings(cx, op);
+        }
         self.turn_orientations(cx, op);
     }
 }

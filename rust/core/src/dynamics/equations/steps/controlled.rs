@@ -173,7 +173,6 @@ impl ControlledSteps {
                         scene: &mut *scene,
                         equation: &mut *equation,
                         effort,
-                        speed: &speed,
                     },
                     states: &mut *states,
                     bounds: Bounds { driven_links, size: *size, tolerances, relative: *relative },

@@ -59,7 +59,7 @@ impl<R: Real> Task<R> for ControlledStage<'_, R> {
             self.accelerations.find(rows);
             self.keep_rates(rows);
             if self.number == self.pair.stages {
-                let ends = [self.accelerations.design.q, self.accelerations.speed];
+                let ends = [self.accelerations.design.q, self.accelerations.design.solved.speed];
                 self.states.estimate::<R>(rows, ends, self.pair, self.bounds);
             } else if self.number > 0 {
                 self.states.go_on::<R>(rows, self.pair.a[self.number + 1], self.bounds);
@@ -71,13 +71,13 @@ impl<R: Real> Task<R> for ControlledStage<'_, R> {
 impl<R: Real> ControlledStage<'_, R> {
     #[inline(always)]
     fn keep_rates(&mut self, rows: Rows) {
-        let LaneAccelerations { design, equation, speed, .. } = &self.accelerations;
+        let LaneAccelerations { design, equation, .. } = &self.accelerations;
         let n = self.bounds.driven_links.len();
         let States { speed: start, rates, status, turns, .. } = &mut *self.states;
         let [rates_q, rates_speed] = &mut rates[self.number];
         for driver in 0..n {
-            let (speed, acceleration) =
-                (rows.read::<R>(speed, n, driver), equation.solution(driver));
+            let acceleration: R = equation.solution(driver);
+            let speed = rows.read::<R>(design.solved.speed, n, driver);
             rows.write(rates_q, n, driver, speed);
             rows.write(rates_speed, n, driver, acceleration);
             if self.number > 0 {

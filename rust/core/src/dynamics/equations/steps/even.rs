@@ -120,7 +120,6 @@ impl EvenSteps {
                         scene: &mut *scene,
                         equation: &mut *equation,
                         effort,
-                        speed: &speed,
                     },
                     arrays: &mut *arrays,
                     status: &mut *status,

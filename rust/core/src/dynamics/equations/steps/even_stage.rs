@@ -137,7 +137,7 @@ impl<R: Real> Task<R> for Stage<'_, R> {
         for first in (0..count).step_by(R::LANES) {
             let rows = Rows { first, last: count - 1 };
             self.accelerations.find(rows);
-            self.advance(rows, R::LANES.min(count - first));
+            self.advance(rows);
         }
     }
 }
@@ -145,10 +145,23 @@ impl<R: Real> Task<R> for Stage<'_, R> {
 impl<R: Real> Stage<'_, R> {
     /// Adds the slopes of this stage, and finds the state at the next one.
     #[inline(always)]
-    fn advance(&mut self, rows: Rows, lanes: usize) {
-        let LaneAccelerations { batch, design, equation, speed, .. } = &self.accelerations;
+    fn advance(&mut self, rows: Rows) {
+        let drivers = self.accelerations.batch.positions.plan.drivers;
+        if drivers == 2 {
+            self.advance_drivers::<2>(rows, 0, 2);
+            return;
+        }
+        for driver in 0..drivers {
+            self.advance_drivers::<1>(rows, driver, drivers);
+        }
+    }
+
+    /// The same for `N` of `n` drivers.
+    #[inline(always)]
+    fn advance_drivers<const N: usize>(&mut self, rows: Rows, first: usize, n: usize) {
+        let LaneAccelerations { batch, design, equation, .. } = &self.accelerations;
         let plan = batch.positions.plan;
-        let (n, size) = (plan.drivers, design.size);
+        let size = design.size;
         let whole = R::splat(self.dt);
         // Way to the next stage, and the weight of this one.
         let (way, weight) = match self.number {
@@ -157,9 +170,11 @@ impl<R: Real> Stage<'_, R> {
             2 => (whole, R::splat(2.0)),
             _ => (whole / R::splat(6.0), R::ONE),
         };
-        for driver in 0..n {
+        let [mut sum_q, mut sum_speed, mut next_q, mut next_speed] = [[R::ZERO; N]; 4];
+        for i in 0..N {
+            let driver = first + i;
             let read = |values: &[f64]| rows.read::<R>(values, n, driver);
-            let (speed, acceleration) = (read(speed), equation.solution(driver));
+            let (speed, acceleration) = (read(design.solved.speed), equation.solution(driver));
             let (mut slope_q, mut slope_speed) = (speed, acceleration);
             if self.number > 0 {
                 let sums = (read(&self.arrays.sum_q), read(&self.arrays.sum_speed));
@@ -169,27 +184,29 @@ impl<R: Real> Stage<'_, R> {
             let last = self.number == 3;
             let toward = if last { (slope_q, slope_speed) } else { (speed, acceleration) };
             let start_q = read(&self.arrays.q);
-            let next_q = start_q + way * toward.0;
+            next_q[i] = start_q + way * toward.0;
             let start_speed = read(&self.arrays.speed);
-            let next_speed = start_speed + way * toward.1;
+            next_speed[i] = start_speed + way * toward.1;
+            (sum_q[i], sum_speed[i]) = (slope_q, slope_speed);
             let turns = &mut self.arrays.turns;
-            turns.note_speed(rows, next_speed, start_speed);
+            turns.note_speed(rows, next_speed[i], start_speed);
             turns.note_inertia(rows, driver, || equation.inertia(driver), self.number == 0);
             let longest = longest_way(&plan.driven_links, driver, size);
-            let gone = (next_q - start_q).abs();
-            let is_fine = gone.le(R::splat(longest)).and(next_speed.finite());
+            let gone = (next_q[i] - start_q).abs();
+            let is_fine = gone.le(R::splat(longest)).and(next_speed[i].finite());
             if !is_fine.all() {
+                let lanes = R::LANES.min(rows.last + 1 - rows.first);
                 let status = &mut self.status[rows.first..rows.first + lanes];
-                note_failures(status, &design.status[rows.first..], next_speed, is_fine);
+                note_failures(status, &design.status[rows.first..], next_speed[i], is_fine);
             }
-            for (values, number) in [
-                (&mut self.arrays.sum_q, slope_q),
-                (&mut self.arrays.sum_speed, slope_speed),
-                (&mut self.arrays.next_q, next_q),
-                (&mut self.arrays.next_speed, next_speed),
-            ] {
-                rows.write(values, n, driver, number);
-            }
+        }
+        for (values, numbers) in [
+            (&mut self.arrays.sum_q, sum_q),
+            (&mut self.arrays.sum_speed, sum_speed),
+            (&mut self.arrays.next_q, next_q),
+            (&mut self.arrays.next_speed, next_speed),
+        ] {
+            rows.write_some(values, n, first, numbers);
         }
     }
 }

@@ -14,9 +14,8 @@ pub(super) struct LaneAccelerations<'e, R: Real> {
     pub design: DesignPositions<'e>,
     pub scene: &'e mut Scene<R>,
     pub equation: &'e mut Equation<R>,
-    /// Efforts and speeds of the drivers, drivers fastest.
+    /// Efforts of the drivers, drivers fastest.
     pub effort: &'e [f64],
-    pub speed: &'e [f64],
 }
 
 impl<R: Real> LaneAccelerations<'_, R> {
@@ -30,17 +29,10 @@ impl<R: Real> LaneAccelerations<'_, R> {
     /// Finds the accelerations of the states in a register.
     #[inline(always)]
     pub(super) fn find(&mut self, rows: Rows) {
-        let MachineBatch { plan, machine, sources, .. } = &self.batch.positions;
+        let MachineBatch { plan, sources, .. } = &self.batch.positions;
         let solved = &{ self.design.solved };
         let partials = Partials { plan, sources, solved, rows, drivers: plan.drivers };
-        self.scene.numbers.read(machine, self.design.values.varied, rows);
-        self.equation.read_bodies(self.batch, self.scene, partials, self.speed);
-        if !plan.load_actions.is_empty() {
-            self.scene.read(plan, sources, self.design.guides, solved, rows);
-            self.scene.clear_forces();
-            self.scene.apply_loads(plan, machine, self.design.values, rows);
-            self.equation.add_forces(self.scene, partials);
-        }
+        self.equation.read_directly(self.batch, self.scene, partials, &self.design);
         self.equation.accelerate(self.effort, rows);
     }
 }
