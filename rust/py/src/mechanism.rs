@@ -383,7 +383,8 @@ impl Mechanism {
         threads: Option<NonZeroUsize>,
     ) -> PyResult<Found<'py>> {
         let (designs, gradients) = ((dimensions, q), (&gradients.0[..], &gradients.1[..]));
-        sweep::measure(py, &self.inner, designs, &signs, &metrics, conditions, gradients, threads)
+        let asked = (&metrics[..], conditions);
+        sweep::measure(py, &self.inner, designs, &signs, asked, gradients, threads)
     }
 
     /// The reason why a metric has no meaning at coordinates, if any.

@@ -25,8 +25,7 @@ pub(crate) fn measure<'py>(
     mechanism: &Mechanism,
     (dimensions, q): (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>),
     signs: &[i8],
-    metrics: &[Bound<'py, PyAny>],
-    conditions: Vec<(usize, Word<Relation>, f64)>,
+    (metrics, conditions): (&[Bound<'py, PyAny>], Vec<(usize, Word<Relation>, f64)>),
     (of, by): (&[usize], &[usize]),
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Found<'py>> {

@@ -93,13 +93,12 @@ fn gradients_of_means() {
         (cos + along, [3.0 / along, cos - sin * sin / along])
     });
     let terms: Vec<(f64, [f64; 2])> = terms.collect();
-    let average = |term: &dyn Fn(&(f64, [f64; 2])) -> f64| {
-        terms.iter().map(term).sum::<f64>() / terms.len() as f64
-    };
-    let root = average(&|(x, _)| x * x).sqrt();
+    let average =
+        |numbers: &mut dyn Iterator<Item = f64>| numbers.sum::<f64>() / terms.len() as f64;
+    let root = average(&mut terms.iter().map(|(x, _)| x * x)).sqrt();
     for at in 0..2 {
-        let of_mean = average(&|(_, slopes)| slopes[at]);
-        let of_root = average(&|(x, slopes)| x * slopes[at]) / root;
+        let of_mean = average(&mut terms.iter().map(|(_, slopes)| slopes[at]));
+        let of_root = average(&mut terms.iter().map(|(x, slopes)| x * slopes[at])) / root;
         assert!((found.gradients[1][at] - of_mean).abs() < 1e-13);
         assert!((found.gradients[0][at] - of_root).abs() < 1e-13);
     }

@@ -18,9 +18,9 @@ use crate::math::simd::Simd;
 const TRIAL_PART: usize = 8;
 /// Least time of this trial: the first positions find the caches cold.
 const TRIAL: Duration = Duration::from_micros(50);
-/// Work from which other threads pay off: 36 000 positions of a four-bar take 290 µs on one thread and on two;
-/// for half of them two threads take longer.
-const WORTH_THREADS: Duration = Duration::from_micros(300);
+/// Work from which other threads pay off: 10 000 accelerations of a five-bar take 375 µs on one thread and 410 on
+/// two, 15 000 of them 540 and 470.
+const WORTH_THREADS: Duration = Duration::from_micros(400);
 
 /// The positions and designs that take the checked path. Results are the same with any choice; tests
 /// compare the paths.

@@ -1,8 +1,8 @@
 //! Derivatives of the traced joint by all numbers of a packed linkage, by the adjoint method: weights go from
 //! the last joint back to those that it was placed on.
 //!
-//! With e_i = P − P_i, e_j = P − P_j of a dyad and λ the weight at P: α = (λ × e_j) / (e_i × e_j) and
-//! β = (e_i × λ) / (e_i × e_j) are the parts of λ along both bars; λ_i grows by α e_i, λ_j by β e_j, and the
+//! With the bars e = P − I and f = P − J of a dyad and λ the weight at P, α = (λ × f) / (e × f) and
+//! β = (e × λ) / (e × f) are the parts of λ along both; the weight at I grows by α e, that at J by β f, and the
 //! derivatives by the lengths are α a, β b.
 
 use super::course::{Angles, Course};

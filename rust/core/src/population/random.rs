@@ -46,7 +46,7 @@ impl RandomLinkages {
                 linkage.push(Placement::Pivot, place(random));
                 true
             } else if random.happens(RIGID / (1.0 - PIVOTS)) {
-                self.add_rigid(&mut linkage, random)
+                add_rigid(&mut linkage, random)
             } else {
                 self.add_dyad::<L>(&mut linkage, random, &angles, course)
             };
@@ -57,18 +57,6 @@ impl RandomLinkages {
             sweep::<L>(&linkage, &angles, (last, self.most_cosine), course);
         }
         linkage
-    }
-
-    /// Adds a joint to a random link other than the ground.
-    fn add_rigid(&self, linkage: &mut PackedLinkage, random: &mut Random) -> bool {
-        let Some(links) = linkage.links() else { return false };
-        let link = &links[1 + random.index(links.len() - 1)];
-        let first = random.index(link.len());
-        let second = (first + 1 + random.index(link.len() - 1)) % link.len();
-        let ratio = random.log_between(0.2, 1.5);
-        let ends = [link[first], link[second]];
-        linkage.push(Placement::Rigid { ends }, random.direction().map(|x| ratio * x));
-        true
     }
 
     /// Adds a dyad that closes all the way round, if one is found.
@@ -99,6 +87,18 @@ impl RandomLinkages {
         }
         false
     }
+}
+
+/// Adds a joint to a random link other than the ground.
+fn add_rigid(linkage: &mut PackedLinkage, random: &mut Random) -> bool {
+    let Some(links) = linkage.links() else { return false };
+    let link = &links[1 + random.index(links.len() - 1)];
+    let first = random.index(link.len());
+    let second = (first + 1 + random.index(link.len() - 1)) % link.len();
+    let ratio = random.log_between(0.2, 1.5);
+    let ends = [link[first], link[second]];
+    linkage.push(Placement::Rigid { ends }, random.direction().map(|x| ratio * x));
+    true
 }
 
 /// A dyad on two joints whose positions are known, with lengths for which it should close.

@@ -192,22 +192,7 @@ impl<'t> Objective<'t> {
         let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
         let samples = self.samples.count;
         let to_curve: f64 = (0..samples).map(|k| smooth(work.to_curve.square(k))).sum();
-        to_curve / samples as f64 + self.from_curve(epsilon, work)
-    }
-
-    /// The mean distance from the curve to the target.
-    fn from_curve(&self, epsilon: f64, work: &Workspace) -> f64 {
-        let count = work.curve.count;
-        let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
-        let distance = |t: usize| smooth(work.to_target.square(if t == count { 0 } else { t }));
-        let mut sum = 0.0;
-        let mut before = distance(0);
-        for (t, ends) in work.lengths.windows(2).enumerate() {
-            let next = distance(t + 1);
-            sum += 0.5 * (before + next) * (ends[1] - ends[0]);
-            before = next;
-        }
-        sum / work.lengths[work.lengths.len() - 1]
+        to_curve / samples as f64 + curve_distance(epsilon, work)
     }
 
     /// Calls a function for each sample of the target: its index, the segment of the curve on which its place lies, the
@@ -299,7 +284,7 @@ impl<'t> Objective<'t> {
             rows.distances.push(DistanceRow { from, to, part, along: along.scale(root), residual });
         }
         let total = work.lengths[work.lengths.len() - 1];
-        let whole = self.from_curve(epsilon, work);
+        let whole = curve_distance(epsilon, work);
         let segments = work.line.segments.len();
         let own = |segment: usize| work.lengths[segment + 1] - work.lengths[segment];
         for t in 0..count {
@@ -372,6 +357,21 @@ impl<'t> Objective<'t> {
             }
         }
     }
+}
+
+/// The mean distance from the curve to the target.
+fn curve_distance(epsilon: f64, work: &Workspace) -> f64 {
+    let count = work.curve.count;
+    let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
+    let distance = |t: usize| smooth(work.to_target.square(if t == count { 0 } else { t }));
+    let mut sum = 0.0;
+    let mut before = distance(0);
+    for (t, ends) in work.lengths.windows(2).enumerate() {
+        let next = distance(t + 1);
+        sum += 0.5 * (before + next) * (ends[1] - ends[0]);
+        before = next;
+    }
+    sum / work.lengths[work.lengths.len() - 1]
 }
 
 /// The direction in which a distance changes: across the segment where its foot lies within, else along
