@@ -15,6 +15,9 @@ use crate::{detach, error_map, reserve};
 /// An array for each metric, or each gradient.
 type Numbers<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 
+/// Metric, relation and limit of each.
+type Conditions = Vec<(usize, Word<Relation>, f64)>;
+
 /// Values of each metric, statuses, the designs that are kept, and the gradients, design after design.
 pub(crate) type Found<'py> =
     (Numbers<'py>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<bool>>, Numbers<'py>);
@@ -25,7 +28,7 @@ pub(crate) fn measure<'py>(
     mechanism: &Mechanism,
     (dimensions, q): (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>),
     signs: &[i8],
-    (metrics, conditions): (&[Bound<'py, PyAny>], Vec<(usize, Word<Relation>, f64)>),
+    (metrics, conditions): (&[Bound<'py, PyAny>], Conditions),
     (of, by): (&[usize], &[usize]),
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Found<'py>> {
