@@ -78,11 +78,21 @@ def accelerations(states: int) -> Subject:
         OURS: Contender(lambda: machine.acceleration(q, speed, effort), lambda found: [found.T])
     }
     if installed("numba"):
+        import numba
+
         from rivals.stepping_numba import accelerations as by_numba
+
+        def on_one_thread() -> np.ndarray:
+            threads = numba.get_num_threads()
+            numba.set_num_threads(1)
+            found = by_numba(*rows)
+            numba.set_num_threads(threads)
+            return found
 
         contenders["numba by hand, in parallel"] = Contender(
             lambda: by_numba(*rows), lambda found: [found]
         )
+        contenders["numba by hand, one thread"] = Contender(on_one_thread, lambda found: [found])
     contenders["NumPy by hand"] = Contender(
         lambda: stepping.five_bar(np, *rows), lambda found: [np.stack(found)]
     )
