@@ -181,8 +181,10 @@ def answer(m: assur.Mechanism, q: Float, pipe: Connection) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")  # of threads that are not ours
-def test_fork_after_threads() -> None:
-    m, q = bits.named("library whitworth"), np.linspace(-9.0, 9.0, MANY)
+@pytest.mark.parametrize("positions", [MANY, 2 * MANY, 8 * MANY])
+def test_fork_after_threads(positions: int) -> None:
+    """Threads that wait for work, and new ones, are not there in the child."""
+    m, q = bits.named("library whitworth"), np.linspace(-9.0, 9.0, positions)
     expected = solve(m, q, threads=2)
     fork = multiprocessing.get_context("fork")
     here, there = fork.Pipe(duplex=False)

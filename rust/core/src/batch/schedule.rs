@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::chunks::{Chunk, Chunks};
 use super::failure_log::FailureLog;
+use super::helpers::work_with_helpers;
 use super::known_signs::KnownSigns;
 use super::rows::RowSlices;
 use crate::description::error::SolveError;
@@ -18,9 +19,12 @@ use crate::math::simd::Simd;
 const TRIAL_PART: usize = 8;
 /// Least time of this trial: the first positions find the caches cold.
 const TRIAL: Duration = Duration::from_micros(50);
-/// Work from which other threads pay off: 10 000 accelerations of a five-bar take 375 µs on one thread and 410 on
-/// two, 15 000 of them 540 and 470.
-const WORTH_THREADS: Duration = Duration::from_micros(400);
+/// Work from which other threads pay off: 5 000 accelerations of a five-bar take 190 µs on one thread and 265 on
+/// two, 10 000 of them 350 and 280.
+const WORTH_THREADS: Duration = Duration::from_micros(250);
+/// Work for which new threads are started. Beside a thread that is itself new, the scheduler may keep one that has
+/// waited behind it: 30 000 accelerations took 1120 µs in place of 780.
+const LONG_WORK: Duration = Duration::from_micros(700);
 
 /// The positions and designs that take the checked path. Results are the same with any choice; tests
 /// compare the paths.
@@ -98,8 +102,8 @@ impl Control<'_> {
 
     /// Runs all chunks. Each thread makes its own worker and finishes it after its last chunk.
     ///
-    /// This thread begins alone; others start when the rest takes so long that they help. They live
-    /// only during the call: no idle thread is left that a fork of the process could break.
+    /// This thread begins alone; others join in when the rest takes so long that they help: those that
+    /// [wait for work](super::helpers), or new ones.
     pub(crate) fn run<W>(
         &self,
         chunks: Chunks<'_>,
@@ -126,22 +130,10 @@ impl Control<'_> {
         let threads = queue.end_trial(threads);
         if threads > 0 && !self.is_cancelled() {
             let work_until_done = || work_while(&|| true);
-            thread::scope(|scope| {
-                // The calling thread only waits: if it worked too, the scheduler could keep a new
-                // thread queued behind it for a millisecond while another core is idle.
-                let workers: Vec<_> = (0..threads)
-                    .map_while(|_| thread::Builder::new().spawn_scoped(scope, work_until_done).ok())
-                    .collect();
-                // If the system refuses a thread, this one helps.
-                if workers.len() < threads {
-                    work_until_done();
-                }
-                for worker in workers {
-                    if let Err(panic) = worker.join() {
-                        resume_unwind(panic);
-                    }
-                }
-            });
+            let is_long = queue.rest() > LONG_WORK.as_secs_f64();
+            if is_long || !work_with_helpers(threads - 1, &work_until_done) {
+                on_new_threads(threads, work_until_done);
+            }
         }
         if self.is_cancelled() { Err(SolveError::Interrupted) } else { Ok(()) }
     }
@@ -154,6 +146,26 @@ impl Control<'_> {
             None => available_threads().min(chunks),
         }
     }
+}
+
+/// Does the same on some new threads.
+fn on_new_threads(count: usize, work: impl Fn() + Copy + Send + Sync) {
+    thread::scope(|scope| {
+        // The calling thread only waits: if it worked too, the scheduler could keep a new
+        // thread queued behind it for a millisecond while another core is idle.
+        let workers: Vec<_> = (0..count)
+            .map_while(|_| thread::Builder::new().spawn_scoped(scope, work).ok())
+            .collect();
+        // If the system refuses a thread, this one helps.
+        if workers.len() < count {
+            work();
+        }
+        for worker in workers {
+            if let Err(panic) = worker.join() {
+                resume_unwind(panic);
+            }
+        }
+    });
 }
 
 /// The number of threads that the system runs at once, read only once: that takes 45 µs, as long as
@@ -199,10 +211,21 @@ impl<'a> Queue<'a> {
         if super::test_hooks::threads_start_at_once() {
             return false;
         }
+        if self.started.get_or_init(Instant::now).elapsed() < TRIAL {
+            return true;
+        }
+        let ends_soon = self.rest() < WORTH_THREADS.as_secs_f64();
+        if ends_soon {
+            self.end_trial(1);
+        }
+        ends_soon
+    }
+
+    /// How long one thread would take for the rest, s.
+    fn rest(&self) -> f64 {
         let elapsed = self.started.get_or_init(Instant::now).elapsed();
         let left = self.with(|chunks| chunks.left()).unwrap_or(0);
-        let rest = elapsed.as_secs_f64() * left as f64 / (self.rows - left) as f64;
-        elapsed < TRIAL || rest < WORTH_THREADS.as_secs_f64()
+        elapsed.as_secs_f64() * left as f64 / (self.rows - left) as f64
     }
 
     /// Makes the chunks long; returns the number of threads that they serve.
