@@ -46,7 +46,7 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// remedies, batch, sensitivity, assemblies, inverse, sweep, dynamics, papers. Each imports only from those below it
+// remedies, batch, sensitivity, assemblies, inverse, sweep, dynamics, population, search, papers. Each imports only from those below it
 // (`tools/check_order`).
 mod assemblies;
 mod batch;
@@ -72,10 +72,11 @@ pub use assemblies::solutions::PathEnd;
 #[doc(hidden)]
 pub use batch::bench_hooks;
 pub use batch::failure_log::{FailureLog, FirstFailure};
+pub use batch::helpers::available_threads;
 pub use batch::known_signs::KnownSigns;
 pub use batch::request::{Arrays, Column, Outputs, Quantity};
 pub use batch::request::{Coordinates, Motion, Request, Series};
-pub use batch::schedule::{Checks, Control, available_threads};
+pub use batch::schedule::{Checks, Control};
 pub use batch::solve::fill;
 #[cfg(feature = "test-hooks")]
 #[doc(hidden)]

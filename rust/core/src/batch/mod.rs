@@ -6,7 +6,7 @@ pub(crate) mod chunks;
 mod coordinates;
 pub(crate) mod dispatch;
 pub(crate) mod failure_log;
-mod helpers;
+pub(crate) mod helpers;
 pub(crate) mod known_signs;
 pub(crate) mod motion;
 pub(crate) mod request;

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::chunks::{Chunk, Chunks};
 use super::failure_log::FailureLog;
-use super::helpers::work_with_helpers;
+use super::helpers::{available_threads, work_with_helpers};
 use super::known_signs::KnownSigns;
 use super::rows::RowSlices;
 use crate::description::error::SolveError;
@@ -166,14 +166,6 @@ fn on_new_threads(count: usize, work: impl Fn() + Copy + Send + Sync) {
             }
         }
     });
-}
-
-/// The number of threads that the system runs at once, read only once: that takes 45 µs, as long as
-/// solving a hundred designs.
-#[must_use]
-pub fn available_threads() -> usize {
-    static AVAILABLE: OnceLock<usize> = OnceLock::new();
-    *AVAILABLE.get_or_init(|| thread::available_parallelism().map_or(1, NonZeroUsize::get))
 }
 
 /// The chunks that the threads of a call share.

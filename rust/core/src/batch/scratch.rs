@@ -3,9 +3,10 @@
 use std::num::NonZeroUsize;
 
 use super::dispatch::Task;
+use super::helpers::available_threads;
 use super::request::Column;
 use super::rows::{Layout, RowSlices};
-use super::schedule::{Control, available_threads};
+use super::schedule::Control;
 use super::solve::as_unwritten;
 use super::worker::Job;
 use crate::description::error::SolveError;

@@ -14,7 +14,7 @@ use super::objective::{Candidate, Fineness, Limits, Objective};
 use super::retrieve::{Retrieval, RetrievalMemory};
 use super::target::Target;
 use crate::batch::dispatch::{Entry, ForLevel, at_level};
-use crate::batch::schedule::available_threads;
+use crate::batch::helpers::available_threads;
 use crate::description::Description;
 use crate::math::random::Random;
 use crate::math::simd::Simd;
