@@ -8,4 +8,5 @@ mod fuzzing;
 mod kinematics;
 mod models;
 mod oracles;
+mod search;
 mod sweep;

@@ -35,7 +35,7 @@ const HALVING: [(usize, usize, Fineness); 5] = [
     (50, 40, EVOLUTION),
 ];
 /// How finely children are scored, and how finely they are checked.
-const EVOLUTION: Fineness = Fineness { positions: (128, 64), samples: 128, epsilon: Some(0.02) };
+const EVOLUTION: Fineness = Fineness { positions: (128, 64), samples: 128, epsilon: Some(0.008) };
 const SOUND: Fineness = Fineness { positions: (512, 128), samples: 64, epsilon: None };
 /// Islands, and candidates on each.
 const ISLANDS: usize = 4;
