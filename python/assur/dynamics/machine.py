@@ -505,7 +505,8 @@ class Machine(MachineModel):
         Returns
         -------
         ndarray
-            rad/s² (driven slide: m/s²), S + (N,); with n drivers (..., n).
+            rad/s² (driven slide: m/s²), S + (N,); with n drivers (..., n). With ``on_error="nan"``
+            NaN where a position does not exist, or a speed or an effort is not finite.
 
         Raises
         ------
@@ -531,7 +532,7 @@ class Machine(MachineModel):
         require_equations(self, "acceleration")
         q = q_or_deg(self.mechanism, q, deg, "acceleration")
         one_of(on_error, ("raise", "nan"), "on_error")
-        state = State(q, speed, effort=effort, t=t, sense=sense)
+        state = State(q, speed, effort, t, sense, is_checked=on_error == "raise")
         return equations.acceleration(self, state, on_error, threads)
 
     @renamed_rates

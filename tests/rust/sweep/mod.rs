@@ -119,8 +119,8 @@ fn gradients_that_are_refused() {
         };
         mechanism.measure(&sweep, &Control::default()).unwrap_err().to_string()
     };
-    assert!(refusal(&[1], &[0]).contains("metric 1 is no mean"), "{}", refusal(&[1], &[0]));
-    assert!(refusal(&[2], &[0]).contains("metric 2 is no mean"));
+    assert!(refusal(&[1], &[0]).contains("metric 1 is not a mean"), "{}", refusal(&[1], &[0]));
+    assert!(refusal(&[2], &[0]).contains("metric 2 is not a mean"));
     assert!(refusal(&[0], &[99]).contains("dimension 99"));
 }
 

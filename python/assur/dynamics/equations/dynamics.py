@@ -144,6 +144,10 @@ def acceleration(
             bias = why.arrays[1].reshape(-1, n)
             require_values(machine, state, bias, found.status, "the acceleration is")
             _require_inertia(machine, why.arrays[0].reshape(-1, n, n), solved, found.q)
+    else:
+        rows = found.arrays[0].reshape(-1, n)
+        # An infinite effort has no acceleration either, in none of the drivers.
+        rows[~np.isfinite(rows).all(axis=1)] = np.nan
     full = found.shape if n == 1 else (*found.shape, n)
     result: Float = found.arrays[0].reshape(full)[()]
     return result

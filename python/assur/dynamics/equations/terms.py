@@ -41,7 +41,8 @@ class State(NamedTuple):
     effort: npt.ArrayLike | None = None
     t: npt.ArrayLike = 0.0
     sense: float | Sequence[float] | None = None
-    # Whether all numbers are finite; those of later stages of a step need not be.
+    # Whether speeds and efforts must be finite; those of later stages of a step need not be, nor
+    # those of a batch where each row fails alone.
     is_checked: bool = True
     acceleration: npt.ArrayLike = NONE
 
@@ -98,7 +99,7 @@ def terms_of(
     if state.acceleration is not NONE:
         acceleration = _rates(state.acceleration, "acceleration", full, n, x)
     if state.effort is not None:
-        effort = _rates(state.effort, "effort", full, n, x)
+        effort = _rates(state.effort, "effort", full, n, x, state.is_checked)
     per_design = varies or (bool(designs) and x.ndim > (1 if n == 1 else 2))
     if per_design:
         x = np.broadcast_to(x, full)

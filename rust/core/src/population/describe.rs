@@ -31,7 +31,7 @@ impl PackedLinkage {
         points
     }
 
-    /// Its description; the traced joint has the name `traced`. `None` if it is no linkage.
+    /// Its description; the traced joint has the name `traced`. `None` if its joints do not make a linkage.
     pub(crate) fn describe(&self, traced: &str) -> Option<Description> {
         let links = self.links()?;
         let last = self.len() - 1;

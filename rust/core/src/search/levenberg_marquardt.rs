@@ -34,7 +34,7 @@ impl Refiner {
         candidate.value = objective.value::<L>(&candidate.linkage, candidate.arc, &mut self.work);
     }
 
-    /// Improves a candidate by some iterations at most. What is no linkage gets an infinite value.
+    /// Improves a candidate by some iterations at most. What does not make a linkage gets an infinite value.
     pub(crate) fn refine<L: Entry>(
         &mut self,
         objective: &Objective,

@@ -167,7 +167,7 @@ impl PathSearch {
         self.evaluations
     }
 
-    /// The least objective so far; infinite if there is no candidate.
+    /// The least objective so far; infinite without candidates.
     #[must_use]
     pub fn best(&self) -> f64 {
         let all = self.islands.iter().flat_map(|island| &island.candidates);

@@ -58,7 +58,9 @@ impl<'m> MeanGradients<'m> {
         }
         let each = of.iter().map(|&metric| {
             let mean = sweep.metrics.get(metric).and_then(|of| of.mean_of()).ok_or_else(|| {
-                SolveError::Shape(format!("metric {metric} is no mean: only these have gradients"))
+                SolveError::Shape(format!(
+                    "metric {metric} is not a mean: only means have gradients"
+                ))
             })?;
             let mut weights = vec![0.0; mean.need.width()];
             weights[mean.component.min(mean.need.width() - 1)] = 1.0 / positions as f64;
@@ -70,7 +72,7 @@ impl<'m> MeanGradients<'m> {
         Ok(Self { each: each.collect::<Result<_, SolveError>>()?, by, ..Self::default() })
     }
 
-    /// Whether there are none.
+    /// Whether none are requested.
     pub(super) fn is_empty(&self) -> bool {
         self.each.is_empty()
     }

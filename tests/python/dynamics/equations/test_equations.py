@@ -236,3 +236,19 @@ def test_positions_without_a_bias_say_so() -> None:
     fast = press().dynamics([0.5, 0.5], [1.0, 1e300], on_error="nan")
     assert fast.status.tolist() == [0, assur.Status.BAD_INPUT]
     assert np.isfinite(fast.mass_matrix).all()
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("which", ["q", "speed", "effort"])
+def test_a_state_that_is_not_finite_fails_alone(which: str, wrong: float) -> None:
+    machine = five_bar()
+    rows = dict(zip(("q", "speed", "effort"), places(machine, 20, 1), strict=True))
+    expected = machine.acceleration(**rows)
+    rows[which] = rows[which].copy()
+    rows[which][7, 1] = wrong
+    with pytest.raises(assur.AssurError):
+        machine.acceleration(**rows)
+    found = machine.acceleration(**rows, on_error="nan")
+    assert np.isnan(found[7]).all()
+    others = np.arange(20) != 7
+    assert np.array_equal(found[others], expected[others])
