@@ -46,13 +46,14 @@
 )]
 
 // The layers, from the bottom up: math, ode, description, structure, plan, state, branch, query,
-// remedies, batch, sensitivity, assemblies, inverse, sweep, dynamics, population, search, papers. Each imports only from those below it
+// remedies, batch, sensitivity, assemblies, inverse, sweep, dynamics, population, search, fit, papers. Each imports only from those below it
 // (`tools/check_order`).
 mod assemblies;
 mod batch;
 mod branch;
 mod description;
 pub mod dynamics;
+mod fit;
 mod inverse;
 mod math;
 pub mod ode;
@@ -92,6 +93,11 @@ pub use description::slider_crank::SliderCrank;
 pub use description::{
     Description, Driver, DriverDescription, Joint, Link, Linkage, Slide, SlideDescription,
 };
+pub use fit::conditions::{Aim, FitCondition};
+pub use fit::fit::{Fit, Fitted};
+pub use fit::problem::{FitRequest, Travel};
+pub use fit::target::{FitTarget, Freedom, TargetNumber, Timing};
+pub use fit::variables::Variable;
 pub use inverse::answers::{Answer, Answers};
 pub use inverse::find::Finder;
 pub use inverse::inverse::Inverse;

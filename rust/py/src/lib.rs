@@ -8,6 +8,7 @@ mod equations;
 mod equilibria;
 mod error;
 mod error_map;
+mod fit;
 mod flywheel;
 mod inverse;
 mod limits;
@@ -39,6 +40,8 @@ mod _core {
     use super::convert::value::table_values;
     #[pymodule_export]
     use super::error_map::error_kinds;
+    #[pymodule_export]
+    use super::fit::Fit;
     #[pymodule_export]
     use super::flywheel::Flywheels;
     #[pymodule_export]

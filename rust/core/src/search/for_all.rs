@@ -8,7 +8,7 @@ use std::thread;
 
 /// Does something for all indices below a count. Each thread has its memory; results are in order, the same for any
 /// number of threads if they do not depend on that memory.
-pub(super) fn for_all<M: Default, T: Send>(
+pub(crate) fn for_all<M: Default, T: Send>(
     threads: NonZeroUsize,
     count: usize,
     work: impl Fn(usize, &mut M) -> T + Sync,

@@ -1,12 +1,12 @@
 //! Search for the linkage that draws a path: structure and dimensions.
 
 mod evolve;
-mod for_all;
+pub(crate) mod for_all;
 mod levenberg_marquardt;
 mod moves;
 mod nearest;
 mod normal;
 mod objective;
 pub(crate) mod path_search;
-mod retrieve;
-mod target;
+pub(crate) mod retrieve;
+pub(crate) mod target;

@@ -287,7 +287,7 @@ impl PathSearch {
             joints: [least.min(self.request.joints), most.min(self.request.joints)],
             most_cosine: LIBRARY_COSINE.min(limits.apex_barrier),
         };
-        let retrieval = Retrieval::new(&self.target, limits);
+        let retrieval = Retrieval::new(&self.target, limits.arc);
         let seed = self.request.seed;
         for_all(self.threads(), LIBRARY, |index, memory: &mut RetrievalMemory| {
             retrieval.candidates::<L>(&wanted, (seed, index as u64), memory)

@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::objective::{Candidate, Limits, WHOLE_TURN};
+use super::objective::{Candidate, WHOLE_TURN};
 use super::target::Target;
-use crate::batch::dispatch::{Entry, Task};
+use crate::batch::dispatch::{Entry, ForLevel, Task, at_level};
 use crate::math::lanes::{LANES, Real};
 use crate::math::random::Random;
+use crate::math::simd::Simd;
 use crate::math::vector::Vector;
 use crate::population::course::{Angles, Course, sweep};
 use crate::population::packed::{PackedLinkage, Placement};
@@ -30,7 +31,7 @@ const WAYS: usize = 4;
 
 /// The curve of a joint, twice over.
 #[derive(Debug, Clone, Default)]
-struct Curve {
+pub(crate) struct Curve {
     x: Vec<f64>,
     y: Vec<f64>,
     /// The crank's angle, growing.
@@ -38,9 +39,10 @@ struct Curve {
 }
 
 /// What a target is compared by.
-pub(super) struct Retrieval<'t> {
+pub(crate) struct Retrieval<'t> {
     target: &'t Target,
-    limits: Limits,
+    /// Least and greatest arc of an open target, rad.
+    arc: [f64; 2],
     points: Vec<Vector>,
     mean: Vector,
     steps: &'static [usize],
@@ -48,14 +50,27 @@ pub(super) struct Retrieval<'t> {
 
 /// Where a curve is most alike the target.
 #[derive(Debug, Clone, Copy)]
-struct Match {
+pub(crate) struct Match {
     /// Part of the target's square radius that the similarity leaves.
     left: f64,
     start: usize,
     step: usize,
     way: usize,
-    by: Vector,
-    mean: Vector,
+    /// What the curve is multiplied by, in the target's frame.
+    pub by: Vector,
+    /// The mean of the curve's samples.
+    pub mean: Vector,
+}
+
+impl Match {
+    /// Whether the curve is mirrored.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.way % 2 == 1
+    }
+
+    fn is_backwards(&self) -> bool {
+        self.way >= 2
+    }
 }
 
 /// Memory of a retrieval.
@@ -67,7 +82,7 @@ pub(super) struct RetrievalMemory {
 }
 
 impl<'t> Retrieval<'t> {
-    pub(super) fn new(target: &'t Target, limits: Limits) -> Self {
+    pub(crate) fn new(target: &'t Target, arc: [f64; 2]) -> Self {
         let (count, steps): (_, &[usize]) = if target.is_closed {
             (CLOSED_POINTS, &CLOSED_STEPS)
         } else {
@@ -79,7 +94,7 @@ impl<'t> Retrieval<'t> {
         for point in &mut points {
             *point = *point - mean;
         }
-        Self { target, limits, points, mean, steps }
+        Self { target, arc, points, mean, steps }
     }
 
     /// The most alike curve of each of the last joints of random linkage `index`, as candidates whose value is
@@ -101,18 +116,42 @@ impl<'t> Retrieval<'t> {
             .filter(moving)
             .take(TRACED)
             .filter_map(|joint| {
-                if !memory.curve.read(&memory.course, joint) {
+                let course = &memory.course;
+                if !memory.curve.read(course.positions(), |t| course.point(joint, t)) {
                     return None;
                 }
-                let found = self.compare::<L>(&memory.curve, &mut memory.sums)?;
+                let ways = self.compare::<L>(&memory.curve, &mut memory.sums).into_iter().flatten();
+                let found = ways.min_by(|a, b| a.left.total_cmp(&b.left))?;
                 self.candidate(&linkage, joint, &memory.curve, found)
             })
             .collect()
     }
 
-    /// The place of a curve that is most alike the target.
-    fn compare<L: Entry>(&self, curve: &Curve, sums: &mut Vec<f64>) -> Option<Match> {
-        let mut best: Option<Match> = None;
+    /// For each way along a curve the place that is most alike the target, at a level of vector instructions.
+    pub(crate) fn compare_at(&self, curve: &Curve, simd: Simd) -> [Option<Match>; WAYS] {
+        at_level(simd, Compare { retrieval: self, curve })
+    }
+
+    /// The mean of the target's samples, in its frame.
+    pub(crate) fn mean(&self) -> Vector {
+        self.mean
+    }
+
+    /// The crank's angle at a part of the target's length.
+    pub(crate) fn angle(&self, curve: &Curve, found: &Match, part: f64) -> f64 {
+        let steps = if self.target.is_closed { self.points.len() } else { self.points.len() - 1 };
+        let along = part * (steps * found.step) as f64;
+        let from = found.start as f64;
+        curve.angle(if found.is_backwards() {
+            from + self.reach(found.step) as f64 - along
+        } else {
+            from + along
+        })
+    }
+
+    /// For each way along a curve the place that is most alike the target.
+    fn compare<L: Entry>(&self, curve: &Curve, sums: &mut Vec<f64>) -> [Option<Match>; WAYS] {
+        let mut best: [Option<Match>; WAYS] = [None; WAYS];
         let count = self.points.len() as f64;
         let own: f64 = self.points.iter().map(|point| point.norm2()).sum();
         for &step in self.steps {
@@ -124,16 +163,16 @@ impl<'t> Retrieval<'t> {
                 let mean = Vector::new(sum(0, start), sum(1, start)).scale(1.0 / count);
                 let radius2 = sum(2, start) - count * mean.norm2();
                 let arc = curve.angles[start + self.reach(step)] - curve.angles[start];
-                let is_short = !self.target.is_closed && arc < self.limits.arc[0];
+                let is_short = !self.target.is_closed && arc < self.arc[0];
                 if is_short || radius2 < 1e-6 * sum(2, start) {
                     continue;
                 }
-                for way in 0..WAYS {
+                for (way, best) in best.iter_mut().enumerate() {
                     let product = Vector::new(sum(3 + 2 * way, start), sum(4 + 2 * way, start));
                     let left = 1.0 - product.norm2() / (own * radius2);
                     if best.is_none_or(|best| left < best.left) {
                         let by = product.scale(1.0 / radius2);
-                        best = Some(Match { left, start, step, way, by, mean });
+                        *best = Some(Match { left, start, step, way, by, mean });
                     }
                 }
             }
@@ -154,7 +193,7 @@ impl<'t> Retrieval<'t> {
         curve: &Curve,
         found: Match,
     ) -> Option<Candidate> {
-        let (is_mirrored, is_backwards) = (found.way % 2 == 1, found.way >= 2);
+        let (is_mirrored, is_backwards) = (found.is_mirrored(), found.is_backwards());
         let mut linkage = linkage.clone();
         if !linkage.trace(joint) {
             return None;
@@ -171,17 +210,30 @@ impl<'t> Retrieval<'t> {
         let arc = if self.target.is_closed {
             WHOLE_TURN
         } else {
-            (to - from).clamp(self.limits.arc[0], self.limits.arc[1])
+            (to - from).clamp(self.arc[0], self.arc[1])
         };
         Some(Candidate { linkage, arc, value: found.left })
     }
 }
 
+/// A comparison, to be done at a level.
+struct Compare<'r, 't> {
+    retrieval: &'r Retrieval<'t>,
+    curve: &'r Curve,
+}
+
+impl ForLevel for Compare<'_, '_> {
+    type Output = [Option<Match>; WAYS];
+
+    fn run<L: Entry, const G: usize>(self) -> [Option<Match>; WAYS] {
+        self.retrieval.compare::<L>(self.curve, &mut vec![])
+    }
+}
+
 impl Curve {
-    /// Samples a joint's curve at equal lengths; `false` if it is a point.
-    fn read(&mut self, course: &Course, joint: usize) -> bool {
-        let count = course.positions();
-        let point = |t: usize| course.point(joint, t % count);
+    /// Samples a curve, given at equal angles over a turn, at equal lengths; `false` if it is a point.
+    pub(crate) fn read(&mut self, count: usize, point: impl Fn(usize) -> Vector) -> bool {
+        let point = |t: usize| point(t % count);
         let mut lengths = vec![0.0];
         for t in 0..count {
             lengths.push(lengths[t] + (point(t + 1) - point(t)).norm());
@@ -212,6 +264,16 @@ impl Curve {
             self.angles.push(self.angles[sample] + TAU);
         }
         true
+    }
+
+    /// The crank's angle at a place between the samples.
+    fn angle(&self, sample: f64) -> f64 {
+        let turns = (sample / SAMPLES as f64).floor();
+        let within = sample - turns * SAMPLES as f64;
+        let from = self.angles.iter().take(SAMPLES).enumerate().rev();
+        let mut from = from.skip_while(|(index, _)| *index as f64 > within);
+        let Some((index, &angle)) = from.next() else { return TAU * turns };
+        angle + (within - index as f64) * (self.angles[index + 1] - angle) + TAU * turns
     }
 }
 

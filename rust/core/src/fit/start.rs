@@ -1,0 +1,219 @@
+//! Where a fit starts: random designs that move, placed where they are most alike the target.
+
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+
+use super::conditions::Multipliers;
+use super::place::{Placed, Placer};
+use super::point::Point;
+use super::problem::{Problem, TRAVEL_POSITIONS, Travel, is_solved, series, turn};
+use super::target::{FitTarget, Timing};
+use crate::batch::request::Motion;
+use crate::description::dimension::Dimension;
+use crate::description::error::SolveError;
+use crate::math::random::Random;
+use crate::math::vector::Vector;
+
+/// Random lengths of a mechanism that can be placed anywhere in any size, and how far its points lie apart.
+const LENGTHS: [f64; 2] = [0.1, 1.5];
+const SPREAD: f64 = 0.7;
+const LINK_SPREAD: f64 = 1.5;
+/// How far a number without bounds is from the drawing's: lengths by a factor, coordinates in sizes of the drawing.
+const FACTOR: f64 = 3.0;
+
+/// A start, and its assembly.
+pub(super) type Start = (usize, Point);
+
+/// Makes the starts of a problem.
+pub(super) struct Starts<'p> {
+    problem: Problem<'p>,
+    placer: Option<Placer>,
+    kinds: Vec<Dimension>,
+    turn: Vec<f64>,
+}
+
+impl<'p> Starts<'p> {
+    pub(super) fn new(problem: Problem<'p>) -> Self {
+        let kinds = problem.mechanism.dimensions().iter().map(|(_, kind)| kind).collect();
+        Self { problem, placer: Placer::new(&problem), kinds, turn: turn(TRAVEL_POSITIONS) }
+    }
+
+    /// The random designs of these indices, in one assembly, that move; evaluated.
+    pub(super) fn make(
+        &self,
+        indices: Range<u64>,
+        assembly: usize,
+        cancel: &AtomicBool,
+    ) -> Result<Vec<Start>, SolveError> {
+        let problem = self.problem;
+        let designs: Vec<Vec<f64>> = indices.map(|index| self.random(index)).collect();
+        let mut dimensions = vec![0.0; designs.len() * self.kinds.len()];
+        for (design, x) in designs.iter().enumerate() {
+            problem.variables.write(x, &mut dimensions, (design, designs.len()));
+        }
+        let motion = problem.curves(&dimensions, assembly, cancel)?;
+        let mut starts = vec![];
+        for (design, x) in designs.into_iter().enumerate() {
+            let rows = design * TRAVEL_POSITIONS..(design + 1) * TRAVEL_POSITIONS;
+            let moves = motion.status[rows.clone()].iter().all(is_solved);
+            if problem.travel == Travel::WholeTurn && !moves {
+                continue;
+            }
+            match &self.placer {
+                Some(_) if !moves => {}
+                Some(placer) => {
+                    let Some(curve) = curve(&motion, rows, &problem.targets[0]) else { continue };
+                    let placed = placer.place(&curve, problem.simd).into_iter();
+                    starts.extend(placed.filter_map(|placed| self.placed(placed, &x, assembly)));
+                }
+                None => starts.push((assembly, self.unplaced(&motion, rows, x))),
+            }
+        }
+        self.evaluate(starts, cancel)
+    }
+
+    fn evaluate(
+        &self,
+        mut starts: Vec<Start>,
+        cancel: &AtomicBool,
+    ) -> Result<Vec<Start>, SolveError> {
+        for assembly in 0..self.problem.assemblies.len() {
+            let of = starts.iter_mut().filter(|start| start.0 == assembly);
+            let mut points: Vec<&mut Point> = of.map(|start| &mut start.1).collect();
+            self.problem.evaluate(&mut points, (assembly, TRAVEL_POSITIONS), cancel)?;
+        }
+        starts.retain(|start| start.1.value.is_finite());
+        Ok(starts)
+    }
+
+    /// Random values of the variables.
+    fn random(&self, index: u64) -> Vec<f64> {
+        let random = &mut Random::new(self.problem.seed, index);
+        let drawing = self.problem.variables.values(self.problem.mechanism.drawing());
+        let size = self.problem.mechanism.linkage().size();
+        let each = self.problem.variables.each.iter().enumerate();
+        each.map(|(place, one)| {
+            let Some(&(dimension, _)) = one.moves.first() else { return 0.0 };
+            let kind = self.kinds[dimension];
+            let [low, high] = one.bounds;
+            let is_angle = !kind.is_length();
+            let is_bar = matches!(kind, Dimension::Length { .. });
+            if self.placer.is_some() {
+                return match kind {
+                    Dimension::Length { .. } => random.log_between(LENGTHS[0], LENGTHS[1]),
+                    Dimension::GroundX { .. } | Dimension::GroundY { .. } => {
+                        random.between(-SPREAD, SPREAD)
+                    }
+                    _ if is_angle => random.between(-std::f64::consts::PI, std::f64::consts::PI),
+                    _ => random.between(-LINK_SPREAD, LINK_SPREAD),
+                };
+            }
+            if low.is_finite() && high.is_finite() {
+                return if is_bar && low > 0.0 && index % 2 == 0 {
+                    random.log_between(low, high)
+                } else {
+                    random.between(low, high)
+                };
+            }
+            let drawn = drawing.as_ref().map_or(0.0, |x| x[place]);
+            let value = if is_bar {
+                drawn * random.log_between(1.0 / FACTOR, FACTOR)
+            } else if is_angle {
+                random.between(-std::f64::consts::PI, std::f64::consts::PI)
+            } else {
+                drawn + size * random.between(-1.0, 1.0)
+            };
+            value.clamp(low, high)
+        })
+        .collect()
+    }
+
+    /// A point with all numbers that belong to targets.
+    fn point(&self, mut x: Vec<f64>, q: Vec<f64>) -> Point {
+        for (value, [low, high]) in x.iter_mut().zip(&self.problem.bounds) {
+            *value = value.clamp(*low, *high);
+        }
+        x.extend(self.problem.targets.iter().flat_map(FitTarget::neutral));
+        let multipliers = Multipliers::new(&self.problem);
+        Point { x, q, value: f64::INFINITY, multipliers, ..Point::default() }
+    }
+
+    /// A design moved to where its curve is most alike the target.
+    fn placed(&self, placed: Placed, x: &[f64], assembly: usize) -> Option<Start> {
+        let problem = self.problem;
+        let Placed { inner, outer, q } = placed;
+        let dimensions = inner.dimensions(&problem, &problem.variables.dimensions(x))?;
+        let x = problem.variables.values(&dimensions)?;
+        let signs = &problem.assemblies[assembly];
+        let assembly = if inner.is_mirrored {
+            let is_mirror = |other: &Vec<i8>| other.iter().zip(signs).all(|(a, b)| *a == -b);
+            problem.assemblies.iter().position(is_mirror)?
+        } else {
+            assembly
+        };
+        let mut point = self.point(x, q);
+        let mut extra = problem.variables.len();
+        if let Timing::Phase(given) = &problem.targets[0].timing {
+            point.x[extra] = point.q[0] - given[0];
+            extra += 1;
+        }
+        point.x[extra..][..outer.len()].copy_from_slice(&outer);
+        Some((assembly, point))
+    }
+
+    /// A design where it is: each point of a target goes to the nearest position.
+    fn unplaced(&self, motion: &Motion, rows: Range<usize>, x: Vec<f64>) -> Point {
+        let mut q = vec![0.0; self.problem.positions()];
+        for (target, positions, _) in self.problem.parts() {
+            let Timing::Free { .. } = target.timing else { continue };
+            for (k, position) in positions.enumerate() {
+                q[position] = self.turn[nearest(target, k, motion, rows.clone())];
+            }
+        }
+        self.point(x, q)
+    }
+}
+
+/// The position of a turn, of those that are solved, whose numbers miss those wanted at a point the least.
+fn nearest(target: &FitTarget, k: usize, motion: &Motion, rows: Range<usize>) -> usize {
+    let missed = |row: usize| -> f64 {
+        let of = |number: &super::target::TargetNumber| {
+            let width = if matches!(
+                number.quantity,
+                crate::batch::request::Quantity::Slide(_)
+                    | crate::batch::request::Quantity::Angle(_)
+            ) {
+                1
+            } else {
+                2
+            };
+            let value = series(motion, number.quantity)?.derivatives[0]
+                [row * width + number.axis.min(width - 1)];
+            let missed = value - number.wanted[k];
+            let missed =
+                if number.is_angle { super::residuals::within_half_turn(missed) } else { missed };
+            Some((number.weight * missed).powi(2))
+        };
+        target.numbers.iter().filter_map(of).sum()
+    };
+    let first = rows.start;
+    let mut best = (f64::INFINITY, 0);
+    for row in rows {
+        let missed = missed(row);
+        if missed < best.0 {
+            best = (missed, row - first);
+        }
+    }
+    best.1
+}
+
+/// The curve of the point of a path.
+fn curve(motion: &Motion, rows: Range<usize>, target: &FitTarget) -> Option<Vec<Vector>> {
+    let points = &series(motion, target.numbers.first()?.quantity)?.derivatives[0];
+    Some(
+        points[2 * rows.start..2 * rows.end]
+            .chunks_exact(2)
+            .map(|p| Vector::new(p[0], p[1]))
+            .collect(),
+    )
+}
