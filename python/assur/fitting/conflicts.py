@@ -41,6 +41,9 @@ def nothing_found(target: PathTarget, wanted: Wanted, offered: int, spent: Spent
         f"no linkage keeps all conditions{rejected}: {conditions}; {spent.evaluations} were "
         "evaluated"
     )
+    if offered:
+        hint = "another seed or more evaluations may lead to others"
+        return FitError(f"{message}; {hint}", hint=hint, joint=target.joint)
     helped = [relaxed.what for relaxed in _relaxed(wanted) if _leaves_some(target, relaxed.wanted)]
     hint = (
         f"there are linkages with {', or with '.join(helped)}"

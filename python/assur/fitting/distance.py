@@ -72,10 +72,10 @@ def chamfer(curve: Float, path: Float, samples: int = SAMPLES) -> float:
     steps = np.diff(along)
     back = float((0.5 * steps * (away[1:] + away[:-1])).sum())
     # A curve that stands still is a point.
-    from_curve = back / along[-1] if along[-1] > 0.0 else float(away[0])
+    from_curve = back / along[-1] if along[-1] > 0.0 else away[0]
     there = nearest(resampled(path, samples), curve).distance
     from_path = float((0.5 * (there[1:] + there[:-1])).mean())
-    return from_curve + from_path
+    return float(from_curve) + from_path
 
 
 def ordered(curve: Float, path: Float, is_closed: bool) -> float:

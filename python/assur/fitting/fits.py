@@ -134,7 +134,7 @@ class Fits(Sequence[Fit]):
         >>> found = assur.search({"P": hook}, evaluations=1)
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     files = found.save(folder)
-        ...     found[0].mechanism == assur.load(files[0]).mechanism
+        ...     found[0].mechanism == assur.load(files[0])
         True
         """
         into = checked_path(folder, what="folder")

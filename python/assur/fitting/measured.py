@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,8 +15,9 @@ from assur.fitting.proof import path_coordinates, prove
 from assur.fitting.sensitivity import TOLERANCE, perturbed_errors
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from assur._arrays import Float
-    from assur.fitting.naming import Drawn
     from assur.fitting.proof import Proof
     from assur.fitting.target import PathTarget
     from assur.fitting.wanted import Wanted
@@ -25,6 +25,12 @@ if TYPE_CHECKING:
 
 # What rounding may take from a condition, as a part of it.
 ROUNDING = 1e-9
+# Linkages whose joints differ by less than this part of their extent are variants of one.
+ALIKE = 0.05
+
+
+# Joints with their places, links, the crank's turn over the path, the objective.
+Found: TypeAlias = tuple[list[tuple[str, float, float]], list[tuple[str, list[str]]], float, float]
 
 
 class Spent(NamedTuple):
@@ -35,21 +41,30 @@ class Spent(NamedTuple):
 
 
 def measured(
-    drawn: Drawn, arc: float, target: PathTarget, wanted: Wanted, spent: Spent
-) -> Fit | None:
-    """Return a candidate as the solver sees it; None if it misses a condition."""
-    try:
-        mechanism = mechanism_of(drawn, target.joint)
-        proof = prove(mechanism, target)
-    except AssurError:
-        # What the solver refuses is no linkage.
-        return None
-    if proof is None:
-        return None
-    conditions = _conditions(mechanism, proof, arc, target, wanted)
-    if not all(map(_holds, conditions)):
-        return None
-    return _fit(mechanism, proof, arc, target, (wanted, spent, conditions))
+    found: Iterable[Found], target: PathTarget, wanted: Wanted, spent: Spent
+) -> tuple[list[Fit], int]:
+    """Return the different candidates as the solver sees them, and how many miss a condition.
+
+    Of variants of one linkage the first is kept that misses none.
+    """
+    fits: list[Fit] = []
+    rejected = 0
+    for joints, links, arc, _ in found:
+        try:
+            drawn = [(name, target.unit * x, target.unit * y) for name, x, y in joints]
+            mechanism = mechanism_of((drawn, links), target.joint)
+            if any(_are_alike(mechanism, fit, target) for fit in fits):
+                continue
+            proof = prove(mechanism, target)
+        except AssurError:
+            # What the solver refuses is no linkage.
+            proof = None
+        conditions = () if proof is None else _conditions(mechanism, proof, arc, target, wanted)
+        if proof is None or not all(map(_holds, conditions)):
+            rejected += 1
+            continue
+        fits.append(_fit(mechanism, proof, arc, target, (wanted, spent, conditions)))
+    return fits, rejected
 
 
 def _fit(
@@ -74,7 +89,7 @@ def _fit(
         transmission_angle=proof.apex,
         extent=proof.extent,
         sensitivity=max(sensitivities.values()),
-        sensitivities=MappingProxyType(sensitivities),
+        sensitivities=sensitivities,
         joints=len(mechanism.joint_names),
         seed=wanted.seed,
         elapsed=spent.elapsed,
@@ -87,10 +102,11 @@ def _conditions(
     mechanism: Mechanism, proof: Proof, arc: float, target: PathTarget, wanted: Wanted
 ) -> tuple[Condition, ...]:
     count = len(mechanism.joint_names)
+    apex = "apex angle" if proof.flattest is None else f"apex angle at {proof.flattest}"
     of_path = () if target.closed else (Condition("arc", abs(arc), wanted.min_arc, True, "°"),)
     return (
         Condition("joints", count, wanted.joints, False),
-        Condition(f"apex angle at {proof.flattest}", proof.apex, wanted.min_apex_angle, True, "°"),
+        Condition(apex, proof.apex, wanted.min_apex_angle, True, "°"),
         Condition(f"extent by {proof.farthest}", proof.extent, wanted.frame, False),
         *of_path,
     )
@@ -101,6 +117,15 @@ def _holds(condition: Condition) -> bool:
     if condition.is_least:
         return condition.value >= condition.limit - slack
     return condition.value <= condition.limit + slack
+
+
+def _are_alike(mechanism: Mechanism, fit: Fit, target: PathTarget) -> bool:
+    """Whether a linkage has the structure of another, and all joints nearly at its places."""
+    if dict(mechanism.links) != dict(fit.mechanism.links):
+        return False
+    one, two = (np.array([*own.joints.values()]) for own in (mechanism, fit.mechanism))
+    apart = np.sqrt(((target.framed(one) - target.framed(two)) ** 2).sum(axis=1))
+    return bool(apart.max() < ALIKE * fit.extent)
 
 
 def _frozen(array: Float) -> Float:

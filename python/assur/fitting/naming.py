@@ -17,11 +17,19 @@ Drawn: TypeAlias = tuple[list[tuple[str, float, float]], list[tuple[str, list[st
 GROUND, CRANK = "ground", "crank"
 
 
-def check_free(joint: str) -> None:
-    """Refuse a name of the traced joint that a link of every linkage has."""
+# A crank with a point on it: where a name is wrong, this is refused as every linkage would be.
+SMALLEST: Drawn = (
+    [("A", 0.0, 0.0), ("B", 1.0, 0.0), ("P", 1.0, 1.0)],
+    [(GROUND, ["A"]), (CRANK, ["A", "B", "P"])],
+)
+
+
+def check_name(joint: str) -> None:
+    """Refuse a name that the traced joint cannot have."""
     if joint in (GROUND, CRANK):
         message = f"targets: {joint!r} is a link of every linkage: call the traced joint otherwise"
         raise InputError(message, joint=joint)
+    mechanism_of(SMALLEST, joint)
 
 
 def mechanism_of(drawn: Drawn, traced: str) -> Mechanism:
@@ -35,8 +43,8 @@ def mechanism_of(drawn: Drawn, traced: str) -> Mechanism:
     members = {}
     for link, on in links:
         own = [names[joint] for joint in on]
-        is_named = link in (GROUND, CRANK)
-        members[link if is_named else between.join(own[:2])] = own
+        name = link if link in (GROUND, CRANK) else between.join(own[:2])
+        members[f"{name}_" if name == traced else name] = own
     return Mechanism({names[joint]: (x, y) for joint, x, y in joints}, members, CRANK)
 
 

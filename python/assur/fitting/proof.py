@@ -26,13 +26,13 @@ PATH = 1000
 class Proof(NamedTuple):
     """What holds over the whole turn of the crank, by the solver.
 
-    `apex` is the least angle between the bars of a dyad, rad, and `flattest` its inner joint;
-    `extent` is the diameter of the circle about the path's centroid that no joint leaves, in the
-    path's radii, and `farthest` the joint that comes nearest to leaving it.
+    `apex` is the least angle between the bars of a dyad, rad, and `flattest` its inner joint (None
+    without dyads); `extent` is the diameter of the circle about the path's centroid that no joint
+    leaves, in the path's radii, and `farthest` the joint that comes nearest to leaving it.
     """
 
     apex: float
-    flattest: str
+    flattest: str | None
     extent: float
     farthest: str
 
@@ -44,25 +44,32 @@ def prove(mechanism: Mechanism, target: PathTarget) -> Proof | None:
         return None
     q = mechanism.q0 + np.linspace(0.0, 2.0 * np.pi, TURN, endpoint=False)
     motion = mechanism.solve(q, order=0)
-    inner = list(mechanism.assembly)
-    apexes = [motion.transmission_angle(joint) for joint in inner]
-    flattest = int(np.argmin([angle.min() for angle in apexes]))
-
-    def flatness(motion: Motion) -> Float:
-        return -motion.transmission_angle(inner[flattest])
-
     away = [_distance(motion, joint, target) for joint in mechanism.joint_names]
     farthest = mechanism.joint_names[int(np.argmax([far.max() for far in away]))]
 
     def distance(motion: Motion) -> Float:
         return _distance(motion, farthest, target)
 
+    apex, flattest = _least_apex(mechanism, motion, q)
     return Proof(
-        apex=-_greatest(mechanism, q, flatness, -apexes[flattest]),
-        flattest=inner[flattest],
+        apex=apex,
+        flattest=flattest,
         extent=2.0 * _greatest(mechanism, q, distance, distance(motion)),
         farthest=farthest,
     )
+
+
+def _least_apex(mechanism: Mechanism, motion: Motion, q: Float) -> tuple[float, str | None]:
+    """Return the least angle between the bars of a dyad, and its inner joint; π/2 without dyads."""
+    apexes = {joint: motion.transmission_angle(joint) for joint in mechanism.assembly}
+    if not apexes:
+        return 0.5 * np.pi, None
+    flattest = min(apexes, key=lambda joint: float(apexes[joint].min()))
+
+    def flatness(motion: Motion) -> Float:
+        return -motion.transmission_angle(flattest)
+
+    return -_greatest(mechanism, q, flatness, -apexes[flattest]), flattest
 
 
 def path_coordinates(mechanism: Mechanism, arc: float, count: int = PATH) -> Float:

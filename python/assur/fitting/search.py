@@ -15,7 +15,7 @@ from assur.fitting.conflicts import nothing_found
 from assur.fitting.effort import checked_effort, evolve, reporter
 from assur.fitting.fits import Fits
 from assur.fitting.measured import Spent, measured
-from assur.fitting.naming import check_free
+from assur.fitting.naming import check_name
 from assur.fitting.sensitivity import perturbed_errors
 from assur.fitting.target import PathTarget, checked_target
 from assur.fitting.wanted import Wanted, checked_wanted, started
@@ -127,7 +127,6 @@ def search(
     core = started(target, wanted)
     course = Course(core, target, wanted)
     with reporter(progress) as report:
-        report(0.0, math.inf)
         core.start()
         return course.run(effort, report, apart=True)
 
@@ -146,29 +145,26 @@ class Course:
         """Let linkages evolve, then finish, measure and rank them."""
         try:
             evolve(self.core, effort, report, apart)
+            found = self.core.finish()
         except KeyboardInterrupt:
             self._say_interrupted(effort)
-        drawn = self.core.finish()
+            found = self.core.finish()
         self.elapsed += effort.elapsed
         spent = Spent(self.elapsed, self.core.evaluations)
-        fits = [
-            measured((joints, links), arc, self.target, self.wanted, spent)
-            for joints, links, arc, _ in drawn
-        ]
-        kept = [fit for fit in fits if fit is not None]
-        if not kept:
-            raise nothing_found(self.target, self.wanted, len(drawn), spent)
-        kept.sort(key=self._rank)
-        report(1.0, kept[0].error)
-        return Fits(kept, len(fits) - len(kept), self._resume)
+        fits, rejected = measured(found, self.target, self.wanted, spent)
+        if not fits:
+            raise nothing_found(self.target, self.wanted, rejected, spent)
+        fits.sort(key=self._rank)
+        report(1.0, fits[0].error)
+        return Fits(fits, rejected, self._resume)
 
-    def _rank(self, fit: Fit) -> float:
-        """Return what the linkages are ranked by."""
-        error = fit.error
-        if self.wanted.robust is not None:
-            errors = perturbed_errors(fit.mechanism, fit.arc, self.target, self.wanted.robust)
-            error = max(error, *errors.values())
-        return error * (1.0 + self.wanted.joint_price) ** fit.joints
+    def _rank(self, fit: Fit) -> tuple[float, float]:
+        """Return what the linkages are ranked by, and what decides between equal ones."""
+        price = (1.0 + self.wanted.joint_price) ** fit.joints
+        if self.wanted.robust is None:
+            return price * fit.error, 0.0
+        errors = perturbed_errors(fit.mechanism, fit.arc, self.target, self.wanted.robust)
+        return price * max(fit.error, *errors.values()), price * fit.error
 
     def _resume(self, time_limit: Any, evaluations: Any, progress: Any) -> Fits:
         effort = checked_effort(time_limit, evaluations, self.core.evaluations)
@@ -190,5 +186,5 @@ def _one_path(targets: Any) -> tuple[str, Any]:
         raise InputError(message)
     ((name, points),) = targets.items()
     joint = checked_name(name, "targets")
-    check_free(joint)
+    check_name(joint)
     return joint, points

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assur._arrays import flag, real_array, require_finite, short
+from assur._arrays import counted, flag, real_array, short
 from assur.errors import AssurWarning, InputError
 
 if TYPE_CHECKING:
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 # More corners slow every evaluation down and say no more about a path.
 MOST_POINTS = 2000
+# Sizes with which the solver works, m.
+LEAST_SIZE, MOST_SIZE = 1e-140, 1e140
 # A path of so many points whose ends are as near as so many of its steps may be meant to be closed.
 MANY_POINTS, NEAR = 12, 1.5
 
@@ -41,6 +43,8 @@ class PathTarget:
         Centroid of the line, (2,), m.
     radius : float
         Root mean square distance of the line from it, m.
+    unit : float
+        A power of two near the path's size, m: what the search takes as its unit of length.
     """
 
     joint: str
@@ -49,6 +53,7 @@ class PathTarget:
     closed: bool
     centre: Float
     radius: float
+    unit: float
 
     @property
     def reach(self) -> float:
@@ -69,38 +74,57 @@ def checked_target(joint: str, points: Any, closed: Any) -> PathTarget:
         message = f"{what} has the shape {listed.shape}: points (N, 2) are needed, x and y in m"
         raise InputError(message, joint=joint)
     if not 2 <= len(listed) <= MOST_POINTS:
-        message = f"{what} has {len(listed)} points: from 2 to {MOST_POINTS} are needed"
+        has = counted(len(listed), "point")
+        message = f"{what} has {has}: from 2 to {MOST_POINTS} are needed"
         if len(listed) > MOST_POINTS:
-            message += f"; every {-(-len(listed) // MOST_POINTS)}th of them will do"
+            message += f"; points[::{-(-len(listed) // MOST_POINTS)}] will do"
         raise InputError(message, joint=joint, value=float(len(listed)))
-    require_finite(listed, what)
-    is_closed = _leads_back(listed, what) if closed is None else flag(closed, "closed")
-    centre, radius = _size(_line(listed, is_closed))
-    if not (radius > 0.0 and np.isfinite(radius)):
-        first = short(tuple(listed[0].tolist()))
-        message = f"{what}: all {len(listed)} points are {first}: a path goes from place to place"
-        if np.ptp(listed, axis=0).any():
-            message = f"{what}: the path has a size of {radius}: give it in m"
+    if not (is_finite := np.isfinite(listed).all(axis=1)).all():
+        wrong = int(is_finite.argmin())
+        message = (
+            f"{what}, point {wrong} of {len(listed)} is {short(tuple(listed[wrong].tolist()))}: "
+            "finite numbers are needed; leave it out"
+        )
         raise InputError(message, joint=joint)
-    corners = _line((listed - centre) / radius, is_closed)
+    unit = _unit(listed, what, joint)
+    is_closed = _leads_back(listed / unit, unit, what) if closed is None else flag(closed, "closed")
+    centre, radius = _size(_line(listed / unit, is_closed))
+    corners = _line((listed / unit - centre) / radius, is_closed)
+    centre, radius = centre * unit, radius * unit
     for array in (listed, corners, centre):
         array.flags.writeable = False
-    return PathTarget(joint, listed, corners, is_closed, centre, radius)
+    return PathTarget(joint, listed, corners, is_closed, centre, radius, unit)
 
 
-def _leads_back(points: Float, what: str) -> bool:
+def _unit(points: Float, what: str, joint: str) -> float:
+    """Return a power of two near the size of a path."""
+    with np.errstate(over="ignore"):
+        size = float(np.ptp(points, axis=0).max())
+    if size == 0.0:
+        first = short(tuple(points[0].tolist()))
+        message = f"{what}: all {len(points)} points are {first}: a path goes from place to place"
+        raise InputError(message, joint=joint)
+    if not LEAST_SIZE < size < MOST_SIZE:
+        message = (
+            f"{what}: the path is {size:g} m long or high; from {LEAST_SIZE:g} to {MOST_SIZE:g} m "
+            "is needed"
+        )
+        raise InputError(message, joint=joint, value=size)
+    return float(np.ldexp(1.0, np.frexp(size)[1]))
+
+
+def _leads_back(points: Float, unit: float, what: str) -> bool:
     """Whether the last point is the first; a warning where it nearly is."""
     if (points[0] == points[-1]).all():
         return True
-    with np.errstate(over="ignore"):
-        steps = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
-        gap = float(np.sqrt(((points[0] - points[-1]) ** 2).sum()))
+    steps = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
+    gap = float(np.sqrt(((points[0] - points[-1]) ** 2).sum()))
     if len(points) >= MANY_POINTS and gap <= NEAR * float(np.median(steps)):
         message = (
-            f"{what} ends {gap:.3g} m from its first point, as near as its points are to each "
-            "other: closed=True closes it, closed=False leaves it open without this warning"
+            f"{what} ends {unit * gap:.3g} m from its first point, as near as its points are to "
+            "each other: closed=True closes it, closed=False leaves it open without this warning"
         )
-        warnings.warn(message, AssurWarning, stacklevel=5)
+        warnings.warn(message, AssurWarning, stacklevel=4)
     return False
 
 
@@ -115,10 +139,9 @@ def _line(points: Float, is_closed: bool) -> Float:
 def _size(line: Float) -> tuple[Float, float]:
     """Return the centroid and the root mean square radius of a line, not of its corners."""
     start, along = line[:-1], np.diff(line, axis=0)
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        lengths = np.sqrt((along**2).sum(axis=1))
-        middles = start + 0.5 * along - line[0]
-        mean = (lengths[:, np.newaxis] * middles).sum(axis=0) / lengths.sum()
-        # The mean square over a segment: that of its middle, and a twelfth of its length's.
-        squares = ((middles - mean) ** 2).sum(axis=1) + lengths**2 / 12.0
-        return line[0] + mean, float(np.sqrt((lengths * squares).sum() / lengths.sum()))
+    lengths = np.sqrt((along**2).sum(axis=1))
+    middles = start + 0.5 * along - line[0]
+    mean = (lengths[:, np.newaxis] * middles).sum(axis=0) / lengths.sum()
+    # The mean square over a segment: that of its middle, and a twelfth of its length's.
+    squares = ((middles - mean) ** 2).sum(axis=1) + lengths**2 / 12.0
+    return line[0] + mean, float(np.sqrt((lengths * squares).sum() / lengths.sum()))

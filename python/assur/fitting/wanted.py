@@ -96,5 +96,10 @@ def started(target: PathTarget, wanted: Wanted) -> _core.PathSearch:
     # The core measures from the centroid.
     limits = (wanted.min_apex_angle, 0.5 * wanted.frame, wanted.min_arc, wanted.joint_price)
     return _core.PathSearch(
-        target.points, target.closed, wanted.joints, limits, wanted.seed, wanted.threads
+        target.points / target.unit,
+        target.closed,
+        wanted.joints,
+        limits,
+        wanted.seed,
+        wanted.threads,
     )
