@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from assur.errors import FitError
+from assur.fitting.measured import Spent, measured
 from assur.fitting.wanted import started
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from assur.fitting.measured import Spent
     from assur.fitting.target import PathTarget
     from assur.fitting.wanted import Wanted
 
@@ -36,14 +36,9 @@ def nothing_found(target: PathTarget, wanted: Wanted, offered: int, spent: Spent
     )
     if not target.closed:
         conditions += f", an arc of at least {np.rad2deg(wanted.min_arc):.4g}°"
-    rejected = f" ({offered} offered, none of them proved)" if offered else ""
-    message = (
-        f"no linkage keeps all conditions{rejected}: {conditions}; {spent.evaluations} were "
-        "evaluated"
-    )
+    message = f"no linkage keeps all conditions: {conditions}; {spent.evaluations} were evaluated"
     if offered:
-        hint = "another seed or more evaluations may lead to others"
-        return FitError(f"{message}; {hint}", hint=hint, joint=target.joint)
+        message += f", and the best {offered} failed the proof"
     helped = [relaxed.what for relaxed in _relaxed(wanted) if _leaves_some(target, relaxed.wanted)]
     hint = (
         f"there are linkages with {', or with '.join(helped)}"
@@ -68,4 +63,5 @@ def _leaves_some(target: PathTarget, wanted: Wanted) -> bool:
     """Whether a search with these conditions has linkages to begin with."""
     search = started(target, wanted)
     search.start()
-    return bool(np.isfinite(search.best))
+    spent = Spent(0.0, search.evaluations)
+    return any(measured([one], target, wanted, spent)[0] for one in search.finish())

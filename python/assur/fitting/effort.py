@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 Progress: TypeAlias = "bool | Callable[[float, float], object]"
 Report: TypeAlias = "Callable[[float, float], object]"
 
-# A week, s.
+# A week, s; and what takes a year.
 MOST_TIME = 604_800.0
+MOST_EVALUATIONS = 10**12
 # Parts of the effort at which candidates are put together, and at which the best are finished.
 TOGETHER, FINISHED = 0.6, 0.9
 
@@ -52,17 +53,18 @@ def checked_effort(time_limit: Any, evaluations: Any, done: int = 0) -> Effort:
     if not 0.0 < seconds <= MOST_TIME:
         message = f"time_limit is {seconds:g} s: more than 0 and at most {MOST_TIME:g} is needed"
         raise InputError(message, value=seconds)
-    count = None if evaluations is None else whole_number(evaluations, "evaluations", 1)
-    return Effort(seconds, count, done)
+    if evaluations is not None:
+        evaluations = whole_number(evaluations, "evaluations", 1, MOST_EVALUATIONS)
+    return Effort(seconds, evaluations, done)
 
 
-def evolve(search: _core.PathSearch, effort: Effort, report: Report, apart: bool = True) -> None:
-    """Let linkages evolve until the effort is spent, with islands apart at first."""
+def evolve(search: _core.PathSearch, effort: Effort, report: Report, apart: bool) -> None:
+    """Let linkages evolve: on islands until a part of the effort is spent, or together."""
     # The last part of a time is for finishing; evaluations for that come on top.
-    end = FINISHED if effort.evaluations is None else 1.0
+    end = TOGETHER if apart else FINISHED if effort.evaluations is None else 1.0
     while (part := effort.part(search)) < end:
         report(part, search.best)
-        if not search.round(apart and part < TOGETHER):
+        if not search.round(apart):
             return
 
 

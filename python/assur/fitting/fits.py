@@ -46,7 +46,7 @@ class Fits(Sequence[Fit]):
         self,
         fits: Sequence[Fit],
         rejected: int,
-        go_on: Callable[[Any, Any, Any], Fits] | None,
+        go_on: Callable[[float, int | None, Progress], Fits] | None,
     ) -> None:
         self._fits = tuple(fits)
         self.rejected = rejected

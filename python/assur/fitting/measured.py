@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 ROUNDING = 1e-9
 # Linkages whose joints differ by less than this part of their extent are variants of one.
 ALIKE = 0.05
+# A crank alone draws a circle: it answers a path that is one, to this error.
+CIRCLE = 0.02
 
 
 # Joints with their places, links, the crank's turn over the path, the objective.
@@ -63,7 +65,11 @@ def measured(
         if proof is None or not all(map(_holds, conditions)):
             rejected += 1
             continue
-        fits.append(_fit(mechanism, proof, arc, target, (wanted, spent, conditions)))
+        fit = _fit(mechanism, proof, arc, target, (wanted, spent, conditions))
+        if mechanism.assembly or fit.error <= CIRCLE:
+            fits.append(fit)
+        else:
+            rejected += 1
     return fits, rejected
 
 

@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from assur import _core
-    from assur.fitting.effort import Effort, Progress
+    from assur.fitting.effort import Effort, Progress, Report
     from assur.fitting.found import Fit
+    from assur.fitting.measured import Found
 
 __all__ = ["search"]
 
@@ -92,7 +93,7 @@ def search(
     Returns
     -------
     Fits
-        Up to 16 different linkages, the best first. Each `Fit` has its mechanism, its errors over
+        Different linkages, the best first. Each `Fit` has its mechanism, its errors over
         the path's root mean square radius, the proof, and its sensitivity.
 
     Raises
@@ -141,14 +142,19 @@ class Course:
     # Time that it has taken so far, s.
     elapsed: float = 0.0
 
-    def run(self, effort: Effort, report: Any, apart: bool) -> Fits:
+    def run(self, effort: Effort, report: Report, apart: bool) -> Fits:
         """Let linkages evolve, then finish, measure and rank them."""
+        found: list[Found] = []
         try:
-            evolve(self.core, effort, report, apart)
-            found = self.core.finish()
+            if apart:
+                evolve(self.core, effort, report, apart=True)
+                # Together the best displace what is different.
+                found = self.core.finish()
+            evolve(self.core, effort, report, apart=False)
+            found = [*self.core.finish(), *found]
         except KeyboardInterrupt:
             self._say_interrupted(effort)
-            found = self.core.finish()
+            found = [*self.core.finish(), *found]
         self.elapsed += effort.elapsed
         spent = Spent(self.elapsed, self.core.evaluations)
         fits, rejected = measured(found, self.target, self.wanted, spent)
