@@ -30,6 +30,7 @@ from assur.errors import (
     AssurError,
     AssurWarning,
     DimensionError,
+    FitError,
     InputError,
     MotionError,
     PositionError,
@@ -78,6 +79,9 @@ if TYPE_CHECKING:
     from assur.dynamics.motion.runs import Runs
     from assur.dynamics.motion.steady import SteadyState
     from assur.files.contents import load
+    from assur.fitting.fits import Fits
+    from assur.fitting.found import Fit
+    from assur.fitting.search import search
     from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.loci.maps import DesignMap
     from assur.kinematics.loci.singular import SingularLocus, Workspace
@@ -103,6 +107,9 @@ __all__ = [
     "DesignMap",
     "DimensionError",
     "Drive",
+    "Fit",
+    "FitError",
+    "Fits",
     "Force",
     "FourBar",
     "Gas",
@@ -153,6 +160,7 @@ __all__ = [
     "metric",
     "pictures",
     "rpm",
+    "search",
     "slider_crank",
     "sweep",
 ]
@@ -193,6 +201,9 @@ _LATER = {
     "assur.dynamics.motion.runs": ("Runs",),
     "assur.dynamics.motion.steady": ("SteadyState",),
     "assur.files.contents": ("load",),
+    "assur.fitting.fits": ("Fits",),
+    "assur.fitting.found": ("Fit",),
+    "assur.fitting.search": ("search",),
     "assur.kinematics.curve.design_defects": ("Defect",),
     "assur.kinematics.loci.maps": ("DesignMap",),
     "assur.kinematics.loci.singular": ("SingularLocus", "Workspace"),

@@ -38,6 +38,7 @@ __all__ = [
     "KnownSigns",
     "Machine",
     "Mechanism",
+    "PathSearch",
     "Run",
     "Runs",
     "acute",
@@ -268,6 +269,27 @@ class Flywheels:
     def problem(self, index: int) -> str | None: ...
     def failure(self, index: int, label: str, design: list[int] | None) -> AssurError: ...
     def curve(self, quantity: str, points: _Float) -> _Float: ...
+
+@final
+class PathSearch:
+    def __new__(
+        cls,
+        points: _Float,
+        is_closed: bool,
+        joints: int,
+        limits: tuple[float, float, float, float],
+        seed: int,
+        threads: int | None,
+    ) -> Self: ...
+    @property
+    def best(self) -> float: ...
+    @property
+    def evaluations(self) -> int: ...
+    def start(self) -> None: ...
+    def round(self, is_apart: bool) -> bool: ...
+    def finish(
+        self,
+    ) -> list[tuple[list[tuple[str, float, float]], list[tuple[str, list[str]]], float, float]]: ...
 
 @final
 class Run:

@@ -14,6 +14,7 @@ __all__ = [
     "AssurError",
     "AssurWarning",
     "DimensionError",
+    "FitError",
     "InputError",
     "MotionError",
     "PositionError",
@@ -231,6 +232,20 @@ class MotionError(AssurError, ArithmeticError):
     Traceback (most recent call last):
     ...
     assur.errors.MotionError: the motor cannot carry the load: even at 10 rad/s the machine ...
+    """
+
+
+class FitError(AssurError, ArithmeticError):
+    """No linkage keeps all conditions of a search: the message says which of them is in the way.
+
+    Examples
+    --------
+    >>> import assur
+    >>> hook = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
+    >>> assur.search({"P": hook}, min_apex_angle=1.55, evaluations=1)
+    Traceback (most recent call last):
+    ...
+    assur.errors.FitError: no linkage keeps all conditions: at most 12 joints, apex angles of ...
     """
 
 

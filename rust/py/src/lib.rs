@@ -25,6 +25,7 @@ mod reduce;
 mod remedies;
 mod reserve;
 mod run;
+mod search;
 mod spline;
 mod sweep;
 #[cfg(feature = "test-hooks")]
@@ -74,6 +75,8 @@ mod _core {
     use super::run::Run;
     #[pymodule_export]
     use super::run::outcomes::Runs;
+    #[pymodule_export]
+    use super::search::PathSearch;
     #[pymodule_export]
     use super::spline::spline_pieces;
     #[pymodule_export]

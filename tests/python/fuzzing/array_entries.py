@@ -196,6 +196,10 @@ IN_DEGREES = {
     "Machine.internal_loads.deg": Entry(
         lambda deg: MACHINE.internal_loads("coupler", deg=deg).moment, numbers(30.0)
     ),
+    "assur.search.targets": Entry(
+        lambda points: assur.search({"P": points}, joints=5, evaluations=1)[0].q,
+        (np.array([[0.0, 2.0], [0.0, 0.5], [0.4, 0.0], [1.2, 0.2]]),),
+    ),
     "assur.sweep.deg": Entry(
         lambda deg: dict(assur.sweep(FOUR_BAR, {}, deg=deg, metrics=SWING)), numbers(30.0)
     ),

@@ -41,7 +41,19 @@ RESULTS = (Bearing, Extremes, Reactions, TimedMotion)
 # raise KeyError.
 NOT_CALLED = {
     *("Analogues", "Assemblies", "ConfigurationCurve", "DeadPoint", "Defect", "DesignMap", "Group"),
-    *("Limits", "Measures", "Motion", "Remedy", "Run", "Sensitivity", "SingularLocus", "Status"),
+    *(
+        "Fit",
+        "Fits",
+        "Fits.__getitem__",
+        "Limits",
+        "Measures",
+        "Motion",
+        "Remedy",
+        "Run",
+        "Sensitivity",
+        "SingularLocus",
+        "Status",
+    ),
     *("Runs", "SteadyState", "Structure", "Workspace", "balance.Harmonics", "balance.MomentBounds"),
     *("balance.RotatingParts", "crank_rocker.JammingEvent", "crank_rocker.JammingRun"),
     *("crank_rocker.Solution", "crank_rocker.Table1", "files.Contents", "flywheel.Extreme"),

@@ -310,6 +310,14 @@ def _of_sweeps() -> Iterable[tuple[str, Call]]:
     yield from named("Condition", metric.span("C.x") > 0.0, holds={"values": [1.0]})
 
 
+def _of_searches() -> Iterable[tuple[str, Call]]:
+    hook = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
+    few = {"evaluations": 1, "time_limit": 0.5}
+    yield "search", call(assur.search, targets={"P": hook}, joints=5, **few)
+    found = assur.search({"P": hook}, joints=5, evaluations=1)
+    yield from named("Fits", found, resume=few, save={"folder": "found"})
+
+
 def _of_parts() -> Iterable[tuple[str, Call]]:
     rows: dict[str, Any] = {"q": [0.0, 1.0], "value": [1.0, 1.0]}
     shaft = {"link": "crank", "torque": 1.0, "stiffness": 1.0, "damping": 1.0}
@@ -447,5 +455,13 @@ def _of_papers() -> Iterable[tuple[str, Call]]:
 @functools.cache
 def usual_calls() -> dict[str, Call]:
     """Return the calls by name; those that read or write do so in the working directory."""
-    parts = (_of_mechanisms, _of_motions, _of_machines, _of_sweeps, _of_parts, _of_modules)
+    parts = (
+        _of_mechanisms,
+        _of_motions,
+        _of_machines,
+        _of_sweeps,
+        _of_searches,
+        _of_parts,
+        _of_modules,
+    )
     return {name: one for part in parts for name, one in part()}

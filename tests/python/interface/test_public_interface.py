@@ -20,6 +20,8 @@ RESULTS = {
         "ConfigurationCurve",
         "DeadPoint",
         "DesignMap",
+        "Fit",
+        "Fits",
         "Group",
     ),
     *(

@@ -27,7 +27,9 @@ WIDE = {
     "Engine.submit": "as `Executor.submit` of concurrent.futures and Dask have it",
     "Future.": "the same: the result of any call",
     "Source.": "what a file has in a number's place, for messages; fields of an error",
-    "sweep(progress)": "what a function of the user returns is not looked at",
+    "Fits.resume(progress)": "what a function of the user returns is not looked at",
+    "search(progress)": "the same",
+    "sweep(progress)": "the same",
 }
 # Axes of several diagrams: NumPy has no arrays of axes, and those of object_ would have no methods.
 PANELS = npt.NDArray[Any]

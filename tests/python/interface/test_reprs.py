@@ -22,6 +22,7 @@ LINES, COLUMNS = 25, 120
 MANY = 100_000
 PHI = np.linspace(0.0, 2.0 * np.pi, 10_001)
 Q = np.linspace(0.0, 6.0, 1000)
+HOOK = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
 
 
 def chain(links: int) -> assur.Mechanism:
@@ -84,6 +85,11 @@ def measures() -> assur.Measures:
     return assur.sweep(batch(50), {}, Q[:20], metrics=asked)
 
 
+@functools.cache
+def searched() -> assur.Fits:
+    return assur.search({"the_traced_joint_of_the_path": HOOK}, evaluations=1)
+
+
 def refusal() -> assur.StructureError:
     with pytest.raises(assur.StructureError) as refused:
         assur.Mechanism(
@@ -137,6 +143,8 @@ MADE: dict[str, Callable[[], object]] = {
         "full_rotation",
         {"coupler.length": np.linspace(2, 4, 9), "rocker.length": np.linspace(2, 4, 9)},
     ),
+    "Fit": lambda: searched()[0],
+    "Fits": searched,
     "Force": lambda: assur.Force("B", (long_table(), force)),
     "FourBar": batch,
     "Gas": lambda: assur.Gas(1e5, 0.001, at=0.1),

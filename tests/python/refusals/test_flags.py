@@ -90,6 +90,11 @@ def workspace() -> Any:
 
 
 @cache
+def found() -> Any:
+    return assur.search({"P": [(0.0, 0.0), (1.0, 0.0)]}, joints=5, evaluations=1)
+
+
+@cache
 def design_map() -> Any:
     both = {"rocker.length": [2.4, 2.6], "coupler.length": [2.9, 3.1]}
     return WHEEL.map("assemblies", both)
@@ -156,6 +161,8 @@ CALLS: dict[str, Callable[..., Any]] = {
     "plot_convergence": lambda _, **f: slider_crank.plot_convergence(count=2, **f),
     "plot_deviation": lambda _, **f: slider_crank.plot_deviation(**f),
     "sweep": lambda _, **f: swept(**f),
+    "search": lambda _, **f: assur.search({"P": [(0.0, 0.0), (1.0, 0.0)]}, **f),
+    "Fits.resume": lambda _, **f: found().resume(**f),
 }
 
 

@@ -1,0 +1,1 @@
+"""Linkages for a task: what is found, measured and proved."""

@@ -1,0 +1,130 @@
+"""A linkage that was found: its errors, its proof, the report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from assur.fitting.condition import shown
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from assur._arrays import Float
+    from assur.fitting.condition import Condition
+    from assur.kinematics.mechanism import Mechanism
+
+__all__ = ["Fit"]
+
+# Lengths that a report names as the most sensitive.
+NAMED = 3
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Fit:
+    """A linkage for a task, measured and proved by the solver; made by `assur.search`.
+
+    Lengths are over the target's root mean square radius, the mean being over its length.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The linkage, drawn where its path begins. The traced joint has the name of the target.
+    error : float
+        Chamfer distance as placed: the mean distance from the target to the nearest place of the
+        path, plus that from the path to the target. Both are polylines.
+    ordered_error : float
+        2π times the mean squared distance of points at equal parts of both lengths, in order; of a
+        closed path with the best start.
+    q : ndarray
+        For every target point the driver's coordinate at the nearest place of the path, (N,), rad.
+    arc : float
+        The crank's turn over the path, rad, positive counter-clockwise; the path begins at
+        ``mechanism.q0``.
+    full_rotation : bool
+        Whether the crank goes round, by ``mechanism.limits()``. True of all that is returned.
+    transmission_angle : float
+        The least angle between the two bars of a dyad over the whole turn, rad.
+    extent : float
+        Diameter of the circle about the target's centroid that no joint leaves over the whole turn.
+    sensitivity : float
+        The greatest error after one length has changed by ±1e-3 of itself; infinite if the crank
+        then does not go round.
+    sensitivities : mapping of str to float
+        That of each dimension, the most sensitive first.
+    joints : int
+        Number of joints.
+    seed : int
+        Seed of the search.
+    elapsed : float
+        Time of the search, s.
+    evaluations : int
+        Linkages that the search evaluated.
+
+    Examples
+    --------
+    >>> import assur, numpy as np
+    >>> hook = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
+    >>> fit = assur.search({"P": hook}, evaluations=1)[0]
+    >>> fit.error < 0.1, fit.full_rotation, fit.joints <= 12
+    (True, True, True)
+    >>> motion = fit.mechanism.solve(fit.q)
+    >>> motion.joint("P").value.shape
+    (4, 2)
+    """
+
+    mechanism: Mechanism
+    error: float
+    ordered_error: float
+    q: Float
+    arc: float
+    full_rotation: bool
+    transmission_angle: float
+    extent: float
+    sensitivity: float
+    sensitivities: Mapping[str, float]
+    joints: int
+    seed: int
+    elapsed: float
+    evaluations: int
+    _conditions: tuple[Condition, ...]
+
+    def report(self) -> str:
+        """Return what was found in words: the error, which conditions bind, the proof.
+
+        A condition binds where the linkage is within 3 % of it: relaxing it may lower the error.
+
+        Returns
+        -------
+        str
+            A few lines.
+
+        Examples
+        --------
+        >>> import assur
+        >>> hook = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
+        >>> print(assur.search({"P": hook}, evaluations=1)[0].report())
+        error ...
+        """
+        worst = list(self.sensitivities.items())[:NAMED]
+        sensitive = ", ".join(f"{name} {error:.3g}" for name, error in worst)
+        effort = f"{self.elapsed:.3g} s, {self.evaluations} evaluated"
+        lines = [
+            f"error {self.error:.3g} of the target's radius, in order {self.ordered_error:.3g}",
+            *(condition.line() for condition in self._conditions),
+            f"full turn              {'proved by limits()' if self.full_rotation else 'no'}",
+            f"lengths ±0.1 % each    error at most {self.sensitivity:.3g}: {sensitive}",
+            f"search                 {effort}, seed {self.seed}",
+        ]
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        parts = (
+            f"error {self.error:.3g}",
+            f"{self.joints} joints",
+            f"apex {shown(self.transmission_angle, '°')}",
+            f"extent {self.extent:.3g}",
+            f"arc {shown(self.arc, '°')}",
+            f"±0.1 %: {self.sensitivity:.3g}",
+        )
+        return f"<assur.Fit {', '.join(parts)}>"
