@@ -5,9 +5,11 @@ use std::sync::atomic::AtomicBool;
 
 use super::conditions::KEPT as MISS;
 use super::descend::{Stage, descend};
+use super::place::{Placing, drives_from_the_frame};
 use super::point::Point;
 use super::problem::{Compiled, FINE_POSITIONS, FitRequest, Problem, TRAVEL_POSITIONS};
 use super::start::{Start, Starts};
+use super::target::Freedom;
 use crate::description::error::SolveError;
 use crate::plan::mechanism::Mechanism;
 use crate::search::for_all::for_all;
@@ -98,22 +100,40 @@ impl Fit {
 
     /// The designs found so far, best first.
     #[must_use]
-    pub fn found(&self) -> Vec<Fitted> {
-        self.found.iter().map(|(assembly, point)| self.fitted(*assembly, point)).collect()
+    pub fn found(&self, mechanism: &Mechanism) -> Vec<Fitted> {
+        self.found.iter().map(|start| self.fitted(mechanism, start)).collect()
     }
 
     /// Of designs that miss a limit the one that misses it the least.
     #[must_use]
-    pub fn nearest(&self) -> Option<Fitted> {
-        self.nearest.as_ref().map(|(assembly, point)| self.fitted(*assembly, point))
+    pub fn nearest(&self, mechanism: &Mechanism) -> Option<Fitted> {
+        self.nearest.as_ref().map(|start| self.fitted(mechanism, start))
     }
 
-    fn fitted(&self, assembly: usize, point: &Point) -> Fitted {
-        let (x, free) = point.x.split_at(self.compiled.variables.len());
+    /// A design as users take it: moved to its place where that is free.
+    fn fitted(&self, mechanism: &Mechanism, (assembly, point): &Start) -> Fitted {
+        let problem = self.compiled.of(mechanism);
+        let (x, free) = point.x.split_at(problem.variables.len());
+        let mut dimensions = problem.variables.dimensions(x);
+        let mut q = point.q.clone();
+        for (target, positions, extra) in problem.parts() {
+            let numbers = &point.x[extra + target.extra() - target.freedom.numbers()..]
+                [..target.freedom.numbers()];
+            if let (Freedom::Place, Some(place)) = (target.freedom, Placing::of_place(numbers)) {
+                if let Some(moved) = place.dimensions(&problem, &dimensions) {
+                    dimensions = moved;
+                    if drives_from_the_frame(mechanism) {
+                        for q in &mut q[positions] {
+                            *q = place.coordinate(*q);
+                        }
+                    }
+                }
+            }
+        }
         Fitted {
-            dimensions: self.compiled.variables.dimensions(x),
-            assembly,
-            q: point.q.clone(),
+            dimensions,
+            assembly: *assembly,
+            q,
             free: free.to_vec(),
             sum: 2.0 * point.misfit,
             misses: point.multipliers.misses.clone(),

@@ -8,6 +8,7 @@ use crate::description::Driver;
 use crate::description::dimension::Dimension;
 use crate::math::simd::Simd;
 use crate::math::vector::Vector;
+use crate::plan::mechanism::Mechanism;
 use crate::search::retrieve::{Curve, Match, Retrieval};
 use crate::search::target::Target;
 
@@ -50,7 +51,7 @@ impl Placing {
                 Some((alone(size), vec![by.angle(), shift.x, shift.y]))
             }
             Freedom::Similarity => Some((alone(Vector::ONE), vec![by.x, by.y, shift.x, shift.y])),
-            Freedom::Line { .. } => None,
+            Freedom::Line { .. } | Freedom::Turned => None,
         }
     }
 
@@ -91,12 +92,18 @@ impl Placing {
         Some(moved)
     }
 
+    /// What the numbers of a place do to a mechanism.
+    pub(super) fn of_place(numbers: &[f64]) -> Option<Self> {
+        let &[angle, x, y] = numbers else { return None };
+        Some(Self { by: Vector::at_angle(angle), shift: Vector::new(x, y), is_mirrored: false })
+    }
+
     fn point(&self, point: Vector) -> Vector {
         self.by * if self.is_mirrored { point.conj() } else { point } + self.shift
     }
 
     /// The coordinate of a driver that is an angle from the frame.
-    fn coordinate(&self, q: f64) -> f64 {
+    pub(super) fn coordinate(&self, q: f64) -> f64 {
         self.by.angle() + if self.is_mirrored { -q } else { q }
     }
 }
@@ -117,10 +124,8 @@ enum When {
 impl Placer {
     /// `None` if there is no path, or if the variables cannot move the whole mechanism.
     pub(super) fn new(problem: &Problem) -> Option<Self> {
-        let linkage = problem.mechanism.linkage();
-        let [Driver::Angle { relative_to, .. }] = linkage.drivers[..] else { return None };
         let [target] = problem.targets.as_slice() else { return None };
-        if relative_to != linkage.ground {
+        if !drives_from_the_frame(problem.mechanism) {
             return None;
         }
         let (inner, _) = TRIAL.split(target.freedom)?;
@@ -221,6 +226,12 @@ impl Placer {
         let q = q.iter().map(|q| inner.coordinate(q + phase)).collect();
         Some(Placed { inner, outer, q })
     }
+}
+
+/// Whether one driver turns a link from the frame: it turns with the whole mechanism.
+pub(super) fn drives_from_the_frame(mechanism: &Mechanism) -> bool {
+    let linkage = mechanism.linkage();
+    matches!(linkage.drivers[..], [Driver::Angle { relative_to, .. }] if relative_to == linkage.ground)
 }
 
 /// A curve's point at an angle of the driver, between the positions of a turn.

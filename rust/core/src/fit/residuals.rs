@@ -91,6 +91,10 @@ fn free(target: &FitTarget, x: &[f64], mut extra: usize, rows: &mut Rows) {
     }
     match target.freedom {
         Freedom::None => {}
+        Freedom::Turned => {
+            rows.residuals[2] += x[extra];
+            rows.derivatives[2 * width + extra] = 1.0;
+        }
         Freedom::Place => {
             let (b, a) = sin_cos(x[extra]);
             let p = turned([a, b], [x[extra + 1], x[extra + 2]], rows);

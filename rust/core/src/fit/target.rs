@@ -42,6 +42,8 @@ pub enum Freedom {
     Place,
     /// Place, direction and size.
     Similarity,
+    /// A constant of the third number: the angle at which a body is fixed to its link.
+    Turned,
     /// Scale and offset of a number: wanted + residual = scale × number + offset.
     Line {
         /// Whether the scale is free.
@@ -49,6 +51,19 @@ pub enum Freedom {
         /// Whether the offset is free.
         offset: bool,
     },
+}
+
+impl Freedom {
+    /// How many numbers it is.
+    pub(super) fn numbers(self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Turned => 1,
+            Self::Place => 3,
+            Self::Similarity => 4,
+            Self::Line { scale, offset } => usize::from(scale) + usize::from(offset),
+        }
+    }
 }
 
 /// What a motion is to do.
@@ -97,16 +112,9 @@ impl FitTarget {
         is_point.then(|| x.wanted.iter().zip(&y.wanted).map(|(&x, &y)| [x, y]).collect())
     }
 
-    /// Numbers beside the dimensions that a fit chooses for this target alone.
+    /// Numbers beside the dimensions that a fit chooses for this target alone: the phase, then those of its freedom.
     pub(super) fn extra(&self) -> usize {
-        let phase = usize::from(matches!(self.timing, Timing::Phase(_)));
-        phase
-            + match self.freedom {
-                Freedom::None => 0,
-                Freedom::Place => 3,
-                Freedom::Similarity => 4,
-                Freedom::Line { scale, offset } => usize::from(scale) + usize::from(offset),
-            }
+        usize::from(matches!(self.timing, Timing::Phase(_))) + self.freedom.numbers()
     }
 
     /// What these numbers are where nothing is known.
@@ -117,6 +125,7 @@ impl FitTarget {
         }
         match self.freedom {
             Freedom::None => {}
+            Freedom::Turned => numbers.push(0.0),
             Freedom::Place => numbers.extend([0.0; 3]),
             Freedom::Similarity => numbers.extend([1.0, 0.0, 0.0, 0.0]),
             Freedom::Line { scale, offset } => {

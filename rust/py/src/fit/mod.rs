@@ -84,13 +84,15 @@ impl Fit {
     }
 
     /// The designs found so far, best first.
-    fn found(&self) -> PyResult<Vec<Design>> {
-        Ok(self.lock()?.found().into_iter().map(parts).collect())
+    fn found(&self, py: Python<'_>) -> PyResult<Vec<Design>> {
+        let mechanism = &self.mechanism.bind(py).get().inner;
+        Ok(self.lock()?.found(mechanism).into_iter().map(parts).collect())
     }
 
     /// Of designs that miss a limit the one that misses it the least.
-    fn nearest(&self) -> PyResult<Option<Design>> {
-        Ok(self.lock()?.nearest().map(parts))
+    fn nearest(&self, py: Python<'_>) -> PyResult<Option<Design>> {
+        let mechanism = &self.mechanism.bind(py).get().inner;
+        Ok(self.lock()?.nearest(mechanism).map(parts))
     }
 
     /// Designs that were evaluated so far.

@@ -48,6 +48,7 @@ impl Words for Freedom {
         ("none", Self::None),
         ("place", Self::Place),
         ("similarity", Self::Similarity),
+        ("turned", Self::Turned),
         ("scale", Self::Line { scale: true, offset: false }),
         ("offset", Self::Line { scale: false, offset: true }),
         ("scale and offset", Self::Line { scale: true, offset: true }),
