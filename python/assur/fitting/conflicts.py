@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from assur.fitting.wanted import Wanted
 
 # Conditions that most paths leave room within.
-EASY_JOINTS, EASY_APEX, EASY_FRAME = 12, np.pi / 18.0, 20.0
+EASY_JOINTS, EASY_APEX, EASY_FRAME, EASY_ARC = 12, np.pi / 18.0, 20.0, 0.5 * np.pi
 
 
 class Relaxed(NamedTuple):
-    """Conditions with one or all of them relaxed, and what that is in words."""
+    """Conditions with one of them relaxed, and what that is in words."""
 
     what: str
     wanted: Wanted
@@ -39,7 +39,9 @@ def nothing_found(target: PathTarget, wanted: Wanted, offered: int, spent: Spent
     message = f"no linkage keeps all conditions: {conditions}; {spent.evaluations} were evaluated"
     if offered:
         message += f", and the best {offered} failed the proof"
-    helped = [relaxed.what for relaxed in _relaxed(wanted) if _leaves_some(target, relaxed.wanted)]
+    helped = [
+        relaxed.what for relaxed in _relaxed(target, wanted) if _leaves_some(target, relaxed.wanted)
+    ]
     hint = (
         f"there are linkages with {', or with '.join(helped)}"
         if helped
@@ -48,7 +50,7 @@ def nothing_found(target: PathTarget, wanted: Wanted, offered: int, spent: Spent
     return FitError(f"{message}; {hint}", hint=hint, joint=target.joint)
 
 
-def _relaxed(wanted: Wanted) -> Iterator[Relaxed]:
+def _relaxed(target: PathTarget, wanted: Wanted) -> Iterator[Relaxed]:
     """Yield the conditions with one of them relaxed, where it is narrower than most paths need."""
     if wanted.min_apex_angle > EASY_APEX:
         of = f"min_apex_angle={EASY_APEX:.4g} ({np.rad2deg(EASY_APEX):.0f}°)"
@@ -57,6 +59,9 @@ def _relaxed(wanted: Wanted) -> Iterator[Relaxed]:
         yield Relaxed(f"joints={EASY_JOINTS}", replace(wanted, joints=EASY_JOINTS))
     if wanted.frame < EASY_FRAME:
         yield Relaxed(f"frame={EASY_FRAME:g}", replace(wanted, frame=EASY_FRAME))
+    if wanted.min_arc > EASY_ARC and not target.closed:
+        of = f"min_arc={EASY_ARC:.4g} ({np.rad2deg(EASY_ARC):.0f}°)"
+        yield Relaxed(of, replace(wanted, min_arc=EASY_ARC))
 
 
 def _leaves_some(target: PathTarget, wanted: Wanted) -> bool:

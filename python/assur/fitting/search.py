@@ -78,10 +78,11 @@ def search(
         A relative tolerance of lengths, 1e-3: the linkages are then ranked by the greatest error
         after one length has changed by so much of itself, not by the error alone.
     time_limit : float
-        Time for all of it, s. At least about a second goes into the start.
+        Time for all of it, s. The start takes some tenths of a second, however short the limit.
     evaluations : int, optional
-        In place of the time: about how many linkages to evaluate. The start takes some 60 000, a
-        processor some 30 000 a second. The same seed then gives the same bits on any machine.
+        In place of the time: about how many linkages to evaluate. The start takes up to some
+        40 000, and a second of a core some 40 000. The same seed then gives the same bits on any
+        machine.
     seed : int
         Another one gives other linkages.
     threads : int, optional

@@ -157,6 +157,17 @@ def test_a_flywheel_is_handed_on() -> None:
     assert assur.Body(inertia=table.inertia).inertia > 0.0
 
 
+def test_search(tmp_path: Path) -> None:
+    found = assur.search({"P": [(0.0, 0.0), (1.0, 0.2), (2.0, 0.0)]}, joints=6, evaluations=1)
+    assert_type(found, assur.Fits)
+    assert_type(found.resume(evaluations=1), assur.Fits)
+    assert_type(found[0], assur.Fit)
+    assert_type(found[0].mechanism, assur.Mechanism)
+    assert_type(found[0].error, float)
+    assert_type(found[0].mechanism.solve(found[0].q), assur.Motion)
+    assert found.save(tmp_path)[0].parent == tmp_path
+
+
 def test_sweep(tmp_path: Path) -> None:
     m, q = four_bar(), np.linspace(0.0, 6.0, 13)
     found = assur.sweep(

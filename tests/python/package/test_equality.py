@@ -239,6 +239,8 @@ RESULTS = {
     "ConfigurationCurve",
     "DeadPoint",
     "DesignMap",
+    "Fit",
+    "Fits",
     "Group",
     "Limits",
     "Measures",

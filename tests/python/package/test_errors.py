@@ -110,8 +110,9 @@ def test_copies_have_all_fields(
 def test_every_class_of_errors_is_raised() -> None:
     classes = {getattr(errors, name) for name in errors.__all__} - {assur.AssurWarning}
     raised = {one.error for cases in CASES.values() for one in cases.values()}
-    # A bug in the library is an AssurError: test_panics.py.
-    assert raised == classes - {assur.AssurError}
+    # A bug in the library is an AssurError: test_panics.py. Python alone raises a FitError:
+    # fitting/test_search.py.
+    assert raised == classes - {assur.AssurError, assur.FitError}
 
 
 @pytest.mark.skipif(not hasattr(_core, "panic_in_chunk"), reason="built without test-hooks")
