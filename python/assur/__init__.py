@@ -58,6 +58,7 @@ if TYPE_CHECKING:
         laws,
         metric,
         pictures,
+        target,
     )
     from assur.dynamics.loads.friction import JointFriction, SlideFriction
     from assur.dynamics.loads.loads import (
@@ -79,6 +80,8 @@ if TYPE_CHECKING:
     from assur.dynamics.motion.runs import Runs
     from assur.dynamics.motion.steady import SteadyState
     from assur.files.contents import load
+    from assur.fitting.design import DesignFit
+    from assur.fitting.fit import fit
     from assur.fitting.fits import Fits
     from assur.fitting.found import Fit
     from assur.fitting.search import search
@@ -104,6 +107,7 @@ __all__ = [
     "Damper",
     "DeadPoint",
     "Defect",
+    "DesignFit",
     "DesignMap",
     "DimensionError",
     "Drive",
@@ -153,6 +157,7 @@ __all__ = [
     "events",
     "examples",
     "files",
+    "fit",
     "flywheel",
     "importers",
     "laws",
@@ -163,6 +168,7 @@ __all__ = [
     "search",
     "slider_crank",
     "sweep",
+    "target",
 ]
 
 __version__ = version()
@@ -180,6 +186,7 @@ _LATER = {
         "laws",
         "metric",
         "pictures",
+        "target",
     ),
     "assur.dynamics.loads.friction": ("JointFriction", "SlideFriction"),
     "assur.dynamics.loads.loads": (
@@ -201,6 +208,8 @@ _LATER = {
     "assur.dynamics.motion.runs": ("Runs",),
     "assur.dynamics.motion.steady": ("SteadyState",),
     "assur.files.contents": ("load",),
+    "assur.fitting.design": ("DesignFit",),
+    "assur.fitting.fit": ("fit",),
     "assur.fitting.fits": ("Fits",),
     "assur.fitting.found": ("Fit",),
     "assur.fitting.search": ("search",),

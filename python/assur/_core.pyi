@@ -271,6 +271,42 @@ class Flywheels:
     def curve(self, quantity: str, points: _Float) -> _Float: ...
 
 @final
+class Fit:
+    def __new__(
+        cls,
+        mechanism: Mechanism,
+        base: list[float],
+        variables: list[tuple[list[tuple[int, float]], tuple[float, float]]],
+        targets: list[
+            tuple[
+                list[tuple[str, str, int, float, list[float], bool]],
+                list[float],
+                str,
+                list[float],
+                bool,
+                str,
+            ]
+        ],
+        conditions: list[tuple[Metric, str, float, float]],
+        assemblies: list[list[int]],
+        whole_turn: bool,
+        seed: int,
+        threads: int | None,
+    ) -> Self: ...
+    @property
+    def best(self) -> float: ...
+    @property
+    def evaluations(self) -> int: ...
+    @property
+    def agreeing(self) -> int: ...
+    def round(self) -> None: ...
+    def found(self) -> list[_Design]: ...
+    def nearest(self) -> _Design | None: ...
+
+# Dimensions, index of the assembly, coordinates, numbers of targets, sum of squares, misses.
+_Design: TypeAlias = tuple[list[float], int, list[float], list[float], float, list[float]]
+
+@final
 class PathSearch:
     def __new__(
         cls,

@@ -1,7 +1,7 @@
 """Targets of `assur.fit`: what a motion is to be.
 
-A path through points, a function of the driver, poses of a link, and values of metrics. Arrays alone
-stand for them where nothing else is said:
+A path through points, a function of the driver, poses of a link, and values of metrics. Arrays
+alone stand for them where nothing else is said:
 
 >>> import numpy as np
 >>> from assur import target
@@ -123,7 +123,7 @@ class Poses:
     phase : bool
         Whether the timing holds up to a phase that is free.
     turned : bool
-        Whether the body may be fixed to the link at any angle: all angles then are up to a constant.
+        Whether the body may be fixed to the link at any angle: angles then are up to a constant.
     length : float, optional
         What an angle of 1 rad counts, m; by default the root mean square distance of the places
         from their centroid.

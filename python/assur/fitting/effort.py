@@ -40,7 +40,7 @@ class Effort:
         """Time since it began, s."""
         return time.monotonic() - self.started
 
-    def part(self, search: _core.PathSearch) -> float:
+    def part(self, search: _core.PathSearch | _core.Fit) -> float:
         """Return which part of it is spent."""
         if self.evaluations is None:
             return self.elapsed / self.time_limit

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, overload
 
 from assur import _later
 from assur._arrays import counted
 from assur._files import checked_path, writing
 from assur.errors import InputError
-from assur.fitting.condition import shown
-from assur.fitting.found import Fit
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -18,6 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from assur.fitting.effort import Progress
+    from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Fits"]
 
@@ -25,8 +24,19 @@ __all__ = ["Fits"]
 ROWS = 16
 
 
-class Fits(Sequence[Fit]):
-    """Different linkages for a task, the best first; made by `assur.search`.
+class Found(Protocol):
+    """What was found, with its cells of a table by their heads."""
+
+    @property
+    def mechanism(self) -> Mechanism: ...
+    def cells(self) -> dict[str, str]: ...
+
+
+FoundT = TypeVar("FoundT", bound=Found)
+
+
+class Fits(Sequence[FoundT]):
+    """Different linkages for a task, the best first; made by `assur.search` and `assur.fit`.
 
     Attributes
     ----------
@@ -44,25 +54,25 @@ class Fits(Sequence[Fit]):
 
     def __init__(
         self,
-        fits: Sequence[Fit],
+        fits: Sequence[FoundT],
         rejected: int,
-        go_on: Callable[[float, int | None, Progress], Fits] | None,
+        go_on: Callable[[float, int | None, Progress], Fits[FoundT]] | None,
     ) -> None:
         self._fits = tuple(fits)
         self.rejected = rejected
         self._go_on = go_on
 
     @overload
-    def __getitem__(self, index: int) -> Fit: ...
+    def __getitem__(self, index: int) -> FoundT: ...
     @overload
-    def __getitem__(self, index: slice) -> Sequence[Fit]: ...
-    def __getitem__(self, index: int | slice) -> Fit | Sequence[Fit]:
+    def __getitem__(self, index: slice) -> Sequence[FoundT]: ...
+    def __getitem__(self, index: int | slice) -> FoundT | Sequence[FoundT]:
         return self._fits[index]
 
     def __len__(self) -> int:
         return len(self._fits)
 
-    def __iter__(self) -> Iterator[Fit]:
+    def __iter__(self) -> Iterator[FoundT]:
         return iter(self._fits)
 
     def resume(
@@ -71,7 +81,7 @@ class Fits(Sequence[Fit]):
         time_limit: float = 10.0,
         evaluations: int | None = None,
         progress: Progress = False,
-    ) -> Fits:
+    ) -> Fits[FoundT]:
         """Go on with the search, and return what it has then found.
 
         Parameters
@@ -154,13 +164,16 @@ class Fits(Sequence[Fit]):
         return f"<assur.Fits: {counted(len(self), 'linkage')}{dropped}\n{_table(self)}>"
 
 
-def _table(fits: Sequence[Fit]) -> str:
+def _table(fits: Sequence[Found]) -> str:
     """Return a row for each of the first linkages."""
-    head = f"{'':>3} {'error':>9} {'joints':>7} {'apex':>7} {'extent':>7} {'arc':>7} {'±0.1 %':>9}"
-    rows = [
-        f"{index:>3} {fit.error:>9.3g} {fit.joints:>7} {shown(fit.transmission_angle, '°'):>7} "
-        f"{fit.extent:>7.3g} {shown(fit.arc, '°'):>7} {fit.sensitivity:>9.3g}"
-        for index, fit in enumerate(fits[:ROWS])
+    rows = [fit.cells() for fit in fits[:ROWS]]
+    heads = list(rows[0]) if rows else []
+    widths = [max(len(head), *(len(row[head]) for row in rows)) for head in heads]
+    lines = [dict(zip(heads, heads, strict=True)), *rows]
+    table = [
+        f"{'' if number == 0 else number - 1:>3} "
+        + " ".join(f"{line[head]:>{width}}" for head, width in zip(heads, widths, strict=True))
+        for number, line in enumerate(lines)
     ]
     more = [f"    … {len(fits) - ROWS} more"] if len(fits) > ROWS else []
-    return "\n".join([head, *rows, *more])
+    return "\n".join([*table, *more])

@@ -118,6 +118,30 @@ class Fit:
         ]
         return "\n".join(lines)
 
+    def cells(self) -> dict[str, str]:
+        """Return the cells of a table, by their heads.
+
+        Returns
+        -------
+        dict of str to str
+            What is found in words and numbers.
+
+        Examples
+        --------
+        >>> import assur
+        >>> hook = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
+        >>> list(assur.search({"P": hook}, evaluations=1)[0].cells())
+        ['error', 'joints', 'apex', 'extent', 'arc', '±0.1 %']
+        """
+        return {
+            "error": f"{self.error:.3g}",
+            "joints": str(self.joints),
+            "apex": shown(self.transmission_angle, "°"),
+            "extent": f"{self.extent:.3g}",
+            "arc": shown(self.arc, "°"),
+            "±0.1 %": f"{self.sensitivity:.3g}",
+        }
+
     def __repr__(self) -> str:
         parts = (
             f"error {self.error:.3g}",

@@ -77,7 +77,9 @@ def checked_goals(
         elif isinstance(known, Function):
             goals.append(_function(m, name, known))
         else:
-            goals.append(_poses(m, name, known if timing is None else replace(known, timing=timing)))
+            goals.append(
+                _poses(m, name, known if timing is None else replace(known, timing=timing))
+            )
     return goals, metrics
 
 
@@ -142,7 +144,14 @@ def _function(m: Mechanism, name: str, function: Function) -> Goal:
     scale, offset = flag(function.scale, "scale"), flag(function.offset, "offset")
     free = " and ".join(["scale"] * scale + ["offset"] * offset) or "none"
     is_angle = kind == "angle"
-    parts = ([(kind, of, axis, 1.0, value.tolist(), is_angle)], weights, when, theta.tolist(), False, free)
+    parts = (
+        [(kind, of, axis, 1.0, value.tolist(), is_angle)],
+        weights,
+        when,
+        theta.tolist(),
+        False,
+        free,
+    )
     return Goal(name, parts, len(theta), float(np.std(value)), False, False)
 
 
@@ -225,10 +234,12 @@ def _weights(weights: Any, weight: Any, count: int, what: str) -> list[float]:
     if each.shape != (count,) or not (each >= 0.0).all():
         message = f"{what}: weights has the shape {each.shape}; {count} numbers from 0 are needed"
         raise InputError(message)
-    return (whole * each).tolist()
+    return [float(whole * one) for one in each]
 
 
-def _timing(timing: Any, phase: Any, ordered: Any, count: int, what: str) -> tuple[str, list[float]]:
+def _timing(
+    timing: Any, phase: Any, ordered: Any, count: int, what: str
+) -> tuple[str, list[float]]:
     """Return the word for the timing, and the coordinates."""
     if timing is None:
         if flag(phase, "phase"):
@@ -244,8 +255,9 @@ def _timing(timing: Any, phase: Any, ordered: Any, count: int, what: str) -> tup
 
 def metric_unit(name: str, target: Near) -> float:
     """Return what counts as a miss of 1 of a metric's target."""
-    if not isinstance(target.metric, Metric):
-        message = f"targets[{name!r}]: {short(target.metric)} is no metric"
+    metric: object = target.metric
+    if not isinstance(metric, Metric):
+        message = f"targets[{name!r}]: {short(metric)} is no metric"
         raise InputError(message)
     value = real_number(target.value, f"targets[{name!r}]")
     if target.unit is None:

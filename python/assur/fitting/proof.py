@@ -50,7 +50,7 @@ def prove(mechanism: Mechanism, target: PathTarget) -> Proof | None:
     def distance(motion: Motion) -> Float:
         return _distance(motion, farthest, target)
 
-    apex, flattest = _least_apex(mechanism, motion, q)
+    apex, flattest = least_apex(mechanism, q, motion)
     return Proof(
         apex=apex,
         flattest=flattest,
@@ -59,8 +59,14 @@ def prove(mechanism: Mechanism, target: PathTarget) -> Proof | None:
     )
 
 
-def _least_apex(mechanism: Mechanism, motion: Motion, q: Float) -> tuple[float, str | None]:
-    """Return the least angle between the bars of a dyad, and its inner joint; π/2 without dyads."""
+def least_apex(
+    mechanism: Mechanism, q: Float, motion: Motion | None = None
+) -> tuple[float, str | None]:
+    """Return the least transmission angle of a dyad, and its inner joint; π/2 without dyads.
+
+    Over equidistant positions, then narrowed between them.
+    """
+    motion = mechanism.solve(q, order=0) if motion is None else motion
     apexes = {joint: motion.transmission_angle(joint) for joint in mechanism.assembly}
     if not apexes:
         return 0.5 * np.pi, None

@@ -46,7 +46,7 @@ def search(
     seed: int = 0,
     threads: int | None = None,
     progress: Progress = False,
-) -> Fits:
+) -> Fits[Fit]:
     """Find linkages that draw a path: their structure and their dimensions.
 
     Each has one crank, which goes round, and dyads of bars. Random linkages come first; the most
@@ -143,7 +143,7 @@ class Course:
     # Time that it has taken so far, s.
     elapsed: float = 0.0
 
-    def run(self, effort: Effort, report: Report, apart: bool) -> Fits:
+    def run(self, effort: Effort, report: Report, apart: bool) -> Fits[Fit]:
         """Let linkages evolve, then finish, measure and rank them."""
         found: list[Found] = []
         try:
@@ -173,7 +173,7 @@ class Course:
         errors = perturbed_errors(fit.mechanism, fit.arc, self.target, self.wanted.robust)
         return price * max(fit.error, *errors.values()), price * fit.error
 
-    def _resume(self, time_limit: Any, evaluations: Any, progress: Any) -> Fits:
+    def _resume(self, time_limit: Any, evaluations: Any, progress: Any) -> Fits[Fit]:
         effort = checked_effort(time_limit, evaluations, self.core.evaluations)
         with reporter(progress) as report:
             return self.run(effort, report, apart=False)

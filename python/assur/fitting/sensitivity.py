@@ -29,16 +29,7 @@ def perturbed_errors(
     A coordinate of a joint changes by that part of the joint's distance from its link's first
     joint. Infinite if the crank then does not go round. The most sensitive come first.
     """
-    sizes = _sizes(mechanism, list(mechanism.dimensions))
-    # The first joint on the ground is where it is.
-    names = [name for name, size in zip(mechanism.dimensions, sizes, strict=True) if size > 0.0]
-    sizes = sizes[sizes > 0.0]
-    values = np.array([mechanism.dimensions[name] for name in names])
-    # Each length with either sign: a design for each.
-    changes = tolerance * np.concatenate([np.diag(sizes), -np.diag(sizes)], axis=1)
-    designs = mechanism.with_dimensions(
-        dict(zip(names, values[:, np.newaxis] + changes, strict=True))
-    )
+    names, designs = changed_lengths(mechanism, tolerance)
     turns = np.asarray(designs.limits().full_rotation)
     q = path_coordinates(mechanism, arc, PATH)
     motion = designs.solve(q, order=0, outputs=[target.joint], on_error="nan")
@@ -52,15 +43,32 @@ def perturbed_errors(
     return {names[index]: float(worst[index]) for index in order}
 
 
+def changed_lengths(mechanism: Mechanism, tolerance: float) -> tuple[list[str], Mechanism]:
+    """Return the lengths by name, and designs: each grown by a part of itself, then each shrunk."""
+    sizes = _sizes(mechanism, list(mechanism.dimensions))
+    # The first joint on the ground is where it is.
+    names = [name for name, size in zip(mechanism.dimensions, sizes, strict=True) if size > 0.0]
+    sizes = sizes[sizes > 0.0]
+    values = np.array([mechanism.dimensions[name] for name in names])
+    # Each length with either sign: a design for each.
+    changes = tolerance * np.concatenate([np.diag(sizes), -np.diag(sizes)], axis=1)
+    columns = dict(zip(names, values[:, np.newaxis] + changes, strict=True))
+    return names, mechanism.with_dimensions(columns)
+
+
 def _sizes(mechanism: Mechanism, names: list[str]) -> Float:
     """Return for every dimension the distance of which a part is its change."""
     # Places on the ground are the drawing's; on other links the first joint is the origin.
-    foot = mechanism.joints[mechanism.links["ground"][0]]
+    foot = mechanism.joints[mechanism.links["ground"][0]] if mechanism.links["ground"] else (0, 0)
     sizes = []
     for name in names:
         item, component = split_name(name)
         if component == "length":
             sizes.append(float(mechanism.dimensions[name]))
+            continue
+        if component in ("angle", "link_angle", "offset"):
+            # A part of a radian; of a distance from a line.
+            sizes.append(1.0 if component != "offset" else abs(float(mechanism.dimensions[name])))
             continue
         x, y = (float(mechanism.dimensions[f"{item}.{axis}"]) for axis in "xy")
         if item.startswith("ground."):

@@ -69,7 +69,9 @@ def checked_variables(m: Mechanism, vary: Any, bounds: Any, ties: Any, size: flo
                 ends = sorted(end / factor for end in limits[follower])
                 low, high = max(low, ends[0]), min(high, ends[1])
         if not low <= high:
-            message = f"bounds: those of what is tied to {name!r} leave it nothing: {low:g} to {high:g}"
+            message = (
+                f"bounds: those of what is tied to {name!r} leave it nothing: {low:g} to {high:g}"
+            )
             raise InputError(message)
         each.append((moves, (low, high)))
         for index, _ in moves:
@@ -99,7 +101,9 @@ def _ties(m: Mechanism, ties: Any) -> dict[str, tuple[str, float]]:
     found: dict[str, tuple[str, float]] = {}
     for tie in ties:
         if not isinstance(tie, tuple | list) or len(tie) not in (2, 3):
-            message = f"ties: {short(tie)}: ('follower', 'leader') or ('follower', 'leader', factor)"
+            message = (
+                f"ties: {short(tie)}: ('follower', 'leader') or ('follower', 'leader', factor)"
+            )
             raise InputError(message)
         follower, leader = (checked_name(name, "ties") for name in tie[:2])
         for name in (follower, leader):
@@ -114,7 +118,9 @@ def _ties(m: Mechanism, ties: Any) -> dict[str, tuple[str, float]]:
         found[follower] = (leader, factor)
     for follower, (leader, _) in found.items():
         if leader in found:
-            message = f"ties: {follower!r} follows {leader!r}, which follows another: tie both to that"
+            message = (
+                f"ties: {follower!r} follows {leader!r}, which follows another: tie it to that"
+            )
             raise InputError(message)
     return found
 

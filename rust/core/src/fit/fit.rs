@@ -92,6 +92,12 @@ impl Fit {
         self.evaluations
     }
 
+    /// The least sum of squared residuals so far; infinite without designs.
+    #[must_use]
+    pub fn best(&self) -> f64 {
+        self.found.first().map_or(f64::INFINITY, |start| 2.0 * start.1.misfit)
+    }
+
     /// How often the best design was found.
     #[must_use]
     pub fn agreeing(&self) -> u64 {

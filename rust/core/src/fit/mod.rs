@@ -14,3 +14,6 @@ mod start;
 mod step;
 pub(crate) mod target;
 pub(crate) mod variables;
+
+#[cfg(test)]
+mod tests;

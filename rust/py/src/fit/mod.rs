@@ -95,6 +95,12 @@ impl Fit {
         Ok(self.lock()?.nearest(mechanism).map(parts))
     }
 
+    /// The least root of a sum of squared residuals so far; infinite without designs.
+    #[getter]
+    fn best(&self) -> PyResult<f64> {
+        Ok(self.lock()?.best().sqrt())
+    }
+
     /// Designs that were evaluated so far.
     #[getter]
     fn evaluations(&self) -> PyResult<u64> {
