@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 # ASCII replacements for letters that the terminal's encoding lacks.
 PLAIN = {
+    "±": "+-",
     "·": "*",
     "²": "^2",
     "δ": "delta",

@@ -6,18 +6,24 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from assur.fitting.condition import shown
+from assur.fitting.proof import path_coordinates
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from matplotlib.axes import Axes
+
     from assur._arrays import Float
     from assur.fitting.condition import Condition
+    from assur.fitting.target import PathTarget
     from assur.kinematics.mechanism import Mechanism
 
 __all__ = ["Fit"]
 
 # Lengths that a report names as the most sensitive.
 NAMED = 3
+# Positions of the path in a picture.
+DRAWN = 361
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -88,6 +94,7 @@ class Fit:
     elapsed: float
     evaluations: int
     _conditions: tuple[Condition, ...]
+    _target: PathTarget
 
     def report(self) -> str:
         """Return what was found in words: the error, which conditions bind, the proof.
@@ -141,6 +148,43 @@ class Fit:
             "arc": shown(self.arc, "°"),
             "±0.1 %": f"{self.sensitivity:.3g}",
         }
+
+    def plot(self, *, ax: Axes | None = None, dark: bool = False) -> Axes:
+        """Draw the linkage where its path begins, the path, and the target (needs matplotlib).
+
+        The target is a broad band: where the path is on it, it lies in its middle.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure by default.
+        dark : bool
+            For dark backgrounds.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes drawn on.
+
+        Raises
+        ------
+        InputError
+            No matplotlib axes.
+
+        Examples
+        --------
+        >>> import assur
+        >>> hook = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
+        >>> axes = assur.search({"P": hook}, evaluations=1)[0].plot()
+        >>> [line.get_gid() for line in axes.lines if line.get_gid() == "target P"]
+        ['target P']
+        """
+        from assur.pictures.linkage.fit import fit_picture
+
+        target = self._target
+        motion = self.mechanism.solve(path_coordinates(self.mechanism, self.arc, DRAWN), order=0)
+        corners = target.centre + target.radius * target.corners
+        return fit_picture(motion, target.joint, corners, ax, dark)
 
     def __repr__(self) -> str:
         parts = (

@@ -101,6 +101,7 @@ def _fit(
         elapsed=spent.elapsed,
         evaluations=spent.evaluations,
         _conditions=conditions,
+        _target=target,
     )
 
 

@@ -13,6 +13,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 
@@ -23,6 +24,7 @@ from search.letters import path
 if TYPE_CHECKING:
     from pathlib import Path
 
+mpl.use("Agg")
 HOOK = [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0), (1.2, 0.2)]
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
 EGG = np.stack([2.0 * np.cos(ANGLES), np.sin(ANGLES) + 0.2 * np.cos(2.0 * ANGLES)], axis=-1)
@@ -231,6 +233,18 @@ def test_what_binds() -> None:
     tight = assur.search({"P": HOOK}, joints=5, evaluations=1)[0].report()
     (joints,) = [line for line in tight.splitlines() if line.startswith("joints")]
     assert joints.split() == ["joints", "5", "at", "most", "5", "binds"]
+
+
+def test_a_picture_has_path_and_target() -> None:
+    axes = egg()[0].plot()
+    lines = {line.get_gid(): np.array(line.get_xydata()) for line in axes.lines}
+    np.testing.assert_allclose(lines["target foot"], [*EGG, EGG[0]], atol=1e-12)
+    curve = drawn(egg()[0], egg()[0].arc * np.linspace(0.0, 1.0, 361))["foot"]
+    np.testing.assert_allclose(line(lines["path foot"]), curve, atol=1e-9)
+    (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
+    assert x0 < EGG[:, 0].min() < EGG[:, 0].max() < x1
+    assert y0 < EGG[:, 1].min() < EGG[:, 1].max() < y1
+    axes.figure.clear()
 
 
 def test_goals_that_conflict() -> None:

@@ -315,6 +315,7 @@ def _of_searches() -> Iterable[tuple[str, Call]]:
     few = {"evaluations": 1, "time_limit": 0.5}
     yield "search", call(assur.search, targets={"P": hook}, joints=5, **few)
     found = assur.search({"P": hook}, joints=5, evaluations=1)
+    yield from named("Fit", found[0], plot={})
     yield from named("Fits", found, resume=few, save={"folder": "found"})
 
 

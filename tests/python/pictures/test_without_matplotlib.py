@@ -11,7 +11,9 @@ import assur
 
 mechanism = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 motion = mechanism.solve([0.0, 0.5, 1.0])
+fit = assur.search({"P": [(0.0, 0.0), (1.0, 0.0)]}, joints=5, evaluations=1)[0]
 drawn = [
+    fit.plot,
     mechanism.plot,
     mechanism.assemblies(1.0).plot,
     mechanism.configuration_curve().plot,
@@ -36,5 +38,5 @@ print(mechanism._repr_svg_()[:4])
 def test_what_draws_says_what_to_install() -> None:
     ran = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True)
     *explained, svg = ran.stdout.splitlines()
-    assert explained == ['drawing needs matplotlib: pip install "assur[plot]"'] * 11
+    assert explained == ['drawing needs matplotlib: pip install "assur[plot]"'] * 12
     assert svg == "<svg"

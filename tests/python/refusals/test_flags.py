@@ -162,6 +162,7 @@ CALLS: dict[str, Callable[..., Any]] = {
     "plot_deviation": lambda _, **f: slider_crank.plot_deviation(**f),
     "sweep": lambda _, **f: swept(**f),
     "search": lambda _, **f: assur.search({"P": [(0.0, 0.0), (1.0, 0.0)]}, **f),
+    "Fit.plot": lambda _, **f: found()[0].plot(**f),
     "Fits.resume": lambda _, **f: found().resume(**f),
 }
 
