@@ -53,16 +53,17 @@ def path_error(
     once round in even steps, without its end, and the joint is then where it was. R is the root
     mean square distance of the target from its centroid.
 
-    ``"points"``: √(Σ d(Tᵢ, C)² / N) / R, with d(Tᵢ, C) the least distance of target point Tᵢ from C.
+    ``"points"``: √(Σ d(Tᵢ, C)² / N) / R, with d(Tᵢ, C) the least distance of target point Tᵢ
+    from C.
 
     ``"chamfer"``: (mean of d(t, C) for t along T + mean of d(c, T) for c along C) / R, with T the
     polyline through the target points: the Chamfer distance. Means are by length: of T over the
     middles of 256 equal parts, of C over its corners, each for half of both segments there.
 
     ``"ordered"``: √(mean of |T(s) − C(s)|²) / R at the middles of 256 equal parts s of both
-    lengths, in the better direction; of a closed target from its best start (from where a step
-    along it changes nothing). A path to an open target goes from the first position to the last.
-    2π times its square is the ordered distance (OD) of the literature on learned synthesis.
+    lengths, in the better direction; of a closed target from its best start. For an open target
+    the path goes from the first position to the last. 2π times its square is the ordered distance
+    (OD) by which learned methods are compared.
 
     Parameters
     ----------

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
-# Step of central differences, relative to the dimension (short: where a nearest place leaves a corner
-# the error has a bend), and how near their limit is (Richardson
-# 1911), relative to the greatest entry.
+# Step of central differences, relative to the dimension (short: where a nearest place leaves a
+# corner the error has a bend), and how near their limit is (Richardson 1911), relative to the
+# greatest entry.
 STEP, CLOSE = 2e-7, 1e-6
 
 # The mechanism, its positions, a joint and a link.
@@ -112,7 +112,9 @@ def test_along_the_gradient_the_error_falls() -> None:
     at = np.array([float(m.dimensions[one]) for one in names])
     step, errors = 0.002, []
     for _ in range(60):
-        found = assur.sweep(m, dict(zip(names, at, strict=True)), TURN, metrics=asked, gradient=names)
+        found = assur.sweep(
+            m, dict(zip(names, at, strict=True)), TURN, metrics=asked, gradient=names
+        )
         errors.append(float(found["it"]))
         if len(errors) > 1 and errors[-1] >= errors[-2]:
             step *= 0.5

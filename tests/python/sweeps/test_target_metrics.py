@@ -93,7 +93,7 @@ def test_where_the_target_is_counts_and_its_unit_does_not() -> None:
             for size in (1.0, 2.0**-400)
         )
         assert far == pytest.approx(here, rel=1e-12)
-        away = metric.path_error("P", EIGHT + [5.0, 0.0], kind=kind, closed=closed)
+        away = metric.path_error("P", EIGHT + np.array([5.0, 0.0]), kind=kind, closed=closed)
         assert measured(m, TURN, away) > 2.0 * here
 
 
@@ -180,7 +180,7 @@ def test_several_drivers() -> None:
     m = assur.examples.five_bar()
     q = np.asarray(m.q0) + np.linspace(0.0, 0.2, 12)[:, np.newaxis] * [1.0, -0.5]
     line = path(m, q, closed=False)
-    points = line[3:8] + [0.0, 0.01]
+    points = line[3:8] + np.array([0.0, 0.01])
     wanted = by_hand.points_error(line, points)
     assert measured(m, q, metric.path_error("P", points)) == pytest.approx(wanted, rel=1e-12)
     with pytest.raises(assur.InputError, match="one driver; this mechanism has 2"):

@@ -45,7 +45,7 @@ def points_error(path: Any, targets: Any) -> float:
 
 
 def chamfer(path: Any, target: Any, count: int) -> float:
-    """The mean distances from line to line and back, each by its length, over the target's radius."""
+    """The mean distances from line to line and back, by length, over the target's radius."""
     middles = (np.arange(count) + 0.5) / count
     there = nearest(along(target, middles), path).mean()
     back = nearest(along(path, middles), target).mean()
