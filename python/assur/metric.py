@@ -33,6 +33,7 @@ from assur.sweeps.machine_metrics import (
     rms_effort,
     rms_reaction,
 )
+from assur.sweeps.target_metrics import function_error, path_error, pose_error
 from assur.sweeps.terms import Condition, FullRotation, Function, Leaf, Metric, Part
 
 if TYPE_CHECKING:
@@ -49,13 +50,16 @@ __all__ = [
     "flywheel_inertia",
     "full_rotation",
     "function",
+    "function_error",
     "max",
     "max_inertia",
     "mean",
     "min",
     "min_transmission_angle",
+    "path_error",
     "peak_effort",
     "peak_reaction",
+    "pose_error",
     "reachable",
     "rms",
     "rms_effort",

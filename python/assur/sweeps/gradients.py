@@ -18,6 +18,7 @@ from assur.kinematics import transmission
 from assur.kinematics.derivatives.jacobian import named_dimensions
 from assur.kinematics.request import SolveRequest
 from assur.kinematics.solve import solve
+from assur.sweeps.target_metrics import TARGETS
 from assur.sweeps.terms import Combination, Leaf, Metric
 
 if TYPE_CHECKING:
@@ -66,10 +67,11 @@ class Gradients:
         self._metrics, self._q, self._threads = metrics, q, threads
         for name, metric in metrics.items():
             for leaf in metric.leaves():
-                if not (isinstance(leaf, Leaf) and leaf.kind in (*EXTREMES, *MEANS)):
+                if not (isinstance(leaf, Leaf) and leaf.kind in (*EXTREMES, *MEANS, *TARGETS)):
                     message = (
                         f"gradient: metrics[{name!r}] holds {leaf!r}, which has none: there are "
-                        "those of min, max, span, mean, rms and min_transmission_angle"
+                        "those of min, max, span, mean, rms, min_transmission_angle, path_error, "
+                        "function_error and pose_error"
                     )
                     raise InputError(message)
         if any(mechanism.core.redundant):
@@ -85,9 +87,10 @@ class Gradients:
         return [index for leaf in self._leaves for index in _indices(leaf)]
 
     @property
-    def means(self) -> list[Leaf]:
-        """What the core derives with its value, from the same positions: means over all of q."""
-        return [leaf for leaf in self._leaves if leaf.kind in MEANS and leaf.over is None]
+    def summed(self) -> list[Leaf]:
+        """What the core derives with its value, from the same positions: sums over all of q."""
+        kinds = (*MEANS, *TARGETS)
+        return [leaf for leaf in self._leaves if leaf.kind in kinds and leaf.over is None]
 
     @property
     def by(self) -> list[int]:
@@ -102,16 +105,16 @@ class Gradients:
         return [leaf for leaf in leaves if isinstance(leaf, Leaf)]
 
     def of(
-        self, some: Mechanism, values: Callable[[Single], Float], means: Mapping[Leaf, Float]
+        self, some: Mechanism, values: Callable[[Single], Float], known: Mapping[Leaf, Float]
     ) -> dict[str, Float]:
         """Return the gradients (n, D) of designs (n,) that have all metrics with these values.
 
-        Those of `means` are known.
+        Those of some leaves are known.
         """
         each = {leaf: np.empty((some.shape[0], len(self.names))) for leaf in self._leaves}
-        each.update(means)
+        each.update(known)
         for leaf in self._leaves:
-            if leaf in means:
+            if leaf in known:
                 continue
             places = self._places(some, leaf)
             # NaN where a design has no metric: that has none of its positions either.

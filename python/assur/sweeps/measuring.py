@@ -21,6 +21,7 @@ from assur.sweeps.engine import results
 from assur.sweeps.gradients import Gradients
 from assur.sweeps.machine_metrics import Driven, together
 from assur.sweeps.measures import Measures
+from assur.sweeps.target_metrics import placed
 from assur.sweeps.terms import (
     Combination,
     Condition,
@@ -102,17 +103,18 @@ class Measuring:
         if gradient is not None:
             self.gradients = Gradients(mechanism, self.metrics, self.q, gradient, threads)
             self.leaves = list(dict.fromkeys([*self.leaves, *self.gradients.indices]))
+        # What the core differentiates, and by what.
         self.summed: tuple[list[int], list[int]] = [], []
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
         for measured in self.leaves:
-            located = _with_lines(measured, mechanism)
+            located = _located(measured, mechanism, self.q)
             refusal = mechanism.core.refusal_of_metric(self.q.reshape(-1), located)
             if refusal is not None:
                 message = f"{measured!r}: {refusal}"
                 raise InputError(message)
-        self.asked = [_with_lines(metric, mechanism) for metric in asked]
+        self.asked = [_located(metric, mechanism, self.q) for metric in asked]
         if self.gradients is not None:
-            self.summed = [asked.index(mean) for mean in self.gradients.means], self.gradients.by
+            self.summed = [asked.index(leaf) for leaf in self.gradients.summed], self.gradients.by
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
 
     @property
@@ -198,9 +200,9 @@ class Measuring:
         batch = with_values(some, np.ascontiguousarray(some.values[:, indices]))
         width = len(self.gradients.names)
         rows = [found.reshape(len(kept), width)[indices] for found in summed]
-        means = dict(zip(self.gradients.means, rows, strict=True))
+        known = dict(zip(self.gradients.summed, rows, strict=True))
         slopes = {}
-        for name, found in self.gradients.of(batch, lambda leaf: of[leaf][indices], means).items():
+        for name, found in self.gradients.of(batch, lambda leaf: of[leaf][indices], known).items():
             slopes[name] = np.full((len(kept), found.shape[1]), np.nan)
             slopes[name][indices] = found
         return slopes
@@ -271,11 +273,15 @@ class Measuring:
         return real_array(function.function(motion), f"the values of {function!r}")
 
 
-def _with_lines(metric: Metric, mechanism: Mechanism) -> Metric:
-    """Return a metric whose transmission angles have the lines between which they are."""
+def _located(metric: Metric, mechanism: Mechanism, q: Float) -> Metric:
+    """Return a metric as the core takes it.
+
+    Transmission angles have the lines between which they are, functions the places of their
+    coordinates in q.
+    """
     if isinstance(metric, Combination):
         left, right = (
-            _with_lines(side, mechanism) if isinstance(side, Metric) else side
+            _located(side, mechanism, q) if isinstance(side, Metric) else side
             for side in (metric.left, metric.right)
         )
         return replace(metric, left=left, right=right)
@@ -283,6 +289,8 @@ def _with_lines(metric: Metric, mechanism: Mechanism) -> Metric:
         assert metric.of is not None
         pair, complement = transmission.lines(mechanism, metric.of, *metric.options)
         return replace(metric, options=(*pair, complement))
+    if isinstance(metric, Leaf) and metric.kind == "function_error":
+        return placed(metric, mechanism, q)
     return metric
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from assur.sweeps.terms import Metric
 
 # Metrics in the unit of their coordinate.
-IN_ITS_UNIT = ("span", "min", "max", "mean", "rms")
+IN_ITS_UNIT = ("span", "min", "max", "mean", "rms", "function_error")
 PLACES = ("argmin", "argmax")
 
 
@@ -29,7 +29,7 @@ def is_angle(metric: Metric, mechanism: Mechanism) -> bool:
     if metric.kind in PLACES:
         return driven_angles(mechanism)[0]
     is_link = metric.of in dict(mechanism.description.links)
-    return metric.kind in IN_ITS_UNIT and metric.order == 0 and is_link
+    return _is_in_its_unit(metric) and metric.order == 0 and is_link
 
 
 def unit_of_metric(metric: Metric, mechanism: Mechanism) -> str:
@@ -39,4 +39,10 @@ def unit_of_metric(metric: Metric, mechanism: Mechanism) -> str:
     if not isinstance(metric, Leaf) or metric.order:
         return ""
     is_length = metric.kind == "deviation" and not metric.options[-1]
-    return "m" if is_length or metric.kind in (*IN_ITS_UNIT, *PLACES) else ""
+    return "m" if is_length or _is_in_its_unit(metric) or metric.kind in PLACES else ""
+
+
+def _is_in_its_unit(metric: Leaf) -> bool:
+    # With a free scale a function has the unit of its values.
+    is_scaled = metric.kind == "function_error" and metric.options[-1] == "free"
+    return metric.kind in IN_ITS_UNIT and not is_scaled

@@ -117,7 +117,8 @@ def sweep(
     gradient : str or sequence of str, optional
         Dimensions, also as patterns (``"*.length"``), by which the metrics are differentiated as
         well: `Measures.gradient`. For ``min``, ``max``, ``span``, ``mean``, ``rms``,
-        ``min_transmission_angle`` and what is made of them. An extreme changes as its coordinate
+        ``min_transmission_angle``, ``path_error``, ``function_error``, ``pose_error`` and what is
+        made of them. An extreme changes as its coordinate
         does at the position where it is; where another position takes it over there is a bend.
         NaN of an ``rms`` that is 0: a root has no derivative there. Only with `metrics`.
     on_error : {"nan", "raise", "drop"}

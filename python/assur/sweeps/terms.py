@@ -222,8 +222,8 @@ def _combined(sign: str, left: object, right: object) -> Combination:
     return Combination(sign, *sides)
 
 
-# What a function of a metric takes besides: numbers, flags, names of joints, lines.
-Option: TypeAlias = float | bool | str | tuple[str, ...] | None
+# What a function of a metric takes besides: numbers, flags, names of joints, lines, targets.
+Option: TypeAlias = float | bool | str | tuple[str, ...] | tuple[int, ...] | ByValue | None
 
 
 @dataclass(frozen=True, repr=False)

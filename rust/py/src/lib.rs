@@ -38,6 +38,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use super::convert::target::{refusal_of_path, refusal_of_poses};
+    #[pymodule_export]
     use super::convert::value::table_values;
     #[pymodule_export]
     use super::error_map::error_kinds;

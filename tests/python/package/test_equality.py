@@ -213,6 +213,23 @@ CLASSES: dict[Any, dict[str, tuple[Any, Any]]] = {
     metric.time_ratio: {"of": ("rocker", "coupler")},
     metric.min_transmission_angle: {"at": ("C", "B")},
     metric.deviation: {"of": ("C", "P"), "shape": ("line", "circle"), "relative": (True, False)},
+    metric.path_error: {
+        "of": ("C", "P"),
+        "points": ([(0.0, 0.0), (1.0, 1.0)], [(0.0, 0.0), (1.0, 2.0)]),
+        "kind": ("chamfer", "ordered"),
+        "closed": (None, False),
+    },
+    metric.function_error: {
+        "of": ("rocker", "coupler"),
+        "theta": (row(0.0, 1.0), row(0.0, 2.0)),
+        "value": (row(1.0, 1.0), row(2.0, 2.0)),
+        "offset": ("free", "fixed"),
+    },
+    metric.pose_error: {
+        "link": ("coupler", "rocker"),
+        "poses": ([(0.0, 0.0, 0.0)], [(0.0, 0.0, 1.0)]),
+        "length": (1.0, 2.0),
+    },
     metric.function: {"of_motion": (load, other), "outputs": (["C"], None), "order": (0, 1)},
     metric.peak_reaction: {
         "joint": ("A", "B"),

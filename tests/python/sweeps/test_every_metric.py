@@ -11,10 +11,12 @@ import pytest
 
 import assur
 from assur import metric
+from assur.sweeps import machine_metrics
 
 PAGE = Path(__file__).parents[3] / "docs" / "reference" / "conventions.md"
 FUNCTIONS = {name for name in metric.__all__ if name.islower()} - {"function"}
-OF_MOTIONS = {name for name in FUNCTIONS if getattr(metric, name).__module__ == "assur.metric"}
+OF_MACHINES = set(machine_metrics.__all__)
+OF_MOTIONS = FUNCTIONS - OF_MACHINES
 
 # At least 32 positions: eight of them are tried first.
 Q = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
@@ -22,6 +24,7 @@ ORDERS: list[dict[str, Any]] = [
     *({"of": of} for of in ("P.x", "B.x", "rod", "bore")),
     *({"of": of, "order": order} for of in ("P.y", "rod", "bore") for order in (1, 2, 3)),
 ]
+TARGET = [(1.0, 0.2), (1.4, 0.9), (0.6, 0.8), (1.0, 0.2)]
 # Arguments for an engine: the pin B goes to and fro on a straight line.
 ARGUMENTS: dict[str, list[dict[str, Any]]] = {
     "span": ORDERS,
@@ -39,6 +42,17 @@ ARGUMENTS: dict[str, list[dict[str, Any]]] = {
         for shape in ("line", "circle")
         for relative in (False, True)
     ],
+    "path_error": [
+        {"of": of, "points": TARGET, "kind": kind}
+        for of in ("P", "B")
+        for kind in ("points", "chamfer", "ordered")
+    ],
+    "function_error": [
+        {"of": of, "theta": Q[::9], "value": 0.2 * np.sin(Q[::9]), "offset": offset}
+        for of in ("P.x", "rod", "bore")
+        for offset in ("fixed", "free")
+    ],
+    "pose_error": [{"link": "rod", "poses": [(0.3, 0.4, -0.2), (-0.1, 0.5, 0.1)]}],
     "reachable": [{}],
     "full_rotation": [{}],
 }

@@ -7,6 +7,7 @@ pub(crate) mod dual;
 pub(crate) mod inverse;
 pub mod lanes;
 pub(crate) mod pair;
+pub(crate) mod polyline;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
 pub(crate) mod random;

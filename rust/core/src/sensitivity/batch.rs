@@ -207,6 +207,7 @@ impl<'b> SensitivityBatch<'b> {
                     column: 0,
                     first,
                     divisor: 1.0,
+                    besides: &[],
                 };
                 L::call(&mut task);
             });

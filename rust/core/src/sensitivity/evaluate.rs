@@ -51,6 +51,8 @@ pub(crate) struct Evaluate<'e, 'r, R: Real> {
     pub first: usize,
     /// What totals are divided by.
     pub divisor: f64,
+    /// What is added to totals before: dimensions with derivatives by themselves.
+    pub besides: &'e [(usize, f64)],
 }
 
 impl<R: Real> Task<R> for Evaluate<'_, '_, R> {
@@ -257,6 +259,9 @@ impl<R: Real> Evaluate<'_, '_, R> {
         if !self.solved.status.is_empty() {
             cotangent.constants.sums(sensitivity, sums);
             sums.by_dimensions(plan, slots, &design.constants, dimensions, totals);
+        }
+        for &(dimension, derivative) in self.besides {
+            totals[dimension] += derivative;
         }
         for (place, &dimension) in by.iter().enumerate() {
             let sum = totals[dimension];

@@ -1,7 +1,7 @@
 //! Sums, differences, products and quotients of metrics.
 
 use super::course::Course;
-use super::metric::{Growth, Metric, Need, Positions};
+use super::metric::{Growth, Metric, Need, Positions, Slopes};
 
 /// How two numbers are combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +50,29 @@ impl Operand {
     }
 }
 
+impl Operand {
+    /// Derivatives by what it reads; none of a number.
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        match self {
+            Self::Metric(metric) => {
+                metric.with_slopes().map(|metric| metric.slopes(positions)).unwrap_or_default()
+            }
+            Self::Number(_) => vec![],
+        }
+    }
+
+    /// Derivatives by dimensions on which it depends by itself.
+    fn by_dimensions(&self, positions: &Positions<'_>) -> Vec<(usize, f64)> {
+        match self {
+            Self::Metric(metric) => {
+                let slopes = metric.with_slopes();
+                slopes.map(|metric| metric.by_dimensions(positions)).unwrap_or_default()
+            }
+            Self::Number(_) => vec![],
+        }
+    }
+}
+
 impl Combination {
     fn combine(&self, left: f64, right: f64) -> f64 {
         match self.operation {
@@ -57,6 +80,16 @@ impl Combination {
             Operation::Subtract => left - right,
             Operation::Multiply => left * right,
             Operation::Divide => left / right,
+        }
+    }
+
+    /// The derivatives by both sides, where they have these values.
+    fn slopes_by_sides(&self, left: f64, right: f64) -> [f64; 2] {
+        match self.operation {
+            Operation::Add => [1.0, 1.0],
+            Operation::Subtract => [1.0, -1.0],
+            Operation::Multiply => [right, left],
+            Operation::Divide => [1.0 / right, -left / (right * right)],
         }
     }
 
@@ -121,7 +154,45 @@ impl Metric for Combination {
         self.metrics().any(Metric::asks_return)
     }
 
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        self.metrics().all(|metric| metric.with_slopes().is_some()).then_some(self)
+    }
+
     fn check(&self, course: &Course<'_>) -> Result<(), String> {
         self.metrics().try_for_each(|metric| metric.check(course))
+    }
+}
+
+impl Slopes for Combination {
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        let count = self.left.needs().len().min(positions.values.len());
+        let (left, right) = positions.values.split_at(count);
+        let [left, right] = [(&self.left, left), (&self.right, right)].map(|(operand, values)| {
+            let positions = Positions { values, ..*positions };
+            let value = operand.value(|metric| metric.of(&positions));
+            (value, operand.slopes(&positions))
+        });
+        let [by_left, by_right] = self.slopes_by_sides(left.0, right.0);
+        let scaled = |(slopes, factor): (Vec<Vec<f64>>, f64)| {
+            let scale =
+                move |slopes: Vec<f64>| slopes.into_iter().map(|slope| factor * slope).collect();
+            slopes.into_iter().map(scale).collect::<Vec<Vec<f64>>>()
+        };
+        [scaled((left.1, by_left)), scaled((right.1, by_right))].concat()
+    }
+
+    fn by_dimensions(&self, positions: &Positions<'_>) -> Vec<(usize, f64)> {
+        let count = self.left.needs().len().min(positions.values.len());
+        let (left, right) = positions.values.split_at(count);
+        let [left, right] = [(&self.left, left), (&self.right, right)].map(|(operand, values)| {
+            let positions = Positions { values, ..*positions };
+            let value = operand.value(|metric| metric.of(&positions));
+            (value, operand.by_dimensions(&positions))
+        });
+        let [by_left, by_right] = self.slopes_by_sides(left.0, right.0);
+        let scaled = |(slopes, factor): (Vec<(usize, f64)>, f64)| {
+            slopes.into_iter().map(move |(dimension, slope)| (dimension, factor * slope))
+        };
+        scaled((left.1, by_left)).chain(scaled((right.1, by_right))).collect()
     }
 }

@@ -43,6 +43,18 @@ impl Coordinate {
         MeanOf { need: self.need, component: self.component, is_root_of_squares }
     }
 
+    /// The numbers of its need, each replaced by a function of the coordinate there: of other components 0.
+    pub(super) fn slopes(&self, positions: &Positions<'_>, of: impl Fn(f64) -> f64) -> Vec<f64> {
+        let stride = self.need.width();
+        let first = self.component.min(stride - 1);
+        let mut slopes = vec![0.0; stride * positions.count()];
+        let own = slopes.iter_mut().skip(first).step_by(stride);
+        for (slope, value) in own.zip(self.values(positions)) {
+            *slope = of(value);
+        }
+        slopes
+    }
+
     /// Its numbers, if it is the only need.
     pub(super) fn values<'a>(&self, positions: &Positions<'a>) -> impl Iterator<Item = f64> + 'a {
         let stride = self.need.width();

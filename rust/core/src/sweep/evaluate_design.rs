@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::course::Course;
-use super::gradients::MeanGradients;
-use super::metric::{Metric, Positions};
+use super::gradients::{DesignSlopes, MetricGradients};
+use super::metric::{Metric, Positions, Slopes};
 use super::request::Sweep;
 use crate::batch::chunks::DesignRow;
 use crate::batch::request::{Column, Request, Shape};
@@ -60,7 +60,7 @@ pub(super) struct SweepBatch<'b> {
     pub sources: &'b [Vec<usize>],
     pub probes: &'b Probes,
     pub course: &'b Course<'b>,
-    pub gradients: &'b MeanGradients<'b>,
+    pub gradients: &'b MetricGradients<'b>,
     /// All coordinates that are solved: after those of the course may follow two of the next turn.
     pub q: &'b [f64],
     pub shape: &'b Shape,
@@ -125,7 +125,7 @@ impl SweepBatch<'_> {
     fn value(
         &self,
         rows: &ScratchRows<'_>,
-        (row, q): (DesignRow<'_>, &[f64]),
+        at: (DesignRow<'_>, &[f64]),
         metric: usize,
         worst: u8,
     ) -> f64 {
@@ -133,6 +133,38 @@ impl SweepBatch<'_> {
         if worst >= Status::Singular as u8 && self.sources[metric].iter().any(is_derivative) {
             return f64::NAN;
         }
+        self.show(rows, at, metric, |positions| self.sweep.metrics[metric].of(positions))
+    }
+
+    /// The derivatives, by what it reads, of a metric that knows them; none are needed of a mean.
+    pub(super) fn slopes(
+        &self,
+        rows: &ScratchRows<'_>,
+        at: (DesignRow<'_>, &[f64]),
+        metric: usize,
+    ) -> DesignSlopes {
+        let of_metric = self.sweep.metrics[metric];
+        let slopes = |of: &dyn Slopes| {
+            self.show(rows, at, metric, |seen| DesignSlopes {
+                by_numbers: of.slopes(seen),
+                by_dimensions: of.by_dimensions(seen),
+            })
+        };
+        match (of_metric.mean_of(), of_metric.with_slopes()) {
+            (None, Some(of)) => slopes(of),
+            _ => DesignSlopes::default(),
+        }
+    }
+
+    /// Shows a metric the positions at `q`, the first of the rows.
+    #[inline]
+    fn show<T>(
+        &self,
+        rows: &ScratchRows<'_>,
+        (row, q): (DesignRow<'_>, &[f64]),
+        metric: usize,
+        see: impl FnOnce(&Positions<'_>) -> T,
+    ) -> T {
         let drivers = self.shape.drivers;
         let count = q.len() / drivers;
         let column = |&index: &usize| &rows.by_row(index)[..count * self.columns[index].width];
@@ -153,7 +185,7 @@ impl SweepBatch<'_> {
         let returns = q.len() == self.course.q.len() && self.returns(rows, metric);
         let dimensions = row.dimensions;
         let cancel = self.control.cancel;
-        metric.0.of(&Positions { q, drivers, dimensions, values, returns, cancel })
+        see(&Positions { q, drivers, dimensions, values, returns, cancel })
     }
 
     /// Whether the numbers that a metric reads are the same after a turn, at two positions.

@@ -2,7 +2,7 @@
 
 use super::coordinate::Coordinate;
 use super::course::Course;
-use super::metric::{Growth, Metric, Need, Positions};
+use super::metric::{Growth, Metric, Need, Positions, Slopes};
 
 /// The greatest value minus the least.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,6 +24,21 @@ impl Metric for Span {
 
     fn growth(&self) -> Growth {
         Growth::Rises
+    }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        Some(self)
+    }
+}
+
+impl Slopes for Span {
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        let [mut greatest, least] = [Extreme::Greatest(self.0), Extreme::Least(self.0)]
+            .map(|extreme| extreme.slopes(positions));
+        for (slope, least) in greatest.iter_mut().flatten().zip(least.iter().flatten()) {
+            *slope -= least;
+        }
+        greatest
     }
 }
 
@@ -73,6 +88,24 @@ impl Metric for Extreme {
             Self::Least(_) => Growth::Falls,
             Self::Greatest(_) => Growth::Rises,
         }
+    }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        Some(self)
+    }
+}
+
+impl Slopes for Extreme {
+    /// An extreme changes as its coordinate does at the position where it is (the envelope theorem, J. M. Danskin
+    /// 1966).
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        let Coordinate { need, component } = *self.coordinate();
+        let width = need.width();
+        let mut slopes = vec![0.0; width * positions.count()];
+        if let Some((index, _)) = self.find(positions) {
+            slopes[width * index + component.min(width - 1)] = 1.0;
+        }
+        vec![slopes]
     }
 }
 

@@ -1,11 +1,12 @@
-//! Gradients of means by dimensions, from the positions that were solved for their values.
+//! Gradients of metrics by dimensions, from the positions that were solved for their values.
 //!
-//! Every position counts for a mean. So that none is solved twice, a thread passes weights back through the
-//! positions of each design as soon as they have shown that it is kept.
+//! Every position may count. So that none is solved twice, a thread passes weights back through the positions of
+//! each design as soon as they have shown that it is kept: those of a mean are the same at all positions, others are
+//! the metric's own derivatives by what it reads.
 
 use std::mem::MaybeUninit;
 
-use super::metric::MeanOf;
+use super::metric::{Metric, Need};
 use super::request::{Gradients, Sweep};
 use crate::batch::dispatch::Entry;
 use crate::batch::motion::SolvedDesign;
@@ -19,26 +20,58 @@ use crate::sensitivity::evaluate::{Evaluate, SensitivitySpace};
 use crate::sensitivity::plan::SensitivityPlan;
 use crate::sensitivity::request::Product;
 
-/// The gradient of a mean, compiled.
-pub(super) struct MeanGradient<'m> {
+/// The gradient of a metric, compiled.
+struct MetricGradient<'m> {
     sensitivity: SensitivityPlan<'m>,
     /// Index of the metric.
     metric: usize,
-    mean: MeanOf,
-    /// Weights of the components of its coordinate, at each position.
+    /// The results that it weighs.
+    of: Vec<(Quantity, usize)>,
+    /// Of a mean.
+    shared: Option<Shared>,
+}
+
+/// Weights that are the same at all positions.
+struct Shared {
     weights: Vec<f64>,
+    /// Whether the metric is the root of the mean of squares.
+    is_root_of_squares: bool,
 }
 
 /// The gradients of all designs.
 #[derive(Default)]
-pub(super) struct MeanGradients<'m> {
-    each: Vec<MeanGradient<'m>>,
+pub(super) struct MetricGradients<'m> {
+    each: Vec<MetricGradient<'m>>,
     by: &'m [usize],
     /// Columns of the request.
     read: usize,
 }
 
-impl<'m> MeanGradients<'m> {
+impl<'m> MetricGradient<'m> {
+    /// Compiles that of a metric over so many positions; `None` if it has none.
+    fn new(
+        mechanism: &'m Mechanism,
+        (metric, of_metric): (usize, &dyn Metric),
+        positions: usize,
+    ) -> Option<Self> {
+        let pair = |need: Need| (need.quantity, need.order);
+        let Some(mean) = of_metric.mean_of() else {
+            of_metric.with_slopes()?;
+            let of: Vec<_> = of_metric.needs().into_iter().map(pair).collect();
+            let sensitivity = SensitivityPlan::backward(mechanism, &of, false);
+            return Some(Self { sensitivity, metric, of, shared: None });
+        };
+        let mut weights = vec![0.0; mean.need.width()];
+        weights[mean.component.min(mean.need.width() - 1)] = 1.0 / positions as f64;
+        let is_root_of_squares = mean.is_root_of_squares;
+        let of = vec![pair(mean.need)];
+        let sensitivity = SensitivityPlan::backward(mechanism, &of, is_root_of_squares);
+        let shared = Some(Shared { weights, is_root_of_squares });
+        Some(Self { sensitivity, metric, of, shared })
+    }
+}
+
+impl<'m> MetricGradients<'m> {
     /// Compiles the gradients of a sweep over so many positions.
     pub(super) fn new(
         mechanism: &'m Mechanism,
@@ -57,19 +90,21 @@ impl<'m> MeanGradients<'m> {
             )));
         }
         let each = of.iter().map(|&metric| {
-            let mean = sweep.metrics.get(metric).and_then(|of| of.mean_of()).ok_or_else(|| {
-                SolveError::Shape(format!(
-                    "metric {metric} is not a mean: only means have gradients"
-                ))
-            })?;
-            let mut weights = vec![0.0; mean.need.width()];
-            weights[mean.component.min(mean.need.width() - 1)] = 1.0 / positions as f64;
-            let result = [(mean.need.quantity, mean.need.order)];
-            let sensitivity =
-                SensitivityPlan::backward(mechanism, &result, mean.is_root_of_squares);
-            Ok(MeanGradient { sensitivity, metric, mean, weights })
+            let of_metric = sweep.metrics.get(metric);
+            of_metric
+                .and_then(|&of| MetricGradient::new(mechanism, (metric, of), positions))
+                .ok_or_else(|| {
+                    SolveError::Shape(format!(
+                        "metric {metric} has no gradient: it is no mean and knows no slopes"
+                    ))
+                })
         });
         Ok(Self { each: each.collect::<Result<_, SolveError>>()?, by, ..Self::default() })
+    }
+
+    /// The metric of each gradient.
+    pub(super) fn metrics(&self) -> impl Iterator<Item = usize> + use<'_> {
+        self.each.iter().map(|gradient| gradient.metric)
     }
 
     /// Whether none are requested.
@@ -87,9 +122,8 @@ impl<'m> MeanGradients<'m> {
     /// Finds what they read in the columns of the request.
     pub(super) fn read_from(&mut self, columns: &[Column]) {
         for gradient in &mut self.each {
-            let need = gradient.mean.need;
             gradient.sensitivity.read_from(columns);
-            gradient.sensitivity.read_values(&[(need.quantity, need.order)], columns);
+            gradient.sensitivity.read_values(&gradient.of, columns);
         }
         self.read = columns.len();
     }
@@ -121,10 +155,18 @@ impl<'m> MeanGradients<'m> {
             is_valid: true,
             design: kept.design,
         };
-        for (gradient, column) in self.each.iter().zip(kept.values.len() + 1..) {
-            let is_root = gradient.mean.is_root_of_squares;
+        let slopes = kept.slopes.iter();
+        for ((gradient, slopes), column) in
+            self.each.iter().zip(slopes).zip(kept.values.len() + 1..)
+        {
+            let shared = gradient.shared.as_ref();
+            let is_root = shared.is_some_and(|shared| shared.is_root_of_squares);
+            let weights: Vec<&[f64]> = match shared {
+                Some(shared) => vec![&shared.weights],
+                None => slopes.by_numbers.iter().map(Vec::as_slice).collect(),
+            };
             let product = Product::Backward {
-                weights: &[&gradient.weights],
+                weights: &weights,
                 by: self.by,
                 total: true,
                 of_squares: is_root,
@@ -140,6 +182,7 @@ impl<'m> MeanGradients<'m> {
                 first: place,
                 // d√m = dm / 2√m.
                 divisor: if is_root { kept.values[gradient.metric] } else { 1.0 },
+                besides: &slopes.by_dimensions,
             });
         }
     }
@@ -153,6 +196,13 @@ impl<'m> MeanGradients<'m> {
     }
 }
 
+/// The [slopes](super::Slopes) of a metric of one design.
+#[derive(Debug, Default)]
+pub(super) struct DesignSlopes {
+    pub by_numbers: Vec<Vec<f64>>,
+    pub by_dimensions: Vec<(usize, f64)>,
+}
+
 /// A design that is kept.
 pub(super) struct Kept<'k, 'b> {
     pub design: &'k Design<'b>,
@@ -162,4 +212,6 @@ pub(super) struct Kept<'k, 'b> {
     pub count: usize,
     /// The values of all metrics.
     pub values: &'k [f64],
+    /// For each gradient the [slopes](super::Slopes) of its metric, if it is not a mean.
+    pub slopes: &'k [DesignSlopes],
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::extremes::Decided;
-use super::metric::{Growth, Metric, Need, Positions};
+use super::metric::{Growth, Metric, Need, Positions, Slopes};
 use crate::batch::request::Quantity;
 use crate::math::lanes::LANES;
 use crate::math::trig::sin_cos;
@@ -75,6 +75,51 @@ impl Metric for LeastTransmission {
     fn growth(&self) -> Growth {
         Growth::Falls
     }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        Some(self)
+    }
+}
+
+impl Slopes for LeastTransmission {
+    /// The angle changes as it does at the position that decides (the envelope theorem, J. M. Danskin 1966).
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        let widths = self.needs().into_iter().map(Need::width);
+        let mut slopes: Vec<Vec<f64>> =
+            widths.map(|width| vec![0.0; width * positions.count()]).collect();
+        let Some((at, turns)) = self.turning(positions) else { return slopes };
+        let mut first = 0;
+        for ((line, direction), sense) in self.lines.iter().zip(turns.directions).zip(turns.senses)
+        {
+            match line {
+                Line::Joints(_) => {
+                    let normal = direction.left().scale(sense / direction.norm2());
+                    for (end, side) in [-1.0, 1.0].into_iter().enumerate() {
+                        slopes[first + end][2 * at] += side * normal.x;
+                        slopes[first + end][2 * at + 1] += side * normal.y;
+                    }
+                }
+                Line::Guide(..) => slopes[first][at] += sense,
+            }
+            first += line.count();
+        }
+        slopes
+    }
+
+    fn by_dimensions(&self, positions: &Positions<'_>) -> Vec<(usize, f64)> {
+        let Some((_, turns)) = self.turning(positions) else { return vec![] };
+        let of = |(line, sense): (&Line, f64)| match line {
+            Line::Guide(_, Some(dimension)) => Some((*dimension, sense)),
+            _ => None,
+        };
+        self.lines.iter().zip(turns.senses).filter_map(of).collect()
+    }
+}
+
+/// How the lines lie at the position that decides, and by how much the angle grows where each turns by 1 rad.
+struct Turning {
+    directions: [Vector; 2],
+    senses: [f64; 2],
 }
 
 impl Decided for LeastTransmission {
@@ -91,6 +136,16 @@ impl Decided for LeastTransmission {
 }
 
 impl LeastTransmission {
+    fn turning(&self, positions: &Positions<'_>) -> Option<(usize, Turning)> {
+        let at = self.index(positions)?;
+        let directions = self.directions(positions, at);
+        let [u, v] = directions;
+        // An acute angle falls where the angle from one line to the other grows beyond a right one.
+        let grows = if u.cross(v) * u.dot(v) < 0.0 { -1.0 } else { 1.0 };
+        let grows = if self.complement { -grows } else { grows };
+        Some((at, Turning { directions, senses: [-grows, grows] }))
+    }
+
     /// The directions of both lines at a position.
     #[inline]
     fn directions(&self, positions: &Positions<'_>, at: usize) -> [Vector; 2] {

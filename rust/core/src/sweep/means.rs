@@ -1,7 +1,7 @@
 //! Means of a coordinate over the positions; evenly spaced over a turn, they are those over the turn.
 
 use super::coordinate::Coordinate;
-use super::metric::{MeanOf, Metric, Need, Positions};
+use super::metric::{MeanOf, Metric, Need, Positions, Slopes};
 
 /// The arithmetic mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,16 @@ impl Metric for Mean {
 
     fn mean_of(&self) -> Option<MeanOf> {
         Some(self.0.mean(false))
+    }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        Some(self)
+    }
+}
+
+impl Slopes for Mean {
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        vec![self.0.slopes(positions, |_| 1.0 / positions.count() as f64)]
     }
 }
 
@@ -36,6 +46,17 @@ impl Metric for RootMeanSquare {
 
     fn mean_of(&self) -> Option<MeanOf> {
         Some(self.0.mean(true))
+    }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        Some(self)
+    }
+}
+
+impl Slopes for RootMeanSquare {
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        let over = self.of(positions) * positions.count() as f64;
+        vec![self.0.slopes(positions, |value| value / over)]
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::evaluate_design::{Probes, SweepBatch};
-use super::gradients::MeanGradients;
+use super::gradients::MetricGradients;
 use super::metric::{Metric, Need};
 use super::request::{Measured, Sweep};
 use super::threads::Measure;
@@ -35,7 +35,7 @@ impl Mechanism {
         control: &Control<'_>,
     ) -> Result<Measured, SolveError> {
         let course = self.course(sweep.q);
-        let mut gradients = MeanGradients::new(self, sweep, course.count())?;
+        let mut gradients = MetricGradients::new(self, sweep, course.count())?;
         let (mut outputs, order) = needed(sweep.metrics);
         gradients.add_outputs(&mut outputs);
         for (index, metric) in sweep.metrics.iter().enumerate() {

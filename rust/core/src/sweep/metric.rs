@@ -151,6 +151,11 @@ pub trait Metric: Sync {
         None
     }
 
+    /// Its derivatives by what it reads, if it knows them: then it has a gradient, too.
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        None
+    }
+
     /// Checks that it has a meaning for a mechanism at the coordinates of `course`.
     ///
     /// # Errors
@@ -161,6 +166,18 @@ pub trait Metric: Sync {
             return Err(format!("derivatives need one driver, here are {}", course.drivers));
         }
         Ok(())
+    }
+}
+
+/// A metric that knows its derivatives by the numbers that it reads.
+pub trait Slopes: Metric {
+    /// For each [need](Metric::needs) the derivatives at all positions, as many as there are numbers; of a direction
+    /// one a position, by its angle. NaN where it has none.
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>>;
+
+    /// Derivatives by dimensions on which it depends by itself: their indices and these.
+    fn by_dimensions(&self, _: &Positions<'_>) -> Vec<(usize, f64)> {
+        vec![]
     }
 }
 
@@ -187,6 +204,10 @@ impl<M: Metric + ?Sized + Send> Metric for Box<M> {
 
     fn mean_of(&self) -> Option<MeanOf> {
         self.as_ref().mean_of()
+    }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        self.as_ref().with_slopes()
     }
 
     fn check(&self, course: &Course<'_>) -> Result<(), String> {

@@ -45,7 +45,7 @@ mod metric;
 mod moments;
 mod parts;
 mod request;
-
+mod targets;
 mod threads;
 mod time_ratio;
 
@@ -56,7 +56,8 @@ pub use deviation::{Deviation, Shape};
 pub use extremes::{Decided, Extreme, IndexOf, PlaceOf, Span};
 pub use least_transmission::{LeastTransmission, Line};
 pub use means::{Mean, RootMeanSquare};
-pub use metric::{Condition, Growth, MeanOf, Metric, Moves, Need, Positions, Relation};
+pub use metric::{Condition, Growth, MeanOf, Metric, Moves, Need, Positions, Relation, Slopes};
 pub use parts::Part;
 pub use request::{Gradients, Measured, Sweep};
+pub use targets::{Fitted, FunctionError, PathDistance, PathError, PoseError};
 pub use time_ratio::TimeRatio;

@@ -1,7 +1,7 @@
 //! A metric over a part of the positions.
 
 use super::course::Course;
-use super::metric::{Growth, Metric, Need, Positions};
+use super::metric::{Growth, Metric, Need, Positions, Slopes};
 
 /// Coordinates are compared with the ends of a part to this share of the greatest of them: sums and
 /// conversions from degrees are some roundings off.
@@ -66,6 +66,27 @@ impl<M> Part<M> {
     }
 }
 
+impl<M: Metric> Part<M> {
+    /// Shows the metric its positions.
+    fn show<T>(
+        &self,
+        positions: &Positions<'_>,
+        places: &[usize],
+        see: impl FnOnce(&Positions<'_>) -> T,
+    ) -> T {
+        let q: Vec<f64> = places.iter().map(|&at| positions.q[at]).collect();
+        let gather = |(values, need): (&&[f64], Need)| -> Vec<f64> {
+            let width = need.width();
+            places.iter().flat_map(|&at| &values[at * width..][..width]).copied().collect()
+        };
+        let values: Vec<Vec<f64>> =
+            positions.values.iter().zip(self.metric.needs()).map(gather).collect();
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let returns = positions.returns && places.len() == positions.q.len();
+        see(&Positions { q: &q, values: &values, returns, ..*positions })
+    }
+}
+
 impl<M: Metric> Metric for Part<M> {
     fn needs(&self) -> Vec<Need> {
         self.metric.needs()
@@ -76,16 +97,11 @@ impl<M: Metric> Metric for Part<M> {
         if passes_end && self.metric.asks_return() && !positions.returns {
             return f64::NAN;
         }
-        let q: Vec<f64> = places.iter().map(|&at| positions.q[at]).collect();
-        let gather = |(values, need): (&&[f64], Need)| -> Vec<f64> {
-            let width = need.width();
-            places.iter().flat_map(|&at| &values[at * width..][..width]).copied().collect()
-        };
-        let values: Vec<Vec<f64>> =
-            positions.values.iter().zip(self.metric.needs()).map(gather).collect();
-        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        let returns = positions.returns && places.len() == positions.q.len();
-        self.metric.of(&Positions { q: &q, values: &values, returns, ..*positions })
+        self.show(positions, &places, |seen| self.metric.of(seen))
+    }
+
+    fn with_slopes(&self) -> Option<&dyn Slopes> {
+        self.metric.with_slopes().map(|_| self as &dyn Slopes)
     }
 
     fn growth(&self) -> Growth {
@@ -116,5 +132,32 @@ impl<M: Metric> Metric for Part<M> {
         let q: Vec<f64> = places.iter().map(|&at| course.q[at]).collect();
         let turn = course.turn.filter(|_| q.len() == course.q.len());
         self.metric.check(&Course { q: &q, turn, ..*course })
+    }
+}
+
+impl<M: Metric> Slopes for Part<M> {
+    fn slopes(&self, positions: &Positions<'_>) -> Vec<Vec<f64>> {
+        let places = self.places(positions.q);
+        let own = self.show(positions, &places, |seen| {
+            self.metric.with_slopes().map(|metric| metric.slopes(seen)).unwrap_or_default()
+        });
+        let spread = |(own, need): (Vec<f64>, Need)| {
+            // (Of a direction there is one a position.)
+            let width = own.len().checked_div(places.len()).unwrap_or_else(|| need.width());
+            let mut slopes = vec![0.0; width * positions.count()];
+            for (&at, own) in places.iter().zip(own.chunks_exact(width)) {
+                slopes[at * width..][..width].copy_from_slice(own);
+            }
+            slopes
+        };
+        own.into_iter().zip(self.needs()).map(spread).collect()
+    }
+
+    fn by_dimensions(&self, positions: &Positions<'_>) -> Vec<(usize, f64)> {
+        let places = self.places(positions.q);
+        self.show(positions, &places, |seen| {
+            let slopes = self.metric.with_slopes();
+            slopes.map(|metric| metric.by_dimensions(seen)).unwrap_or_default()
+        })
     }
 }

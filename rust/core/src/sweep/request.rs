@@ -20,7 +20,7 @@ pub struct Sweep<'a> {
     pub gradients: Gradients<'a>,
 }
 
-/// Gradients of metrics that are [means](Metric::mean_of), by dimensions.
+/// Gradients by dimensions of metrics that are [means](Metric::mean_of) or know their [slopes](Metric::with_slopes).
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Gradients<'a> {
     /// Indices of the metrics.

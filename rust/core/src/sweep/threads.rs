@@ -170,12 +170,15 @@ impl SweepBatch<'_> {
             if !self.gradients.is_empty() {
                 let results = (&mut results, place);
                 if is_kept {
+                    let slopes = |metric| self.slopes(&rows, (row, self.course.q), metric);
+                    let slopes: Vec<_> = self.gradients.metrics().map(slopes).collect();
                     let kept = Kept {
                         design: solver.worker.bound_design(),
                         dimensions: row.dimensions,
                         q: self.course.q,
                         count: self.course.count(),
                         values: &values,
+                        slopes: &slopes,
                     };
                     self.gradients.write::<L>(space, &mut rows, &kept, results);
                 } else {

@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 
 use super::Classes;
 use super::point::LineOf;
+use super::target;
 use super::word::{Word, Words};
 use crate::error_map;
 
@@ -35,6 +36,9 @@ enum Kind {
     Mean,
     RootMeanSquare,
     TimeRatio,
+    PathError,
+    FunctionError,
+    PoseError,
 }
 
 impl Words for Kind {
@@ -55,6 +59,9 @@ impl Words for Kind {
         ("mean", Self::Mean),
         ("rms", Self::RootMeanSquare),
         ("time_ratio", Self::TimeRatio),
+        ("path_error", Self::PathError),
+        ("function_error", Self::FunctionError),
+        ("pose_error", Self::PoseError),
     ];
 }
 
@@ -102,6 +109,15 @@ impl Leaf<'_> {
             Kind::Mean => Box::new(Mean(coordinate()?)),
             Kind::RootMeanSquare => Box::new(RootMeanSquare(coordinate()?)),
             Kind::TimeRatio => Box::new(TimeRatio(coordinate()?)),
+            Kind::PathError => {
+                let joint = mechanism.joint(&name).map_err(error_map::solve)?;
+                Box::new(target::path_error(joint, &self.options)?)
+            }
+            Kind::FunctionError => Box::new(target::function_error(coordinate()?, &self.options)?),
+            Kind::PoseError => {
+                let link = mechanism.link(&name).map_err(error_map::solve)?;
+                Box::new(target::pose_error(link, &self.options)?)
+            }
         };
         let Some(over) = self.over else { return Ok(metric) };
         Ok(Box::new(part(mechanism, metric, over)))

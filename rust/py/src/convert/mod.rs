@@ -9,6 +9,7 @@ pub(crate) mod load;
 pub(crate) mod metric;
 pub(crate) mod motor;
 pub(crate) mod point;
+pub(crate) mod target;
 pub(crate) mod value;
 pub(crate) mod varied;
 pub(crate) mod word;

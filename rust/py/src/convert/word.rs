@@ -3,7 +3,7 @@
 use assur::Named;
 use assur::dynamics::{EndCondition, Mean};
 use assur::ode::{Crossing, Method};
-use assur::sweep::{Operation, Relation, Shape};
+use assur::sweep::{Fitted, Operation, PathDistance, Relation, Shape};
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 
@@ -81,6 +81,21 @@ impl Words for Shape {
     const WHAT: &'static str = "shape";
     const KNOWN: &'static [(&'static str, Self)] =
         &[("line", Self::Line), ("circle", Self::Circle)];
+}
+
+impl Words for PathDistance {
+    const WHAT: &'static str = "kind";
+    const KNOWN: &'static [(&'static str, Self)] =
+        &[("points", Self::Points), ("chamfer", Self::Chamfer), ("ordered", Self::Ordered)];
+}
+
+impl Words for Fitted {
+    const WHAT: &'static str = "fitted";
+    const KNOWN: &'static [(&'static str, Self)] = &[
+        ("nothing", Self::Nothing),
+        ("offset", Self::Offset),
+        ("scale and offset", Self::ScaleAndOffset),
+    ];
 }
 
 impl Words for Operation {

@@ -55,7 +55,13 @@ impl Fit {
         let variable =
             |(moves, (low, high)): VariableParts| Variable { moves, bounds: [low, high] };
         let condition = |(metric, aim, value, unit): ConditionParts<'_>| -> PyResult<FitCondition> {
-            Ok(FitCondition { metric: metric_of(inner, &metric)?, aim: aim.0.of(value), unit })
+            let own = metric_of(inner, &metric)?;
+            if own.with_slopes().is_none() {
+                let repr = metric.repr()?;
+                let message = format!("{repr} has no gradient: fit cannot aim at it");
+                return Err(error::input(&message, None));
+            }
+            Ok(FitCondition { metric: own, aim: aim.0.of(value), unit })
         };
         let request = FitRequest {
             base,
