@@ -84,6 +84,7 @@ if TYPE_CHECKING:
     from assur.fitting.fit import fit
     from assur.fitting.fits import Fits
     from assur.fitting.found import Fit
+    from assur.fitting.linkage import LinkageFit
     from assur.fitting.search import search
     from assur.kinematics.curve.design_defects import Defect
     from assur.kinematics.loci.maps import DesignMap
@@ -125,6 +126,7 @@ __all__ = [
     "JointFriction",
     "Limits",
     "LinearMotor",
+    "LinkageFit",
     "Machine",
     "Measures",
     "Mechanism",
@@ -212,6 +214,7 @@ _LATER = {
     "assur.fitting.fit": ("fit",),
     "assur.fitting.fits": ("Fits",),
     "assur.fitting.found": ("Fit",),
+    "assur.fitting.linkage": ("LinkageFit",),
     "assur.fitting.search": ("search",),
     "assur.kinematics.curve.design_defects": ("Defect",),
     "assur.kinematics.loci.maps": ("DesignMap",),

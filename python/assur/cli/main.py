@@ -30,6 +30,7 @@ COMMANDS = {
     "reactions": "forces in joints and slides, and of the drive, as a table",
     "flywheel": "the flywheel of a machine, or of a table of moment and inertia",
     "sweep": "many designs, measured; the best of them",
+    "fit": "dimensions with which a mechanism does a task",
     "search": "linkages that draw a path",
     "plot": "a picture",
     "studio": "mechanisms in the browser: draw, drag, run",

@@ -1,4 +1,4 @@
-"""Points of a path in a file of comma-separated values."""
+"""Targets in a file of comma-separated values: points, values over coordinates, poses."""
 
 from __future__ import annotations
 
@@ -16,26 +16,32 @@ if TYPE_CHECKING:
 
 
 def read_points(path: str) -> Float:
-    """Return the points of a file (N, 2): columns x and y of its header, or the first two.
+    """Return the points of a file (N, 2): columns x and y of its header, or the first two."""
+    return read_rows(path, ("x", "y"), "point")
+
+
+def read_rows(path: str, names: tuple[str, ...], what: str) -> Float:
+    """Return the rows of a file: the columns of these names in its header, or the first ones.
 
     Numbers are separated by commas, semicolons, tabs or blanks.
     """
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, ValueError) as error:
-        message = f"{path}: the points cannot be read ({getattr(error, 'strerror', 0) or error})"
+        message = f"{path}: the {what}s cannot be read ({getattr(error, 'strerror', 0) or error})"
         raise InputError(message) from error
     rows = [(line, _split(row)) for line, row in enumerate(text.splitlines(), 1) if row.strip()]
     if not rows:
-        message = f"{path} is empty: a row x,y is needed for each point"
+        message = f"{path} is empty: a row {','.join(names)} is needed for each {what}"
         raise InputError(message)
     header = [name.strip().lower() for name in rows[0][1]]
-    columns = (0, 1)
+    columns = list(range(len(names)))
     if not all(map(_is_number, header)):
         rows = rows[1:]
-        if "x" in header and "y" in header:
-            columns = header.index("x"), header.index("y")
-    return np.array([_point(path, line, row, columns) for line, row in rows]).reshape(-1, 2)
+        if all(name in header for name in names):
+            columns = [header.index(name) for name in names]
+    numbers = [_numbers(path, line, row, columns, what) for line, row in rows]
+    return np.array(numbers).reshape(-1, len(names))
 
 
 def _split(row: str) -> list[str]:
@@ -53,10 +59,13 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def _point(path: str, line: int, row: list[str], columns: tuple[int, int]) -> tuple[float, float]:
+def _numbers(path: str, line: int, row: list[str], columns: list[int], what: str) -> list[float]:
     words = [row[column] for column in columns if column < len(row)]
     numbers = [float(word) for word in words if _is_number(word)]
-    if len(numbers) < 2 or not all(map(math.isfinite, numbers)):
-        message = f"{path}, line {line}: {' '.join(row)[:80]!r} is no point: two numbers are needed"
+    if len(numbers) < len(columns) or not all(map(math.isfinite, numbers)):
+        needed = {2: "two", 3: "three"}[len(columns)]
+        message = (
+            f"{path}, line {line}: {' '.join(row)[:80]!r} is no {what}: {needed} numbers are needed"
+        )
         raise InputError(message)
-    return numbers[0], numbers[1]
+    return numbers

@@ -58,6 +58,11 @@ class Numbers(NamedTuple):
             message = f"{what} is written without a unit, not in {self.unit}"
         raise InputError(message)
 
+    def pair(self, kind: str, what: str) -> tuple[float, float]:
+        """Return the first and the last of the numbers."""
+        self.index_of(kind, what)
+        return float(self.values[0]), float(self.values[-1])
+
     def one(self, kind: str, what: str) -> float:
         """Return the one number."""
         self.index_of(kind, what)

@@ -140,7 +140,7 @@ def _parts(goals: list[Goal], q: list[float], free: list[float]) -> Any:
 
 
 def _travel(mechanism: Mechanism, q: list[float], asked: Asked) -> Float | None:
-    """Return positions over the travel; None if the mechanism cannot move over it, by its limits."""
+    """Return positions over the travel; None if the limits say that there is none."""
     limits = mechanism.limits()
     if asked.full_rotation:
         if not limits.full_rotation or limits.period != 1:

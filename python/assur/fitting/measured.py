@@ -9,7 +9,7 @@ import numpy as np
 from assur.errors import AssurError
 from assur.fitting.condition import Condition
 from assur.fitting.distance import chamfer, nearest, ordered
-from assur.fitting.found import Fit
+from assur.fitting.linkage import LinkageFit
 from assur.fitting.naming import mechanism_of
 from assur.fitting.proof import path_coordinates, prove
 from assur.fitting.sensitivity import TOLERANCE, perturbed_errors
@@ -44,12 +44,12 @@ class Spent(NamedTuple):
 
 def measured(
     found: Iterable[Found], target: PathTarget, wanted: Wanted, spent: Spent
-) -> tuple[list[Fit], int]:
+) -> tuple[list[LinkageFit], int]:
     """Return the different candidates as the solver sees them, and how many miss a condition.
 
     Of variants of one linkage the first is kept that misses none.
     """
-    fits: list[Fit] = []
+    fits: list[LinkageFit] = []
     rejected = 0
     for joints, links, arc, _ in found:
         try:
@@ -79,13 +79,13 @@ def _fit(
     arc: float,
     target: PathTarget,
     of: tuple[Wanted, Spent, tuple[Condition, ...]],
-) -> Fit:
+) -> LinkageFit:
     wanted, spent, conditions = of
     q = path_coordinates(mechanism, arc)
     curve = target.framed(mechanism.solve(q, order=0).joint(target.joint).value)
     at = nearest(target.framed(target.points), curve)
     sensitivities = perturbed_errors(mechanism, arc, target, TOLERANCE)
-    return Fit(
+    return LinkageFit(
         mechanism=mechanism,
         error=chamfer(curve, target.corners),
         ordered_error=ordered(curve, target.corners, target.closed),
@@ -126,7 +126,7 @@ def _holds(condition: Condition) -> bool:
     return condition.value <= condition.limit + slack
 
 
-def _are_alike(mechanism: Mechanism, fit: Fit, target: PathTarget) -> bool:
+def _are_alike(mechanism: Mechanism, fit: LinkageFit, target: PathTarget) -> bool:
     """Whether a linkage has the structure of another, and all joints nearly at its places."""
     if dict(mechanism.links) != dict(fit.mechanism.links):
         return False

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from assur import _core
     from assur.fitting.effort import Effort, Progress, Report
-    from assur.fitting.found import Fit
+    from assur.fitting.linkage import LinkageFit
     from assur.fitting.measured import Found
 
 __all__ = ["search"]
@@ -46,7 +46,7 @@ def search(
     seed: int = 0,
     threads: int | None = None,
     progress: Progress = False,
-) -> Fits[Fit]:
+) -> Fits[LinkageFit]:
     """Find linkages that draw a path: their structure and their dimensions.
 
     Each has one crank, which goes round, and dyads of bars. Random linkages come first; the most
@@ -143,7 +143,7 @@ class Course:
     # Time that it has taken so far, s.
     elapsed: float = 0.0
 
-    def run(self, effort: Effort, report: Report, apart: bool) -> Fits[Fit]:
+    def run(self, effort: Effort, report: Report, apart: bool) -> Fits[LinkageFit]:
         """Let linkages evolve, then finish, measure and rank them."""
         found: list[Found] = []
         try:
@@ -165,7 +165,7 @@ class Course:
         report(1.0, fits[0].error)
         return Fits(fits, rejected, self._resume)
 
-    def _rank(self, fit: Fit) -> tuple[float, float]:
+    def _rank(self, fit: LinkageFit) -> tuple[float, float]:
         """Return what the linkages are ranked by, and what decides between equal ones."""
         price = (1.0 + self.wanted.joint_price) ** fit.joints
         if self.wanted.robust is None:
@@ -173,7 +173,7 @@ class Course:
         errors = perturbed_errors(fit.mechanism, fit.arc, self.target, self.wanted.robust)
         return price * max(fit.error, *errors.values()), price * fit.error
 
-    def _resume(self, time_limit: Any, evaluations: Any, progress: Any) -> Fits[Fit]:
+    def _resume(self, time_limit: Any, evaluations: Any, progress: Any) -> Fits[LinkageFit]:
         effort = checked_effort(time_limit, evaluations, self.core.evaluations)
         with reporter(progress) as report:
             return self.run(effort, report, apart=False)

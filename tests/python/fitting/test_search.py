@@ -53,7 +53,7 @@ FOUND: dict[str, tuple[Any, Any, str, bool]] = {
 }
 
 
-def drawn(fit: assur.Fit, turns: Any) -> dict[str, Any]:
+def drawn(fit: assur.LinkageFit, turns: Any) -> dict[str, Any]:
     return places(fit.mechanism.joints, fit.mechanism.links, turns)
 
 

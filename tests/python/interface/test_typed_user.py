@@ -161,7 +161,7 @@ def test_search(tmp_path: Path) -> None:
     found = assur.search({"P": [(0.0, 0.0), (1.0, 0.2), (2.0, 0.0)]}, joints=6, evaluations=1)
     assert_type(found, assur.Fits)
     assert_type(found.resume(evaluations=1), assur.Fits)
-    assert_type(found[0], assur.Fit)
+    assert_type(found[0], assur.LinkageFit)
     assert_type(found[0].mechanism, assur.Mechanism)
     assert_type(found[0].error, float)
     assert_type(found[0].mechanism.solve(found[0].q), assur.Motion)
