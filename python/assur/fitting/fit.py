@@ -204,7 +204,8 @@ class Course:
                 rounds += 1
                 part = effort.part(self.core)
                 report(min(part, 1.0), self.core.best)
-                if part >= 1.0 or (rounds >= ROUNDS and self.core.agreeing >= AGREEING):
+                is_settled = self.core.is_exact or self.core.agreeing >= AGREEING
+                if part >= 1.0 or (rounds >= ROUNDS and is_settled):
                     break
         except KeyboardInterrupt:
             message = (

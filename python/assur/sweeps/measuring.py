@@ -107,12 +107,12 @@ class Measuring:
         self.summed: tuple[list[int], list[int]] = [], []
         asked: list[Metric] = list(dict.fromkeys([*self.leaves, *(c.metric for c in early)]))
         for measured in self.leaves:
-            located = _located(measured, mechanism, self.q)
-            refusal = mechanism.core.refusal_of_metric(self.q.reshape(-1), located)
+            as_taken = located(measured, mechanism, self.q)
+            refusal = mechanism.core.refusal_of_metric(self.q.reshape(-1), as_taken)
             if refusal is not None:
                 message = f"{measured!r}: {refusal}"
                 raise InputError(message)
-        self.asked = [_located(metric, mechanism, self.q) for metric in asked]
+        self.asked = [located(metric, mechanism, self.q) for metric in asked]
         if self.gradients is not None:
             self.summed = [asked.index(leaf) for leaf in self.gradients.summed], self.gradients.by
         self.early = [(asked.index(c.metric), c.relation, c.limit) for c in early]
@@ -273,7 +273,7 @@ class Measuring:
         return real_array(function.function(motion), f"the values of {function!r}")
 
 
-def _located(metric: Metric, mechanism: Mechanism, q: Float) -> Metric:
+def located(metric: Metric, mechanism: Mechanism, q: Float) -> Metric:
     """Return a metric as the core takes it.
 
     Transmission angles have the lines between which they are, functions the places of their
@@ -281,7 +281,7 @@ def _located(metric: Metric, mechanism: Mechanism, q: Float) -> Metric:
     """
     if isinstance(metric, Combination):
         left, right = (
-            _located(side, mechanism, q) if isinstance(side, Metric) else side
+            located(side, mechanism, q) if isinstance(side, Metric) else side
             for side in (metric.left, metric.right)
         )
         return replace(metric, left=left, right=right)

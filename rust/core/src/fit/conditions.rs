@@ -1,17 +1,13 @@
 //! Conditions on a design: metrics of its travel that have limits, or values to come near to.
 //!
-//! Limits are kept by the augmented Lagrangian of Hestenes and Powell (1969): each is a squared residual
-//! √μ·max(0, c + λ/μ), where c is by how much it is missed; λ grows by μ·c between descents.
+//! Each limit is a squared residual √μ·max(0, c + λ/μ), where c is by how much it is missed: see
+//! [`Multipliers`].
 
+use super::multipliers::Multipliers;
 use super::point::Point;
-use super::problem::Problem;
+use super::variables::Variables;
 use crate::sweep::Metric;
 
-/// The square of a miss of one unit, at first, in sizes of the target; how it grows where misses stay.
-const PENALTY: f64 = 10.0;
-const GROWTH: f64 = 4.0;
-/// A miss that falls to this part stays no longer.
-const FALLS: f64 = 0.25;
 /// A limit counts as kept if it is missed by less than this, in its unit.
 pub(super) const KEPT: f64 = 1e-6;
 
@@ -43,56 +39,17 @@ impl std::fmt::Debug for FitCondition {
     }
 }
 
-/// By how much limits are missed, and how strongly that counts.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Multipliers {
-    /// In units; not positive where a limit is kept.
-    pub misses: Vec<f64>,
-    lambda: Vec<f64>,
-    penalty: f64,
-    /// The worst miss after the last descent.
-    worst: f64,
-}
-
-impl Multipliers {
-    pub(super) fn new(problem: &Problem) -> Self {
-        Self {
-            misses: vec![0.0; problem.conditions.len()],
-            lambda: vec![0.0; problem.conditions.len()],
-            penalty: PENALTY * problem.size,
-            worst: f64::INFINITY,
-        }
-    }
-
-    /// The worst miss, in units.
-    pub(super) fn worst(&self) -> f64 {
-        self.misses.iter().copied().fold(0.0, f64::max)
-    }
-
-    /// After a descent.
-    pub(super) fn update(&mut self) {
-        for (lambda, miss) in self.lambda.iter_mut().zip(&self.misses) {
-            *lambda = (*lambda + self.penalty * miss).max(0.0);
-        }
-        let worst = self.worst();
-        if worst > FALLS * self.worst {
-            self.penalty *= GROWTH;
-        }
-        self.worst = worst;
-    }
-}
-
 /// Adds conditions to a linearised point: their values and derivatives by the dimensions that move.
 pub(super) fn add_conditions(
-    problem: &Problem,
+    (conditions, variables): (&[FitCondition], &Variables),
     point: &mut Point,
     (values, gradients): (&[f64], &[&[f64]]),
 ) {
     let mut row = vec![0.0; point.x.len()];
     let mut misfit = 0.0;
-    for (index, condition) in problem.conditions.iter().enumerate() {
+    for (index, condition) in conditions.iter().enumerate() {
         let (value, unit) = (values[index], condition.unit);
-        problem.variables.chain(gradients[index], &mut row);
+        variables.chain(gradients[index], &mut row);
         let Multipliers { misses, lambda, penalty, .. } = &mut point.multipliers;
         let (residual, scale) = match condition.aim {
             Aim::Near(wanted) => {

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::point::Point;
 use super::problem::Problem;
+use super::start::send_to_nearest;
 use super::step::damped_step;
 use super::target::Timing;
 use crate::description::error::SolveError;
@@ -106,11 +107,10 @@ pub(super) fn descend(
         small_gains: 0,
     };
     let mut points = points;
-    if !problem.conditions.is_empty() {
-        // What counts has changed since they were evaluated.
-        let mut all: Vec<&mut Point> = points.iter_mut().collect();
-        problem.evaluate(&mut all, (assembly, travel), cancel)?;
-    }
+    let mut moved: Vec<&mut Point> = points.iter_mut().collect();
+    send_to_nearest(problem, &mut moved, assembly, cancel)?;
+    // What counts, and where, has changed since they were evaluated.
+    problem.evaluate(&mut moved, (assembly, travel), cancel)?;
     let mut all: Vec<Descent> = points.into_iter().map(start).collect();
     let mut evaluations = 0;
     for _ in 0..steps {

@@ -41,6 +41,9 @@ const fn stage(count: usize, steps: usize) -> Stage {
     Stage { count, steps, travel: TRAVEL_POSITIONS }
 }
 
+/// Sums of squares below this part of the target's size are rounding.
+const EXACT: f64 = 1e-24;
+
 /// A design that a fit has found.
 #[derive(Debug, Clone)]
 pub struct Fitted {
@@ -96,6 +99,12 @@ impl Fit {
     #[must_use]
     pub fn best(&self) -> f64 {
         self.found.first().map_or(f64::INFINITY, |start| 2.0 * start.1.misfit)
+    }
+
+    /// Whether the best design misses nothing but rounding.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.best() <= EXACT * self.compiled.size
     }
 
     /// How often the best design was found.
@@ -240,9 +249,11 @@ impl Fit {
         }
         let best = self.found.iter().map(|one| one.1.misfit).fold(f64::INFINITY, f64::min);
         let value = start.1.misfit;
-        if value < best * (1.0 - SAME) {
+        // What rounding leaves of an exact design differs from descent to descent.
+        let exact = EXACT * self.compiled.size;
+        if value < best * (1.0 - SAME) && best > exact {
             self.agreeing = 1;
-        } else if value <= best * (1.0 + SAME) {
+        } else if value <= (best * (1.0 + SAME)).max(exact) {
             self.agreeing += 1;
         }
         let count = self.compiled.variables.len();

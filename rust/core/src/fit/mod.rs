@@ -2,9 +2,12 @@
 //!
 //! Residuals are what joints, links and slides miss of their targets; they and their derivatives by the dimensions
 //! come from the solver, a block of designs at a time.
+mod assign;
 pub(crate) mod conditions;
 mod descend;
+mod evaluate;
 pub(crate) mod fit;
+mod multipliers;
 mod normal;
 mod place;
 mod point;

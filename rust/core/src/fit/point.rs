@@ -1,6 +1,6 @@
 //! A point of the space that a fit searches, and the objective linearised there.
 
-use super::conditions::Multipliers;
+use super::multipliers::Multipliers;
 
 /// A design with the coordinates at which it meets its targets.
 #[derive(Debug, Clone, Default)]

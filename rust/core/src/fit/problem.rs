@@ -3,23 +3,16 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 use std::ops::{Deref, Range};
-use std::sync::atomic::AtomicBool;
 
-use super::conditions::{FitCondition, add_conditions};
+use super::conditions::FitCondition;
 use super::point::Point;
-use super::residuals::{Solved, linearize};
 use super::target::{FitTarget, Timing};
 use super::variables::{Variable, Variables};
 use crate::batch::helpers::available_threads;
-use crate::batch::request::{Coordinates, Motion, Outputs, Quantity, Request, Series};
-use crate::batch::schedule::Control;
-use crate::description::error::SolveError;
+use crate::batch::request::{Motion, Outputs, Quantity, Series};
 use crate::math::simd::Simd;
 use crate::plan::mechanism::Mechanism;
-use crate::sensitivity::request::{Product, SensitivityRequest};
 use crate::state::status::Status;
-use crate::sweep::Metric;
-use crate::sweep::{Gradients, Measured, Sweep};
 
 /// Positions at which a design is checked over its travel, and of which its curve is made: eight registers of eight
 /// lanes; and in the last descents.
@@ -161,142 +154,13 @@ impl Compiled {
     }
 }
 
-impl Problem<'_> {
-    /// How the solver is to work for one block: blocks run side by side.
-    fn control<'c>(&self, cancel: &'c AtomicBool) -> Control<'c> {
-        let threads = Some(NonZeroUsize::MIN);
-        Control { threads, simd: self.simd, cancel: Some(cancel), ..Control::default() }
-    }
-
-    /// Evaluates and linearises points of one assembly, over so many positions of their travel.
-    pub(super) fn evaluate(
-        &self,
-        points: &mut [&mut Point],
-        (assembly, travel): (usize, usize),
-        cancel: &AtomicBool,
-    ) -> Result<(), SolveError> {
-        let designs = points.len();
-        if designs == 0 {
-            return Ok(());
-        }
-        let mut dimensions = vec![0.0; designs * self.mechanism.dimensions().len()];
-        let mut q = Vec::with_capacity(designs * self.positions());
-        for (design, point) in points.iter_mut().enumerate() {
-            self.set_timing(point);
-            self.variables.write(&point.x, &mut dimensions, (design, designs));
-            q.extend_from_slice(&point.q);
-        }
-        let (signs, control) = (&self.assemblies[assembly], self.control(cancel));
-        let measured = self.measure(points, &dimensions, (signs, travel), &control)?;
-        let coordinates = Coordinates::PerDesign(&q);
-        let motion = self.mechanism.solve_with(
-            &Request {
-                dimensions: &dimensions,
-                coordinates,
-                signs,
-                order: 1,
-                outputs: &self.outputs,
-            },
-            &control,
-        )?;
-        let (derivatives, status) = self.mechanism.sensitivities(
-            &SensitivityRequest {
-                dimensions: &dimensions,
-                coordinates,
-                signs,
-                of: &self.quantities,
-                product: Product::Jacobian { by: &self.variables.by },
-            },
-            &control,
-        )?;
-        let series = self.quantities.iter().filter_map(|&(quantity, _)| series(&motion, quantity));
-        let solved =
-            Solved { series: series.collect(), derivatives: &derivatives, status: &status };
-        let width = self.variables.by.len();
-        for (design, point) in points.iter_mut().enumerate() {
-            if !measured.kept[design] {
-                point.value = f64::INFINITY;
-                continue;
-            }
-            linearize(self, &solved, design, point);
-            let values: Vec<f64> = measured.values.iter().map(|all| all[design]).collect();
-            let gradients = measured.gradients.iter();
-            let gradients: Vec<&[f64]> =
-                gradients.map(|all| &all[design * width..][..width]).collect();
-            add_conditions(self, point, (&values, &gradients));
-        }
-        Ok(())
-    }
-
-    /// Whether designs move over their travel, and the metrics of conditions there, with their gradients.
-    fn measure(
-        &self,
-        points: &[&mut Point],
-        dimensions: &[f64],
-        (signs, travel): (&[i8], usize),
-        control: &Control<'_>,
-    ) -> Result<Measured, SolveError> {
-        let metrics: Vec<&dyn Metric> =
-            self.conditions.iter().map(|one| &*one.metric as &dyn Metric).collect();
-        let of: Vec<usize> = (0..metrics.len()).collect();
-        let gradients = Gradients { of: &of, by: &self.variables.by };
-        let measure = |dimensions: &[f64], q: &[f64]| {
-            let sweep =
-                Sweep { dimensions, q, signs, metrics: &metrics, conditions: &[], gradients };
-            self.mechanism.measure(&sweep, control)
-        };
-        if self.travel == Travel::WholeTurn {
-            return measure(dimensions, &turn(travel));
-        }
-        if self.targets.iter().all(|target| matches!(target.timing, Timing::Fixed(_))) {
-            return measure(dimensions, &between(&points[0].q, travel));
-        }
-        // Each design has a travel of its own.
-        let designs = points.len();
-        let mut all = Measured::default();
-        for (design, point) in points.iter().enumerate() {
-            let own: Vec<f64> = dimensions.iter().skip(design).step_by(designs).copied().collect();
-            let one = measure(&own, &between(&point.q, travel))?;
-            all.values.resize(metrics.len(), vec![]);
-            all.gradients.resize(metrics.len(), vec![]);
-            for (all, one) in all.values.iter_mut().zip(one.values) {
-                all.extend(one);
-            }
-            for (all, one) in all.gradients.iter_mut().zip(one.gradients) {
-                all.extend(one);
-            }
-            all.kept.extend(one.kept);
-        }
-        Ok(all)
-    }
-
-    /// Solves designs of one assembly over a whole turn, or over given coordinates.
-    pub(super) fn curves(
-        &self,
-        dimensions: &[f64],
-        assembly: usize,
-        cancel: &AtomicBool,
-    ) -> Result<Motion, SolveError> {
-        self.mechanism.solve_with(
-            &Request {
-                dimensions,
-                coordinates: Coordinates::Shared(&turn(TRAVEL_POSITIONS)),
-                signs: &self.assemblies[assembly],
-                order: 0,
-                outputs: &self.outputs,
-            },
-            &self.control(cancel),
-        )
-    }
-}
-
 /// Positions of a turn.
 pub(super) fn turn(count: usize) -> Vec<f64> {
     (0..count).map(|k| TAU * k as f64 / count as f64).collect()
 }
 
 /// Positions from the least coordinate to the greatest.
-fn between(q: &[f64], count: usize) -> Vec<f64> {
+pub(super) fn between(q: &[f64], count: usize) -> Vec<f64> {
     let low = q.iter().copied().fold(f64::INFINITY, f64::min);
     let high = q.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()

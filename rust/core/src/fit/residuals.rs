@@ -1,11 +1,9 @@
 //! Residuals of targets at the positions of a design, with their derivatives.
 
-use std::f64::consts::TAU;
-
 use super::normal::Rows;
 use super::point::Point;
 use super::problem::{Problem, is_solved};
-use super::target::{FitTarget, Freedom, TargetNumber, Timing};
+use super::target::{FitTarget, Freedom, TargetNumber, Timing, width, within_half_turn};
 use crate::batch::request::{Quantity, Series};
 use crate::math::trig::sin_cos;
 
@@ -67,10 +65,7 @@ fn read(
     let Some(at) = quantities.find(|(_, of)| of.0 == number.quantity).as_ref().map(place) else {
         return;
     };
-    let width = match number.quantity {
-        Quantity::Joint(_) | Quantity::Origin(_) | Quantity::Direction(_) => 2,
-        Quantity::Slide(_) | Quantity::Angle(_) => 1,
-    };
+    let width = width(number.quantity);
     let entry = row * width + number.axis.min(width - 1);
     let [value, rate] = [0, 1].map(|order| solved.series[at].derivatives[order][entry]);
     let count = problem.variables.by.len();
@@ -150,9 +145,4 @@ fn scale(rows: &mut Rows, index: usize, factor: f64) {
     for derivative in &mut rows.derivatives[index * width..][..width] {
         *derivative *= factor;
     }
-}
-
-/// An angle less whole turns, in [−π, π].
-pub(super) fn within_half_turn(angle: f64) -> f64 {
-    angle - TAU * (angle / TAU).round()
 }

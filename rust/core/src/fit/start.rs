@@ -1,13 +1,15 @@
 //! Where a fit starts: random designs that move, placed where they are most alike the target.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-use super::conditions::Multipliers;
+use super::assign::{assign, coordinate, missed};
+use super::multipliers::Multipliers;
 use super::place::{Placed, Placer};
 use super::point::Point;
-use super::problem::{Problem, TRAVEL_POSITIONS, Travel, is_solved, series, turn};
-use super::target::{FitTarget, Timing};
+use super::problem::{Problem, TRAVEL_POSITIONS, Travel, is_solved, series};
+use super::target::{FitTarget, Freedom, Timing, within_half_turn};
 use crate::batch::request::Motion;
 use crate::description::dimension::Dimension;
 use crate::description::error::SolveError;
@@ -21,6 +23,9 @@ const LINK_SPREAD: f64 = 1.5;
 /// How far a number without bounds is from the drawing's: lengths by a factor, coordinates in sizes of the drawing.
 const FACTOR: f64 = 3.0;
 
+/// A point goes elsewhere if that is so many positions away.
+const FAR: f64 = 2.0;
+
 /// A start, and its assembly.
 pub(super) type Start = (usize, Point);
 
@@ -29,13 +34,12 @@ pub(super) struct Starts<'p> {
     problem: Problem<'p>,
     placer: Option<Placer>,
     kinds: Vec<Dimension>,
-    turn: Vec<f64>,
 }
 
 impl<'p> Starts<'p> {
     pub(super) fn new(problem: Problem<'p>) -> Self {
         let kinds = problem.mechanism.dimensions().iter().map(|(_, kind)| kind).collect();
-        Self { problem, placer: Placer::new(&problem), kinds, turn: turn(TRAVEL_POSITIONS) }
+        Self { problem, placer: Placer::new(&problem), kinds }
     }
 
     /// The random designs of these indices, in one assembly, that move; evaluated.
@@ -66,7 +70,7 @@ impl<'p> Starts<'p> {
                     let placed = placer.place(&curve, problem.simd).into_iter();
                     starts.extend(placed.filter_map(|placed| self.placed(placed, &x, assembly)));
                 }
-                None => starts.push((assembly, self.unplaced(&motion, rows, x))),
+                None => starts.push((assembly, self.unplaced(&motion, &rows, x))),
             }
         }
         self.evaluate(starts, cancel)
@@ -134,7 +138,7 @@ impl<'p> Starts<'p> {
             *value = value.clamp(*low, *high);
         }
         x.extend(self.problem.targets.iter().flat_map(FitTarget::neutral));
-        let multipliers = Multipliers::new(&self.problem);
+        let multipliers = Multipliers::new(self.problem.conditions.len(), self.problem.size);
         Point { x, q, value: f64::INFINITY, multipliers, ..Point::default() }
     }
 
@@ -162,49 +166,65 @@ impl<'p> Starts<'p> {
     }
 
     /// A design where it is: each point of a target goes to the nearest position.
-    fn unplaced(&self, motion: &Motion, rows: Range<usize>, x: Vec<f64>) -> Point {
+    fn unplaced(&self, motion: &Motion, rows: &Range<usize>, x: Vec<f64>) -> Point {
         let mut q = vec![0.0; self.problem.positions()];
         for (target, positions, _) in self.problem.parts() {
-            let Timing::Free { .. } = target.timing else { continue };
-            for (k, position) in positions.enumerate() {
-                q[position] = self.turn[nearest(target, k, motion, rows.clone())];
+            let Timing::Free { is_ordered, .. } = target.timing else { continue };
+            let places = assign(target, is_ordered, motion, rows);
+            for (q, place) in q[positions].iter_mut().zip(places) {
+                *q = coordinate(place, rows.len());
             }
         }
         self.point(x, q)
     }
 }
 
-/// The position of a turn, of those that are solved, whose numbers miss those wanted at a point the least.
-fn nearest(target: &FitTarget, k: usize, motion: &Motion, rows: Range<usize>) -> usize {
-    let missed = |row: usize| -> f64 {
-        let of = |number: &super::target::TargetNumber| {
-            let width = if matches!(
-                number.quantity,
-                crate::batch::request::Quantity::Slide(_)
-                    | crate::batch::request::Quantity::Angle(_)
-            ) {
-                1
-            } else {
-                2
-            };
-            let value = series(motion, number.quantity)?.derivatives[0]
-                [row * width + number.axis.min(width - 1)];
-            let missed = value - number.wanted[k];
-            let missed =
-                if number.is_angle { super::residuals::within_half_turn(missed) } else { missed };
-            Some((number.weight * missed).powi(2))
-        };
-        target.numbers.iter().filter_map(of).sum()
-    };
-    let first = rows.start;
-    let mut best = (f64::INFINITY, 0);
-    for row in rows {
-        let missed = missed(row);
-        if missed < best.0 {
-            best = (missed, row - first);
+/// Sends points that have no order to nearer positions, where there are any.
+pub(super) fn send_to_nearest(
+    problem: &Problem,
+    points: &mut [&mut Point],
+    assembly: usize,
+    cancel: &AtomicBool,
+) -> Result<(), SolveError> {
+    let is_free = |timing: &Timing| matches!(timing, Timing::Free { is_ordered: false, .. });
+    let has_own_frame = |target: &FitTarget| target.freedom != Freedom::None;
+    if !problem.targets.iter().any(|target| is_free(&target.timing) && !has_own_frame(target)) {
+        return Ok(());
+    }
+    let designs = points.len();
+    let mut dimensions = vec![0.0; designs * problem.mechanism.dimensions().len()];
+    for (design, point) in points.iter().enumerate() {
+        problem.variables.write(&point.x, &mut dimensions, (design, designs));
+    }
+    let motion = problem.curves(&dimensions, assembly, cancel)?;
+    for (design, point) in points.iter_mut().enumerate() {
+        let rows = design * TRAVEL_POSITIONS..(design + 1) * TRAVEL_POSITIONS;
+        for (target, positions, _) in problem.parts() {
+            if !is_free(&target.timing) || has_own_frame(target) {
+                continue;
+            }
+            let places = assign(target, false, &motion, &rows);
+            for ((k, q), place) in point.q[positions].iter_mut().enumerate().zip(places) {
+                // A place that is a step away is the one where the point is already.
+                let new = coordinate(place, TRAVEL_POSITIONS);
+                if within_half_turn(new - *q).abs() > FAR * coordinate(1.0, TRAVEL_POSITIONS)
+                    && missed_at(target, k, &motion, &rows, *q)
+                        > missed_at(target, k, &motion, &rows, new)
+                {
+                    *q = new;
+                }
+            }
         }
     }
-    best.1
+    Ok(())
+}
+
+/// What the position of a turn that is nearest to a coordinate misses.
+fn missed_at(target: &FitTarget, k: usize, motion: &Motion, rows: &Range<usize>, q: f64) -> f64 {
+    let place = (q / TAU).rem_euclid(1.0) * rows.len() as f64;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the rows")]
+    let place = place.round() as usize % rows.len();
+    missed(target, k, motion, rows.start + place)
 }
 
 /// The curve of the point of a path.

@@ -1,5 +1,7 @@
 //! Targets: numbers that a motion is to have at positions of the driver.
 
+use std::f64::consts::TAU;
+
 use crate::batch::request::Quantity;
 
 /// One number of a motion, and what it is to be at each position.
@@ -135,4 +137,17 @@ impl FitTarget {
         }
         numbers
     }
+}
+
+/// Numbers of a quantity at a position.
+pub(super) fn width(quantity: Quantity) -> usize {
+    match quantity {
+        Quantity::Joint(_) | Quantity::Origin(_) | Quantity::Direction(_) => 2,
+        Quantity::Slide(_) | Quantity::Angle(_) => 1,
+    }
+}
+
+/// An angle less whole turns, in [−π, π].
+pub(super) fn within_half_turn(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
 }

@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-use super::conditions::{FitCondition, Multipliers};
+use super::conditions::FitCondition;
 use super::fit::Fit;
+use super::multipliers::Multipliers;
 use super::point::Point;
 use super::problem::{Compiled, FitRequest, TRAVEL_POSITIONS, Travel};
 use super::target::{FitTarget, Freedom, TargetNumber, Timing};
@@ -54,7 +55,6 @@ fn request(
 
 /// A point near the drawing, with every number that targets have.
 fn point(compiled: &Compiled, mechanism: &Mechanism, q: Vec<f64>) -> Point {
-    let problem = compiled.of(mechanism);
     let mut x = mechanism.drawing().to_vec();
     for (index, x) in x.iter_mut().enumerate() {
         *x += 0.01 * (index as f64 + 1.0);
@@ -62,7 +62,7 @@ fn point(compiled: &Compiled, mechanism: &Mechanism, q: Vec<f64>) -> Point {
     x.extend(compiled.targets.iter().flat_map(FitTarget::neutral));
     let count = x.len();
     x[count - 1] += 0.07;
-    Point { x, q, multipliers: Multipliers::new(&problem), ..Point::default() }
+    Point { x, q, multipliers: Multipliers::new(0, 1.0), ..Point::default() }
 }
 
 fn value(compiled: &Compiled, mechanism: &Mechanism, point: &mut Point) -> f64 {

@@ -113,6 +113,12 @@ impl Fit {
         Ok(self.lock()?.evaluations())
     }
 
+    /// Whether the best design misses nothing but rounding.
+    #[getter]
+    fn is_exact(&self) -> PyResult<bool> {
+        Ok(self.lock()?.is_exact())
+    }
+
     /// How often the best design was found.
     #[getter]
     fn agreeing(&self) -> PyResult<u64> {
