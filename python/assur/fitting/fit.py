@@ -14,7 +14,7 @@ from assur.fitting.designs import Asked, measured_designs, no_design
 from assur.fitting.effort import checked_effort, reporter
 from assur.fitting.fits import Fits
 from assur.fitting.goals import checked_goals, metric_unit
-from assur.fitting.limits import checked_limits
+from assur.fitting.limits import checked_limits, taken
 from assur.fitting.variables import checked_variables
 from assur.fitting.wanted import MOST_SEED
 
@@ -172,7 +172,7 @@ def fit(
         [
             *(limit.parts for limit in limits),
             *(
-                (near.metric, "near", near.value, metric_unit(name, near))
+                (taken(mechanism, near.metric), "near", near.value, metric_unit(name, near))
                 for name, near in metrics.items()
             ),
         ],

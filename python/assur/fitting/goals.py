@@ -63,8 +63,9 @@ def checked_goals(
     goals: list[Goal] = []
     metrics: dict[str, Near] = {}
     for name, target in targets.items():
-        checked_name(name, "targets") if not isinstance(target, Near) else None
+        checked_name(name, "targets")
         if isinstance(target, Near):
+            metric_unit(str(name), target)
             metrics[str(name)] = target
             continue
         known = _known(m, name, target)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from assur._arrays import short
 from assur.errors import InputError
 from assur.fitting.condition import Condition as Shown
-from assur.sweeps.terms import Condition, FullRotation, Metric
+from assur.sweeps.measuring import located
+from assur.sweeps.terms import Condition, FullRotation, Leaf, Metric
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -16,12 +19,15 @@ if TYPE_CHECKING:
 
 # By how much a limit is narrowed, over its unit: positions of the travel may miss an extreme by it.
 MARGIN = 5e-5
+TURN = np.linspace(0.0, 2.0 * np.pi, 256, endpoint=False)
 
 
 class Limit(NamedTuple):
-    """A condition: the metric, the limit, whether it is a least one, what counts as a miss of 1."""
+    """A condition, whether its limit is a least one, what counts as a miss of 1."""
 
     condition: Condition
+    # The metric as the core takes it.
+    metric: Metric
     is_least: bool
     unit: float
 
@@ -31,8 +37,8 @@ class Limit(NamedTuple):
         margin = MARGIN * self.unit
         limit = self.condition.limit
         if self.is_least:
-            return self.condition.metric, "at least", limit + margin, self.unit
-        return self.condition.metric, "at most", limit - margin, self.unit
+            return self.metric, "at least", limit + margin, self.unit
+        return self.metric, "at most", limit - margin, self.unit
 
     def shown(self, value: float) -> Shown:
         """Return it as a report shows it."""
@@ -55,5 +61,22 @@ def checked_limits(m: Mechanism, where: Any) -> tuple[list[Limit], bool]:
             must_turn = True
             continue
         unit = abs(condition.limit) or 1.0
-        limits.append(Limit(condition, condition.relation in (">", ">="), unit))
+        metric = taken(m, condition.metric)
+        limits.append(Limit(condition, metric, condition.relation in (">", ">="), unit))
     return limits, must_turn
+
+
+def taken(m: Mechanism, metric: Metric) -> Metric:
+    """Return a metric as the core takes it; refuse one that has no meaning for the mechanism."""
+    for leaf in metric.leaves():
+        if not isinstance(leaf, Leaf):
+            message = f"{leaf!r} has no gradient: fit cannot aim at it; rank what it found by it"
+            raise InputError(message)
+        if leaf.kind == "function_error":
+            message = f"{leaf!r}: pass the function as a target, {{'rocker': (theta, values)}}"
+            raise InputError(message)
+        refusal = m.core.refusal_of_metric(TURN, located(leaf, m, TURN))
+        if refusal is not None:
+            message = f"{leaf!r}: {refusal}"
+            raise InputError(message)
+    return located(metric, m, TURN)
