@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 
     from assur.kinematics.mechanism import Mechanism
 
-# By how much a limit is narrowed, over its unit: positions of the travel may miss an extreme by it.
-MARGIN = 5e-5
+# Positions at which names are checked.
 TURN = np.linspace(0.0, 2.0 * np.pi, 256, endpoint=False)
 
 
@@ -34,11 +33,8 @@ class Limit(NamedTuple):
     @property
     def parts(self) -> tuple[Metric, str, float, float]:
         """It as the core takes it."""
-        margin = MARGIN * self.unit
-        limit = self.condition.limit
-        if self.is_least:
-            return self.metric, "at least", limit + margin, self.unit
-        return self.metric, "at most", limit - margin, self.unit
+        word = "at least" if self.is_least else "at most"
+        return self.metric, word, self.condition.limit, self.unit
 
     def shown(self, value: float) -> Shown:
         """Return it as a report shows it."""

@@ -185,7 +185,8 @@ def test_bounds_and_ties_hold() -> None:
 
 def test_what_does_not_vary_stays() -> None:
     m = four_bar()
-    fit = assur.fit(m, {"P": path()}, closed=True, vary=["coupler.*"], evaluations=1)[0]
+    wanted = {"P": target.Path(path(), closed=True, ordered=False)}
+    fit = assur.fit(m, wanted, vary=["coupler.*"], evaluations=1)[0]
     for name, value in m.dimensions.items():
         if not name.startswith("coupler"):
             assert fit.mechanism.dimensions[name] == value
@@ -282,8 +283,8 @@ def test_what_is_refused(which: str) -> None:
 
 
 def test_impossible_goals_say_what_is_missed() -> None:
-    where = [metric.min_transmission_angle("C") > np.deg2rad(80.0), metric.max("C.x") < -5.0]
-    with pytest.raises(assur.FitError, match=r"still misses .*max\('C.x'\)"):
+    where = [metric.min_transmission_angle("C") > 1.57]
+    with pytest.raises(assur.FitError, match="still misses min_transmission_angle"):
         assur.fit(four_bar(), {"P": path()}, closed=True, where=where, evaluations=1)
     bounds = {"crank.length": (5.0, 6.0), "rocker.length": (0.1, 0.2), "ground.*": (-0.1, 0.1)}
     with pytest.raises(assur.FitError, match="turns fully"):

@@ -47,7 +47,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a third column of the path is the driver's coordinate, rad or m",
     )
     parser.add_argument(
-        "--scale", metavar="LENGTH", type=argument(numbers), help="the points' unit: 1mm; 1m"
+        "--scale",
+        dest="points_scale",
+        metavar="LENGTH",
+        type=argument(numbers),
+        help="the points' unit: 1mm; 1m",
     )
     parser.add_argument(
         "--vary", metavar="NAME", action="append", help="a dimension, coupler.*; all by default"
@@ -113,7 +117,7 @@ def run(arguments: argparse.Namespace) -> None:
 
 def _targets(arguments: argparse.Namespace, given: dict[str, Any]) -> dict[str, Any]:
     """Return the target of the file; a timing goes to the other arguments."""
-    scale = 1.0 if arguments.scale is None else arguments.scale.one(LENGTH, "--scale")
+    scale = 1.0 if arguments.points_scale is None else arguments.points_scale.one(LENGTH, "--scale")
     if arguments.path is not None:
         of = arguments.of or "P"
         if not arguments.timing:

@@ -3,13 +3,14 @@
 //! Each limit is a squared residual √μ·max(0, c + λ/μ), where c is by how much it is missed: see
 //! [`Multipliers`].
 
-use super::multipliers::Multipliers;
 use super::point::Point;
 use super::variables::Variables;
 use crate::sweep::Metric;
 
-/// A limit counts as kept if it is missed by less than this, in its unit.
-pub(super) const KEPT: f64 = 1e-6;
+/// Limits are narrowed by this part of their unit: positions of the travel may miss an extreme by as much. A limit
+/// counts as kept if it is missed by less than that.
+const MARGIN: f64 = 5e-5;
+pub(super) const KEPT: f64 = 4e-5;
 
 /// What a metric is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +40,32 @@ impl std::fmt::Debug for FitCondition {
     }
 }
 
+/// Sets by how much limits are missed.
+pub(super) fn set_misses(conditions: &[FitCondition], point: &mut Point, values: &[f64]) {
+    for ((condition, &value), miss) in
+        conditions.iter().zip(values).zip(&mut point.multipliers.misses)
+    {
+        *miss = match condition.aim {
+            Aim::Near(_) => 0.0,
+            Aim::AtMost(limit) => (value - limit) / condition.unit + MARGIN,
+            Aim::AtLeast(limit) => (limit - value) / condition.unit + MARGIN,
+        };
+        if miss.is_nan() {
+            point.value = f64::INFINITY;
+        }
+    }
+}
+
+/// Whether a condition counts where a point is: a target, or a limit that is missed or pressed upon.
+pub(super) fn is_active(conditions: &[FitCondition], point: &Point) -> bool {
+    let hinge = |index: usize| point.multipliers.hinge(index) > 0.0;
+    point.value.is_finite()
+        && conditions
+            .iter()
+            .enumerate()
+            .any(|(index, one)| matches!(one.aim, Aim::Near(_)) || hinge(index))
+}
+
 /// Adds conditions to a linearised point: their values and derivatives by the dimensions that move.
 pub(super) fn add_conditions(
     (conditions, variables): (&[FitCondition], &Variables),
@@ -46,36 +73,29 @@ pub(super) fn add_conditions(
     (values, gradients): (&[f64], &[&[f64]]),
 ) {
     let mut row = vec![0.0; point.x.len()];
-    let mut misfit = 0.0;
     for (index, condition) in conditions.iter().enumerate() {
-        let (value, unit) = (values[index], condition.unit);
         variables.chain(gradients[index], &mut row);
-        let Multipliers { misses, lambda, penalty, .. } = &mut point.multipliers;
         let (residual, scale) = match condition.aim {
             Aim::Near(wanted) => {
-                let residual = (value - wanted) / unit;
-                misfit += 0.5 * residual * residual;
-                (residual, 1.0 / unit)
+                let residual = (values[index] - wanted) / condition.unit;
+                point.misfit += 0.5 * residual * residual;
+                (residual, 1.0)
             }
-            Aim::AtMost(limit) | Aim::AtLeast(limit) => {
-                let side = if matches!(condition.aim, Aim::AtMost(_)) { 1.0 } else { -1.0 };
-                misses[index] = side * (value - limit) / unit;
-                let root = penalty.sqrt();
-                let hinge = (misses[index] + lambda[index] / *penalty).max(0.0);
-                // (max lets a value that is not a number pass as 0.)
-                let hinge = if misses[index].is_nan() { f64::NAN } else { hinge };
+            Aim::AtMost(_) | Aim::AtLeast(_) => {
+                let hinge = point.multipliers.hinge(index);
                 if hinge == 0.0 {
                     continue;
                 }
-                (root * hinge, side * root / unit)
+                let side = if matches!(condition.aim, Aim::AtMost(_)) { 1.0 } else { -1.0 };
+                let root = point.multipliers.penalty.sqrt();
+                (root * hinge, side * root)
             }
         };
         for derivative in &mut row {
-            *derivative *= scale;
+            *derivative *= scale / condition.unit;
         }
         point.value += point.normal.add_row(residual, &row);
     }
-    point.misfit += misfit;
     if !point.value.is_finite() {
         point.value = f64::INFINITY;
     }

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
-use super::conditions::add_conditions;
+use super::conditions::{add_conditions, is_active, set_misses};
 use super::point::Point;
 use super::problem::{Problem, TRAVEL_POSITIONS, Travel, between, series, turn};
 use super::residuals::{Solved, linearize};
@@ -40,7 +40,7 @@ impl Problem<'_> {
             q.extend_from_slice(&point.q);
         }
         let (signs, control) = (&self.assemblies[assembly], self.control(cancel));
-        let measured = self.measure(points, &dimensions, (signs, travel), &control)?;
+        let measured = self.measure(&dimensions, &q, (signs, travel), false, &control)?;
         let coordinates = Coordinates::PerDesign(&q);
         let motion = self.mechanism.solve_with(
             &Request {
@@ -65,7 +65,7 @@ impl Problem<'_> {
         let series = self.quantities.iter().filter_map(|&(quantity, _)| series(&motion, quantity));
         let solved =
             Solved { series: series.collect(), derivatives: &derivatives, status: &status };
-        let width = self.variables.by.len();
+        let mut active = vec![];
         for (design, point) in points.iter_mut().enumerate() {
             if !measured.kept[design] {
                 point.value = f64::INFINITY;
@@ -73,25 +73,46 @@ impl Problem<'_> {
             }
             linearize(self, &solved, design, point);
             let values: Vec<f64> = measured.values.iter().map(|all| all[design]).collect();
+            set_misses(&self.conditions, point, &values);
+            if is_active(&self.conditions, point) {
+                active.push(design);
+            }
+        }
+        if active.is_empty() {
+            return Ok(());
+        }
+        let dimensions: Vec<f64> = dimensions
+            .chunks_exact(designs)
+            .flat_map(|each| active.iter().map(|&design| each[design]))
+            .collect();
+        let count = self.positions();
+        let q: Vec<f64> =
+            active.iter().flat_map(|&design| &q[design * count..][..count]).copied().collect();
+        let measured = self.measure(&dimensions, &q, (signs, travel), true, &control)?;
+        let width = self.variables.by.len();
+        for (place, &design) in active.iter().enumerate() {
+            let values: Vec<f64> = measured.values.iter().map(|all| all[place]).collect();
             let gradients = measured.gradients.iter();
             let gradients: Vec<&[f64]> =
-                gradients.map(|all| &all[design * width..][..width]).collect();
-            add_conditions((&self.conditions, &self.variables), point, (&values, &gradients));
+                gradients.map(|all| &all[place * width..][..width]).collect();
+            let of = (&*self.conditions, &self.variables);
+            add_conditions(of, points[design], (&values, &gradients));
         }
         Ok(())
     }
 
-    /// Whether designs move over their travel, and the metrics of conditions there, with their gradients.
+    /// Whether designs move over their travel, and the metrics of conditions there.
     fn measure(
         &self,
-        points: &[&mut Point],
         dimensions: &[f64],
+        q: &[f64],
         (signs, travel): (&[i8], usize),
+        has_gradients: bool,
         control: &Control<'_>,
     ) -> Result<Measured, SolveError> {
         let metrics: Vec<&dyn Metric> =
             self.conditions.iter().map(|one| &*one.metric as &dyn Metric).collect();
-        let of: Vec<usize> = (0..metrics.len()).collect();
+        let of: Vec<usize> = (0..if has_gradients { metrics.len() } else { 0 }).collect();
         let gradients = Gradients { of: &of, by: &self.variables.by };
         let measure = |dimensions: &[f64], q: &[f64]| {
             let sweep =
@@ -102,16 +123,16 @@ impl Problem<'_> {
             return measure(dimensions, &turn(travel));
         }
         if self.targets.iter().all(|target| matches!(target.timing, Timing::Fixed(_))) {
-            return measure(dimensions, &between(&points[0].q, travel));
+            return measure(dimensions, &between(&q[..self.positions()], travel));
         }
         // Each design has a travel of its own.
-        let designs = points.len();
+        let designs = dimensions.len() / self.mechanism.dimensions().len();
         let mut all = Measured::default();
-        for (design, point) in points.iter().enumerate() {
+        for (design, q) in q.chunks_exact(self.positions()).enumerate() {
             let own: Vec<f64> = dimensions.iter().skip(design).step_by(designs).copied().collect();
-            let one = measure(&own, &between(&point.q, travel))?;
-            all.values.resize(metrics.len(), vec![]);
-            all.gradients.resize(metrics.len(), vec![]);
+            let one = measure(&own, &between(q, travel))?;
+            all.values.resize(one.values.len(), vec![]);
+            all.gradients.resize(one.gradients.len(), vec![]);
             for (all, one) in all.values.iter_mut().zip(one.values) {
                 all.extend(one);
             }

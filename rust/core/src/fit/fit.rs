@@ -18,9 +18,9 @@ use crate::search::for_all::for_all;
 const DESIGNS: usize = 2048;
 const BLOCK: usize = 128;
 /// Stages of a round.
-const STAGES: [Stage; 3] = [stage(64, 12), stage(24, 30), stage(8, 200)];
+const STAGES: [Stage; 4] = [stage(64, 12), stage(24, 30), stage(8, 200), stage(3, 800)];
 /// The same where conditions have limits: their multipliers change between stages.
-const CONDITION_STAGES: [Stage; 8] = [
+const CONDITION_STAGES: [Stage; 9] = [
     stage(64, 12),
     stage(24, 30),
     stage(8, 30),
@@ -28,7 +28,8 @@ const CONDITION_STAGES: [Stage; 8] = [
     stage(8, 30),
     Stage { travel: FINE_POSITIONS, ..stage(8, 30) },
     Stage { travel: FINE_POSITIONS, ..stage(8, 30) },
-    Stage { travel: FINE_POSITIONS, ..stage(8, 60) },
+    Stage { travel: FINE_POSITIONS, ..stage(6, 60) },
+    Stage { travel: FINE_POSITIONS, ..stage(3, 200) },
 ];
 /// Designs that descend side by side.
 const SIDE_BY_SIDE: usize = 16;

@@ -11,8 +11,7 @@ const FALLS: f64 = 0.25;
 pub(super) struct Multipliers {
     /// In units; not positive where a limit is kept.
     pub misses: Vec<f64>,
-    /// λ and μ.
-    pub lambda: Vec<f64>,
+    lambda: Vec<f64>,
     pub penalty: f64,
     /// The worst miss after the last descent.
     worst: f64,
@@ -27,6 +26,11 @@ impl Multipliers {
             penalty: PENALTY * size,
             worst: f64::INFINITY,
         }
+    }
+
+    /// By how much a limit presses: max(0, c + λ/μ).
+    pub(super) fn hinge(&self, index: usize) -> f64 {
+        (self.misses[index] + self.lambda[index] / self.penalty).max(0.0)
     }
 
     /// The worst miss, in units.
