@@ -81,7 +81,7 @@ impl PoseError {
                 points.push([x, y, turned]);
                 owners.push(owner);
                 turned += TAU;
-                if !(turned <= range[1] + PI) {
+                if turned > range[1] + PI {
                     break;
                 }
             }
