@@ -18,7 +18,15 @@ NUMBERS: dict[str, tuple[str, ...]] = {
     "acceleration": (),
     "fluctuation": (),
     "mean_speed": (ROTARY,),
+    "theta": (ANGLE, LENGTH),
+    "value": (ANGLE, LENGTH),
+    "length": (LENGTH,),
+    "points": (LENGTH,),
+    "poses": (LENGTH, ANGLE),
 }
+# Several numbers, and rows of them: ((0, 10mm), (5mm, 20mm)).
+LISTS = ("over", "theta", "value")
+ROWS = ("points", "poses")
 FLAGS = {"true": True, "false": False}
 
 
@@ -36,13 +44,16 @@ def parts(inside: str) -> list[str]:
 
 def argument_of(name: str, text: str) -> Any:
     """Return an argument of a metric by the kind of its parameter."""
+    if name in ROWS:
+        rows = [parts(_inside(row.strip())) for row in parts(_inside(text))]
+        return [[_numbers(name, number) for number in row] for row in rows]
     if name in NUMBERS:
         return _numbers(name, _inside(text))
     if name == "between":
         return tuple(_unquoted(end) for end in parts(_inside(text)))
     if name == "order":
         return int(text) if re.fullmatch(r"\d", text, re.ASCII) else text
-    if name == "relative":
+    if name in ("relative", "closed"):
         return FLAGS.get(text.lower(), text)
     return _unquoted(text)
 
@@ -56,7 +67,7 @@ def _numbers(name: str, text: str) -> Any:
     if parsed.unit is not None and UNITS[parsed.unit][0] not in NUMBERS[name]:
         message = f"{name}={text}: its unit cannot be {parsed.unit}"
         raise InputError(message)
-    values = np.atleast_1d(parsed.values) if name == "over" else parsed.values
+    values = np.atleast_1d(parsed.values) if name in LISTS else parsed.values
     return values.tolist()
 
 

@@ -215,9 +215,8 @@ def no_design(
             for limit, miss in zip(asked.limits, nearest[5], strict=False)
             if miss > 0.0
         ]
-        message = f"no design keeps all conditions: {tried}; the best still misses " + ", ".join(
-            missed
-        )
+        what = ", ".join(missed)
+        message = f"no design keeps all conditions: {tried}; the best still misses {what}"
         hint = "relax what is missed, widen the bounds, or go on for longer"
     elif rejected:
         message = f"no design passes the solver's proof: {tried}, {rejected} were refused"

@@ -27,8 +27,6 @@ TARGETS = ("path_error", "function_error", "pose_error")
 # Coordinates with ten digits are those of q.
 SAME = 1e-9
 
-Free = Literal["fixed", "free"]
-
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Numbers(ByValue):
@@ -118,8 +116,8 @@ def function_error(
     theta: npt.ArrayLike,
     value: npt.ArrayLike,
     *,
-    offset: Free = "fixed",
-    scale: Free = "fixed",
+    offset: Literal["fixed", "free"] = "fixed",
+    scale: Literal["fixed", "free"] = "fixed",
 ) -> Metric:
     """How far a coordinate is from a function of the driver's coordinate: an error of rms.
 

@@ -41,7 +41,9 @@ pub(crate) fn measure<'py>(
     let sweep =
         Sweep { dimensions, q, signs, metrics: &metrics, conditions: &conditions, gradients };
     let designs = dimensions.len() / mechanism.dimensions().len().max(1);
-    let small = is_short(mechanism, designs, q.len());
+    let efforts = metrics.iter().map(|metric| metric.effort());
+    let effort = efforts.fold(1, usize::saturating_add);
+    let small = is_short(mechanism, designs, q.len().saturating_mul(effort));
     let numbers = metrics.len() + 2 + of.len().saturating_mul(by.len());
     let _room = reserve::room_for(py, designs.saturating_mul(numbers))?;
     let measured = detach::run(py, small, |cancel| {

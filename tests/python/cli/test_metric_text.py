@@ -35,6 +35,18 @@ DEG = math.pi / 180
             metric.deviation("P", shape="circle", part=0.25, relative=True),
         ),
         ("time_ratio(bore)", metric.time_ratio("bore")),
+        (
+            "path_error(P, points=((0, 0), (10mm, 0), (0, 20mm)), kind=chamfer, closed=true)",
+            metric.path_error("P", [(0, 0), (0.01, 0), (0, 0.02)], kind="chamfer", closed=True),
+        ),
+        (
+            "function_error(rocker, theta=(0, 90deg), value=(1, 1.5), offset=free)",
+            metric.function_error("rocker", [0, 90 * DEG], [1, 1.5], offset="free"),
+        ),
+        (
+            "pose_error(coupler, ((5mm, 0, 90deg)), length=10mm)",
+            metric.pose_error("coupler", [(0.005, 0, 90 * DEG)], length=0.01),
+        ),
         ("reachable()", metric.reachable()),
         ("peak_reaction(B, on=rod, speed=2)", metric.peak_reaction("B", on="rod", speed=2.0)),
         ("peak_effort(speed=(1, 2))", metric.peak_effort(speed=[1.0, 2.0])),
@@ -85,7 +97,7 @@ def test_every_argument_is_read_as_what_it_is(name: str) -> None:
     """A number, a flag or a pair would else reach the function as text."""
     for parameter in inspect.signature(getattr(metric, name)).parameters.values():
         if not parameter.annotation.startswith(("str", "Literal", "Mean")):
-            text = "true" if parameter.annotation == "bool" else "1"
+            text = "true" if parameter.annotation.startswith("bool") else "1"
             assert not isinstance(argument_of(parameter.name, text), str), parameter
 
 

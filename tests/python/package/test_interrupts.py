@@ -142,6 +142,7 @@ LONG: dict[str, Callable[[int], Callable[[], object]]] = {
     "designs of class IV": lambda n: _solve_designs(_class_iv(n)),
     "metrics": lambda n: _measure(_class_iv(n)),
     "metrics of many positions": lambda n: _measure(_class_iv(1), 100 * n),
+    "the path to a large target": lambda n: _to_target(10 * n),
     "a sweep in blocks": lambda n: _sweep(_class_iv(n)),
     "designs that move": lambda n: partial(assur.sweep, _class_iv(n), {}, [0.3], on_error="drop"),
     "assemblies": lambda n: partial(_many_assemblies(n).assemblies, 0.1),
@@ -328,6 +329,14 @@ def _measure(m: assur.Mechanism, positions: int = 8) -> Callable[[], object]:
     asked = {"off": assur.metric.deviation("8"), "swing": assur.metric.span("l48", order=1)}
     q = np.linspace(0.3, 0.4, positions)
     return lambda: assur.sweep(m, {}, q, metrics=asked)
+
+
+def _to_target(count: int) -> Callable[[], object]:
+    """Many pairs of few positions and many points."""
+    points = np.random.default_rng(0).normal(size=(count, 2))
+    asked = {"off": assur.metric.path_error("C", points)}
+    q = np.linspace(0.0, 6.0, 5000)
+    return lambda: assur.sweep(assur.FourBar(1.0, 3.0, 2.5, 3.0), {}, q, metrics=asked)
 
 
 def _sweep(m: assur.Mechanism) -> Callable[[], object]:

@@ -209,8 +209,9 @@ def test_designs_and_threads() -> None:
             assert measured(alone, TURN, one) == found[0][name][design]
 
 
-PATH, POSE = metric.path_error, metric.pose_error
-FUNCTION = metric.function_error
+PATH: Any = metric.path_error
+FUNCTION: Any = metric.function_error
+POSE: Any = metric.pose_error
 REFUSED: dict[str, tuple[Any, str]] = {
     "no points": (lambda: PATH("P", []), "points: it is empty"),
     "one point": (lambda: PATH("P", [(1, 2)]), "one point has no size: two different ones"),

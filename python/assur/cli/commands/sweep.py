@@ -42,7 +42,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         parser,
         "Measure every combination of some dimensions (--vary), or the designs of a table\n"
         "(--designs). Metrics are those of assur.metric: span(B.x), min(bore), max,\n"
-        "mean, rms, min_transmission_angle(C), deviation(P, line, part=0.5), time_ratio(bore);\n"
+        "mean, rms, min_transmission_angle(C), deviation(P, line, part=0.5), time_ratio(bore),\n"
+        "path_error(P, ((0, 0), (10mm, 5mm)), kind=chamfer);\n"
         "of a machine peak_reaction(B, speed=20), peak_effort(); with order=1, over=(0,90deg),\n"
         "between=(B,D); with + - * / and numbers. A design that does not move over all\n"
         "positions, or misses a condition, has NaN; if no design is left, the exit status is 3.\n"

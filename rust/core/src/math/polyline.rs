@@ -176,7 +176,11 @@ mod tests {
                     let on = line.point(place);
                     (0..3).map(|k| (on[k] - point[k]).powi(2)).sum::<f64>()
                 };
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "it is the index of a segment"
+                )]
                 let segment = segment as usize;
                 assert!((off(Place { segment, part }) - least).abs() < 1e-14);
                 for segment in 0..line.len() {

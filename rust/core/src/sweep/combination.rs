@@ -158,6 +158,10 @@ impl Metric for Combination {
         self.metrics().all(|metric| metric.with_slopes().is_some()).then_some(self)
     }
 
+    fn effort(&self) -> usize {
+        self.metrics().map(Metric::effort).fold(0, usize::saturating_add)
+    }
+
     fn check(&self, course: &Course<'_>) -> Result<(), String> {
         self.metrics().try_for_each(|metric| metric.check(course))
     }

@@ -146,6 +146,12 @@ pub trait Metric: Sync {
         false
     }
 
+    /// About how many positions can be solved in the time that it takes for one: a caller checks for signals
+    /// during calls that take long.
+    fn effort(&self) -> usize {
+        0
+    }
+
     /// Of what it is the mean, if it is one: then it has a gradient.
     fn mean_of(&self) -> Option<MeanOf> {
         None
@@ -200,6 +206,10 @@ impl<M: Metric + ?Sized + Send> Metric for Box<M> {
 
     fn asks_return(&self) -> bool {
         self.as_ref().asks_return()
+    }
+
+    fn effort(&self) -> usize {
+        self.as_ref().effort()
     }
 
     fn mean_of(&self) -> Option<MeanOf> {

@@ -116,6 +116,10 @@ impl<M: Metric> Metric for Part<M> {
         self.metric.asks_return()
     }
 
+    fn effort(&self) -> usize {
+        self.metric.effort()
+    }
+
     fn check(&self, course: &Course<'_>) -> Result<(), String> {
         course.check_one_driver("a part of the positions")?;
         let Chosen { places, passes_end, is_one_stretch } = self.choose(course.q);

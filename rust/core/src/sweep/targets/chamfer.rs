@@ -24,11 +24,11 @@ impl<'c> Chamfer<'c> {
 
     pub(super) fn value(&self) -> f64 {
         let sum: f64 = self.to_curve.iter().map(|foot| foot.square.sqrt()).sum();
-        sum / self.to_curve.len() as f64 + self.from_curve()
+        sum / self.to_curve.len() as f64 + self.mean_to_target()
     }
 
     /// The mean distance from the curve to the target; of a point at rest its distance.
-    fn from_curve(&self) -> f64 {
+    fn mean_to_target(&self) -> f64 {
         let total = self.curve.line.total();
         if total == 0.0 {
             return self.to_target.first().map_or(f64::NAN, |foot| foot.square.sqrt());
@@ -58,7 +58,7 @@ impl<'c> Chamfer<'c> {
             }
             return slopes;
         }
-        let mean = self.from_curve();
+        let mean = self.mean_to_target();
         for segment in 0..self.curve.line.len() {
             let half = 0.5 * self.curve.line.length(segment) / total;
             for corner in self.curve.line.ends(segment) {

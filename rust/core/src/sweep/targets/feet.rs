@@ -9,6 +9,14 @@ use crate::sweep::metric::Positions;
 /// Points between two checks whether the caller has cancelled the work.
 const POINTS: usize = 8 * LANES;
 
+/// Pairs of a point and a segment in the time that a position takes.
+const PAIRS: usize = 4;
+
+/// The [effort](crate::sweep::Metric::effort) of so many points or segments beside each position.
+pub(super) fn effort(count: usize) -> usize {
+    count.div_ceil(PAIRS)
+}
+
 /// The nearest place of a polyline to a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Foot<const D: usize> {

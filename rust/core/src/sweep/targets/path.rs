@@ -2,9 +2,9 @@
 
 use super::chamfer::Chamfer;
 use super::curve::{Curve, CurveSlopes};
-use super::feet::feet;
+use super::feet::{effort, feet};
 use super::ordered::Ordered;
-use super::path_target::{Frame, LineTarget, points_in_frame};
+use super::path_target::{Frame, LineTarget, SAMPLES, points_in_frame};
 use crate::batch::request::Quantity;
 use crate::sweep::metric::{Metric, Need, Positions, Slopes};
 
@@ -101,6 +101,15 @@ impl Metric for PathError {
 
     fn asks_return(&self) -> bool {
         true
+    }
+
+    fn effort(&self) -> usize {
+        match &self.target {
+            Target::Points(points) => effort(points.len()),
+            Target::Chamfer(target) | Target::Ordered(target) => {
+                effort(SAMPLES + target.line.len())
+            }
+        }
     }
 
     fn with_slopes(&self) -> Option<&dyn Slopes> {

@@ -1,6 +1,6 @@
 //! How far a link passes from given poses.
 
-use super::feet::{Foot, feet};
+use super::feet::{Foot, effort, feet};
 use super::path_target::points_in_frame;
 use std::f64::consts::{PI, TAU};
 
@@ -81,7 +81,7 @@ impl PoseError {
                 points.push([x, y, turned]);
                 owners.push(owner);
                 turned += TAU;
-                if !(turned <= range[1] + PI) {
+                if turned > range[1] + PI {
                     break;
                 }
             }
@@ -118,6 +118,10 @@ impl Metric for PoseError {
 
     fn asks_return(&self) -> bool {
         true
+    }
+
+    fn effort(&self) -> usize {
+        effort(self.poses.len())
     }
 
     fn with_slopes(&self) -> Option<&dyn Slopes> {
