@@ -33,6 +33,7 @@ MOMENT = np.array([0.0, 40.0, 20.0, -30.0, 10.0, -50.0, 0.0])
 INERTIA = np.array([2.0, 3.0, 4.0, 2.0, 3.0, 4.0, 2.0])
 FOUR_BAR = assur.FourBar(1.0, 3.0, 2.5, 3.0)
 MOTION = FOUR_BAR.solve([0.5, 1.0, 1.5], order=3)
+TRACED = assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0))
 SWING = {"swing": assur.metric.span("rocker")}
 FIVE_BAR = assur.Mechanism(
     joints={"A": (0, 0), "B": (0.3, 1), "C": (1.4, 2), "D": (2.5, 0.9), "E": (2, 0)},
@@ -195,6 +196,16 @@ IN_DEGREES = {
     ),
     "Machine.internal_loads.deg": Entry(
         lambda deg: MACHINE.internal_loads("coupler", deg=deg).moment, numbers(30.0)
+    ),
+    "assur.fit.targets": Entry(
+        lambda points: assur.fit(TRACED, {"P": points}, closed=False, evaluations=1)[0].q,
+        (np.array([[0.0, 2.0], [0.0, 0.5], [0.4, 0.0], [1.2, 0.2]]),),
+    ),
+    "assur.fit.timing": Entry(
+        lambda timing: assur.fit(
+            TRACED, {"P": [(0.0, 2.0), (0.0, 0.5), (0.4, 0.0)]}, timing=timing, evaluations=1
+        )[0].q,
+        (np.array([0.1, 0.4, 0.7]),),
     ),
     "assur.search.targets": Entry(
         lambda points: assur.search({"P": points}, joints=5, evaluations=1)[0].q,

@@ -318,7 +318,10 @@ def _of_searches() -> Iterable[tuple[str, Call]]:
     few = {"evaluations": 1, "time_limit": 0.5}
     yield "search", call(assur.search, targets={"P": hook}, joints=5, **few)
     found = assur.search({"P": hook}, joints=5, evaluations=1)
-    yield from named("Fit", found[0], plot={})
+    yield from named("LinkageFit", found[0], plot={})
+    four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0))
+    yield "fit", call(assur.fit, mechanism=four_bar, targets={"P": hook}, **few)
+    yield from named("Fit", assur.fit(four_bar, {"P": hook}, evaluations=1)[0])
     yield from named("Fits", found, resume=few, save={"folder": "found"})
 
 

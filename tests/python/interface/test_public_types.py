@@ -28,6 +28,9 @@ WIDE = {
     "Future.": "the same: the result of any call",
     "Source.": "what a file has in a number's place, for messages; fields of an error",
     "Fits.resume(progress)": "what a function of the user returns is not looked at",
+    "fit(progress)": "the same",
+    "fit(targets)": "points, pairs of arrays, or classes of assur.target: each is checked",
+    "fit(ties)": "names, and a number that may follow",
     "search(progress)": "the same",
     "sweep(progress)": "the same",
 }

@@ -90,6 +90,12 @@ def searched() -> assur.Fits:
     return assur.search({"the_traced_joint_of_the_path": HOOK}, evaluations=1)
 
 
+@functools.cache
+def fitted() -> assur.Fits:
+    four_bar = assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0))
+    return assur.fit(four_bar, {"P": HOOK}, evaluations=1)
+
+
 def refusal() -> assur.StructureError:
     with pytest.raises(assur.StructureError) as refused:
         assur.Mechanism(
@@ -143,7 +149,9 @@ MADE: dict[str, Callable[[], object]] = {
         "full_rotation",
         {"coupler.length": np.linspace(2, 4, 9), "rocker.length": np.linspace(2, 4, 9)},
     ),
+    "DesignFit": lambda: fitted()[0],
     "Fit": lambda: searched()[0],
+    "LinkageFit": lambda: searched()[0],
     "Fits": searched,
     "Force": lambda: assur.Force("B", (long_table(), force)),
     "FourBar": batch,

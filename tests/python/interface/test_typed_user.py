@@ -159,13 +159,20 @@ def test_a_flywheel_is_handed_on() -> None:
 
 def test_search(tmp_path: Path) -> None:
     found = assur.search({"P": [(0.0, 0.0), (1.0, 0.2), (2.0, 0.0)]}, joints=6, evaluations=1)
-    assert_type(found, assur.Fits)
-    assert_type(found.resume(evaluations=1), assur.Fits)
+    assert_type(found, assur.Fits[assur.LinkageFit])
+    assert_type(found.resume(evaluations=1), assur.Fits[assur.LinkageFit])
     assert_type(found[0], assur.LinkageFit)
     assert_type(found[0].mechanism, assur.Mechanism)
     assert_type(found[0].error, float)
     assert_type(found[0].mechanism.solve(found[0].q), assur.Motion)
     assert found.save(tmp_path)[0].parent == tmp_path
+    m = assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0))
+    wanted = assur.target.Path([(0.0, 0.0), (1.0, 0.2), (2.0, 0.0)], ordered=False)
+    where = [assur.metric.min_transmission_angle("C") > 0.1]
+    fits = assur.fit(m, {"P": wanted}, vary="*", where=where, evaluations=1)
+    assert_type(fits, assur.Fits[assur.DesignFit])
+    assert_type(fits[0].errors["P"], float)
+    assert_type(fits[0].report(), str)
 
 
 def test_sweep(tmp_path: Path) -> None:

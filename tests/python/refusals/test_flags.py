@@ -162,7 +162,13 @@ CALLS: dict[str, Callable[..., Any]] = {
     "plot_deviation": lambda _, **f: slider_crank.plot_deviation(**f),
     "sweep": lambda _, **f: swept(**f),
     "search": lambda _, **f: assur.search({"P": [(0.0, 0.0), (1.0, 0.0)]}, **f),
-    "Fit.plot": lambda _, **f: found()[0].plot(**f),
+    "fit": lambda _, **f: assur.fit(
+        assur.FourBar(1.0, 3.0, 2.5, 3.0, point=(1.5, 1.0)),
+        {"P": [(0.0, 0.0), (1.0, 0.0)]},
+        evaluations=1,
+        **f,
+    ),
+    "LinkageFit.plot": lambda _, **f: found()[0].plot(**f),
     "Fits.resume": lambda _, **f: found().resume(**f),
 }
 

@@ -7,7 +7,7 @@ use super::conditions::KEPT as MISS;
 use super::descend::{Stage, descend};
 use super::place::{Placing, drives_from_the_frame};
 use super::point::Point;
-use super::problem::{Compiled, FINE_POSITIONS, FitRequest, Problem, TRAVEL_POSITIONS};
+use super::problem::{Compiled, FitRequest, Problem};
 use super::start::{Start, Starts};
 use super::target::Freedom;
 use crate::description::error::SolveError;
@@ -17,19 +17,24 @@ use crate::search::for_all::for_all;
 /// Random designs of a round, and of a block of them.
 const DESIGNS: usize = 2048;
 const BLOCK: usize = 128;
-/// Stages of a round.
-const STAGES: [Stage; 4] = [stage(64, 12), stage(24, 30), stage(8, 200), stage(3, 800)];
-/// The same where conditions have limits: their multipliers change between stages.
-const CONDITION_STAGES: [Stage; 9] = [
-    stage(64, 12),
-    stage(24, 30),
-    stage(8, 30),
-    stage(8, 30),
-    stage(8, 30),
-    Stage { travel: FINE_POSITIONS, ..stage(8, 30) },
-    Stage { travel: FINE_POSITIONS, ..stage(8, 30) },
-    Stage { travel: FINE_POSITIONS, ..stage(6, 60) },
-    Stage { travel: FINE_POSITIONS, ..stage(3, 200) },
+/// Positions of the travel in the stages of a round.
+const EARLY: usize = 128;
+const LATE: usize = 256;
+const FINE: usize = 512;
+/// Stages of a round: how many descend, by how many steps, over how many positions of the travel. Multipliers of
+/// conditions change between stages.
+///
+/// Where a dyad nearly folds, the square of its transmission angle changes by about the square of the driver's step:
+/// half a step of the first stages is 0.025, of the last 0.006.
+const STAGES: [Stage; 8] = [
+    stage(64, 12, EARLY),
+    stage(24, 30, EARLY),
+    stage(8, 40, LATE),
+    stage(8, 40, LATE),
+    stage(8, 40, LATE),
+    stage(8, 60, FINE),
+    stage(4, 100, FINE),
+    stage(3, 600, FINE),
 ];
 /// Designs that descend side by side.
 const SIDE_BY_SIDE: usize = 16;
@@ -38,8 +43,8 @@ const KEPT: usize = 16;
 /// Designs whose numbers differ by less than this part are the same.
 const SAME: f64 = 1e-4;
 
-const fn stage(count: usize, steps: usize) -> Stage {
-    Stage { count, steps, travel: TRAVEL_POSITIONS }
+const fn stage(count: usize, steps: usize, travel: usize) -> Stage {
+    Stage { count, steps, travel }
 }
 
 /// Sums of squares below this part of the target's size are rounding.
@@ -163,9 +168,7 @@ impl Fit {
     /// [`SolveError::Interrupted`]: what was found before stays.
     pub fn round(&mut self, mechanism: &Mechanism, cancel: &AtomicBool) -> Result<(), SolveError> {
         let mut starts = self.starts(mechanism, cancel)?;
-        let stages: &[Stage] =
-            if self.compiled.conditions.is_empty() { &STAGES } else { &CONDITION_STAGES };
-        for &stage in stages {
+        for stage in STAGES {
             starts.sort_by(best_first);
             starts.truncate(stage.count);
             starts = self.descend(mechanism, starts, stage, cancel)?;

@@ -14,10 +14,8 @@ use crate::math::simd::Simd;
 use crate::plan::mechanism::Mechanism;
 use crate::state::status::Status;
 
-/// Positions at which a design is checked over its travel, and of which its curve is made: eight registers of eight
-/// lanes; and in the last descents.
+/// Positions of the turn of which a curve is made: eight registers of eight lanes.
 pub(super) const TRAVEL_POSITIONS: usize = 64;
-pub(super) const FINE_POSITIONS: usize = 256;
 
 /// The positions over which a design must move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
