@@ -1,5 +1,6 @@
 //! Search for the linkage that draws a path: structure and dimensions.
 
+mod cholesky;
 mod evolve;
 mod for_all;
 mod levenberg_marquardt;

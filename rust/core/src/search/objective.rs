@@ -12,7 +12,7 @@
 use std::f64::consts::TAU;
 
 use super::nearest::{Feet, Points, Polyline, nearest};
-use super::normal::{CurveSegment, DistanceRow, Normal, OrderedRow, Rows, assemble};
+use super::normal::{ByPositions, Normal, assemble};
 use super::target::Target;
 use crate::batch::dispatch::Entry;
 use crate::math::vector::Vector;
@@ -87,7 +87,9 @@ pub(crate) struct Workspace {
     to_target: Feet,
     weights: Vec<f64>,
     jacobian: Jacobian,
-    rows: Rows,
+    by_positions: ByPositions,
+    /// Derivatives of the objective by the lengths of the curve's segments.
+    by_lengths: Vec<f64>,
     /// Evaluations of objectives so far.
     pub evaluations: u64,
 }
@@ -241,47 +243,53 @@ impl<'t> Objective<'t> {
     ) {
         let Workspace { angles, course, weights, jacobian: derivatives, .. } = work;
         jacobian::<L>(linkage, angles, course, weights, derivatives);
-        self.collect_rows(work);
-        assemble::<L>(&work.rows, &work.jacobian, normal);
+        self.differentiate(work);
+        assemble::<L>(&mut work.by_positions, &work.jacobian, normal);
         self.add_barriers(linkage, work, normal);
     }
 
-    fn collect_rows(&self, work: &mut Workspace) {
-        let mut rows = std::mem::take(&mut work.rows);
-        rows.segments.clear();
-        rows.segments.extend(work.line.segments.iter().map(|segment| {
-            let length = segment.vector.norm();
-            let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-            CurveSegment { along: segment.vector.scale(inverse), by_length: 0.0 }
-        }));
-        rows.distances.clear();
+    /// The objective as a function of the curve's positions.
+    fn differentiate(&self, work: &mut Workspace) {
+        let mut function = std::mem::take(&mut work.by_positions);
+        let mut by_lengths = std::mem::take(&mut work.by_lengths);
+        function.clear(work.curve.count);
+        by_lengths.clear();
+        by_lengths.resize(work.line.segments.len(), 0.0);
         if let Some(epsilon) = self.fineness.epsilon {
-            self.collect_distances(epsilon, work, &mut rows);
+            self.differentiate_distances(epsilon, work, (&mut function, &mut by_lengths));
         }
-        rows.ordered.clear();
-        rows.ordered_root = (2.0 * self.ordered_weight()).sqrt();
-        let root = rows.ordered_root;
-        self.for_each_place(work, |k, from, part, off| {
-            let length_part = self.length_part(k);
-            rows.ordered.push(OrderedRow { from, part, length_part, residual: off.scale(root) });
-        });
-        work.rows = rows;
+        self.differentiate_places(work, (&mut function, &mut by_lengths));
+        for (t, segment) in work.line.segments.iter().enumerate() {
+            let length = segment.vector.norm();
+            if length > 0.0 {
+                function.add_length_slope(t, segment.vector.scale(1.0 / length), by_lengths[t]);
+            }
+        }
+        work.by_positions = function;
+        work.by_lengths = by_lengths;
     }
 
-    /// The rows of both halves of the Chamfer distance: a distance r of weight w has the slope w r / √(r² + ε²).
-    fn collect_distances(&self, epsilon: f64, work: &Workspace, rows: &mut Rows) {
+    /// Both halves of the Chamfer distance: a distance r of weight w has the slope w r / √(r² + ε²).
+    fn differentiate_distances(
+        &self,
+        epsilon: f64,
+        work: &Workspace,
+        (function, by_lengths): (&mut ByPositions, &mut [f64]),
+    ) {
         let softened = |square: f64| (square + epsilon * epsilon).sqrt();
+        let mut add = |place: (usize, f64), weight: f64, off: Vector, along: Vector| {
+            let [x, y] = [weight * along.x, weight * along.y];
+            let second = [x * along.x, x * along.y, y * along.y];
+            function.add(place, along.scale(weight * off.dot(along)), second);
+        };
         let count = work.curve.count;
         let share = 1.0 / self.samples.count as f64;
         for k in 0..self.samples.count {
             let (from, part) = (work.to_curve.segment(k), work.to_curve.part(k));
             let segment = &work.line.segments[from];
             let off = segment.start + segment.vector.scale(part) - self.samples.get(k);
-            let root = (share / softened(work.to_curve.square(k))).sqrt();
-            let along = direction(off, part, segment.vector);
-            let to = if from + 1 == count { 0 } else { from + 1 };
-            let residual = off.dot(along) * root;
-            rows.distances.push(DistanceRow { from, to, part, along: along.scale(root), residual });
+            let weight = share / softened(work.to_curve.square(k));
+            add((from, part), weight, off, direction(off, part, segment.vector));
         }
         let total = work.lengths[work.lengths.len() - 1];
         let whole = curve_distance(epsilon, work);
@@ -297,20 +305,48 @@ impl<'t> Objective<'t> {
             };
             let after = if t < segments { own(t) } else { 0.0 };
             let share = 0.5 * (before + after) / total;
-            let square = work.to_target.square(t);
             let segment = &self.target.polyline.segments[work.to_target.segment(t)];
             let part = work.to_target.part(t);
             let off = work.curve.get(t) - segment.start - segment.vector.scale(part);
-            let root = (share / softened(square)).sqrt();
-            let along = direction(off, part, segment.vector);
-            let residual = off.dot(along) * root;
-            let row = DistanceRow { from: t, to: t, part: 0.0, along: along.scale(root), residual };
-            rows.distances.push(row);
+            let weight = share / softened(work.to_target.square(t));
+            add((t, 0.0), weight, off, direction(off, part, segment.vector));
         }
         let distance =
             |t: usize| softened(work.to_target.square(if t == count { 0 } else { t })) - epsilon;
-        for (t, segment) in rows.segments.iter_mut().enumerate() {
-            segment.by_length = (0.5 * (distance(t) + distance(t + 1)) - whole) / total;
+        for (t, slope) in by_lengths.iter_mut().enumerate() {
+            *slope += (0.5 * (distance(t) + distance(t + 1)) - whole) / total;
+        }
+    }
+
+    /// The ordered distance. A place moves along the curve as lengths before it change: with α = (s L − ℓ) / l, l the
+    /// length of its segment and ℓ that before it, l dα = s dL − dℓ − α dl. That counts in the slopes alone.
+    fn differentiate_places(
+        &self,
+        work: &Workspace,
+        (function, by_lengths): (&mut ByPositions, &mut [f64]),
+    ) {
+        let weight = 2.0 * self.ordered_weight();
+        // The sum of the slopes by all lengths, and of those by lengths from a segment on that are behind.
+        let (mut everywhere, mut passed, mut reached) = (0.0, 0.0, 0);
+        self.for_each_place(work, |k, from, part, off| {
+            function.add((from, part), off.scale(weight), [weight, 0.0, weight]);
+            while reached < from {
+                reached += 1;
+                by_lengths[reached] += passed;
+            }
+            let length = work.lengths[from + 1] - work.lengths[from];
+            if length > 0.0 {
+                let slope = weight * off.dot(work.line.segments[from].vector) / length;
+                everywhere += slope * (self.length_part(k) - 1.0);
+                by_lengths[from] += slope * (1.0 - part);
+                passed += slope;
+            }
+        });
+        for slope in &mut by_lengths[reached + 1..] {
+            *slope += passed;
+        }
+        for slope in by_lengths {
+            *slope += everywhere;
         }
     }
 
@@ -320,7 +356,7 @@ impl<'t> Objective<'t> {
                        seeds: &[(usize, Vector)],
                        own: Option<(usize, [f64; 2])>,
                        (weight, excess): (f64, f64)| {
-            let mut v = vec![0.0; normal.width];
+            let mut v = vec![0.0; normal.count];
             add_gradient_at(linkage, &work.angles, &work.course, position, seeds, &mut v);
             if let Some((joint, by_lengths)) = own {
                 v[2 * joint] += by_lengths[0];
@@ -427,7 +463,7 @@ mod tests {
                 continue;
             }
             objective.linearize::<Baseline>(&linkage, &mut work, &mut normal);
-            let gradient = normal.g.clone();
+            let gradient: Vec<f64> = (0..normal.count).map(|number| normal.slope(number)).collect();
             let size = gradient.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             let step = 1e-6;
             let mut errors = vec![];
