@@ -1,9 +1,11 @@
 //! The objective near a curve: a quadratic function of its positions, and of the numbers of the linkage.
 //!
 //! Each residual pulls at one or two neighbouring positions P of the curve. So the Hessian W by positions (of Gauss and
-//! Newton: without second derivatives of residuals) couples a position with the next alone. With the Jacobian J
+//! Newton: without second derivatives of residuals) couples a position with the next alone; what few residuals of the
+//! whole curve add is of low rank. With the Jacobian J
 //! of the positions by the numbers, H = Jᵀ W J and g = Jᵀ dF/dP.
 
+use super::slopes::Slopes;
 use crate::batch::dispatch::{Entry, Task};
 use crate::math::lanes::{LANES, Real};
 use crate::math::vector::Vector;
@@ -12,54 +14,51 @@ use crate::population::adjoint::Jacobian;
 /// The objective as a function of the curve's positions.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ByPositions {
-    /// Its derivatives by x and y at each position.
-    slopes: [Vec<f64>; 2],
+    /// Its derivatives, but for those of residuals of the whole curve.
+    pub slopes: Slopes,
     /// Second derivatives by xx, xy, yy of each position.
     own: [Vec<f64>; 3],
     /// The same by the position before (of the first: the last) and each position.
     couplings: [Vec<f64>; 3],
-    count: usize,
+    /// Residuals that depend on all positions.
+    pub whole: [Whole; WHOLE],
+}
+
+/// How many residuals of the whole curve there are.
+pub(super) const WHOLE: usize = 3;
+
+/// A residual of the whole curve.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Whole {
+    pub slopes: Slopes,
+    pub weight: f64,
+    pub residual: f64,
 }
 
 impl ByPositions {
     /// A function of so many positions, zero everywhere.
     pub(super) fn clear(&mut self, count: usize) {
-        self.count = count;
-        let lists = self.slopes.iter_mut().chain(&mut self.own).chain(&mut self.couplings);
-        for list in lists {
+        self.slopes.clear(count);
+        for list in self.own.iter_mut().chain(&mut self.couplings) {
             list.clear();
             list.resize(count + 1, 0.0);
         }
-    }
-
-    /// The position after another.
-    fn next(&self, t: usize) -> usize {
-        if t + 1 == self.count { 0 } else { t + 1 }
+        for whole in &mut self.whole {
+            whole.slopes.clear(count);
+            whole.weight = 0.0;
+        }
     }
 
     /// Adds a function of the place that lies `part` of the way from position `from` to the next: its slope and its
     /// second derivatives by xx, xy, yy.
     pub(super) fn add(&mut self, (from, part): (usize, f64), slope: Vector, second: [f64; 3]) {
-        let (to, rest) = (self.next(from), 1.0 - part);
-        self.add_slope(from, slope.scale(rest));
-        self.add_slope(to, slope.scale(part));
+        let (to, rest) = (self.slopes.next(from), 1.0 - part);
+        self.slopes.add_ends(from, [slope.scale(rest), slope.scale(part)]);
         for (axes, second) in second.into_iter().enumerate() {
             self.own[axes][from] += rest * rest * second;
             self.own[axes][to] += part * part * second;
             self.couplings[axes][from + 1] += part * rest * second;
         }
-    }
-
-    /// Adds a slope at a position.
-    pub(super) fn add_slope(&mut self, t: usize, slope: Vector) {
-        self.slopes[0][t] += slope.x;
-        self.slopes[1][t] += slope.y;
-    }
-
-    /// Adds a slope by the length of the segment from position `t` to the next, along a unit vector.
-    pub(super) fn add_length_slope(&mut self, t: usize, along: Vector, slope: f64) {
-        self.add_slope(t, along.scale(-slope));
-        self.add_slope(self.next(t), along.scale(slope));
     }
 }
 
@@ -88,7 +87,7 @@ pub(super) struct Normal {
     pub width: usize,
     /// The number of rows, and the column of g.
     pub count: usize,
-    /// J, and W J with dF/dP as a last column, in blocks: tile after tile, in it positions.
+    /// J, and W J with the slopes of the function and of residuals of the whole curve as last columns, in blocks: tile after tile, in it positions.
     jacobian: Vec<f64>,
     weighted: Vec<f64>,
 }
@@ -117,16 +116,25 @@ pub(super) fn assemble<L: Entry>(
     normal: &mut Normal,
 ) {
     for list in &mut function.couplings {
-        list[0] = list[function.count];
+        list[0] = list[function.slopes.count];
     }
     normal.count = jacobian.numbers;
-    normal.width = (normal.count + 1).next_multiple_of(LANES);
+    normal.width = (normal.count + 1 + WHOLE).next_multiple_of(LANES);
     normal.matrix.resize(normal.count.next_multiple_of(TILE) * normal.width, 0.0);
-    let tiles = (normal.count + 1).div_ceil(TILE);
+    let tiles = (normal.count + 1 + WHOLE).div_ceil(TILE);
     let length = tiles * tile_length(jacobian.positions);
     normal.jacobian.resize(length, 0.0);
     normal.weighted.resize(length, 0.0);
     L::call(&mut Assemble { function, jacobian, normal });
+    for (index, whole) in function.whole.iter().enumerate() {
+        if whole.weight > 0.0 {
+            let column = normal.count + 1 + index;
+            let by_number = |row: &[f64]| row[column];
+            let rows = normal.matrix.chunks_exact(normal.width).take(normal.count);
+            let v: Vec<f64> = rows.map(by_number).collect();
+            normal.add(&v, whole.weight, whole.weight * whole.residual);
+        }
+    }
 }
 
 struct Assemble<'a> {
@@ -141,7 +149,7 @@ impl<R: Real> Task<R> for Assemble<'_> {
         for t in (0..self.jacobian.positions).step_by(R::LANES) {
             self.weigh::<R>(t);
         }
-        let tiles = (self.normal.count + 1).div_ceil(TILE);
+        let tiles = (self.normal.count + 1 + WHOLE).div_ceil(TILE);
         for row in 0..self.normal.count.div_ceil(TILE) {
             for column in row..tiles {
                 self.multiply::<R>(row, column);
@@ -154,12 +162,11 @@ impl Assemble<'_> {
     /// Fills the blocks at the positions from `t` on.
     #[inline(always)]
     fn weigh<R: Real>(&mut self, t: usize) {
-        let ByPositions { slopes, own, couplings, .. } = self.function;
+        let ByPositions { slopes, own, couplings, whole } = self.function;
         let read = |lists: &[Vec<f64>; 3], t: usize| {
             [R::read(&lists[0][t..]), R::read(&lists[1][t..]), R::read(&lists[2][t..])]
         };
         let (own, before, after) = (read(own, t), read(couplings, t), read(couplings, t + 1));
-        let slopes = Vector::new(R::read(&slopes[0][t..]), R::read(&slopes[1][t..]));
         let length = tile_length(self.jacobian.positions);
         // Where x of a number lies; its y is as many registers behind as a tile has numbers.
         let place = |number: usize| {
@@ -177,7 +184,11 @@ impl Assemble<'_> {
             put(this, place(number), plain);
             put(sum, place(number), weighted);
         }
-        put(slopes, place(self.jacobian.numbers), weighted);
+        let columns = std::iter::once(slopes).chain(whole.iter().map(|whole| &whole.slopes));
+        for (index, Slopes { by: [x, y], .. }) in columns.enumerate() {
+            let slopes = Vector::new(R::read(&x[t..]), R::read(&y[t..]));
+            put(slopes, place(self.jacobian.numbers + index), weighted);
+        }
     }
 
     /// The products of two tiles. Each lane of the longest register has a sum of its own, so that all levels add in

@@ -1,32 +1,34 @@
 //! How far the curve of a packed linkage is from a target, with its derivatives.
 //!
-//! F = Chamfer distance + γ · mean square of ordered distances + barriers. Lengths are those of the target's
+//! F = Chamfer distance + γ · mean square of ordered distances + κ · difference of moments + barriers. Lengths are those of the target's
 //! frame, where its root mean square radius is 1.
 //!
 //! - Chamfer distance: mean distance from samples of the target to the curve, plus mean distance from the
 //!   curve (each position with its share of the length) to the target. A distance r counts as
 //!   √(r² + ε²) − ε, which is smooth.
+//! - Difference of moments: the distance of both centroids, and the difference of the root mean square radii, both
+//!   smooth in the same way.
 //! - Ordered distance: from samples of the target at equal parts of its length to the places of the curve at the same
 //!   parts of its own.
 
 use std::f64::consts::TAU;
 
+use super::limits::Limits;
+use super::moments::Moments;
 use super::nearest::{Feet, Points, Polyline, nearest};
 use super::normal::{ByPositions, Normal, assemble};
 use super::target::Target;
 use crate::batch::dispatch::Entry;
 use crate::math::vector::Vector;
-use crate::population::adjoint::{Jacobian, add_gradient_at, jacobian};
-use crate::population::course::{Angles, Course, apex_cosine, sweep};
-use crate::population::packed::{PackedLinkage, Placement};
+use crate::population::adjoint::{Jacobian, jacobian};
+use crate::population::course::{Angles, Course, sweep};
+use crate::population::packed::PackedLinkage;
 
 /// Weight of the ordered distance. Without it, strokes that the curve covers more often than the target go unseen.
 const ORDERED: f64 = 0.5;
-/// Weight of the square by which an apex cosine exceeds its limit.
-const APEX_BARRIER: f64 = 600.0;
-/// Weight of the square by which a joint is outside the frame.
-const FRAME_BARRIER: f64 = 0.01;
-
+/// Weight of the distance of the curve's centroid from the target's and of the difference of their radii: without it, a
+/// curve that lies on the target's lines may be off it once both are normalised.
+const MOMENTS: f64 = 0.5;
 /// A linkage to be scored: of an open target with the arc on which it draws it.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
@@ -46,21 +48,6 @@ pub(crate) struct Fineness {
     pub samples: usize,
     /// ε; `None`: the ordered distance alone.
     pub epsilon: Option<f64>,
-}
-
-/// What a linkage must keep over its whole turn. Barriers begin within the limits.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Limits {
-    /// Greatest absolute cosine of the angle between the bars of a dyad.
-    pub apex_cosine: f64,
-    /// Where its barrier begins.
-    pub apex_barrier: f64,
-    /// Greatest distance of a joint from the target's centroid.
-    pub frame: f64,
-    /// Where its barrier begins.
-    pub frame_barrier: f64,
-    /// Least and greatest arc of an open target, rad.
-    pub arc: [f64; 2],
 }
 
 /// A target with what is asked of a linkage, at some fineness.
@@ -136,38 +123,16 @@ impl<'t> Objective<'t> {
         if !sweep::<L>(linkage, &work.angles, (0, most), &mut work.course) {
             return f64::INFINITY;
         }
-        let mut value = self.barriers(linkage, work);
+        let mut value = self.limits.barriers(linkage, &work.course);
         if value.is_infinite() {
             return value;
         }
         self.measure_curve(linkage.len() - 1, work);
         if let Some(epsilon) = self.fineness.epsilon {
-            value += self.chamfer::<L>(epsilon, work);
+            value += self.chamfer::<L>(epsilon, work) + moments_off(epsilon, work);
         }
         value += self.ordered(work);
         if value.is_finite() { value } else { f64::INFINITY }
-    }
-
-    /// The penalties of limits that are nearly reached.
-    fn barriers(&self, linkage: &PackedLinkage, work: &Workspace) -> f64 {
-        let limits = &self.limits;
-        let mut sum = 0.0;
-        for joint in 0..linkage.len() {
-            let distance = work.course.reach(joint).sqrt();
-            if distance > limits.frame {
-                return f64::INFINITY;
-            }
-            let excess = (distance - limits.frame_barrier).max(0.0);
-            sum += FRAME_BARRIER * excess * excess;
-            if let Placement::Dyad { .. } = linkage.placements[joint] {
-                for square in work.course.chord(joint) {
-                    let cosine = apex_cosine(linkage.numbers[joint], square).abs();
-                    let excess = (cosine - limits.apex_barrier).max(0.0);
-                    sum += APEX_BARRIER * excess * excess;
-                }
-            }
-        }
-        sum
     }
 
     /// Reads the traced joint's curve and measures its lengths.
@@ -245,7 +210,7 @@ impl<'t> Objective<'t> {
         jacobian::<L>(linkage, angles, course, weights, derivatives);
         self.differentiate(work);
         assemble::<L>(&mut work.by_positions, &work.jacobian, normal);
-        self.add_barriers(linkage, work, normal);
+        self.limits.add_barriers(linkage, (&work.angles, &work.course), normal);
     }
 
     /// The objective as a function of the curve's positions.
@@ -257,12 +222,13 @@ impl<'t> Objective<'t> {
         by_lengths.resize(work.line.segments.len(), 0.0);
         if let Some(epsilon) = self.fineness.epsilon {
             self.differentiate_distances(epsilon, work, (&mut function, &mut by_lengths));
+            differentiate_moments(epsilon, work, &mut function);
         }
         self.differentiate_places(work, (&mut function, &mut by_lengths));
         for (t, segment) in work.line.segments.iter().enumerate() {
             let length = segment.vector.norm();
             if length > 0.0 {
-                function.add_length_slope(t, segment.vector.scale(1.0 / length), by_lengths[t]);
+                function.slopes.add_length(t, segment.vector.scale(1.0 / length), by_lengths[t]);
             }
         }
         work.by_positions = function;
@@ -349,50 +315,6 @@ impl<'t> Objective<'t> {
             *slope += everywhere;
         }
     }
-
-    fn add_barriers(&self, linkage: &PackedLinkage, work: &Workspace, normal: &mut Normal) {
-        let limits = &self.limits;
-        let mut add = |position: usize,
-                       seeds: &[(usize, Vector)],
-                       own: Option<(usize, [f64; 2])>,
-                       (weight, excess): (f64, f64)| {
-            let mut v = vec![0.0; normal.count];
-            add_gradient_at(linkage, &work.angles, &work.course, position, seeds, &mut v);
-            if let Some((joint, by_lengths)) = own {
-                v[2 * joint] += by_lengths[0];
-                v[2 * joint + 1] += by_lengths[1];
-            }
-            normal.add(&v, 2.0 * weight, 2.0 * weight * excess);
-        };
-        for joint in 0..linkage.len() {
-            let square = work.course.reach(joint);
-            let distance = square.sqrt();
-            let excess = distance - limits.frame_barrier;
-            if excess > 0.0 {
-                let position = work.course.reach_position(joint, square);
-                let outward = work.course.point(joint, position).scale(1.0 / distance);
-                add(position, &[(joint, outward)], None, (FRAME_BARRIER, excess));
-            }
-            let Placement::Dyad { ends, .. } = linkage.placements[joint] else { continue };
-            let [a, b] = linkage.numbers[joint];
-            for square in work.course.chord(joint) {
-                let cosine = apex_cosine([a, b], square);
-                let excess = cosine.abs() - limits.apex_barrier;
-                if excess <= 0.0 {
-                    continue;
-                }
-                let sign = cosine.signum();
-                let position = work.course.chord_position(ends, square);
-                let chord =
-                    work.course.point(ends[1], position) - work.course.point(ends[0], position);
-                // cos = (a² + b² − l²) / 2ab
-                let by_chord = chord.scale(-sign / (a * b));
-                let seeds = [(ends[1], by_chord), (ends[0], -by_chord)];
-                let by_lengths = [sign * (1.0 / b - cosine / a), sign * (1.0 / a - cosine / b)];
-                add(position, &seeds, Some((joint, by_lengths)), (APEX_BARRIER, excess));
-            }
-        }
-    }
 }
 
 /// The mean distance from the curve to the target.
@@ -408,6 +330,27 @@ fn curve_distance(epsilon: f64, work: &Workspace) -> f64 {
         before = next;
     }
     sum / work.lengths[work.lengths.len() - 1]
+}
+
+/// By how much the moments of the curve are off those of the target, which are 0 and 1.
+fn moments_off(epsilon: f64, work: &Workspace) -> f64 {
+    let moments = Moments::of(&work.line, &work.lengths);
+    let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
+    let excess = moments.radius - 1.0;
+    MOMENTS * (smooth(moments.centroid.norm2()) + smooth(excess * excess))
+}
+
+fn differentiate_moments(epsilon: f64, work: &Workspace, function: &mut ByPositions) {
+    let moments = Moments::of(&work.line, &work.lengths);
+    let [x, y, radius] = &mut function.whole;
+    let excess = moments.radius - 1.0;
+    let weight = |square: f64| MOMENTS / (square + epsilon * epsilon).sqrt();
+    let square = moments.centroid.norm2();
+    (x.weight, x.residual) = (weight(square), moments.centroid.x);
+    (y.weight, y.residual) = (weight(square), moments.centroid.y);
+    (radius.weight, radius.residual) = (weight(excess * excess), excess);
+    let slopes = [&mut x.slopes, &mut y.slopes, &mut radius.slopes];
+    moments.differentiate(&work.line, &work.lengths, slopes);
 }
 
 /// The direction in which a distance changes: across the segment where its foot lies within, else along

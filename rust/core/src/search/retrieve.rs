@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::objective::{Candidate, Limits, WHOLE_TURN};
+use super::limits::Limits;
+use super::objective::{Candidate, WHOLE_TURN};
 use super::target::Target;
 use crate::batch::dispatch::{Entry, Task};
 use crate::math::lanes::{LANES, Real};
