@@ -44,13 +44,12 @@ const ON_ISLAND: usize = 4;
 /// Evaluations of an island in a round, and children of all together in one.
 const ROUND: u64 = 1000;
 const BROOD: usize = 8;
-/// Candidates that are polished, iterations, how finely.
-const POLISHED: usize = 5;
+/// How finely results are refined, and in how many iterations: there is still much to gain.
 const POLISH: [Fineness; 2] = [
     Fineness { positions: (192, 96), samples: 128, epsilon: Some(0.01) },
     Fineness { positions: (256, 96), samples: 256, epsilon: Some(0.004) },
 ];
-const POLISH_ITERATIONS: usize = 40;
+const POLISH_ITERATIONS: usize = 300;
 /// Values that differ by less than this part are of the same design.
 const SAME: f64 = 1e-3;
 /// Barriers begin at this part of the frame, and at this multiple of the least apex angle; refinement may go beyond
@@ -189,7 +188,7 @@ impl PathSearch {
         !(self.islands.is_empty() && self.population.is_empty())
     }
 
-    /// The candidates, the best of them refined once more (unless that is cancelled), best first.
+    /// The candidates, refined once more (unless that is cancelled), best first.
     #[must_use]
     pub fn finish(&mut self, cancel: &AtomicBool) -> Vec<FoundLinkage> {
         let simd = self.request.simd;
@@ -367,7 +366,7 @@ impl PathSearch {
             for objective in &objectives {
                 let mut finer = candidate.clone();
                 breeder.refiner.evaluate::<L>(objective, &mut candidate);
-                if index >= POLISHED || cancel.load(Ordering::Relaxed) {
+                if cancel.load(Ordering::Relaxed) {
                     continue;
                 }
                 breeder.refiner.refine::<L>(objective, &mut finer, POLISH_ITERATIONS);
