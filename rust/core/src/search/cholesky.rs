@@ -46,8 +46,7 @@ impl<R: Real> Task<R> for Factor<'_> {
         for k in 0..count {
             let (done, later) = rows.split_at_mut((k + 1) * width);
             let row = &mut done[k * width..];
-            // A NaN is not positive either.
-            if !(row[k] > 0.0) {
+            if row[k].is_nan() || row[k] <= 0.0 {
                 return;
             }
             let inverse = R::splat(1.0 / row[k].sqrt());
