@@ -2,8 +2,7 @@
 //!
 //! Each residual pulls at one or two neighbouring positions P of the curve. So the Hessian W by positions (of Gauss and
 //! Newton: without second derivatives of residuals) couples a position with the next alone; what few residuals of the
-//! whole curve add is of low rank. With the Jacobian J
-//! of the positions by the numbers, H = Jᵀ W J and g = Jᵀ dF/dP.
+//! whole curve add is of low rank. With the Jacobian J of the positions by the numbers, H = Jᵀ W J and g = Jᵀ dF/dP.
 
 use super::slopes::Slopes;
 use crate::batch::dispatch::{Entry, Task};
@@ -87,7 +86,8 @@ pub(super) struct Normal {
     pub width: usize,
     /// The number of rows, and the column of g.
     pub count: usize,
-    /// J, and W J with the slopes of the function and of residuals of the whole curve as last columns, in blocks: tile after tile, in it positions.
+    /// J, and W J with the slopes of the function and of residuals of the whole curve as last columns, in blocks: tile
+    /// after tile, in it positions.
     jacobian: Vec<f64>,
     weighted: Vec<f64>,
 }
@@ -243,4 +243,74 @@ fn sum_lanes(lanes: &mut [f64; LANES]) -> f64 {
         half /= 2;
     }
     lanes[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::*;
+    use crate::math::random::Random;
+    use crate::population::adjoint::jacobian;
+    use crate::population::course::{Angles, Course, sweep};
+    use crate::population::random::RandomLinkages;
+    use crate::state::kernel::baseline::Baseline;
+
+    const POSITIONS: usize = 24;
+
+    /// The same from dense matrices, residual after residual.
+    #[test]
+    fn equations_are_those_of_dense_matrices() {
+        let random = &mut Random::new(2, 0);
+        let (mut angles, mut course) = (Angles::default(), Course::default());
+        let linkage = RandomLinkages { joints: [9, 9], most_cosine: 0.97 }
+            .make::<Baseline>(random, &mut course);
+        angles.set::<Baseline>(2.5, false, (POSITIONS, 8));
+        assert!(sweep::<Baseline>(&linkage, &angles, (0, 1.0), &mut course));
+        let mut derivatives = Jacobian::default();
+        jacobian::<Baseline>(&linkage, &angles, &course, &mut vec![], &mut derivatives);
+        let count = derivatives.numbers;
+        let j = DMatrix::from_fn(2 * POSITIONS, count, |row, number| {
+            let [_, at, _] = derivatives.neighbours::<f64>(number, row / 2);
+            if row % 2 == 0 { at.x } else { at.y }
+        });
+        let mut function = ByPositions::default();
+        function.clear(POSITIONS);
+        let (mut h, mut g) = (DMatrix::zeros(count, count), DVector::zeros(count));
+        let mut add = |row: &DVector<f64>, weight: f64, residual: f64| {
+            let by_numbers = j.transpose() * row;
+            h += weight * &by_numbers * by_numbers.transpose();
+            g += weight * residual * by_numbers;
+        };
+        for index in 0..40 {
+            let (from, part) = (random.index(POSITIONS), random.unit());
+            let (weight, residual) = (random.unit(), random.normal());
+            let [x, y] = random.direction();
+            let mut row = DVector::zeros(2 * POSITIONS);
+            for (t, share) in [(from, 1.0 - part), ((from + 1) % POSITIONS, part)] {
+                row[2 * t] = share * x;
+                row[2 * t + 1] = share * y;
+            }
+            add(&row, weight, residual);
+            let slope = Vector::new(x, y).scale(weight * residual);
+            function.add((from, part), slope, [weight * x * x, weight * x * y, weight * y * y]);
+            if let Some(whole) = function.whole.get_mut(index) {
+                let row = DVector::from_fn(2 * POSITIONS, |_, _| random.normal());
+                for t in 0..POSITIONS {
+                    whole.slopes.add(t, Vector::new(row[2 * t], row[2 * t + 1]));
+                }
+                (whole.weight, whole.residual) = (0.3, residual);
+                add(&row, 0.3, residual);
+            }
+        }
+        let mut normal = Normal::default();
+        assemble::<Baseline>(&mut function, &derivatives, &mut normal);
+        for p in 0..count {
+            assert!((normal.slope(p) - g[p]).abs() < 1e-12 * g.amax());
+            for q in p..count {
+                let own = normal.matrix[p * normal.width + q];
+                assert!((own - h[(p, q)]).abs() < 1e-12 * h.amax(), "{p} {q}");
+            }
+        }
+    }
 }
