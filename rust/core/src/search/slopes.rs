@@ -21,23 +21,27 @@ impl Slopes {
     }
 
     /// The position after another.
+    #[inline]
     pub(super) fn next(&self, t: usize) -> usize {
         if t + 1 == self.count { 0 } else { t + 1 }
     }
 
     /// Adds a slope at a position.
+    #[inline]
     pub(super) fn add(&mut self, t: usize, slope: Vector) {
         self.by[0][t] += slope.x;
         self.by[1][t] += slope.y;
     }
 
     /// Adds slopes at position `t` and the next.
+    #[inline]
     pub(super) fn add_ends(&mut self, t: usize, slopes: [Vector; 2]) {
         self.add(t, slopes[0]);
         self.add(self.next(t), slopes[1]);
     }
 
     /// Adds a slope by the length of the segment from position `t` to the next, along a unit vector.
+    #[inline]
     pub(super) fn add_length(&mut self, t: usize, along: Vector, slope: f64) {
         self.add_ends(t, [along.scale(-slope), along.scale(slope)]);
     }
