@@ -38,8 +38,8 @@ const HALVING: [(usize, usize, Fineness); 5] = [
 /// How finely children are scored, and how finely they are checked.
 const EVOLUTION: Fineness = Fineness { positions: (128, 64), samples: 128, epsilon: Some(0.008) };
 const SOUND: Fineness = Fineness { positions: (512, 128), samples: 64, epsilon: None };
-/// Islands, and candidates on each.
-const ISLANDS: usize = 4;
+/// Islands, and candidates on each: a start decides more about a design than the evaluations that follow.
+const ISLANDS: usize = 8;
 const ON_ISLAND: usize = 4;
 /// Evaluations of an island in a round, and children of all together in one.
 const ROUND: u64 = 1000;
