@@ -215,7 +215,7 @@ def no_design(
             for limit, miss in zip(asked.limits, nearest[5], strict=False)
             if miss > 0.0
         ]
-        what = ", ".join(missed)
+        what = ", ".join(missed) or "a least transmission angle of 0.02 rad"
         message = f"no design keeps all conditions: {tried}; the best still misses {what}"
         hint = "relax what is missed, widen the bounds, or go on for longer"
     elif rejected:

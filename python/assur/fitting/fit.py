@@ -14,7 +14,7 @@ from assur.fitting.designs import Asked, measured_designs, no_design
 from assur.fitting.effort import checked_effort, reporter
 from assur.fitting.fits import Fits
 from assur.fitting.goals import checked_goals, metric_unit
-from assur.fitting.limits import checked_limits, taken
+from assur.fitting.limits import checked_limits, guards, taken
 from assur.fitting.variables import checked_variables
 from assur.fitting.wanted import MOST_SEED
 
@@ -170,7 +170,7 @@ def fit(
         variables.each,
         [goal.parts for goal in goals],
         [
-            *(limit.parts for limit in limits),
+            *(limit.parts for limit in (*limits, *guards(mechanism, limits))),
             *(
                 (taken(mechanism, near.metric), "near", near.value, metric_unit(name, near))
                 for name, near in metrics.items()

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from assur.kinematics.mechanism import Mechanism
 
+# The least transmission angle where none is asked for, rad, and what counts as a miss of 1.
+FOLDED, GUARD_UNIT = 0.02, 0.1
 # Positions at which names are checked.
 TURN = np.linspace(0.0, 2.0 * np.pi, 256, endpoint=False)
 
@@ -60,6 +62,27 @@ def checked_limits(m: Mechanism, where: Any) -> tuple[list[Limit], bool]:
         metric = taken(m, condition.metric)
         limits.append(Limit(condition, metric, condition.relation in (">", ">="), unit))
     return limits, must_turn
+
+
+def guards(m: Mechanism, limits: list[Limit]) -> list[Limit]:
+    """Return limits that keep every dyad without one of its own from the place where it folds.
+
+    Descents slide along them; at the fold itself they would end.
+    """
+    leaves = [leaf for limit in limits for leaf in limit.condition.metric.leaves()]
+    known = {
+        leaf.of
+        for leaf in leaves
+        if isinstance(leaf, Leaf) and leaf.kind == "min_transmission_angle"
+    }
+    conditions = [
+        Leaf("min_transmission_angle", joint, 0, (None,), None) > FOLDED
+        for joint in m.assembly
+        if joint not in known
+    ]
+    return [
+        Limit(condition, taken(m, condition.metric), True, GUARD_UNIT) for condition in conditions
+    ]
 
 
 def taken(m: Mechanism, metric: Metric) -> Metric:

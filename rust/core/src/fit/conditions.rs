@@ -1,7 +1,7 @@
 //! Conditions on a design: metrics of its travel that have limits, or values to come near to.
 //!
 //! Each limit is a squared residual √μ·max(0, c + λ/μ), where c is by how much it is missed: see
-//! [`Multipliers`].
+//! [`super::multipliers`].
 
 use super::point::Point;
 use super::variables::Variables;

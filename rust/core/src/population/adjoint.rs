@@ -11,35 +11,44 @@ use crate::batch::dispatch::{Entry, Task};
 use crate::math::lanes::{LANES, Real};
 use crate::math::vector::Vector;
 
-/// Rows of derivatives: for each position on the arc one of x and one of y, each as wide as the numbers
-/// and the arc itself, up to the next full register.
+/// Derivatives of the traced joint: for each number (the arc is the last) a line of x and one of y, over the
+/// positions on the arc. A line has room before its first position and behind its last.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Jacobian {
-    rows: Vec<f64>,
-    /// Length of a row.
-    pub width: usize,
+    lines: Vec<f64>,
+    /// How many numbers there are.
+    pub numbers: usize,
+    /// How many positions there are.
+    pub positions: usize,
 }
 
 impl Jacobian {
-    /// The derivatives of a coordinate at a position.
+    /// Where the line of a coordinate by a number has its first position.
     #[inline(always)]
-    pub(crate) fn row(&self, position: usize, axis: usize) -> &[f64] {
-        &self.rows[(2 * position + axis) * self.width..][..self.width]
+    fn start(&self, number: usize, axis: usize) -> usize {
+        (2 * number + axis) * (self.positions + 2 * LANES) + LANES
     }
 
-    /// The number of positions.
+    /// The derivatives by a number at the positions one before those from `t` on, at these, and one behind.
     #[inline(always)]
-    pub(crate) fn positions(&self) -> usize {
-        self.rows.len() / (2 * self.width)
+    pub(crate) fn neighbours<R: Real>(&self, number: usize, t: usize) -> [Vector<R>; 3] {
+        let [x, y] = [0, 1].map(|axis| {
+            let first = self.start(number, axis) + t - 1;
+            &self.lines[first..first + R::LANES + 2]
+        });
+        [0, 1, 2].map(|shift| Vector::new(R::read(&x[shift..]), R::read(&y[shift..])))
+    }
+
+    /// Puts the last position before the first, and the first behind the last.
+    fn close(&mut self) {
+        for line in self.lines.chunks_exact_mut(self.positions + 2 * LANES) {
+            line[LANES - 1] = line[LANES + self.positions - 1];
+            line[LANES + self.positions] = line[LANES];
+        }
     }
 }
 
-/// Length of rows for so many numbers: they fill registers.
-pub(crate) fn row_width(numbers: usize) -> usize {
-    numbers.next_multiple_of(LANES)
-}
-
-/// Finds the derivatives of the last joint on the arc. The last number is the arc (if it is one).
+/// Finds the derivatives of the last joint on the arc.
 pub(crate) fn jacobian<L: Entry>(
     linkage: &PackedLinkage,
     angles: &Angles,
@@ -47,11 +56,12 @@ pub(crate) fn jacobian<L: Entry>(
     weights: &mut Vec<f64>,
     out: &mut Jacobian,
 ) {
-    out.width = row_width(2 * linkage.len() + 1);
-    // What lies beyond the numbers of a row stays as it is.
-    out.rows.resize(2 * angles.arc * out.width, 0.0);
+    out.numbers = 2 * linkage.len() + 1;
+    out.positions = angles.arc;
+    out.lines.resize(2 * out.numbers * (out.positions + 2 * LANES), 0.0);
     weights.resize(4 * LANES * linkage.len(), 0.0);
     L::call(&mut Adjoint { linkage, angles, course, weights, out });
+    out.close();
 }
 
 struct Adjoint<'a> {
@@ -94,15 +104,12 @@ impl Adjoint<'_> {
         sum.y.put(&mut self.weights[first + LANES..]);
     }
 
-    /// Writes the derivatives of a coordinate by both numbers of a joint.
+    /// Writes the derivatives of a coordinate by a joint's numbers from `number` on.
     #[inline(always)]
     fn write<R: Real>(&mut self, (t, axis): (usize, usize), number: usize, values: &[R]) {
-        let width = self.out.width;
-        for lane in 0..R::LANES {
-            let first = (2 * (t + lane) + axis) * width + number;
-            for (out, value) in self.out.rows[first..].iter_mut().zip(values) {
-                *out = value.lane(lane);
-            }
+        for (index, value) in values.iter().enumerate() {
+            let first = self.out.start(number + index, axis) + t;
+            value.put(&mut self.out.lines[first..]);
         }
     }
 

@@ -15,8 +15,6 @@ const WORSE: [f64; 2] = [2.0, 1.2];
 const TOURNAMENT: f64 = 0.75;
 /// How often a child that is better than its parent takes the parent's place, and not that of the worst.
 const REPLACES_PARENT: f64 = 0.7;
-/// Values that differ by this part are of the same design if it has as many joints.
-const SAME: f64 = 1e-4;
 
 /// What all children of a search share.
 #[derive(Debug, Clone, Copy)]
@@ -96,33 +94,29 @@ impl Rules<'_> {
         value.is_finite() && candidate.linkage.links().is_some()
     }
 
-    /// Gives a child the place of its parent or of the worst, if it is better.
+    /// Gives a child the place of the candidate of its structure, if there is one, else that of its parent or of the
+    /// worst, if it is better: so that no structure crowds out the others.
     pub(super) fn insert(
         &self,
         population: &mut [Candidate],
         (parent, child): (usize, Candidate),
         random: &mut Random,
     ) {
-        let score = self.score(&child);
-        let is_same = |one: &Candidate| {
-            one.linkage.len() == child.linkage.len()
-                && (one.value - child.value).abs() < SAME * child.value
+        let is_better = |index: usize| self.score(&child) < self.score(&population[index]);
+        let is_same = |one: &Candidate| one.linkage.placements == child.linkage.placements;
+        let place = if let Some(own) = population.iter().position(is_same) {
+            own
+        } else if is_better(parent) && random.happens(REPLACES_PARENT) {
+            parent
+        } else {
+            let by_score = |a: &usize, b: &usize| {
+                self.score(&population[*a]).total_cmp(&self.score(&population[*b]))
+            };
+            let Some(worst) = (0..population.len()).max_by(by_score) else { return };
+            worst
         };
-        let takes_parent = random.happens(REPLACES_PARENT);
-        if score < self.score(&population[parent]) && (takes_parent || is_same(&population[parent]))
-        {
-            population[parent] = child;
-            return;
-        }
-        if population.iter().any(is_same) {
-            return;
-        }
-        let by_score = |a: &usize, b: &usize| {
-            self.score(&population[*a]).total_cmp(&self.score(&population[*b]))
-        };
-        let Some(worst) = (0..population.len()).max_by(by_score) else { return };
-        if score < self.score(&population[worst]) {
-            population[worst] = child;
+        if is_better(place) {
+            population[place] = child;
         }
     }
 }

@@ -1,7 +1,6 @@
 //! The damped least squares of Levenberg (1944) and Marquardt (1963) for the objective of a search.
 
-use nalgebra::{DMatrix, DVector};
-
+use super::cholesky::Equations;
 use super::normal::Normal;
 use super::objective::{Candidate, Objective, Workspace};
 use crate::batch::dispatch::Entry;
@@ -26,6 +25,8 @@ const LEAST_LENGTH: f64 = 1e-3;
 pub(crate) struct Refiner {
     pub work: Workspace,
     normal: Normal,
+    equations: Equations,
+    step: Vec<f64>,
 }
 
 impl Refiner {
@@ -57,8 +58,8 @@ impl Refiner {
             let before = candidate.value;
             let mut tries = 0;
             loop {
-                if let Some(step) = self.step(objective, &candidate.linkage, damping) {
-                    take(objective, candidate, &step, &mut trial);
+                if self.find_step::<L>(objective, &candidate.linkage, damping) {
+                    take(objective, candidate, &self.step, &mut trial);
                     self.evaluate::<L>(objective, &mut trial);
                     if trial.value < candidate.value {
                         std::mem::swap(candidate, &mut trial);
@@ -94,32 +95,38 @@ impl Refiner {
             return value;
         }
         objective.linearize::<L>(&candidate.linkage, &mut self.work, &mut self.normal);
-        let Some(step) = self.step(objective, &candidate.linkage, DAMPING) else { return value };
-        let slope: f64 = step.iter().zip(&self.normal.g).map(|(d, g)| d * g).sum();
+        if !self.find_step::<L>(objective, &candidate.linkage, DAMPING) {
+            return value;
+        }
+        let slopes = (0..self.equations.count).map(|number| self.normal.slope(number));
+        let slope: f64 = self.step.iter().zip(slopes).map(|(d, g)| d * g).sum();
         value + 0.5 * slope
     }
 
-    /// The step of a damping; `None` if the equations are not positive definite.
-    fn step(
-        &self,
+    /// Finds the step of a damping; `false` if the equations are not positive definite.
+    fn find_step<L: Entry>(
+        &mut self,
         objective: &Objective,
         linkage: &PackedLinkage,
         damping: f64,
-    ) -> Option<DVector<f64>> {
+    ) -> bool {
+        let Self { normal, equations, step, .. } = self;
+        let (width, right) = (normal.width, normal.count);
         let count = 2 * linkage.len() + usize::from(objective.has_arc());
-        let Normal { h, g, width, .. } = &self.normal;
-        let mean = (0..count).map(|p| h[p * width + p]).sum::<f64>() / count as f64;
-        let mut matrix = DMatrix::from_fn(count, count, |p, q| h[p.max(q) * width + p.min(q)]);
-        for p in 0..count {
-            matrix[(p, p)] += damping * (matrix[(p, p)] + FLOOR * mean);
+        let mean = (0..count).map(|p| normal.matrix[p * width + p]).sum::<f64>() / count as f64;
+        equations.rows.clear();
+        equations.rows.extend_from_slice(&normal.matrix[..count * width]);
+        for (p, row) in equations.rows.chunks_exact_mut(width).enumerate() {
+            row[p] += damping * (row[p] + FLOOR * mean);
+            row[right] = -row[right];
         }
-        let gradient = DVector::from_fn(count, |p, _| -g[p]);
-        Some(matrix.cholesky()?.solve(&gradient))
+        (equations.width, equations.right, equations.count) = (width, right, count);
+        equations.solve::<L>(step)
     }
 }
 
 /// The candidate after a step, within its bounds.
-fn take(objective: &Objective, from: &Candidate, step: &DVector<f64>, to: &mut Candidate) {
+fn take(objective: &Objective, from: &Candidate, step: &[f64], to: &mut Candidate) {
     to.linkage.clone_from(&from.linkage);
     for (joint, numbers) in to.linkage.numbers.iter_mut().enumerate() {
         for (axis, number) in numbers.iter_mut().enumerate() {
@@ -132,6 +139,6 @@ fn take(objective: &Objective, from: &Candidate, step: &DVector<f64>, to: &mut C
     to.arc = from.arc;
     if objective.has_arc() {
         let [least, most] = objective.limits().arc;
-        to.arc = (from.arc + step[step.len() - 1]).clamp(least, most);
+        to.arc = (from.arc + step[2 * from.linkage.len()]).clamp(least, most);
     }
 }

@@ -1,32 +1,34 @@
 //! How far the curve of a packed linkage is from a target, with its derivatives.
 //!
-//! F = Chamfer distance + γ · mean square of ordered distances + barriers. Lengths are those of the target's
+//! F = Chamfer distance + γ · mean square of ordered distances + κ · difference of moments + barriers. Lengths are those of the target's
 //! frame, where its root mean square radius is 1.
 //!
 //! - Chamfer distance: mean distance from samples of the target to the curve, plus mean distance from the
 //!   curve (each position with its share of the length) to the target. A distance r counts as
 //!   √(r² + ε²) − ε, which is smooth.
+//! - Difference of moments: the distance of both centroids, and the difference of the root mean square radii, both
+//!   smooth in the same way.
 //! - Ordered distance: from samples of the target at equal parts of its length to the places of the curve at the same
 //!   parts of its own.
 
 use std::f64::consts::TAU;
 
+use super::limits::Limits;
+use super::moments::Moments;
 use super::nearest::{Feet, Points, Polyline, nearest};
-use super::normal::{CurveSegment, DistanceRow, Normal, OrderedRow, Rows, assemble};
+use super::normal::{ByPositions, Normal, assemble};
 use super::target::Target;
 use crate::batch::dispatch::Entry;
 use crate::math::vector::Vector;
-use crate::population::adjoint::{Jacobian, add_gradient_at, jacobian};
-use crate::population::course::{Angles, Course, apex_cosine, sweep};
-use crate::population::packed::{PackedLinkage, Placement};
+use crate::population::adjoint::{Jacobian, jacobian};
+use crate::population::course::{Angles, Course, sweep};
+use crate::population::packed::PackedLinkage;
 
 /// Weight of the ordered distance. Without it, strokes that the curve covers more often than the target go unseen.
 const ORDERED: f64 = 0.5;
-/// Weight of the square by which an apex cosine exceeds its limit.
-const APEX_BARRIER: f64 = 600.0;
-/// Weight of the square by which a joint is outside the frame.
-const FRAME_BARRIER: f64 = 0.01;
-
+/// Weight of the distance of the curve's centroid from the target's and of the difference of their radii: without it, a
+/// curve that lies on the target's lines may be off it once both are normalised.
+const MOMENTS: f64 = 0.5;
 /// A linkage to be scored: of an open target with the arc on which it draws it.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
@@ -46,21 +48,6 @@ pub(crate) struct Fineness {
     pub samples: usize,
     /// ε; `None`: the ordered distance alone.
     pub epsilon: Option<f64>,
-}
-
-/// What a linkage must keep over its whole turn. Barriers begin within the limits.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Limits {
-    /// Greatest absolute cosine of the angle between the bars of a dyad.
-    pub apex_cosine: f64,
-    /// Where its barrier begins.
-    pub apex_barrier: f64,
-    /// Greatest distance of a joint from the target's centroid.
-    pub frame: f64,
-    /// Where its barrier begins.
-    pub frame_barrier: f64,
-    /// Least and greatest arc of an open target, rad.
-    pub arc: [f64; 2],
 }
 
 /// A target with what is asked of a linkage, at some fineness.
@@ -87,7 +74,9 @@ pub(crate) struct Workspace {
     to_target: Feet,
     weights: Vec<f64>,
     jacobian: Jacobian,
-    rows: Rows,
+    by_positions: ByPositions,
+    /// Derivatives of the objective by the lengths of the curve's segments.
+    by_lengths: Vec<f64>,
     /// Evaluations of objectives so far.
     pub evaluations: u64,
 }
@@ -134,38 +123,16 @@ impl<'t> Objective<'t> {
         if !sweep::<L>(linkage, &work.angles, (0, most), &mut work.course) {
             return f64::INFINITY;
         }
-        let mut value = self.barriers(linkage, work);
+        let mut value = self.limits.barriers(linkage, &work.course);
         if value.is_infinite() {
             return value;
         }
         self.measure_curve(linkage.len() - 1, work);
         if let Some(epsilon) = self.fineness.epsilon {
-            value += self.chamfer::<L>(epsilon, work);
+            value += self.chamfer::<L>(epsilon, work) + moments_off(epsilon, work);
         }
         value += self.ordered(work);
         if value.is_finite() { value } else { f64::INFINITY }
-    }
-
-    /// The penalties of limits that are nearly reached.
-    fn barriers(&self, linkage: &PackedLinkage, work: &Workspace) -> f64 {
-        let limits = &self.limits;
-        let mut sum = 0.0;
-        for joint in 0..linkage.len() {
-            let distance = work.course.reach(joint).sqrt();
-            if distance > limits.frame {
-                return f64::INFINITY;
-            }
-            let excess = (distance - limits.frame_barrier).max(0.0);
-            sum += FRAME_BARRIER * excess * excess;
-            if let Placement::Dyad { .. } = linkage.placements[joint] {
-                for square in work.course.chord(joint) {
-                    let cosine = apex_cosine(linkage.numbers[joint], square).abs();
-                    let excess = (cosine - limits.apex_barrier).max(0.0);
-                    sum += APEX_BARRIER * excess * excess;
-                }
-            }
-        }
-        sum
     }
 
     /// Reads the traced joint's curve and measures its lengths.
@@ -241,47 +208,54 @@ impl<'t> Objective<'t> {
     ) {
         let Workspace { angles, course, weights, jacobian: derivatives, .. } = work;
         jacobian::<L>(linkage, angles, course, weights, derivatives);
-        self.collect_rows(work);
-        assemble::<L>(&work.rows, &work.jacobian, normal);
-        self.add_barriers(linkage, work, normal);
+        self.differentiate(work);
+        assemble::<L>(&mut work.by_positions, &work.jacobian, normal);
+        self.limits.add_barriers(linkage, (&work.angles, &work.course), normal);
     }
 
-    fn collect_rows(&self, work: &mut Workspace) {
-        let mut rows = std::mem::take(&mut work.rows);
-        rows.segments.clear();
-        rows.segments.extend(work.line.segments.iter().map(|segment| {
-            let length = segment.vector.norm();
-            let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-            CurveSegment { along: segment.vector.scale(inverse), by_length: 0.0 }
-        }));
-        rows.distances.clear();
+    /// The objective as a function of the curve's positions.
+    fn differentiate(&self, work: &mut Workspace) {
+        let mut function = std::mem::take(&mut work.by_positions);
+        let mut by_lengths = std::mem::take(&mut work.by_lengths);
+        function.clear(work.curve.count);
+        by_lengths.clear();
+        by_lengths.resize(work.line.segments.len(), 0.0);
         if let Some(epsilon) = self.fineness.epsilon {
-            self.collect_distances(epsilon, work, &mut rows);
+            self.differentiate_distances(epsilon, work, (&mut function, &mut by_lengths));
+            differentiate_moments(epsilon, work, &mut function);
         }
-        rows.ordered.clear();
-        rows.ordered_root = (2.0 * self.ordered_weight()).sqrt();
-        let root = rows.ordered_root;
-        self.for_each_place(work, |k, from, part, off| {
-            let length_part = self.length_part(k);
-            rows.ordered.push(OrderedRow { from, part, length_part, residual: off.scale(root) });
-        });
-        work.rows = rows;
+        self.differentiate_places(work, (&mut function, &mut by_lengths));
+        for (t, segment) in work.line.segments.iter().enumerate() {
+            let length = segment.vector.norm();
+            if length > 0.0 {
+                function.slopes.add_length(t, segment.vector.scale(1.0 / length), by_lengths[t]);
+            }
+        }
+        work.by_positions = function;
+        work.by_lengths = by_lengths;
     }
 
-    /// The rows of both halves of the Chamfer distance: a distance r of weight w has the slope w r / √(r² + ε²).
-    fn collect_distances(&self, epsilon: f64, work: &Workspace, rows: &mut Rows) {
+    /// Both halves of the Chamfer distance: a distance r of weight w has the slope w r / √(r² + ε²).
+    fn differentiate_distances(
+        &self,
+        epsilon: f64,
+        work: &Workspace,
+        (function, by_lengths): (&mut ByPositions, &mut [f64]),
+    ) {
         let softened = |square: f64| (square + epsilon * epsilon).sqrt();
+        let mut add = |place: (usize, f64), weight: f64, off: Vector, along: Vector| {
+            let [x, y] = [weight * along.x, weight * along.y];
+            let second = [x * along.x, x * along.y, y * along.y];
+            function.add(place, along.scale(weight * off.dot(along)), second);
+        };
         let count = work.curve.count;
         let share = 1.0 / self.samples.count as f64;
         for k in 0..self.samples.count {
             let (from, part) = (work.to_curve.segment(k), work.to_curve.part(k));
             let segment = &work.line.segments[from];
             let off = segment.start + segment.vector.scale(part) - self.samples.get(k);
-            let root = (share / softened(work.to_curve.square(k))).sqrt();
-            let along = direction(off, part, segment.vector);
-            let to = if from + 1 == count { 0 } else { from + 1 };
-            let residual = off.dot(along) * root;
-            rows.distances.push(DistanceRow { from, to, part, along: along.scale(root), residual });
+            let weight = share / softened(work.to_curve.square(k));
+            add((from, part), weight, off, direction(off, part, segment.vector));
         }
         let total = work.lengths[work.lengths.len() - 1];
         let whole = curve_distance(epsilon, work);
@@ -297,64 +271,48 @@ impl<'t> Objective<'t> {
             };
             let after = if t < segments { own(t) } else { 0.0 };
             let share = 0.5 * (before + after) / total;
-            let square = work.to_target.square(t);
             let segment = &self.target.polyline.segments[work.to_target.segment(t)];
             let part = work.to_target.part(t);
             let off = work.curve.get(t) - segment.start - segment.vector.scale(part);
-            let root = (share / softened(square)).sqrt();
-            let along = direction(off, part, segment.vector);
-            let residual = off.dot(along) * root;
-            let row = DistanceRow { from: t, to: t, part: 0.0, along: along.scale(root), residual };
-            rows.distances.push(row);
+            let weight = share / softened(work.to_target.square(t));
+            add((t, 0.0), weight, off, direction(off, part, segment.vector));
         }
         let distance =
             |t: usize| softened(work.to_target.square(if t == count { 0 } else { t })) - epsilon;
-        for (t, segment) in rows.segments.iter_mut().enumerate() {
-            segment.by_length = (0.5 * (distance(t) + distance(t + 1)) - whole) / total;
+        for (t, slope) in by_lengths.iter_mut().enumerate() {
+            *slope += (0.5 * (distance(t) + distance(t + 1)) - whole) / total;
         }
     }
 
-    fn add_barriers(&self, linkage: &PackedLinkage, work: &Workspace, normal: &mut Normal) {
-        let limits = &self.limits;
-        let mut add = |position: usize,
-                       seeds: &[(usize, Vector)],
-                       own: Option<(usize, [f64; 2])>,
-                       (weight, excess): (f64, f64)| {
-            let mut v = vec![0.0; normal.width];
-            add_gradient_at(linkage, &work.angles, &work.course, position, seeds, &mut v);
-            if let Some((joint, by_lengths)) = own {
-                v[2 * joint] += by_lengths[0];
-                v[2 * joint + 1] += by_lengths[1];
+    /// The ordered distance. A place moves along the curve as lengths before it change: with α = (s L − ℓ) / l, l the
+    /// length of its segment and ℓ that before it, l dα = s dL − dℓ − α dl. That counts in the slopes alone.
+    fn differentiate_places(
+        &self,
+        work: &Workspace,
+        (function, by_lengths): (&mut ByPositions, &mut [f64]),
+    ) {
+        let weight = 2.0 * self.ordered_weight();
+        // The sum of the slopes by all lengths, and of those by lengths from a segment on that are behind.
+        let (mut everywhere, mut passed, mut reached) = (0.0, 0.0, 0);
+        self.for_each_place(work, |k, from, part, off| {
+            function.add((from, part), off.scale(weight), [weight, 0.0, weight]);
+            while reached < from {
+                reached += 1;
+                by_lengths[reached] += passed;
             }
-            normal.add(&v, 2.0 * weight, 2.0 * weight * excess);
-        };
-        for joint in 0..linkage.len() {
-            let square = work.course.reach(joint);
-            let distance = square.sqrt();
-            let excess = distance - limits.frame_barrier;
-            if excess > 0.0 {
-                let position = work.course.reach_position(joint, square);
-                let outward = work.course.point(joint, position).scale(1.0 / distance);
-                add(position, &[(joint, outward)], None, (FRAME_BARRIER, excess));
+            let length = work.lengths[from + 1] - work.lengths[from];
+            if length > 0.0 {
+                let slope = weight * off.dot(work.line.segments[from].vector) / length;
+                everywhere += slope * (self.length_part(k) - 1.0);
+                by_lengths[from] += slope * (1.0 - part);
+                passed += slope;
             }
-            let Placement::Dyad { ends, .. } = linkage.placements[joint] else { continue };
-            let [a, b] = linkage.numbers[joint];
-            for square in work.course.chord(joint) {
-                let cosine = apex_cosine([a, b], square);
-                let excess = cosine.abs() - limits.apex_barrier;
-                if excess <= 0.0 {
-                    continue;
-                }
-                let sign = cosine.signum();
-                let position = work.course.chord_position(ends, square);
-                let chord =
-                    work.course.point(ends[1], position) - work.course.point(ends[0], position);
-                // cos = (a² + b² − l²) / 2ab
-                let by_chord = chord.scale(-sign / (a * b));
-                let seeds = [(ends[1], by_chord), (ends[0], -by_chord)];
-                let by_lengths = [sign * (1.0 / b - cosine / a), sign * (1.0 / a - cosine / b)];
-                add(position, &seeds, Some((joint, by_lengths)), (APEX_BARRIER, excess));
-            }
+        });
+        for slope in &mut by_lengths[reached + 1..] {
+            *slope += passed;
+        }
+        for slope in by_lengths {
+            *slope += everywhere;
         }
     }
 }
@@ -372,6 +330,27 @@ fn curve_distance(epsilon: f64, work: &Workspace) -> f64 {
         before = next;
     }
     sum / work.lengths[work.lengths.len() - 1]
+}
+
+/// By how much the moments of the curve are off those of the target, which are 0 and 1.
+fn moments_off(epsilon: f64, work: &Workspace) -> f64 {
+    let moments = Moments::of(&work.line, &work.lengths);
+    let smooth = |square: f64| (square + epsilon * epsilon).sqrt() - epsilon;
+    let excess = moments.radius - 1.0;
+    MOMENTS * (smooth(moments.centroid.norm2()) + smooth(excess * excess))
+}
+
+fn differentiate_moments(epsilon: f64, work: &Workspace, function: &mut ByPositions) {
+    let moments = Moments::of(&work.line, &work.lengths);
+    let [x, y, radius] = &mut function.whole;
+    let excess = moments.radius - 1.0;
+    let weight = |square: f64| MOMENTS / (square + epsilon * epsilon).sqrt();
+    let square = moments.centroid.norm2();
+    (x.weight, x.residual) = (weight(square), moments.centroid.x);
+    (y.weight, y.residual) = (weight(square), moments.centroid.y);
+    (radius.weight, radius.residual) = (weight(excess * excess), excess);
+    let slopes = [&mut x.slopes, &mut y.slopes, &mut radius.slopes];
+    moments.differentiate(&work.line, &work.lengths, slopes);
 }
 
 /// The direction in which a distance changes: across the segment where its foot lies within, else along
@@ -427,7 +406,7 @@ mod tests {
                 continue;
             }
             objective.linearize::<Baseline>(&linkage, &mut work, &mut normal);
-            let gradient = normal.g.clone();
+            let gradient: Vec<f64> = (0..normal.count).map(|number| normal.slope(number)).collect();
             let size = gradient.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             let step = 1e-6;
             let mut errors = vec![];

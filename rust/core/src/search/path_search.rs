@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::evolve::{Breeder, Rules};
 use super::for_all::for_all;
 use super::levenberg_marquardt::Refiner;
-use super::objective::{Candidate, Fineness, Limits, Objective};
+use super::limits::Limits;
+use super::objective::{Candidate, Fineness, Objective};
 use super::retrieve::{Retrieval, RetrievalMemory};
 use super::target::Target;
 use crate::batch::dispatch::{Entry, ForLevel, at_level};
@@ -37,19 +38,18 @@ const HALVING: [(usize, usize, Fineness); 5] = [
 /// How finely children are scored, and how finely they are checked.
 const EVOLUTION: Fineness = Fineness { positions: (128, 64), samples: 128, epsilon: Some(0.008) };
 const SOUND: Fineness = Fineness { positions: (512, 128), samples: 64, epsilon: None };
-/// Islands, and candidates on each.
-const ISLANDS: usize = 4;
+/// Islands, and candidates on each: a start decides more about a design than the evaluations that follow.
+const ISLANDS: usize = 8;
 const ON_ISLAND: usize = 4;
 /// Evaluations of an island in a round, and children of all together in one.
 const ROUND: u64 = 1000;
 const BROOD: usize = 8;
-/// Candidates that are polished, iterations, how finely.
-const POLISHED: usize = 5;
+/// How finely results are refined, and in how many iterations: there is still much to gain.
 const POLISH: [Fineness; 2] = [
     Fineness { positions: (192, 96), samples: 128, epsilon: Some(0.01) },
     Fineness { positions: (256, 96), samples: 256, epsilon: Some(0.004) },
 ];
-const POLISH_ITERATIONS: usize = 40;
+const POLISH_ITERATIONS: usize = 300;
 /// Values that differ by less than this part are of the same design.
 const SAME: f64 = 1e-3;
 /// Barriers begin at this part of the frame, and at this multiple of the least apex angle; refinement may go beyond
@@ -188,7 +188,7 @@ impl PathSearch {
         !(self.islands.is_empty() && self.population.is_empty())
     }
 
-    /// The candidates, the best of them refined once more (unless that is cancelled), best first.
+    /// The candidates, refined once more (unless that is cancelled), best first.
     #[must_use]
     pub fn finish(&mut self, cancel: &AtomicBool) -> Vec<FoundLinkage> {
         let simd = self.request.simd;
@@ -366,7 +366,7 @@ impl PathSearch {
             for objective in &objectives {
                 let mut finer = candidate.clone();
                 breeder.refiner.evaluate::<L>(objective, &mut candidate);
-                if index >= POLISHED || cancel.load(Ordering::Relaxed) {
+                if cancel.load(Ordering::Relaxed) {
                     continue;
                 }
                 breeder.refiner.refine::<L>(objective, &mut finer, POLISH_ITERATIONS);

@@ -17,12 +17,6 @@ const DYADS: usize = 60;
 /// How many collapses with offsets are compared, after so many iterations.
 const COLLAPSES: usize = 4;
 const COLLAPSE_ITERATIONS: usize = 4;
-/// Most joints that are taken out before a candidate grows again, offsets that are compared then, and iterations
-/// after each change.
-const REGROWN: usize = 5;
-const REGROWTH_OFFSETS: usize = 4;
-const REGROWTH_ITERATIONS: usize = 6;
-
 /// A kind of change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Move {
@@ -32,7 +26,6 @@ enum Move {
     Reattach,
     Collapse,
     CollapseAndOffset,
-    Regrow,
     Refine,
 }
 
@@ -46,13 +39,12 @@ const GROWING: [(Move, f64); 7] = [
     (Move::CollapseAndOffset, 8.0),
     (Move::Refine, 7.0),
 ];
-const GROWN: [(Move, f64); 6] = [
-    (Move::Perturb, 25.0),
-    (Move::CollapseAndOffset, 25.0),
-    (Move::Regrow, 30.0),
-    (Move::Reattach, 8.0),
-    (Move::Collapse, 4.0),
-    (Move::Refine, 8.0),
+const GROWN: [(Move, f64); 5] = [
+    (Move::Perturb, 40.0),
+    (Move::CollapseAndOffset, 30.0),
+    (Move::Reattach, 12.0),
+    (Move::Collapse, 6.0),
+    (Move::Refine, 12.0),
 ];
 
 fn choose(moves: &[(Move, f64)], random: &mut Random) -> Move {
@@ -87,7 +79,6 @@ impl Proposer<'_, '_> {
             Move::Refine => {}
             Move::Perturb => perturb(&mut child.linkage, self.random),
             Move::Offset => return self.best_offset::<L>(parent, OFFSETS),
-            Move::Regrow => return self.regrow::<L>(parent),
             Move::Reattach | Move::Collapse | Move::NewTraced | Move::CollapseAndOffset => {
                 self.see_positions::<L>(parent);
                 child.linkage = match kind {
@@ -123,24 +114,6 @@ impl Proposer<'_, '_> {
             }
         }
         best.filter(|(promise, _)| promise.is_finite()).map(|(_, child)| child)
-    }
-
-    /// Some joints taken out, then as many offsets as there is room for (large neighbourhood search).
-    fn regrow<L: Entry>(&mut self, parent: &Candidate) -> Option<Candidate> {
-        let mut child = parent.clone();
-        for _ in 0..=self.random.index(REGROWN) {
-            self.see_positions::<L>(&child);
-            child.linkage = collapse(&child.linkage, self.course, self.random)?;
-            self.refiner.refine::<L>(self.objective, &mut child, REGROWTH_ITERATIONS);
-            if child.value.is_infinite() {
-                return None;
-            }
-        }
-        while child.linkage.len() < self.most_joints {
-            child = self.best_offset::<L>(&child, REGROWTH_OFFSETS)?;
-            self.refiner.refine::<L>(self.objective, &mut child, REGROWTH_ITERATIONS);
-        }
-        Some(child)
     }
 
     /// The best of some dyads whose apex is traced.

@@ -17,8 +17,12 @@ pub(crate) fn reattach(
         return None;
     }
     let joint = dyads[random.index(dyads.len())];
+    let number = random.index(2);
     let to = random.index(joint);
+    if to == linkage.placements[joint].ends()[number] {
+        return None;
+    }
     let mut changed = linkage.clone();
-    attach(&mut changed, joint, random.index(2), (to, mean_distance(course, to, joint)));
+    attach(&mut changed, joint, number, (to, mean_distance(course, to, joint)));
     (changed.prune() && changed.links().is_some()).then_some(changed)
 }
