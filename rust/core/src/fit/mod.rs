@@ -4,6 +4,7 @@
 //! come from the solver, a block of designs at a time.
 mod assign;
 pub(crate) mod conditions;
+mod course;
 mod descend;
 mod evaluate;
 pub(crate) mod fit;

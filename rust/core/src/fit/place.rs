@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::course::Course;
 use super::problem::{Problem, TRAVEL_POSITIONS};
 use super::target::{FitTarget, Freedom, Timing};
 use crate::description::Driver;
@@ -51,7 +52,8 @@ impl Placing {
                 Some((alone(size), vec![by.angle(), shift.x, shift.y]))
             }
             Freedom::Similarity => Some((alone(Vector::ONE), vec![by.x, by.y, shift.x, shift.y])),
-            Freedom::Line { .. } | Freedom::Turned => None,
+            Freedom::Turned => Some((self, vec![0.0])),
+            Freedom::Line { .. } => None,
         }
     }
 
@@ -148,11 +150,12 @@ impl Placer {
     }
 
     /// Similarities that take a curve, at the positions of a turn, to the target: the best of each way along it.
-    pub(super) fn place(&self, curve: &[Vector], simd: Simd) -> Vec<Placed> {
+    pub(super) fn place(&self, course: &Course, simd: Simd) -> Vec<Placed> {
         match &self.when {
-            When::Free(target, fractions) => self.place_free(target, fractions, curve, simd),
+            When::Free(target, fractions) => self.place_free(target, fractions, course, simd),
+            When::Timed { .. } if !course.is_whole() => vec![],
             When::Timed { points, q, has_phase } => {
-                self.place_timed(points, q, *has_phase, curve).into_iter().collect()
+                self.place_timed(points, q, *has_phase, &course.points).into_iter().collect()
             }
         }
     }
@@ -161,11 +164,11 @@ impl Placer {
         &self,
         target: &Target,
         fractions: &[f64],
-        points: &[Vector],
+        course: &Course,
         simd: Simd,
     ) -> Vec<Placed> {
         let retrieval = Retrieval::new(target, [LEAST_ARC, MOST_ARC]);
-        let mut curve = Curve::default();
+        let (mut curve, points) = (Curve::default(), &course.points);
         if !curve.read(points.len(), |t| points[t]) {
             return vec![];
         }
@@ -178,7 +181,9 @@ impl Placer {
                 is_mirrored: found.is_mirrored(),
             };
             let (inner, outer) = placing.split(self.freedom)?;
-            let angle = |&part: &f64| inner.coordinate(retrieval.angle(&curve, &found, part));
+            let angle = |&part: &f64| {
+                inner.coordinate(course.coordinate(retrieval.angle(&curve, &found, part)))
+            };
             let q = fractions.iter().map(angle).collect();
             Some(Placed { inner, outer, q })
         };

@@ -5,16 +5,16 @@ use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 use super::assign::{assign, coordinate, missed};
+use super::course::Course;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Placer};
 use super::point::Point;
-use super::problem::{Problem, TRAVEL_POSITIONS, Travel, is_solved, series};
+use super::problem::{Problem, TRAVEL_POSITIONS, Travel, is_solved};
 use super::target::{FitTarget, Freedom, Timing, within_half_turn};
 use crate::batch::request::Motion;
 use crate::description::dimension::Dimension;
 use crate::description::error::SolveError;
 use crate::math::random::Random;
-use crate::math::vector::Vector;
 
 /// Random lengths of a mechanism that can be placed anywhere in any size, and how far its points lie apart.
 const LENGTHS: [f64; 2] = [0.1, 1.5];
@@ -64,10 +64,10 @@ impl<'p> Starts<'p> {
                 continue;
             }
             match &self.placer {
-                Some(_) if !moves => {}
                 Some(placer) => {
-                    let Some(curve) = curve(&motion, rows, &problem.targets[0]) else { continue };
-                    let placed = placer.place(&curve, problem.simd).into_iter();
+                    let course = Course::new(&motion, &rows, &problem.targets[0]);
+                    let Some(course) = course else { continue };
+                    let placed = placer.place(&course, problem.simd).into_iter();
                     starts.extend(placed.filter_map(|placed| self.placed(placed, &x, assembly)));
                 }
                 None => starts.push((assembly, self.unplaced(&motion, &rows, x))),
@@ -225,15 +225,4 @@ fn missed_at(target: &FitTarget, k: usize, motion: &Motion, rows: &Range<usize>,
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the rows")]
     let place = place.round() as usize % rows.len();
     missed(target, k, motion, rows.start + place)
-}
-
-/// The curve of the point of a path.
-fn curve(motion: &Motion, rows: Range<usize>, target: &FitTarget) -> Option<Vec<Vector>> {
-    let points = &series(motion, target.numbers.first()?.quantity)?.derivatives[0];
-    Some(
-        points[2 * rows.start..2 * rows.end]
-            .chunks_exact(2)
-            .map(|p| Vector::new(p[0], p[1]))
-            .collect(),
-    )
 }
