@@ -24,6 +24,10 @@ from assur.dynamics.loads.motors import Motor
 from assur.dynamics.machine import Method
 from assur.errors import AssurError
 from assur.events import AngleLimit, Crossing, Obstacle, Position, Rest, Speed
+from assur.fitting.designs import Found as FoundDesign
+from assur.fitting.goals import Parts
+from assur.fitting.measured import Found as FoundLinkage
+from assur.fitting.variables import Variable
 from assur.flywheel import Mean, Spline
 from assur.flywheel.sizing import Task
 from assur.kinematics.assembly import FoundAssemblies
@@ -82,6 +86,12 @@ __all__ = [
 ]
 
 _Float: TypeAlias = npt.NDArray[np.float64]
+# A description: names with places, joints of links, slides, drivers.
+_Joints: TypeAlias = list[tuple[str, float, float]]
+_Links: TypeAlias = list[tuple[str, list[str]]]
+_Slides: TypeAlias = list[tuple[str, Slide]]
+_Drivers: TypeAlias = list[str | Drive]
+_Signs: TypeAlias = list[tuple[str, int]]
 # Dimensions of designs, rows of values, whether each design has its own.
 _Rows: TypeAlias = tuple[_Float, _Float, bool]
 _Three: TypeAlias = tuple[_Float, _Float, _Float]
@@ -108,12 +118,7 @@ class KnownSigns:
 @final
 class Mechanism:
     def __new__(
-        cls,
-        joints: list[tuple[str, float, float]],
-        links: list[tuple[str, list[str]]],
-        slides: list[tuple[str, Slide]],
-        drivers: list[str | Drive],
-        assembly: list[tuple[str, int]],
+        cls, joints: _Joints, links: _Links, slides: _Slides, drivers: _Drivers, assembly: _Signs
     ) -> Self: ...
     @property
     def dimension_names(self) -> list[str]: ...
@@ -122,7 +127,7 @@ class Mechanism:
     @property
     def q0(self) -> list[float]: ...
     @property
-    def assembly(self) -> list[tuple[str, int]]: ...
+    def assembly(self) -> _Signs: ...
     @property
     def lengths(self) -> list[str]: ...
     @property
@@ -184,11 +189,7 @@ class Mechanism:
     def places_within(self, q: _Float, over: tuple[float, float]) -> list[int]: ...
     def refusal_of_metric(self, q: _Float, metric: Metric) -> str | None: ...
     def diagnostics(
-        self,
-        dimensions: _Float,
-        q: _Float,
-        per_design: bool,
-        signs: list[int],
+        self, dimensions: _Float, q: _Float, per_design: bool, signs: list[int]
     ) -> tuple[_Float, _Float]: ...
     def explain(self, dimensions: list[float], q: list[float], signs: list[int]) -> str: ...
     def assemblies(
@@ -196,20 +197,17 @@ class Mechanism:
     ) -> list[FoundAssemblies]: ...
     @staticmethod
     def fit(
-        joints: list[tuple[str, float, float]],
-        links: list[tuple[str, list[str]]],
-        slides: list[tuple[str, Slide]],
-        drivers: list[str | Drive],
-        assembly: list[tuple[str, int]],
+        joints: _Joints,
+        links: _Links,
+        slides: _Slides,
+        drivers: _Drivers,
+        assembly: _Signs,
         *,
         tolerance: tuple[float, float | None],
     ) -> tuple[list[tuple[float, float]], list[float], float]: ...
     @staticmethod
     def for_pose(
-        joints: list[tuple[str, float, float]],
-        links: list[tuple[str, list[str]]],
-        slides: list[tuple[str, Slide]],
-        drivers: list[str | Drive],
+        joints: _Joints, links: _Links, slides: _Slides, drivers: _Drivers
     ) -> Mechanism: ...
     def at_pose(
         self, joints: list[tuple[float, float]], angles: list[float], slides: list[float]
@@ -251,8 +249,7 @@ def refusal_of_poses(poses: _Float, length: float | None) -> str | None: ...
 def acute(a: _Float, b: _Float) -> _Float: ...
 def curvature(d1: _Float, d2: _Float) -> _Float: ...
 def instant_centre(
-    a: tuple[_Float, _Float, _Float],
-    b: tuple[_Float, _Float, _Float],
+    a: tuple[_Float, _Float, _Float], b: tuple[_Float, _Float, _Float]
 ) -> _Float: ...
 def spline_pieces(knots: _Float, values: _Float, ends: Spline) -> _Float: ...
 
@@ -282,37 +279,20 @@ class Fit:
         cls,
         mechanism: Mechanism,
         base: list[float],
-        variables: list[tuple[list[tuple[int, float]], tuple[float, float]]],
-        targets: list[
-            tuple[
-                list[tuple[str, str, int, float, list[float], bool]],
-                list[float],
-                str,
-                list[float],
-                bool,
-                str,
-            ]
-        ],
+        variables: list[Variable],
+        targets: list[Parts],
         conditions: list[tuple[Metric, str, float, float]],
         assemblies: list[list[int]],
         whole_turn: bool,
         seed: int,
         threads: int | None,
     ) -> Self: ...
-    @property
     def best(self) -> float: ...
     @property
     def evaluations(self) -> int: ...
-    @property
-    def is_exact(self) -> bool: ...
-    @property
-    def agreeing(self) -> int: ...
+    def is_settled(self, agreeing: int) -> bool: ...
     def round(self) -> None: ...
-    def found(self) -> list[_Design]: ...
-    def nearest(self) -> _Design | None: ...
-
-# Dimensions, index of the assembly, coordinates, numbers of targets, sum of squares, misses.
-_Design: TypeAlias = tuple[list[float], int, list[float], list[float], float, list[float]]
+    def found(self) -> tuple[list[FoundDesign], FoundDesign | None]: ...
 
 @final
 class PathSearch:
@@ -325,15 +305,12 @@ class PathSearch:
         seed: int,
         threads: int | None,
     ) -> Self: ...
-    @property
     def best(self) -> float: ...
     @property
     def evaluations(self) -> int: ...
     def start(self) -> None: ...
     def round(self, is_apart: bool) -> bool: ...
-    def finish(
-        self,
-    ) -> list[tuple[list[tuple[str, float, float]], list[tuple[str, list[str]]], float, float]]: ...
+    def finish(self) -> list[FoundLinkage]: ...
 
 @final
 class Run:
@@ -532,11 +509,7 @@ def crank_rocker_run(
 ) -> JammingRunFields: ...
 def table_values(table: Table, points: _Float) -> _Float: ...
 def remedies(
-    joints: list[tuple[str, float, float]],
-    links: list[tuple[str, list[str]]],
-    slides: list[tuple[str, Slide]],
-    drivers: list[str | Drive],
-    assembly: list[tuple[str, int]],
+    joints: _Joints, links: _Links, slides: _Slides, drivers: _Drivers, assembly: _Signs
 ) -> list[RemedyFields]: ...
 def error_kinds() -> list[tuple[str, list[str]]]: ...
 def four_bar_drawing(mode: Literal["open", "crossed"]) -> Drawing: ...

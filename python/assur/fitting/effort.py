@@ -63,7 +63,7 @@ def evolve(search: _core.PathSearch, effort: Effort, report: Report, apart: bool
     # The last part of a time is for finishing; evaluations for that come on top.
     end = TOGETHER if apart else FINISHED if effort.evaluations is None else 1.0
     while (part := effort.part(search)) < end:
-        report(part, search.best)
+        report(part, search.best())
         if not search.round(apart):
             return
 

@@ -203,9 +203,8 @@ class Course:
                 self.core.round()
                 rounds += 1
                 part = effort.part(self.core)
-                report(min(part, 1.0), self.core.best)
-                is_settled = self.core.is_exact or self.core.agreeing >= AGREEING
-                if part >= 1.0 or (rounds >= ROUNDS and is_settled):
+                report(min(part, 1.0), self.core.best())
+                if part >= 1.0 or (rounds >= ROUNDS and self.core.is_settled(AGREEING)):
                     break
         except KeyboardInterrupt:
             message = (
@@ -215,9 +214,10 @@ class Course:
             warnings.warn(message, AssurWarning, stacklevel=3)
         self.elapsed += effort.elapsed
         spent = (self.elapsed, self.core.evaluations)
-        fits, rejected = measured_designs(self.core.found(), self.asked, spent)
+        found, nearest = self.core.found()
+        fits, rejected = measured_designs(found, self.asked, spent)
         if not fits:
-            raise no_design(self.core.nearest(), self.asked, rejected, spent)
+            raise no_design(nearest, self.asked, rejected, spent)
         return Fits(fits, rejected, self._resume)
 
     def _resume(self, time_limit: Any, evaluations: Any, progress: Any) -> Fits[DesignFit]:

@@ -89,20 +89,15 @@ impl Fit {
         })?
     }
 
-    /// The designs found so far, best first.
-    fn found(&self, py: Python<'_>) -> PyResult<Vec<Design>> {
+    /// The designs found so far, best first; of those that miss a limit the one that misses it the least.
+    fn found(&self, py: Python<'_>) -> PyResult<(Vec<Design>, Option<Design>)> {
         let mechanism = &self.mechanism.bind(py).get().inner;
-        Ok(self.lock()?.found(mechanism).into_iter().map(parts).collect())
-    }
-
-    /// Of designs that miss a limit the one that misses it the least.
-    fn nearest(&self, py: Python<'_>) -> PyResult<Option<Design>> {
-        let mechanism = &self.mechanism.bind(py).get().inner;
-        Ok(self.lock()?.nearest(mechanism).map(parts))
+        let fit = self.lock()?;
+        let found = fit.found(mechanism).into_iter().map(parts).collect();
+        Ok((found, fit.nearest(mechanism).map(parts)))
     }
 
     /// The least root of a sum of squared residuals so far; infinite without designs.
-    #[getter]
     fn best(&self) -> PyResult<f64> {
         Ok(self.lock()?.best().sqrt())
     }
@@ -113,16 +108,10 @@ impl Fit {
         Ok(self.lock()?.evaluations())
     }
 
-    /// Whether the best design misses nothing but rounding.
-    #[getter]
-    fn is_exact(&self) -> PyResult<bool> {
-        Ok(self.lock()?.is_exact())
-    }
-
-    /// How often the best design was found.
-    #[getter]
-    fn agreeing(&self) -> PyResult<u64> {
-        Ok(self.lock()?.agreeing())
+    /// Whether the best design misses nothing but rounding, or was found so often.
+    fn is_settled(&self, agreeing: u64) -> PyResult<bool> {
+        let fit = self.lock()?;
+        Ok(fit.is_exact() || fit.agreeing() >= agreeing)
     }
 }
 

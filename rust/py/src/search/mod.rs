@@ -76,7 +76,6 @@ impl PathSearch {
     }
 
     /// The least objective so far; infinite without candidates.
-    #[getter]
     fn best(&self) -> PyResult<f64> {
         Ok(self.lock()?.best())
     }
