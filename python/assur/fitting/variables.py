@@ -49,7 +49,7 @@ def checked_variables(m: Mechanism, vary: Any, bounds: Any, ties: Any, size: flo
     """Return the variables; errors name the dimension and say what to do."""
     known = list(m.dimensions)
     tied = _ties(m, ties)
-    names = [name for name in _matching(known, vary, "vary", "*") if name not in tied]
+    names = [name for name in matching_names(known, vary, "vary", "*") if name not in tied]
     for name, (leader, _) in tied.items():
         if leader not in names:
             message = f"ties: {name!r} follows {leader!r}, which does not vary: add it to vary"
@@ -80,7 +80,7 @@ def checked_variables(m: Mechanism, vary: Any, bounds: Any, ties: Any, size: flo
     return Variables(base, each, moving, {name: limits[name] for name in moving})
 
 
-def _matching(known: list[str], patterns: Any, what: str, default: str) -> list[str]:
+def matching_names(known: list[str], patterns: Any, what: str, default: str) -> list[str]:
     """Return the names that match one of some patterns."""
     listed: Iterable[Any] = [default] if patterns is None else patterns
     if isinstance(listed, str):
@@ -139,7 +139,7 @@ def _bounds(known: list[str], bounds: Any, size: float) -> dict[str, tuple[float
         if not low <= high:
             message = f"bounds[{pattern!r}] is ({low:g}, {high:g}): the least comes first"
             raise InputError(message)
-        for name in _matching(known, pattern, "bounds", "*"):
+        for name in matching_names(known, pattern, "bounds", "*"):
             if name.endswith(".length") and high <= 0.0:
                 message = f"bounds[{pattern!r}] is ({low:g}, {high:g}): {name!r} must be positive"
                 raise InputError(message)
