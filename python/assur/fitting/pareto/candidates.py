@@ -121,10 +121,11 @@ class Candidates:
         moves &= np.isfinite(costs).all(axis=1)
         self._count(moves, misses)
         # Each is at most 1: a design that moves is nearer than any that does not.
-        some = np.where(np.isfinite(misses), misses / (1.0 + misses), 1.0).sum(axis=1)
+        parts = np.ones_like(misses)
+        np.divide(misses, 1.0 + misses, out=parts, where=np.isfinite(misses))
         return Scores(
             np.where(moves[:, np.newaxis], costs, 0.0),
-            np.where(moves, some, 1.0 + len(self.conditions)),
+            np.where(moves, parts.sum(axis=1), 1.0 + len(self.conditions)),
         )
 
     def _count(self, moves: npt.NDArray[np.bool_], misses: Float) -> None:

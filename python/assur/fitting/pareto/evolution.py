@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from assur.fitting.pareto.archive import Archive
+
 if TYPE_CHECKING:
     from assur._arrays import Float
     from assur.fitting.effort import Report
@@ -52,9 +54,8 @@ class Evolution:
 
     Attributes
     ----------
-    front : ndarray or None
-        Places (n, D) in the unit cube of the designs that keep all conditions and that no other
-        of the population dominates; None before the first generation.
+    archive : Archive
+        The designs of all generations that keep all conditions.
     generation : int
         Generations so far.
     """
@@ -62,11 +63,14 @@ class Evolution:
     candidates: Candidates
     population: int
     seed: int
-    front: Float | None = None
+    archive: Archive = field(init=False)
     generation: int = 0
 
+    def __post_init__(self) -> None:
+        self.archive = Archive(self.population)
+
     def run(self, budget: Budget, report: Report) -> None:
-        """Go on until the budget is spent; what it has is in `front`, after Ctrl-C too."""
+        """Go on until the budget is spent; what was found is in the archive, after Ctrl-C too."""
         evolve = _nsga2(self._first(), self.population, self.candidates, self.seed)
         part = 0.0
         while part < 1.0:
@@ -74,14 +78,15 @@ class Evolution:
             if asked is None or not len(asked):
                 # Every design that crossing gives is there already.
                 break
-            scores = self.candidates.measure(asked.get("X"))
+            places = asked.get("X")
+            scores = self.candidates.measure(places)
+            kept = scores.misses <= 0.0
+            self.archive.add(places[kept], scores.costs[kept])
+            self.generation += 1
             _tell(evolve, asked, scores)
-            best = evolve.opt
-            kept = best.get("CV")[:, 0] <= 0.0
-            # In one step: Ctrl-C leaves the old or the new.
-            self.front, self.generation = best.get("X")[kept], self.generation + 1
             part = budget.part(self.generation, self.candidates.evaluations)
-            report(min(part, 1.0), float(len(self.front)))
+            between = int((evolve.opt.get("CV") <= 0.0).sum())
+            report(min(part, 1.0), float(between))
 
     def _first(self) -> Float:
         """Return random places, and that of the drawing."""

@@ -65,12 +65,20 @@ def undominated(costs: Float) -> npt.NDArray[np.intp]:
 
     Of equal rows the first is taken. `costs` (n, M) are finite.
     """
+    # In this order what dominates a row comes before it; if that is dominated, so is the row by
+    # one of the front. Of the first column nothing is left to compare.
     order = np.lexsort(costs.T[::-1])
-    front: list[int] = []
-    # What dominates a row comes before it in this order; and if it is itself dominated, by a row
-    # of the front.
-    for row in order.tolist():
-        known = costs[front]
-        if not (known <= costs[row]).all(axis=1).any():
-            front.append(row)
-    return np.array(front, dtype=np.intp)
+    rest = costs[order, 1:]
+    if rest.shape[1] == 1:
+        least = np.minimum.accumulate(rest[:, 0])
+        is_best = np.ones(len(order), dtype=np.bool_)
+        is_best[1:] = rest[1:, 0] < least[:-1]
+        return order[is_best]
+    front = np.empty_like(rest.T, order="C")
+    chosen: list[int] = []
+    for row, further in enumerate(rest):
+        known = front[:, : len(chosen)]
+        if not (known <= further[:, np.newaxis]).all(axis=0).any():
+            front[:, len(chosen)] = further
+            chosen.append(row)
+    return order[chosen]

@@ -66,9 +66,9 @@ def pareto(
     """Find designs between several goals: none is better in one goal without being worse in others.
 
     A population of designs within the bounds evolves by NSGA-II (needs pymoo); each generation is
-    one sweep. What is returned was measured anew by the solver: it keeps all conditions, and no
-    other design returned is at least as good in all goals. It is near the true front, which no
-    method knows; more generations bring it nearer.
+    one sweep. The front is that of all generations, its designs spread from end to end. What is
+    returned was measured anew by the solver: it keeps all conditions, and no other design returned
+    is at least as good in all goals. It is near the true front; more generations bring it nearer.
 
     Parameters
     ----------
@@ -91,7 +91,8 @@ def pareto(
     where : iterable of Condition
         Conditions on metrics, as for `assur.sweep`: ``metric.min_transmission_angle("C") > 0.7``.
     population : int
-        Designs of a generation, 4 to 10 000: about how many the front has in the end.
+        Designs of a generation, 4 to 10 000, and the most that the front has in the end. With more
+        of them it has smaller gaps.
     generations : int
         How many. The first has ten times the population, at random.
     evaluations : int, optional
@@ -176,7 +177,7 @@ def pareto(
         try:
             evolution.run(budget, report)
         except KeyboardInterrupt:
-            if evolution.front is None:
+            if not evolution.generation:
                 raise
             message = (
                 f"pareto was interrupted after {budget.elapsed:.3g} s, in generation "
@@ -214,9 +215,10 @@ def _budget(generations: Any, evaluations: Any, time_limit: Any) -> Budget:
 
 
 def _measured(evolution: Evolution, objectives: list[Objective], budget: Budget) -> ParetoFront:
-    """Return the front of the last generation, measured by one sweep."""
-    candidates, places = evolution.candidates, evolution.front
-    if places is None or not len(places):
+    """Return the front of all generations, measured anew by one sweep."""
+    candidates = evolution.candidates
+    places = evolution.archive.front()
+    if not len(places):
         raise _no_design(candidates, budget)
     measures = candidates.measuring.run(candidates.designs(places), silent)
     if not len(measures.kept):
