@@ -8,12 +8,10 @@ from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from assur._arrays import real_number, short, two_numbers
-from assur._validate import checked_name
+from assur._validate import checked_name, checked_names
 from assur.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from assur.kinematics.mechanism import Mechanism
 
 # Lengths without bounds, over the size of the target.
@@ -82,12 +80,8 @@ def checked_variables(m: Mechanism, vary: Any, bounds: Any, ties: Any, size: flo
 
 def matching_names(known: list[str], patterns: Any, what: str, default: str) -> list[str]:
     """Return the names that match one of some patterns."""
-    listed: Iterable[Any] = [default] if patterns is None else patterns
-    if isinstance(listed, str):
-        listed = [listed]
     chosen: list[str] = []
-    for pattern in listed:
-        checked_name(pattern, what)
+    for pattern in checked_names(default if patterns is None else patterns, what):
         matching = [name for name in known if fnmatchcase(name, pattern)]
         if not matching:
             message = f"{what}: {pattern!r} is no dimension, nor a pattern of some: {short(known)}"
@@ -99,7 +93,12 @@ def matching_names(known: list[str], patterns: Any, what: str, default: str) -> 
 def _ties(m: Mechanism, ties: Any) -> dict[str, tuple[str, float]]:
     """Return for every dimension that follows another one its leader and the factor."""
     found: dict[str, tuple[str, float]] = {}
-    for tie in ties:
+    try:
+        listed = list(ties)
+    except TypeError as error:
+        message = f"ties is {short(ties)}: a list of ('follower', 'leader') is needed"
+        raise InputError(message) from error
+    for tie in listed:
         if not isinstance(tie, tuple | list) or len(tie) not in (2, 3):
             message = (
                 f"ties: {short(tie)}: ('follower', 'leader') or ('follower', 'leader', factor)"

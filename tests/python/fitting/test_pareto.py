@@ -188,15 +188,16 @@ def test_forces_are_goals_of_a_machine() -> None:
 
 
 def test_how_long_it_goes_on() -> None:
-    seen: list[tuple[float, float]] = []
+    seen: list[Any] = []
     front = assur.pareto(
         slider_crank(), Q, **GOALS, **FEW, progress=lambda *told: seen.append(told)
     )
     assert front.generations == 6
     # The first has ten times as many, and the drawing.
     assert front.evaluations == 121 + 5 * 12
-    assert seen[-1] == (1.0, len(front))
-    assert [part for part, _ in seen] == pytest.approx(np.arange(1, 7) / 6)
+    parts, counts = zip(*seen, strict=True)
+    assert parts == pytest.approx(np.arange(1, 7) / 6)
+    assert all(0 < count <= 12 for count in counts[1:])
     by_count = assur.pareto(slider_crank(), Q, **GOALS, population=12, evaluations=150)
     assert by_count.evaluations == 121 + 3 * 12
     at_once = assur.pareto(slider_crank(), Q, **GOALS, population=12, time_limit=1e-9)
@@ -238,6 +239,8 @@ REFUSED: dict[str, tuple[dict[str, Any], str]] = {
     "unknown": ({"bounds": {"rot.length": (1.0, 2.0)}}, "'rot.length' is no dimension"),
     "unbounded": ({"vary": "*"}, "bounds: 'ground.O.x' varies and has none"),
     "a tie": ({"ties": [("rod.length", "bore.offset")]}, "which does not vary"),
+    "no ties": ({"ties": 0.5}, "ties is 0.5: a list"),
+    "no names": ({"vary": 0.5}, "vary is 0.5: a name or a list of names"),
     "where": ({"where": [True]}, "is not a condition"),
     "population": ({"population": 3}, "from 4 to 10000"),
     "generations": ({"generations": 0}, "generations is 0"),
@@ -312,12 +315,13 @@ def test_the_picture() -> None:
     (points,) = (line for line in axes.lines if line.get_gid() == "designs")
     drawn = np.column_stack([front.values["swing"], front.values["gamma"]])
     np.testing.assert_array_equal(points.get_xydata(), drawn)
-    named = [text for text in axes.texts if text.get_gid() == "index"]
+    named: list[Any] = [text for text in axes.texts if text.get_gid() == "index"]
     assert named
     for text in named:
         np.testing.assert_array_equal(text.xy, drawn[int(text.get_text())])
     assert front.plot().get_ylabel() == "gamma, rad (maximize)"
     mpl.pyplot.close("all")
+    wrong: Any
     for wrong in ({"x": "speed"}, {"y": "size"}):
         with pytest.raises(assur.InputError, match=r"'speed': one of 'size'|both 'size'"):
             front.plot(**wrong)

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 __all__ = ["ParetoFront"]
 
-# Of the printed goals.
-MOST_LETTERS = 160
+# Of the printed goals: with their number a line.
+MOST_LETTERS = 84
 
 
 class ParetoFront(Tabular, Sequence["Mechanism"]):
@@ -159,7 +159,7 @@ class ParetoFront(Tabular, Sequence["Mechanism"]):
         ... )
         >>> axes = front.plot("stroke", "angle", degrees=True)
         >>> axes.get_xlabel()
-        'stroke, mm (maximize)'
+        'stroke, m (maximize)'
         """
         from assur.pictures.fronts.picture import front_picture
 
